@@ -1,6 +1,8 @@
-"""How Sphinx makes a site of the repository's Markdown pages; `docs/build` calls it. Works with Sphinx 5.3 to 9 and MyST 0.18 to 5.
+"""How Sphinx makes a site of the repository's Markdown pages; `docs/build` calls it. Works with Sphinx 5.3 to 9 and
+MyST 0.18 to 5.
 
-The source is the whole checkout, so that links between pages, to pictures and to files are the same here and on a forge.
+The source is the whole checkout, so that links between pages, to pictures and to files are the same here and on a
+forge.
 """
 
 from pathlib import Path
@@ -12,7 +14,17 @@ extensions = ["myst_parser", "sphinx.ext.mathjax"]
 
 include_patterns = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "demos/*/README.md"]
 # Folders that need not be searched for pages.
-exclude_patterns = [".git", ".venv", ".setup", "results", "docs/_build", "**/__pycache__", "fenics_gears", "tests", "meshes"]
+exclude_patterns = [
+    ".git",
+    ".venv",
+    ".setup",
+    "results",
+    "docs/_build",
+    "**/__pycache__",
+    "fenics_gears",
+    "tests",
+    "meshes",
+]
 
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 4
@@ -30,17 +42,25 @@ html_copy_source = False
 html_show_sphinx = False
 pygments_style = "tango"
 
-# Equations need no network where Debian's MathJax (libjs-mathjax) is: the parts that it takes to draw them come along with the site.
+# Equations need no network where Debian's MathJax (libjs-mathjax) is: the parts that it takes to draw them come along
+# with the site.
 MATHJAX = Path("/usr/share/javascript/mathjax")
 PARTS = (
-    "MathJax.js", "config/TeX-AMS_SVG.js", "extensions/MathEvents.js", "extensions/MathMenu.js", "extensions/MathZoom.js", "extensions/TeX",
-    "extensions/a11y", "jax/element/mml", "jax/input/TeX", "jax/output/SVG/autoload", "jax/output/SVG/fonts/TeX", "jax/output/SVG/config.js",
+    "MathJax.js", "config/TeX-AMS_SVG.js", "extensions/MathEvents.js", "extensions/MathMenu.js",
+    "extensions/MathZoom.js", "extensions/TeX",
+    "extensions/a11y", "jax/element/mml", "jax/input/TeX", "jax/output/SVG/autoload", "jax/output/SVG/fonts/TeX",
+    "jax/output/SVG/config.js",
     "jax/output/SVG/jax.js",
 )  # fmt: skip
 if MATHJAX.is_dir():
     mathjax_path = "mathjax/MathJax.js?config=TeX-AMS_SVG"
-    # Debian's is version 2. MyST marks pages as not to be searched for dollars; what it found itself has the class "math".
-    mathjax2_config = {"tex2jax": {"processClass": "tex2jax_process|math"}, "messageStyle": "none", "SVG": {"linebreaks": {"automatic": True}}}
+    # Debian's is version 2. MyST marks pages as not to be searched for dollars; what it found itself has the class
+    # "math".
+    mathjax2_config = {
+        "tex2jax": {"processClass": "tex2jax_process|math"},
+        "messageStyle": "none",
+        "SVG": {"linebreaks": {"automatic": True}},
+    }
     myst_update_mathjax = False
 
 

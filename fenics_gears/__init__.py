@@ -1,6 +1,7 @@
 """Spur and helical gear pairs as flexible multi-body systems with frictional contact.
 
-``load_scene`` reads a scene file and ``build_scene`` takes its sections as dictionaries; ``simulate`` runs a scene and returns an ``xarray.Dataset``.
+``load_scene`` reads a scene file and ``build_scene`` takes its sections as dictionaries; ``simulate`` runs a scene and
+returns an ``xarray.Dataset``.
 """
 
 import importlib
@@ -9,7 +10,11 @@ __version__ = "0.3.0"
 __all__ = ["__version__", "build_scene", "load_scene", "simulate"]
 
 # Loaded when first asked for, so that `gears --help` does not wait for the finite element stack.
-_HOMES = {"build_scene": "fenics_gears.scene.read", "load_scene": "fenics_gears.scene.read", "simulate": "fenics_gears.studies.simulate"}
+_HOMES = {
+    "build_scene": "fenics_gears.scene.read",
+    "load_scene": "fenics_gears.scene.read",
+    "simulate": "fenics_gears.studies.simulate",
+}
 
 
 def __getattr__(name: str):

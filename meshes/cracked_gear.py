@@ -2,8 +2,9 @@
 
     python -m meshes.cracked_gear SCENE FILE.msh [--gear wheel] [--depth "3 mm"] [--angle "45 deg"] [--tooth 8] ...
 
-Teeth are counted counter-clockwise. Tooth 0 points downwards and is the first to mesh; after it the pinion's teeth come one after the
-other clockwise (15, 14, ... of 16), the wheel's counter-clockwise (1, 2, ...). Without --depth no tooth is cracked.
+Teeth are counted counter-clockwise. Tooth 0 points downwards and is the first to mesh; after it the pinion's teeth come
+one after the other clockwise (15, 14, ... of 16), the wheel's counter-clockwise (1, 2, ...). Without --depth no tooth
+is cracked.
 """
 
 from __future__ import annotations
@@ -39,23 +40,37 @@ def _of_kind(kind: str):
 
 def arguments() -> argparse.ArgumentParser:
     """What the command takes."""
-    parser = argparse.ArgumentParser(prog="python -m meshes.cracked_gear", description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="python -m meshes.cracked_gear", description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
     length, angle = _of_kind("a length"), _of_kind("an angle")
     parser.add_argument("scene", type=Path, help="a scene file, whose gear is meshed")
     parser.add_argument("file", type=Path, help="the mesh file to write (.msh)")
     parser.add_argument("--gear", choices=GEARS, default="pinion")
     parser.add_argument("--depth", type=length, help='length of the crack, such as "3 mm"; no crack without it')
-    parser.add_argument("--angle", type=angle, default="45 deg", help="between crack and the tooth's centreline (default: 45 deg)")
-    parser.add_argument("--mouth", type=angle, default="30 deg", help="where it begins: angle of the fillet to the centreline (default: 30 deg)")
+    parser.add_argument(
+        "--angle", type=angle, default="45 deg", help="between crack and the tooth's centreline (default: 45 deg)"
+    )
+    parser.add_argument(
+        "--mouth",
+        type=angle,
+        default="30 deg",
+        help="where it begins: angle of the fillet to the centreline (default: 30 deg)",
+    )
     parser.add_argument("--tooth", type=int, default=0, help="the cracked tooth (default: 0)")
-    parser.add_argument("--flank-size", type=length, help="elements along the drive flanks (default: what the scene's contact asks for)")
+    parser.add_argument(
+        "--flank-size", type=length, help="elements along the drive flanks (default: what the scene's contact asks for)"
+    )
     return parser
 
 
 def _check_elements(model) -> None:
     """Raise SceneError for a scene whose gears are not of triangles."""
     if not model.scene.resolves_contact or element_named(model.resolution.element).quadrilateral:
-        raise SceneError(f"the scene computes its teeth as {model.resolution.element}; meshes of cracked gears have triangles. Take accuracy.element P2 or P1")
+        raise SceneError(
+            f"the scene computes its teeth as {model.resolution.element}; meshes of cracked gears have triangles. Take"
+            " accuracy.element P2 or P1"
+        )
 
 
 def main(words: list[str] | None = None) -> int:
@@ -69,14 +84,21 @@ def main(words: list[str] | None = None) -> int:
         _check_elements(model)
         gear, resolution = getattr(model.pair, options.gear), model.resolution
         discretisation = resolution.discretisation(GEARS.index(options.gear))
-        sizes = replace(discretisation, flank_element_size=options.flank_size or resolution.flank_element_size).sizes(gear)
-        cracks = {} if options.depth is None else {options.tooth: RootCrack(options.depth, options.angle, options.mouth)}
+        sizes = replace(discretisation, flank_element_size=options.flank_size or resolution.flank_element_size).sizes(
+            gear
+        )
+        cracks = (
+            {} if options.depth is None else {options.tooth: RootCrack(options.depth, options.angle, options.mouth)}
+        )
         mesh = cracked_gear_mesh(gear, sizes, cracks)
         write_body_mesh(mesh, options.file)
     except GearsError as error:
         print(error, file=sys.stderr)
         return error.exit_code
-    print(f"{options.file}: {len(mesh.points)} points, {len(mesh.cells)} triangles, {sizes.flank:.3g} mm along the drive flanks")
+    print(
+        f"{options.file}: {len(mesh.points)} points, {len(mesh.cells)} triangles, {sizes.flank:.3g} mm along the drive"
+        " flanks"
+    )
     return 0
 
 

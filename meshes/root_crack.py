@@ -1,6 +1,7 @@
 """Meshes of whole gears, of which teeth may be cracked at their root.
 
-A crack is a straight slit without width: along it cells meet at points that are there twice, once for either face, but for its tip.
+A crack is a straight slit without width: along it cells meet at points that are there twice, once for either face, but
+    for its tip.
 """
 
 from __future__ import annotations
@@ -30,8 +31,10 @@ LEAST_LIGAMENT = 0.15
 class RootCrack:
     """A straight crack from the fillet on the drive flank's side into the tooth.
 
-    depth: its length, mm. angle: rad, between it and the tooth's centreline; a right angle goes straight across the tooth, less goes
-    down towards the bore. mouth: rad, angle between fillet and centreline where it begins; the most stressed place is near 30 degrees.
+    depth: its length, mm. angle: rad, between it and the tooth's centreline; a right angle goes straight across the
+        tooth, less goes
+    down towards the bore. mouth: rad, angle between fillet and centreline where it begins; the most stressed place is
+    near 30 degrees.
     """
 
     depth: float
@@ -40,9 +43,11 @@ class RootCrack:
 
 
 def cracked_gear_mesh(gear: Gear, sizes: ElementSizes, cracks: Mapping[int, RootCrack]) -> BodyMesh:
-    """Mesh of triangles (mm) of a whole gear; `cracks`: by tooth, counted counter-clockwise from the one in its body frame.
+    """Mesh of triangles (mm) of a whole gear; `cracks`: by tooth, counted counter-clockwise from the one in its body
+    frame.
 
-    All teeth but the cracked ones are meshed alike. Raises SceneError for a crack that leaves no tooth, or for teeth that are not there.
+    All teeth but the cracked ones are meshed alike. Raises SceneError for a crack that leaves no tooth, or for teeth
+    that are not there.
     """
     for tooth in cracks:
         if not 0 <= tooth < gear.teeth:
@@ -69,11 +74,14 @@ def cracked_sector_mesh(gear: Gear, sizes: ElementSizes, crack: RootCrack) -> Bo
     chain = np.concatenate([[start], len(boundary.points) + np.arange(len(slit))])
     points, cells = opened(points, oriented(points, cells), chain)
     edges = {name: boundary.part(name) for name in NAMED_PARTS}
-    return BodyMesh(gear.module * points, cells, {name: np.stack([part[:-1], part[1:]], axis=-1) for name, part in edges.items()})
+    return BodyMesh(
+        gear.module * points, cells, {name: np.stack([part[:-1], part[1:]], axis=-1) for name, part in edges.items()}
+    )
 
 
 def opened(points: np.ndarray, cells: np.ndarray, chain: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Points and cells with a straight chain of points (k,), from its mouth on the boundary to its tip, made into two faces.
+    """Points and cells with a straight chain of points (k,), from its mouth on the boundary to its tip, made into two
+    faces.
 
     Every point but the tip is doubled; cells on the right, seen from the mouth, have the new ones.
     """
@@ -105,8 +113,8 @@ def _fillet_point(outline: ToothOutline, angle: float) -> np.ndarray:
     if not angles.min() < angle < angles.max():
         lowest, highest = np.degrees([angles.min(), angles.max()])
         raise SceneError(
-            f"crack: the fillet has no place where it stands at {np.degrees(angle):.4g} degrees to the tooth's centreline; "
-            f"allowed: between {lowest:.3g} and {highest:.3g} degrees"
+            f"crack: the fillet has no place where it stands at {np.degrees(angle):.4g} degrees to the tooth's"
+            f" centreline; allowed: between {lowest:.3g} and {highest:.3g} degrees"
         )
     order = np.argsort(angles)
     return np.array([np.interp(angle, angles[order], fillet[order, i]) for i in range(2)])
@@ -121,7 +129,8 @@ def _vertex_moved_to(boundary: SectorBoundary, mouth: np.ndarray) -> int:
 
 
 def _check_ligament(polygon: np.ndarray, mouth: int, line: np.ndarray, crack: RootCrack, gear: Gear) -> None:
-    """Raise SceneError where the crack's line (k, 2), in modules, leaves the polygon (n, 2) or comes too near to it opposite the mouth."""
+    """Raise SceneError where the crack's line (k, 2), in modules, leaves the polygon (n, 2) or comes too near to it
+    opposite the mouth."""
     start, end = polygon, np.roll(polygon, -1, axis=0)
     edge = end - start
     inside = np.abs(_turns(polygon, line)) > np.pi
@@ -134,10 +143,18 @@ def _check_ligament(polygon: np.ndarray, mouth: int, line: np.ndarray, crack: Ro
     wrong = np.flatnonzero(~inside | (left < np.minimum(LEAST_LIGAMENT, 0.5 * from_mouth)))
     if len(wrong) or crack.depth <= 0.0:
         reach = gear.module * (from_mouth[wrong[0]] if len(wrong) else 0.0)
-        reason = "its depth must be positive" if crack.depth <= 0.0 else (
-            f"leaves less than {LEAST_LIGAMENT * gear.module:.3g} mm of the tooth's sector whole from about {reach:.3g} mm on"
+        reason = (
+            "its depth must be positive"
+            if crack.depth <= 0.0
+            else (
+                f"leaves less than {LEAST_LIGAMENT * gear.module:.3g} mm of the tooth's sector whole from about"
+                f" {reach:.3g} mm on"
+            )
         )
-        raise SceneError(f"crack of {crack.depth:.4g} mm at {np.degrees(crack.angle):.4g} degrees to the tooth's centreline: {reason}")
+        raise SceneError(
+            f"crack of {crack.depth:.4g} mm at {np.degrees(crack.angle):.4g} degrees to the tooth's centreline:"
+            f" {reason}"
+        )
 
 
 def _turns(polygon: np.ndarray, points: np.ndarray) -> np.ndarray:
@@ -159,8 +176,12 @@ def joined_sectors(sectors: list[BodyMesh]) -> BodyMesh:
         count += len(own)
     for tooth, sector in enumerate(sectors):
         ahead = (tooth + 1) % teeth
-        index[tooth][_points_by_radius(sector, "upper cut")] = index[ahead][_points_by_radius(sectors[ahead], "lower cut")]
-    edges = {f"flank {tooth}": numbers[sector.edges["flank"]] for tooth, (numbers, sector) in enumerate(zip(index, sectors))}
+        index[tooth][_points_by_radius(sector, "upper cut")] = index[ahead][
+            _points_by_radius(sectors[ahead], "lower cut")
+        ]
+    edges = {
+        f"flank {tooth}": numbers[sector.edges["flank"]] for tooth, (numbers, sector) in enumerate(zip(index, sectors))
+    }
     edges["hub"] = np.vstack([numbers[sector.edges["hub"]] for numbers, sector in zip(index, sectors)])
     cells = np.vstack([numbers[sector.cells] for numbers, sector in zip(index, sectors)])
     return BodyMesh(np.vstack(points), cells, edges)

@@ -1,4 +1,5 @@
-"""Say what this Python lacks of what fenics_gears needs, with the argument "test" its tests too; exit code 0 when nothing.
+"""Say what this Python lacks of what fenics_gears needs, with the argument "test" its tests too; exit code 0 when
+nothing.
 
 Run by the launcher before the program: a plain script that imports nothing of it.
 """
@@ -8,9 +9,28 @@ import sys
 
 # VTK stands before DOLFINx: DOLFINx 0.5 loaded first aborts VTK 9.7 (clash of std::regex symbols).
 NEEDED = (
-    "tomllib", "vtkmodules.vtkRenderingOpenGL2", "pyvista", "dolfinx", "petsc4py.PETSc", "mpi4py.MPI", "gmsh",
-    "numpy", "scipy", "cvxopt", "numba", "h5py", "xarray", "pydantic", "rich", "platformdirs",
-    "matplotlib", "threadpoolctl", "jinja2", "plotly", "optuna", "cmaes",
+    "tomllib",
+    "vtkmodules.vtkRenderingOpenGL2",
+    "pyvista",
+    "dolfinx",
+    "petsc4py.PETSc",
+    "mpi4py.MPI",
+    "gmsh",
+    "numpy",
+    "scipy",
+    "cvxopt",
+    "numba",
+    "h5py",
+    "xarray",
+    "pydantic",
+    "rich",
+    "platformdirs",
+    "matplotlib",
+    "threadpoolctl",
+    "jinja2",
+    "plotly",
+    "optuna",
+    "cmaes",
 )
 NEEDED_BY_TESTS = ("h5netcdf", "pytest", "pytest_benchmark", "xdist", "hypothesis", "sphinx", "myst_parser", "furo")
 

@@ -15,7 +15,9 @@ TOLERANCE = {"P1": 0.065**2, "Q1": 0.065**2, "Q1 incompatible": 0.065**2, "P2": 
 
 def annulus(corners: int, across: int = 12, around: int = 96) -> BodyMesh:
     """Annulus of straight-sided cells, "hub" inside and "rim" outside."""
-    radius, angle = np.meshgrid(np.geomspace(BORE, OUTER, across + 1), 2 * pi * np.arange(around) / around, indexing="ij")
+    radius, angle = np.meshgrid(
+        np.geomspace(BORE, OUTER, across + 1), 2 * pi * np.arange(around) / around, indexing="ij"
+    )
     points = np.stack([(radius * np.cos(angle)).ravel(), (radius * np.sin(angle)).ravel()], axis=-1)
     index = np.arange(len(points)).reshape(across + 1, around)
     index = np.hstack([index, index[:, :1]])
@@ -40,10 +42,12 @@ def forces(body, field):
 
 
 def error_under_pressure(name: str, poissons_ratio: float) -> float:
-    """Relative error of the rim's forces when nothing moves at the bore and the rim grows: u_r = A r + B/r, Lame's solution.
+    """Relative error of the rim's forces when nothing moves at the bore and the rim grows: u_r = A r + B/r, Lame's
+    solution.
 
-    In plane strain sigma_r = 2 (lambda + G) A - 2 G B/r^2. Virtual work of the rim's forces in a unit of growth u = x: 2 pi r^2 sigma_r
-    on the circle, less (divergence theorem) the uniform sigma_x + sigma_y = 4 (lambda + G) A times what the mesh's polygon cuts off.
+    In plane strain sigma_r = 2 (lambda + G) A - 2 G B/r^2. Virtual work of the rim's forces in a unit of growth u = x:
+    2 pi r^2 sigma_r on the circle, less (divergence theorem) the uniform sigma_x + sigma_y = 4 (lambda + G) A times
+    what the mesh's polygon cuts off.
     """
     shear_modulus = 1.0 / (2.0 * (1.0 + poissons_ratio))
     first_lame = poissons_ratio / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))

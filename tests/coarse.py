@@ -1,4 +1,5 @@
-"""The paper's pair on a coarse mesh, for tests of what does not depend on the mesh; each run takes a fraction of a second."""
+"""The paper's pair on a coarse mesh, for tests of what does not depend on the mesh; each run takes a fraction of a
+second."""
 
 from dataclasses import replace
 

@@ -6,9 +6,11 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
-# BLAS sums in another order with other numbers of threads; programs that tests start shall have the same bits as the tests' own process.
+# BLAS sums in another order with other numbers of threads; programs that tests start shall have the same bits as the
+# tests' own process.
 os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
-# Gears are condensed once for all tests, workers and programs that they start, and never taken from what a user's runs have kept.
+# Gears are condensed once for all tests, workers and programs that they start, and never taken from what a user's runs
+# have kept.
 IS_WORKER = "PYTEST_XDIST_WORKER" in os.environ
 if not IS_WORKER:
     os.environ["FENICS_GEARS_CACHE"] = tempfile.mkdtemp(prefix="fenics_gears_tests_")
@@ -30,8 +32,9 @@ from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import load_scene
 
-# By day the suite draws the same examples on every run, so that a failure is the change's; by night the same tests draw new ones.
-# Strategies that draw valid gears refuse many drawings on the way, and the first example may wait for a compiler.
+# By day the suite draws the same examples on every run, so that a failure is the change's; by night the same tests draw
+# new ones. Strategies that draw valid gears refuse many drawings on the way, and the first example may wait for a
+# compiler.
 PATIENT = [HealthCheck.filter_too_much, HealthCheck.too_slow]
 settings.register_profile("suite", derandomize=True, deadline=None, suppress_health_check=PATIENT)
 settings.register_profile("explore", deadline=None, suppress_health_check=PATIENT, print_blob=True)
@@ -64,7 +67,8 @@ def pytest_unconfigure():
 
 @pytest.fixture(scope="session", autouse=True)
 def one_thread():
-    """BLAS with one thread: on the tests' small matrices several wait for one another, and much longer where other work shares the cores."""
+    """BLAS with one thread: on the tests' small matrices several wait for one another, and much longer where other work
+    shares the cores."""
     with threadpool_limits(limits=1):
         yield
 

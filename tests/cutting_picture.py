@@ -1,4 +1,5 @@
-"""Draws docs/pictures/cutting.png: teeth between the positions of the rack that cuts them. ``python -m tests.cutting_picture``"""
+"""Draws docs/pictures/cutting.png: teeth between the positions of the rack that cuts them. ``python -m
+tests.cutting_picture``"""
 
 from math import pi, radians
 from pathlib import Path
@@ -25,7 +26,13 @@ def standard(teeth, **others):
 def tooth_points(gear):
     """One tooth (n, 2), mm, from fillet to fillet."""
     outline = tooth_outline(gear, 401)
-    half = np.vstack([outline.fillet, outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, 401))[1:], outline.tip_corner])
+    half = np.vstack(
+        [
+            outline.fillet,
+            outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, 401))[1:],
+            outline.tip_corner,
+        ]
+    )
     return np.vstack([half, outline.coast(half)[::-1]])
 
 
@@ -37,7 +44,8 @@ def upright(gear, points):
 
 
 def rack_in_body(gear, rotation):
-    """The rack's tooth in the space beside the drive flank (n, 2), mm, in the tooth's frame when the gear has rolled by an angle."""
+    """The rack's tooth in the space beside the drive flank (n, 2), mm, in the tooth's frame when the gear has rolled by
+    an angle."""
     profile = rack_profile(gear)
     x, depth = np.concatenate([-profile[::-1, 0], profile[:, 0]]), np.concatenate([profile[::-1, 1], profile[:, 1]])
     r = gear.reference_radius
@@ -57,8 +65,16 @@ def draw(axes, gear, title, middle, half, step):
     cut_away = tooth_outline(gear).involute(np.linspace(0.0, gear.form_roll_angle, 101))
     axes.plot(*upright(gear, cut_away).T, color=RED, lw=1.2, ls="--", label="involute that is cut away")
     arc = np.linspace(0.3 * pi, 0.7 * pi, 401)
-    axes.plot(gear.form_radius * np.cos(arc), gear.form_radius * np.sin(arc), color=RED, lw=0.8, ls=":", label="form circle")
-    axes.set(aspect="equal", title=title, xlim=(middle[0] - half, middle[0] + half), ylim=(middle[1] - half, middle[1] + half), xlabel="mm")
+    axes.plot(
+        gear.form_radius * np.cos(arc), gear.form_radius * np.sin(arc), color=RED, lw=0.8, ls=":", label="form circle"
+    )
+    axes.set(
+        aspect="equal",
+        title=title,
+        xlim=(middle[0] - half, middle[0] + half),
+        ylim=(middle[1] - half, middle[1] + half),
+        xlabel="mm",
+    )
 
 
 def main():

@@ -1,4 +1,5 @@
-"""Pairs that books print in full, as scenes that say what their drawings say, with every figure that the book gives beside it.
+"""Pairs that books print in full, as scenes that say what their drawings say, with every figure that the book gives
+beside it.
 
 ``python -m tests.drawn_pairs`` prints the tables of docs/drawing.md.
 """
@@ -16,7 +17,8 @@ from fenics_gears.scene.read import build_scene
 
 @dataclass(frozen=True)
 class DrawnPair:
-    """A published pair: its source, the sections of its scene, and the figures as printed, by what `gears check` calls them."""
+    """A published pair: its source, the sections of its scene, and the figures as printed, by what `gears check` calls
+    them."""
 
     source: str
     gears: dict
@@ -32,13 +34,21 @@ def _gear(teeth: int, shift: float, **others) -> dict:
     return {"teeth": teeth, "profile_shift": shift, "bore_diameter": f"{teeth / 2} mm", **others}
 
 
-# cos(alpha_wt) cos(beta_b) of the third pair, by which its backlash normal to the flanks, 0.03 mm, is one at the pitch circles.
+# cos(alpha_wt) cos(beta_b) of the third pair, by which its backlash normal to the flanks, 0.03 mm, is one at the pitch
+# circles.
 NORMAL = cos(radians(23.8707609654)) * cos(radians(21.0)) * cos(radians(20.0)) / cos(radians(21.2990642859))
 
 PAIRS = {
     "spur, profile shifted": DrawnPair(
-        "KHK Gear Technical Reference, The calculation of profile shifted spur gear; bolsover.com, Profile Shifted External Spur Gears",
-        {"module": "3 mm", "pressure_angle": "20 deg", "centre_distance": "56.5 mm", "pinion": _gear(12, 0.6), "wheel": _gear(24, 0.36)},
+        "KHK Gear Technical Reference, The calculation of profile shifted spur gear; bolsover.com, Profile Shifted"
+        " External Spur Gears",
+        {
+            "module": "3 mm",
+            "pressure_angle": "20 deg",
+            "centre_distance": "56.5 mm",
+            "pinion": _gear(12, 0.6),
+            "wheel": _gear(24, 0.36),
+        },
         {
             "operating pressure angle": "26.0888",
             "contact ratio": "1.202",
@@ -53,8 +63,16 @@ PAIRS = {
         },
     ),
     "helical, profile shifted": DrawnPair(
-        "KHK Gear Technical Reference, The calculation of a profile shifted helical gear in the normal system; bolsover.com, Profile Shifted External Helical Gear - Normal",
-        {"module": "3 mm", "pressure_angle": "20 deg", "helix_angle": "30 deg", "pinion": _gear(12, 0.09809), "wheel": _gear(60, 0.0), "material": "steel"},
+        "KHK Gear Technical Reference, The calculation of a profile shifted helical gear in the normal system;"
+        " bolsover.com, Profile Shifted External Helical Gear - Normal",
+        {
+            "module": "3 mm",
+            "pressure_angle": "20 deg",
+            "helix_angle": "30 deg",
+            "pinion": _gear(12, 0.09809),
+            "wheel": _gear(60, 0.0),
+            "material": "steel",
+        },
         {
             "centre distance": "125.000",
             "transverse pressure angle": "22.79588",
@@ -72,7 +90,8 @@ PAIRS = {
         },
     ),
     "helical, with backlash": DrawnPair(
-        "Gear Generating Profile Shift Calculations (scribd.com 376176518), by ISO 21771:2007, equations 62 and 63: normal backlash 0.03 mm",
+        "Gear Generating Profile Shift Calculations (scribd.com 376176518), by ISO 21771:2007, equations 62 and 63:"
+        " normal backlash 0.03 mm",
         {
             "module": "3.5 mm",
             "pressure_angle": "20 deg",
@@ -98,7 +117,11 @@ def figures(pair: DrawnPair) -> dict[str, float]:
     scene = pair.scene
     found = {name: value for name, value, _ in characteristics(gear_pair(scene.gears))}
     found |= {each.name: each.value for each in scene.derived}
-    return found | {"sum of the profile shifts of the tooth thicknesses": scene.gears.pinion.profile_shift + scene.gears.wheel.profile_shift}
+    return found | {
+        "sum of the profile shifts of the tooth thicknesses": (
+            scene.gears.pinion.profile_shift + scene.gears.wheel.profile_shift
+        )
+    }
 
 
 def table(pair: DrawnPair) -> list[str]:

@@ -38,10 +38,14 @@ def page() -> str:
 
 
 def _row(each: Effect) -> str:
-    added = [f"{kind}: {', '.join(words)}" for kind, words in (("unknowns", each.unknowns), ("terms", each.terms)) if words]
+    added = [
+        f"{kind}: {', '.join(words)}" for kind, words in (("unknowns", each.unknowns), ("terms", each.terms)) if words
+    ]
     if each.variables:
         added.append("results: " + _names(each.variables))
-    needs, excludes = (", ".join(f"`[{effect_named(name).written}]`" for name in names) for names in (each.needs, each.excludes))
+    needs, excludes = (
+        ", ".join(f"`[{effect_named(name).written}]`" for name in names) for names in (each.needs, each.excludes)
+    )
     return f"| `[{each.written}]` | {each.description} | {each.absent} | {'; '.join(added)} | {needs} | {excludes} |"
 
 

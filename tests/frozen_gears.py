@@ -1,4 +1,5 @@
-"""Gears that do not roll: the contact equations stand still, and what the march does to energy and order can be seen alone."""
+"""Gears that do not roll: the contact equations stand still, and what the march does to energy and order can be seen
+alone."""
 
 from dataclasses import replace
 
@@ -31,7 +32,12 @@ class Frozen:
                 previous_jacobian=operator.jacobian[n:].copy(),
             )
         self._position = replace(position, operator=operator, carried_from=np.arange(operator.nodes))
-        self.steps, self.solve, self.pair, self.traits = cycle.steps, cycle.solve, cycle.pair, replace(cycle.traits, divisible=False)
+        self.steps, self.solve, self.pair, self.traits = (
+            cycle.steps,
+            cycle.solve,
+            cycle.pair,
+            replace(cycle.traits, divisible=False),
+        )
 
     def position(self, step):
         """The one position."""

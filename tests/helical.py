@@ -1,4 +1,5 @@
-"""Helical pairs for tests: scenes of any proportions, on bodies without finite elements unless a test asks for real ones."""
+"""Helical pairs for tests: scenes of any proportions, on bodies without finite elements unless a test asks for real
+ones."""
 
 from __future__ import annotations
 
@@ -41,18 +42,25 @@ def helical_scene(
     backlash: float = 0.1,
     module: float = MODULE,
 ) -> Scene:
-    """A pair of standard proportions with a little backlash: helix (deg), width, backlash and axial offset of the wheel (mm), torque on the wheel (N mm)."""
+    """A pair of standard proportions with a little backlash: helix (deg), width, backlash and axial offset of the wheel
+    (mm), torque on the wheel (N mm)."""
     stretch = 1.0 / cos(radians(helix))
     diameters = [module * count * stretch for count in teeth]
     gears = "".join(
-        f'[gears.{name}]\nteeth = {count}\nprofile_shift = 0.0\ntip_diameter = "{diameter + 2.0 * module!r} mm"\nroot_diameter = "{diameter - 2.5 * module!r} mm"\n'
-        f'bore_diameter = "{0.4 * diameter!r} mm"\n{beside}[gears.{name}.material]\nyoungs_modulus = "{elasticity!r} N/mm^2"\npoissons_ratio = {poissons_ratio!r}\n'
-        for name, count, diameter, elasticity, beside in zip(("pinion", "wheel"), teeth, diameters, elasticities, ("", f'axial_offset = "{offset!r} mm"\n'))
+        f'[gears.{name}]\nteeth = {count}\nprofile_shift = 0.0\ntip_diameter = "{diameter + 2.0 * module!r}'
+        f' mm"\nroot_diameter = "{diameter - 2.5 * module!r} mm"\nbore_diameter = "{0.4 * diameter!r}'
+        f' mm"\n{beside}[gears.{name}.material]\nyoungs_modulus = "{elasticity!r} N/mm^2"\npoissons_ratio ='
+        f" {poissons_ratio!r}\n"
+        for name, count, diameter, elasticity, beside in zip(
+            ("pinion", "wheel"), teeth, diameters, elasticities, ("", f'axial_offset = "{offset!r} mm"\n')
+        )
     )
     lean = f'helix_angle = "{helix!r} deg"\npinion_hand = "{hand}"\n' if helix else ""
     return scene_from_text(
-        f'[gears]\nmodule = "{module!r} mm"\npressure_angle = "20 deg"\n{lean}centre_distance = "{0.5 * sum(diameters) + backlash!r} mm"\nface_width = "{width!r} mm"\n{gears}'
-        f'[load]\nwheel_torque = "{torque!r} N mm"\n[motion]\nmesh_frequency = "{frequency!r} Hz"\nmesh_cycles = {cycles}\nrecorded_cycles = {cycles}\n'
+        f'[gears]\nmodule = "{module!r} mm"\npressure_angle = "20 deg"\n{lean}centre_distance ='
+        f' "{0.5 * sum(diameters) + backlash!r} mm"\nface_width = "{width!r} mm"\n{gears}'
+        f'[load]\nwheel_torque = "{torque!r} N mm"\n[motion]\nmesh_frequency = "{frequency!r} Hz"\nmesh_cycles ='
+        f" {cycles}\nrecorded_cycles = {cycles}\n"
         f"{accuracy and '[accuracy]'}\n{accuracy}\n{more}"
     )
 
@@ -68,6 +76,7 @@ def on_stand_in_bodies(model: Model, reach: float | None = 0.2) -> tuple[tuple, 
     gears = (model.pair.pinion, model.pair.wheel)
     sections = tuple(stand_in_compliance(gear, offsets=offsets, coast_flank=coast) for gear in gears)
     bodies = tuple(
-        stand_in_body(gear, width, elements=12, offsets=offsets, coast_flank=coast, reach=reach) for gear, width in zip(gears, model.pair.face_widths)
+        stand_in_body(gear, width, elements=12, offsets=offsets, coast_flank=coast, reach=reach)
+        for gear, width in zip(gears, model.pair.face_widths)
     )
     return sections, bodies

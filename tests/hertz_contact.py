@@ -1,7 +1,8 @@
 """A pair of involute flanks pressed together at the pitch point, and Hertz's line contact that it must come to.
 
-Johnson, Contact Mechanics, 1985, sections 4.2 (c) and 5.6. In the plane the approach of two bodies has no value of its own: it goes with the
-logarithm of how far off the point is that is held. What the bodies' shape makes of it is proportional to the load, though, so that the
+Johnson, Contact Mechanics, 1985, sections 4.2 (c) and 5.6. In the plane the approach of two bodies has no value of its
+own: it goes with the logarithm of how far off the point is that is held. What the bodies' shape makes of it is
+    proportional to the load, though, so that the
 approach per line load of two loads F1 > F2 on the same flanks differs by ln(F1/F2)/(pi E*), whatever the bodies.
 """
 
@@ -37,7 +38,8 @@ QUANTITIES = ("peak pressure", "half-width", "approach")
 
 @dataclass(frozen=True)
 class Pressed:
-    """A solution: approach (mm) along the line of action; offsets (n,), mm, and pressures (n,), MPa, of the pair's nodes."""
+    """A solution: approach (mm) along the line of action; offsets (n,), mm, and pressures (n,), MPa, of the pair's
+    nodes."""
 
     approach: float
     offsets: np.ndarray
@@ -50,18 +52,23 @@ class Pressed:
 
     @property
     def half_width(self) -> float:
-        """From the second moment of the pressure: of an ellipse b^2/4, to which the nodes' own functions add nothing."""
+        """From the second moment of the pressure: of an ellipse b^2/4, to which the nodes' own functions add
+        nothing."""
         centre = self.pressure @ self.offsets / self.pressure.sum()
         return 2.0 * float(np.sqrt(self.pressure @ (self.offsets - centre) ** 2 / self.pressure.sum()))
 
 
 class HertzContact:
-    """The flanks of a scene at the pitch point, without friction; `compliance` is made for flank elements of any size (mm)."""
+    """The flanks of a scene at the pitch point, without friction; `compliance` is made for flank elements of any size
+    (mm)."""
 
     def __init__(self, scene: Scene):
         self.scene = replace(scene, friction=None)
         model = model_of(self.scene)
-        self.pair, self.line_load = model.pair, abs(scene.load.wheel_torque) / model.pair.wheel.base_radius / model.pair.face_width
+        self.pair, self.line_load = (
+            model.pair,
+            abs(scene.load.wheel_torque) / model.pair.wheel.base_radius / model.pair.face_width,
+        )
         self.modulus, self.radius = plane_contact_modulus(scene), relative_radius(model.pair, model.pair.pitch_point)
 
     def half_width(self, line_load: float) -> float:
@@ -79,15 +86,23 @@ class HertzContact:
         return tuple(gear_compliance(model, name, Reach(2), cache) for name in ("pinion", "wheel"))
 
     def pressed(self, compliances, spacing: float, line_load: float) -> Pressed:
-        """Solve one position under a line load (N/mm) with contact nodes `spacing` (mm) apart, one of them on the line of action."""
+        """Solve one position under a line load (N/mm) with contact nodes `spacing` (mm) apart, one of them on the line
+        of action."""
         cells = 2 * int(np.ceil(0.5 * WINDOW * self.half_width(self.line_load) / spacing))
         flanks = Flanks(self.pair, compliances, (None, None))
-        cycle = MeshCycle(flanks, ContactGrid(cells * spacing, cells + 1), 1, [CENTRE_COORDINATES.index("rotation_2")], tangential=False)
+        cycle = MeshCycle(
+            flanks,
+            ContactGrid(cells * spacing, cells + 1),
+            1,
+            [CENTRE_COORDINATES.index("rotation_2")],
+            tangential=False,
+        )
         phase = (self.pair.pitch_point - self.pair.path_start) / self.pair.base_pitch % 1.0
         operator = cycle.between(phase, phase).operator
         load = line_load * self.pair.face_width
         problem = StepProblem(
-            stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=operator.compliance, jacobian=np.abs(operator.jacobian), gap=operator.gap,
+            stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=operator.compliance,
+            jacobian=np.abs(operator.jacobian), gap=operator.gap,
             slip_before=np.empty(0), friction=0.0, free_motion=np.ones(1), tolerance=Tolerance.of_load(load),
         )  # fmt: skip
         solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
@@ -110,25 +125,37 @@ class HertzContact:
         }
 
     def flank_error(self, gear: Gear, compliance: FlankCompliance) -> float:
-        """Relative error of the flank's elements alone, without any contact: a flank under Hertz's own pressure at the pitch point.
+        """Relative error of the flank's elements alone, without any contact: a flank under Hertz's own pressure at the
+        pitch point.
 
-        Its displacement, averaged over the pressure and per line load, differs by 2 (1 - nu^2)/(pi E) ln(b1/b2) between two half-widths.
+        Its displacement, averaged over the pressure and per line load, differs by 2 (1 - nu^2)/(pi E) ln(b1/b2) between
+        two half-widths.
         """
         large, small = (self.half_width(load) for load in (self.line_load, SMALLER * self.line_load))
-        given = [force @ compliance.blocks[0] @ force for force in (self._elliptic(gear, compliance, width) for width in (large, small))]
+        given = [
+            force @ compliance.blocks[0] @ force
+            for force in (self._elliptic(gear, compliance, width) for width in (large, small))
+        ]
         return float((given[1] - given[0]) * np.pi * self.modulus / np.log(large / small)) - 1.0
 
     def _elliptic(self, gear: Gear, compliance: FlankCompliance, width: float) -> np.ndarray:
-        """Consistent forces (2 f,) on flank nodes of an elliptic pressure of 1 N/mm in all along the flank, at the pitch point."""
+        """Consistent forces (2 f,) on flank nodes of an elliptic pressure of 1 N/mm in all along the flank, at the
+        pitch point."""
         order, arcs = compliance.element_order, arc_length(gear.base_radius, compliance.roll_angle)
-        roll = {id(self.pair.pinion): self.pair.pinion_roll_angle, id(self.pair.wheel): self.pair.wheel_roll_angle}[id(gear)](self.pair.pitch_point)
+        roll = {id(self.pair.pinion): self.pair.pinion_roll_angle, id(self.pair.wheel): self.pair.wheel_roll_angle}[
+            id(gear)
+        ](self.pair.pitch_point)
         angles = (np.arange(SAMPLES) + 0.5) * np.pi / SAMPLES
         at = arc_length(gear.base_radius, roll) + width * np.cos(angles)
         shares = 2.0 * np.sin(angles) ** 2 / SAMPLES
         vertices = arcs[::order]
         element = np.searchsorted(vertices, at) - 1
         local = (at - vertices[element]) / np.diff(vertices)[element]
-        shapes = [1.0 - local, local] if order == 1 else [(1 - local) * (1 - 2 * local), 4 * local * (1 - local), local * (2 * local - 1)]
+        shapes = (
+            [1.0 - local, local]
+            if order == 1
+            else [(1 - local) * (1 - 2 * local), 4 * local * (1 - local), local * (2 * local - 1)]
+        )
         normals = -canonical_normal(roll_angle_at_arc_length(gear.base_radius, at))
         forces = np.zeros((len(arcs), 2))
         for ahead, shape in enumerate(shapes):

@@ -10,7 +10,8 @@ from scipy.special import ellipe, ellipk
 
 @dataclass(frozen=True)
 class PointContact:
-    """An ellipse of half-axes long_axis > short_axis (mm) between surfaces of a relative radius (mm) across its long axis; modulus: E*, MPa."""
+    """An ellipse of half-axes long_axis > short_axis (mm) between surfaces of a relative radius (mm) across its long
+    axis; modulus: E*, MPa."""
 
     long_axis: float
     short_axis: float
@@ -49,4 +50,6 @@ class PointContact:
 
     def under(self, part: float) -> PointContact:
         """Of the same surfaces under a part of the load: both axes go with its cube root."""
-        return PointContact(part ** (1 / 3) * self.long_axis, part ** (1 / 3) * self.short_axis, self.radius, self.modulus)
+        return PointContact(
+            part ** (1 / 3) * self.long_axis, part ** (1 / 3) * self.short_axis, self.radius, self.modulus
+        )

@@ -1,4 +1,5 @@
-"""Nominal tooth root stress by ISO 6336-3 method B (DIN 3990-3 has the same factors), for load at the outer point of single tooth contact."""
+"""Nominal tooth root stress by ISO 6336-3 method B (DIN 3990-3 has the same factors), for load at the outer point of
+single tooth contact."""
 
 from math import cos, radians, sqrt
 
@@ -9,10 +10,11 @@ from fenics_gears.rating.root import tooth_form, virtual_gear
 
 
 def form_and_stress_correction(gear: Gear, roll_angle: float) -> tuple[float, float]:
-    """Form factor Y_F and stress correction factor Y_S for load at a flank point, of a gear cut by a rack without protuberance.
+    """Form factor Y_F and stress correction factor Y_S for load at a flank point, of a gear cut by a rack without
+    protuberance.
 
-    Y_F = 6 h cos(alpha_Fen) / (s^2 cos(alpha)), lengths in modules, s the chord and h the arm at the 30 degree tangents;
-    Y_S = (1.2 + 0.13 s/h) (s / 2 rho)^(1 / (1.21 + 2.3 h/s)).
+    Y_F = 6 h cos(alpha_Fen) / (s^2 cos(alpha)), lengths in modules, s the chord and h the arm at the 30 degree
+    tangents; Y_S = (1.2 + 0.13 s/h) (s / 2 rho)^(1 / (1.21 + 2.3 h/s)).
     """
     tooth = tooth_form(gear, roll_angle)
     return tooth.form, tooth.stress_correction
@@ -28,11 +30,14 @@ def standard_gear(teeth: int, profile_shift: float = 0.0, module: float = 3.0) -
     """A gear of ISO 53 profile A."""
     reference, shift = 0.5 * teeth * module, profile_shift * module
     root = reference + shift - 1.25 * module
-    return Gear(teeth, module, radians(20.0), profile_shift, reference + shift + module, root, 0.55 * root, 0.38 * module)
+    return Gear(
+        teeth, module, radians(20.0), profile_shift, reference + shift + module, root, 0.55 * root, 0.38 * module
+    )
 
 
 def helical_form_and_stress_correction(pair: GearPair, name: str) -> tuple[float, float, float]:
-    """Y_F, Y_S of the "pinion" or the "wheel" with load at the outer point of single contact of the virtual gears, and their contact ratio epsilon_alphan."""
+    """Y_F, Y_S of the "pinion" or the "wheel" with load at the outer point of single contact of the virtual gears, and
+    their contact ratio epsilon_alphan."""
     gear = getattr(pair, name)
     virtual, contact_ratio = virtual_gear(gear), pair.contact_ratio / cos(base_helix_angle(gear)) ** 2
     roll = virtual.tip_roll_angle - (contact_ratio - 1.0) * virtual.angular_pitch
@@ -40,11 +45,13 @@ def helical_form_and_stress_correction(pair: GearPair, name: str) -> tuple[float
 
 
 def helix_angle_factor(overlap_ratio: float, degrees: float) -> float:
-    """Y_beta of ISO 6336-3:2006 (DIN 3990-3): 1 - epsilon_beta beta/120 deg, overlap ratios above 1 and helix angles above 30 deg as these."""
+    """Y_beta of ISO 6336-3:2006 (DIN 3990-3): 1 - epsilon_beta beta/120 deg, overlap ratios above 1 and helix angles
+    above 30 deg as these."""
     return 1.0 - min(overlap_ratio, 1.0) * min(degrees, 30.0) / 120.0
 
 
 def load_sharing_factor(overlap_ratio: float, contact_ratio: float) -> float:
-    """f_epsilon of ISO 6336-3:2019 for contact ratios epsilon_alphan below 2: what load the highest loaded pair has of the whole, in the root."""
+    """f_epsilon of ISO 6336-3:2019 for contact ratios epsilon_alphan below 2: what load the highest loaded pair has of
+    the whole, in the root."""
     overlap = min(overlap_ratio, 1.0)
     return sqrt(1.0 - overlap + overlap / contact_ratio)

@@ -32,7 +32,9 @@ def helical_run():
 @lru_cache
 def root_stress_run(coast: bool):
     """That pair's scene and result with root stress: with friction, or driven from the wheel on its coast flanks."""
-    scene = replace(wide_pair(("" if coast else "[friction]\ncoefficient = 0.08\n") + MORE), output=Output(root_stress=True))
+    scene = replace(
+        wide_pair(("" if coast else "[friction]\ncoefficient = 0.08\n") + MORE), output=Output(root_stress=True)
+    )
     if coast:
         scene = replace(scene, coast_flanks=CoastFlanks(), load=Load(-scene.load.wheel_torque))
     return scene, simulate(scene)

@@ -10,7 +10,8 @@ from fenics_gears.system.progress import SilentProgress
 
 
 def solved_in_other_order(scene, seed: int):
-    """The scene's result with all unknowns of every step shuffled before the solver sees them, and its answer put back."""
+    """The scene's result with all unknowns of every step shuffled before the solver sees them, and its answer put
+    back."""
 
     def preparation(model, progress, cache):
         gears, cycle = prepared(model, SilentProgress(), cache)

@@ -1,7 +1,9 @@
-"""Numbers of a few small runs and of a condensed body, which stand in `pinned_numbers.json` beside the version that they are of.
+"""Numbers of a few small runs and of a condensed body, which stand in `pinned_numbers.json` beside the version that
+they are of.
 
-``python -m tests.pinned_numbers`` writes them anew, after a change of numbers that is meant and has raised `NUMBERS_VERSION`. Teeth have no finite elements,
-and the body's mesh is made here: gmsh meshes differ from version to version of gmsh.
+``python -m tests.pinned_numbers`` writes them anew, after a change of numbers that is meant and has raised
+`NUMBERS_VERSION`. Teeth have no finite elements, and the body's mesh is made here: gmsh meshes differ from version to
+version of gmsh.
 """
 
 from __future__ import annotations
@@ -47,7 +49,17 @@ def pinned() -> dict:
 
 def _numbers(run) -> dict[str, float]:
     """Means over the steps of all that has a step, which is most of a result."""
-    curves = {name: float(np.abs(run[name].values).mean()) for name in ("transmission_error", "normal_force", "pair_normal_force", "contact_pressure", "rotation", "energy")}
+    curves = {
+        name: float(np.abs(run[name].values).mean())
+        for name in (
+            "transmission_error",
+            "normal_force",
+            "pair_normal_force",
+            "contact_pressure",
+            "rotation",
+            "energy",
+        )
+    }
     return curves | {name: float(run.attrs[name]) for name in ATTRIBUTES}
 
 
@@ -76,7 +88,11 @@ def _of_a_body() -> dict[str, float]:
     along = np.arange(5) * 9
     cuts = {"lower cut": along, "upper cut": along + 8}
     rings = {"hub": edges["hub"], "flank": edges["rim"][2:5]}
-    sector = BodyMesh(points, cells[(cells >= 0).all(axis=1)], rings | {name: np.stack([each[:-1], each[1:]], axis=-1) for name, each in cuts.items()})
+    sector = BodyMesh(
+        points,
+        cells[(cells >= 0).all(axis=1)],
+        rings | {name: np.stack([each[:-1], each[1:]], axis=-1) for name, each in cuts.items()},
+    )
     blocks = ring_compliance(condensed_sector(sector, element, 0.3), SECTORS, 2)
     return {f"body: teeth {offset} apart": float(np.abs(block).mean()) for offset, block in enumerate(blocks)}
 

@@ -19,9 +19,15 @@ def valid_pairs(draw, teeth=(6, 90), modules=(0.5, 20.0), addenda=(0.6, 1.3), fa
 
     `helix_angles`: bounds, deg, of a helix; proportions are then in normal modules. Spur gears without.
     """
-    proportions = st.tuples(st.integers(*teeth), st.floats(-0.5, 1.0), st.floats(*addenda), st.floats(1.0, 1.5), st.floats(0.0, 0.45))
+    proportions = st.tuples(
+        st.integers(*teeth), st.floats(-0.5, 1.0), st.floats(*addenda), st.floats(1.0, 1.5), st.floats(0.0, 0.45)
+    )
     module, alpha = draw(st.floats(*modules)), radians(draw(st.floats(17.0, 27.0)))
-    helix = Helix(radians(draw(st.floats(*helix_angles))), draw(st.sampled_from(["right", "left"]))) if helix_angles else None
+    helix = (
+        Helix(radians(draw(st.floats(*helix_angles))), draw(st.sampled_from(["right", "left"])))
+        if helix_angles
+        else None
+    )
     beta = helix.angle if helix else 0.0
     stretch, transverse = 1.0 / cos(beta), atan(tan(alpha) / cos(beta)) if helix else alpha
     gears = []
@@ -29,10 +35,14 @@ def valid_pairs(draw, teeth=(6, 90), modules=(0.5, 20.0), addenda=(0.6, 1.3), fa
         count, shift, addendum, dedendum, rounding = draw(proportions)
         pitch = 0.5 * count * stretch + shift
         tip, root = module * (pitch + addendum), module * (pitch - dedendum)
-        gears.append(Gear(count, module * stretch, transverse, shift / stretch, tip, root, module, module * rounding, beta))
+        gears.append(
+            Gear(count, module * stretch, transverse, shift / stretch, tip, root, module, module * rounding, beta)
+        )
     bases = gears[0].base_radius + gears[1].base_radius
     touching = GearPair(*gears, centre_distance=bases, face_width=face_width).centre_distance_without_backlash
-    pair = GearPair(*gears, centre_distance=touching + module * draw(st.floats(0.0, 0.1)), face_width=face_width, helix=helix)
+    pair = GearPair(
+        *gears, centre_distance=touching + module * draw(st.floats(0.0, 0.1)), face_width=face_width, helix=helix
+    )
     try:
         check_gear(pair.pinion, "pinion")
         check_gear(pair.wheel, "wheel")

@@ -6,10 +6,14 @@ from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
 
-def stand_in_compliance(gear, *, elements=60, element_order=2, offsets=3, local=6e-6, tooth=1.5e-5, coast_flank=False) -> FlankCompliance:
-    """Symmetric positive definite compliance: a tooth that bends (more at its tip) and yields locally, coupled to its neighbours.
+def stand_in_compliance(
+    gear, *, elements=60, element_order=2, offsets=3, local=6e-6, tooth=1.5e-5, coast_flank=False
+) -> FlankCompliance:
+    """Symmetric positive definite compliance: a tooth that bends (more at its tip) and yields locally, coupled to its
+    neighbours.
 
-    `local`, `tooth`: mm per N/mm, of the size that steel teeth have. With `coast_flank` the tooth carries that flank along as it
+    `local`, `tooth`: mm per N/mm, of the size that steel teeth have. With `coast_flank` the tooth carries that flank
+        along as it
     bends: away from it, as the mirrored frame sees it.
     """
     arc = np.linspace(
@@ -30,13 +34,17 @@ def stand_in_compliance(gear, *, elements=60, element_order=2, offsets=3, local=
         block = np.zeros((2 * len(normal), 2 * len(normal)))
         block[0::2, 0::2], block[1::2, 1::2] = normal, 0.5 * normal
         blocks.append(block)
-    return FlankCompliance(np.sqrt(2.0 * arc / gear.base_radius), element_order, np.array(blocks), flanks=2 if coast_flank else 1)
+    return FlankCompliance(
+        np.sqrt(2.0 * arc / gear.base_radius), element_order, np.array(blocks), flanks=2 if coast_flank else 1
+    )
 
 
 def stand_in_body(gear, width, heights=5, *, elements=12, offsets=3, coast_flank=False, reach=None):
-    """A body over a face, stiff along its axis: a load anywhere bends the tooth as if it were spread over all of the width. Local yielding is in the sections.
+    """A body over a face, stiff along its axis: a load anywhere bends the tooth as if it were spread over all of the
+    width. Local yielding is in the sections.
 
-    `reach` (of the width): how far a load bends the tooth more than elsewhere, as in a body that gives way along its axis too.
+    `reach` (of the width): how far a load bends the tooth more than elsewhere, as in a body that gives way along its
+    axis too.
     """
     plane = stand_in_compliance(gear, elements=elements, local=0.0, offsets=offsets, coast_flank=coast_flank)
     flanks, nodes, places = plane.flanks, len(plane.roll_angle), np.linspace(-0.5, 0.5, heights) * width
@@ -47,4 +55,6 @@ def stand_in_body(gear, width, heights=5, *, elements=12, offsets=3, coast_flank
         along += np.exp(-np.abs(places[:, None] - places) / (reach * width))
     blocks = np.einsum("kfaicbj,hg->kfhaicgbj", section, along)
     size = flanks * heights * nodes * 3
-    return FaceCompliance(plane.roll_angle, plane.element_order, places, blocks.reshape(-1, size, size), plane, flanks=flanks)
+    return FaceCompliance(
+        plane.roll_angle, plane.element_order, places, blocks.reshape(-1, size, size), plane, flanks=flanks
+    )

@@ -1,4 +1,5 @@
-"""Which folders may import which: imports point one way only, those inside functions too; and that a plane run loads nothing of the third dimension."""
+"""Which folders may import which: imports point one way only, those inside functions too; and that a plane run loads
+nothing of the third dimension."""
 
 import os
 import re
@@ -12,7 +13,8 @@ ROOT = Path(__file__).parents[1]
 
 
 def test_imports_point_one_way(monkeypatch):
-    """Authority: the contracts of import-linter in pyproject.toml. Where import-linter is not installed `.ci/run` checks them."""
+    """Authority: the contracts of import-linter in pyproject.toml. Where import-linter is not installed `.ci/run`
+    checks them."""
     cli = pytest.importorskip("importlinter.cli")
     monkeypatch.chdir(ROOT)
     assert cli.lint_imports(no_cache=True) == 0
@@ -30,13 +32,24 @@ print(*sorted(sys.modules), file=sys.stderr)
 
 
 def test_a_plane_run_with_its_pictures_loads_nothing_of_the_third_dimension(tmp_path):
-    """Authority: house rule; what a scene does not name is not imported: of the face, the helix, slices, tilts and their pictures."""
+    """Authority: house rule; what a scene does not name is not imported: of the face, the helix, slices, tilts and
+    their pictures."""
     from tests.effects.examples import text_of
 
     scene = tmp_path / "plane.toml"
     scene.write_text(text_of("tooth_elasticity", "friction", "bearings"), encoding="utf-8")
-    done = subprocess.run([sys.executable, "-P", "-c", PLANE_RUN, str(scene), str(tmp_path / "run")], cwd=ROOT, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", PLANE_RUN, str(scene), str(tmp_path / "run")],
+        cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+    )
     assert done.returncode == 0, done.stderr
     own = {name.removeprefix("fenics_gears.") for name in done.stderr.split() if name.startswith("fenics_gears.")}
     assert "contact.mesh_cycle" in own and "show.plots" in own
-    assert {name for name in own if re.search(r"face|helix|lead_mod|misalign|slice|tilting|wobble|line_load|contact_pattern", name)} <= DECLARED
+    assert {
+        name
+        for name in own
+        if re.search(r"face|helix|lead_mod|misalign|slice|tilting|wobble|line_load|contact_pattern", name)
+    } <= DECLARED

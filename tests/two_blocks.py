@@ -1,4 +1,5 @@
-"""Two elastic blocks, meshed differently where they touch, as contact sees them: compliance and interpolation of straight flanks."""
+"""Two elastic blocks, meshed differently where they touch, as contact sees them: compliance and interpolation of
+straight flanks."""
 
 from __future__ import annotations
 
@@ -9,7 +10,8 @@ from fenics_gears.elasticity.condensation import condense
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
 
-# The involute of a circle of this radius (mm), a little off the circle: its radius of curvature is 1e6 mm, so that it is straight to
+# The involute of a circle of this radius (mm), a little off the circle: its radius of curvature is 1e6 mm, so that it
+# is straight to
 # 1e-13 over a millimetre, and its arc length 500 mm, so that round-off of places is no larger.
 STRAIGHT = 1e9
 CONTACT_ROLL = 1e-3
@@ -18,11 +20,15 @@ CONTACT_ROLL = 1e-3
 def block_mesh(name: str, along: int, across: int, height: float) -> BodyMesh:
     """Block 1 mm wide, unevenly divided and distorted inside: "flank" at y = 0, "back" at y = -height."""
     fraction = np.linspace(0.0, 1.0, along + 1)
-    x, y = np.meshgrid(fraction + 0.03 * np.sin(2.0 * np.pi * fraction), np.linspace(-1.0, 0.0, across + 1), indexing="ij")
+    x, y = np.meshgrid(
+        fraction + 0.03 * np.sin(2.0 * np.pi * fraction), np.linspace(-1.0, 0.0, across + 1), indexing="ij"
+    )
     bump = 0.2 / max(along, across) * np.sin(2.0 * np.pi * x) * np.sin(np.pi * y)
     points = np.stack([(x + bump).ravel(), height * (y - bump).ravel()], axis=-1)
     index = np.arange(len(points)).reshape(along + 1, across + 1)
-    cells = np.stack([part.ravel() for part in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:])], axis=-1)
+    cells = np.stack(
+        [part.ravel() for part in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:])], axis=-1
+    )
     if not ELEMENTS[name].quadrilateral:
         cells = np.vstack([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
     edges = {part: np.stack([index[:-1, row], index[1:, row]], axis=-1) for part, row in (("flank", -1), ("back", 0))}
@@ -46,7 +52,8 @@ def flank_of(mesh: BodyMesh, name: str, poissons_ratio: float) -> tuple[np.ndarr
 
 
 def straight_interpolation(offsets, places, order: int, sense: float):
-    """The contact layer's own averages, on a straight flank with nodes at `places` (n,), mm; contact nodes from -1/2 to 1/2 mm."""
+    """The contact layer's own averages, on a straight flank with nodes at `places` (n,), mm; contact nodes from -1/2 to
+    1/2 mm."""
     middle = 0.5 * STRAIGHT * CONTACT_ROLL**2
     rolls = np.sqrt(2.0 * (middle + places - 0.5) / STRAIGHT)
     contact_rolls = np.sqrt(2.0 * (middle + sense * offsets) / STRAIGHT)
@@ -59,7 +66,10 @@ def collocation(offsets, places, order: int, sense: float):
     at = np.clip(0.5 + sense * offsets, 0.0, 1.0)
     element = np.clip(np.searchsorted(vertices, at, side="right") - 1, 0, len(vertices) - 2)
     local = (at - vertices[element]) / np.diff(vertices)[element]
-    shapes = {1: (1 - local, local), 2: ((1 - local) * (1 - 2 * local), 4 * local * (1 - local), local * (2 * local - 1))}
+    shapes = {
+        1: (1 - local, local),
+        2: ((1 - local) * (1 - 2 * local), 4 * local * (1 - local), local * (2 * local - 1)),
+    }
     for ahead, shape in enumerate(shapes[order]):
         weights[np.arange(len(offsets)), order * element + ahead] += shape
     return weights

@@ -1,4 +1,5 @@
-"""The whole gear by brute force, to compare the fast routes with: its mesh, its flank compliance, the stiffness of its ring of sectors."""
+"""The whole gear by brute force, to compare the fast routes with: its mesh, its flank compliance, the stiffness of its
+ring of sectors."""
 
 from __future__ import annotations
 
@@ -16,26 +17,38 @@ from meshes.root_crack import joined_sectors
 
 
 def whole_gear_compliance(
-    mesh: BodyMesh, gear: Gear, material: Material, *, element: str = "P2", loaded_tooth: int = 0, tooth_offsets: int = 1, comm=None
+    mesh: BodyMesh,
+    gear: Gear,
+    material: Material,
+    *,
+    element: str = "P2",
+    loaded_tooth: int = 0,
+    tooth_offsets: int = 1,
+    comm=None,
 ) -> FlankCompliance:
     """Flank compliance seen by one loaded tooth of a fully meshed gear.
 
-    mesh: the whole gear with "hub" and "flank t" as in BodyMesh, all flanks meshed alike. tooth_offsets: how many teeth ahead of
+    mesh: the whole gear with "hub" and "flank t" as in BodyMesh, all flanks meshed alike. tooth_offsets: how many teeth
+        ahead of
     the loaded one are known. In a body without symmetry every loaded tooth has its own.
     Raises ComputationError where the mesh lacks a flank or the hub.
     """
     chosen = element_named(element)
     teeth = [(loaded_tooth + offset) % gear.teeth for offset in range(tooth_offsets + 1)]
     points = {f"flank {tooth}": by_radius(mesh.edge_nodes(f"flank {tooth}", chosen.order)) for tooth in teeth}
-    body = condense(mesh, chosen, material.poissons_ratio, {**points, "hub": mesh.edge_nodes("hub", chosen.order)}, comm)
+    body = condense(
+        mesh, chosen, material.poissons_ratio, {**points, "hub": mesh.edge_nodes("hub", chosen.order)}, comm
+    )
     flanks = np.concatenate([body.dofs(name) for name in points])
     compliance = np.linalg.inv(body.stiffness[np.ix_(flanks, flanks)])
     size = len(body.dofs(f"flank {teeth[0]}"))
     into_frames = [np.kron(np.eye(size // 2), rotation(tooth * gear.angular_pitch)) for tooth in teeth]
-    blocks = np.stack([
-        into_frames[offset].T @ compliance[offset * size:(offset + 1) * size, :size] @ into_frames[0]
-        for offset in range(tooth_offsets + 1)
-    ])
+    blocks = np.stack(
+        [
+            into_frames[offset].T @ compliance[offset * size : (offset + 1) * size, :size] @ into_frames[0]
+            for offset in range(tooth_offsets + 1)
+        ]
+    )
     blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
     vertices = by_radius(mesh.points[mesh.edge_points(f"flank {teeth[0]}")])
     return FlankCompliance(

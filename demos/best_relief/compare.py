@@ -1,4 +1,5 @@
-"""The best tip relief by `gears optimize` and by brute force, with friction and without, with tolerances and without. Called by `run`."""
+"""The best tip relief by `gears optimize` and by brute force, with friction and without, with tolerances and without.
+Called by `run`."""
 
 from __future__ import annotations
 
@@ -20,7 +21,8 @@ from fenics_gears.system.progress import LineProgress
 HERE = Path(__file__).parent
 NAMES = {
     "frictionless": "Without friction", "friction": "With friction, μ = 0.1",
-    "frictionless_tolerances": "Without friction, nine of ten pairs within tolerances", "friction_tolerances": "With friction, nine of ten pairs within tolerances",
+    "frictionless_tolerances": "Without friction, nine of ten pairs within tolerances",
+    "friction_tolerances": "With friction, nine of ten pairs within tolerances",
 }  # fmt: skip
 DEPTH, LENGTH, ERROR = "tip_relief.depth", "tip_relief.length_on_path", "peak_to_peak_transmission_error"
 DEPTHS, LENGTHS = np.linspace(5.0, 50.0, 10), np.linspace(3.0, 9.0, 9)
@@ -45,13 +47,19 @@ class Compared:
 
 def main(arguments: list[str] | None = None) -> int:
     """Search, map, draw, write; returns 0."""
-    directory = output_directory("best_relief", "The best tip relief with friction and tolerances and without, by gears optimize and by brute force.", arguments)
+    directory = output_directory(
+        "best_relief",
+        "The best tip relief with friction and tolerances and without, by gears optimize and by brute force.",
+        arguments,
+    )
     for file in written({name: compared(HERE / f"{name}.toml", directory / name) for name in NAMES}, directory):
         print(file)
     return 0
 
 
-def compared(design: Path, directory: Path, depths: Sequence[float] = DEPTHS, lengths: Sequence[float] = LENGTHS) -> Compared:
+def compared(
+    design: Path, directory: Path, depths: Sequence[float] = DEPTHS, lengths: Sequence[float] = LENGTHS
+) -> Compared:
     """The search of a design file, and the map of its goal over a grid; a second call finds the runs of the first."""
     print(f"{design.stem}:", file=sys.stderr)
     found = optimize(design, directory, LineProgress())
@@ -75,21 +83,39 @@ def written(every: dict[str, Compared], directory: Path) -> list[Path]:
 
 def table(every: dict[str, Compared]) -> str:
     """Markdown: a row for each search, and what reliefs give under conditions that they were not chosen for."""
-    rows = ["| condition | best depth (um) | best length (mm) | goal (um) | best of the grid (um) | goal before (um) | designs |", "|---|---|---|---|---|---|---|"]
+    rows = [
+        (
+            "| condition | best depth (um) | best length (mm) | goal (um) | best of the grid (um) | goal before (um) |"
+            " designs |"
+        ),
+        "|---|---|---|---|---|---|---|",
+    ]
     for name, each in every.items():
         values, found = each.found.chosen.values, each.found
         rows.append(
-            f"| {NAMES[name]} | {values[DEPTH]:.1f} | {values[LENGTH]:.2f} | {found.chosen.goals[ERROR]:.2f} | {each.least_of_map[2]:.2f} | {found.before.goals[ERROR]:.2f} | {len(found.tried)} |"
+            f"| {NAMES[name]} | {values[DEPTH]:.1f} | {values[LENGTH]:.2f} | {found.chosen.goals[ERROR]:.2f} |"
+            f" {each.least_of_map[2]:.2f} | {found.before.goals[ERROR]:.2f} | {len(found.tried)} |"
         )
     return "\n".join([*rows, "", *_exchanged(every)]) + "\n"
 
 
 def _exchanged(every: dict[str, Compared]) -> list[str]:
-    """What a relief that was chosen under other conditions gives, beside the one that was chosen for these; both under samples that neither search knew."""
-    rows = ["| conditions | relief chosen for | goal (um) | goal of the relief chosen for these conditions (um) |", "|---|---|---|---|"]
-    for chosen, judged in (("frictionless", "friction"), ("frictionless", "frictionless_tolerances"), ("friction", "friction_tolerances")):
+    """What a relief that was chosen under other conditions gives, beside the one that was chosen for these; both under
+    samples that neither search knew."""
+    rows = [
+        "| conditions | relief chosen for | goal (um) | goal of the relief chosen for these conditions (um) |",
+        "|---|---|---|---|",
+    ]
+    for chosen, judged in (
+        ("frictionless", "friction"),
+        ("frictionless", "frictionless_tolerances"),
+        ("friction", "friction_tolerances"),
+    ):
         if {chosen, judged} <= set(every):
-            other, own = (f"{each.goals[ERROR]:.2f}" for each in fresh(every[judged].found, [every[name].found.chosen.values for name in (chosen, judged)]))
+            other, own = (
+                f"{each.goals[ERROR]:.2f}"
+                for each in fresh(every[judged].found, [every[name].found.chosen.values for name in (chosen, judged)])
+            )
             rows.append(f"| {NAMES[judged]} | {NAMES[chosen].lower()} | {other} | {own} |")
     return rows
 
@@ -98,7 +124,9 @@ def fresh(found: Outcome, reliefs: Sequence[dict[str, float]]) -> list[Evaluatio
     """Reliefs under the conditions of a search, but under other samples of its tolerances than it was judged by."""
     with Interruption(LineProgress()) as progress:
         progress.stage("fresh samples")
-        return Evaluator(found.design, found.directory / "runs", Alone(), progress).of_designs(reliefs, samples(found.design, fresh=True))
+        return Evaluator(found.design, found.directory / "runs", Alone(), progress).of_designs(
+            reliefs, samples(found.design, fresh=True)
+        )
 
 
 if __name__ == "__main__":

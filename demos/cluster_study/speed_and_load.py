@@ -1,4 +1,5 @@
-"""A study over speed and load under mpirun, stopped on the way and gone on with; its picture and its table. Called by `run`."""
+"""A study over speed and load under mpirun, stopped on the way and gone on with; its picture and its table. Called by
+`run`."""
 
 from __future__ import annotations
 
@@ -17,7 +18,11 @@ STOPPED_AFTER = 100
 
 def main(arguments: list[str] | None = None) -> int:
     """Run, stop, go on, draw; returns the exit code of `gears study`."""
-    directory = output_directory("cluster_study", "A tip relief over speed and load: a study under mpirun, stopped on the way and gone on with.", arguments)
+    directory = output_directory(
+        "cluster_study",
+        "A tip relief over speed and load: a study under mpirun, stopped on the way and gone on with.",
+        arguments,
+    )
     from demos.cluster_study.stopped import done, run
 
     processes = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -17,9 +17,19 @@ def run(study: Path, directory: Path, processes: int, stop_after: int | None = N
 
     stop_after: end it once so many of its cases lie in the directory.
     """
-    command = [sys.executable, "-m", "fenics_gears", "study", str(study), "--output", str(directory), "--processes", str(processes)]
-    # A session of its own: the signal shall reach mpirun and its processes, and not this one. The environment as Python knows it: where this
-    # process has loaded MPI, its C library has put more into it, which an mpirun would trip over.
+    command = [
+        sys.executable,
+        "-m",
+        "fenics_gears",
+        "study",
+        str(study),
+        "--output",
+        str(directory),
+        "--processes",
+        str(processes),
+    ]
+    # A session of its own: the signal shall reach mpirun and its processes, and not this one. The environment as Python
+    # knows it: where this process has loaded MPI, its C library has put more into it, which an mpirun would trip over.
     running = subprocess.Popen(command, start_new_session=True, env=os.environ.copy())
     try:
         while running.poll() is None:

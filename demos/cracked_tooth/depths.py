@@ -1,4 +1,5 @@
-"""The scene of this folder with cracks of several depths: a turn of the pinion each, on meshes that are fine enough for the contact."""
+"""The scene of this folder with cracks of several depths: a turn of the pinion each, on meshes that are fine enough for
+the contact."""
 
 from __future__ import annotations
 
@@ -21,13 +22,15 @@ from meshes.root_crack import RootCrack, cracked_gear_mesh
 HERE = Path(__file__).parent
 # Depths of the crack (mm); none is the healthy pinion, a ring of equal sectors.
 DEPTHS = (0.0, 1.5, 3.0, 4.5)
-# The cracked tooth, counted counter-clockwise, and the mesh cycle at whose beginning it reaches the start of contact: teeth 16 - 8 = 8.
+# The cracked tooth, counted counter-clockwise, and the mesh cycle at whose beginning it reaches the start of contact:
+# teeth 16 - 8 = 8.
 CRACKED_TOOTH, ITS_CYCLE = 8, 8
 
 
 @dataclass(frozen=True)
 class Turn:
-    """A turn of the pinion: mesh cycles (n,), transmission error (n,) in um on the wheel's base circle, forces (pairs, n) in N of the pairs."""
+    """A turn of the pinion: mesh cycles (n,), transmission error (n,) in um on the wheel's base circle, forces (pairs,
+    n) in N of the pairs."""
 
     depth: float
     phase: np.ndarray
@@ -38,7 +41,8 @@ class Turn:
 
     @property
     def stiffness(self) -> np.ndarray:
-        """Load over deflection of the mesh (n,), N/um: flanks are true involutes, without load there is no transmission error."""
+        """Load over deflection of the mesh (n,), N/um: flanks are true involutes, without load there is no transmission
+        error."""
         return self.load / np.abs(self.error)
 
     def force_of(self, cycle: int) -> np.ndarray:
@@ -56,7 +60,8 @@ def healthy(scene: Scene) -> Scene:
 
 
 def cracked(scene: Scene, depth: float, file: Path) -> Scene:
-    """The scene with a crack of some depth (mm) in its pinion, whose mesh is written to a file; as fine as the contact asks for."""
+    """The scene with a crack of some depth (mm) in its pinion, whose mesh is written to a file; as fine as the contact
+    asks for."""
     model = model_of(healthy(scene))
     sizes = model.resolution.discretisation(0).sizes(model.pair.pinion)
     write_body_mesh(cracked_gear_mesh(model.pair.pinion, sizes, {CRACKED_TOOTH: RootCrack(depth)}), file)

@@ -1,4 +1,5 @@
-"""How far the faces of the crack stand apart, or would pass through each other, while one tooth after the other carries the whole load.
+"""How far the faces of the crack stand apart, or would pass through each other, while one tooth after the other carries
+the whole load.
 
     python -m demos.cracked_tooth.opening
 
@@ -45,7 +46,8 @@ class CrackedBody:
         self.left, self.right = self._faces(mouth)
 
     def openings(self, teeth: tuple[int, ...], line_load: float) -> np.ndarray:
-        """Distance (teeth, nodes), um, of the faces' twin nodes, negative where they would pass through each other; N/mm on each tooth."""
+        """Distance (teeth, nodes), um, of the faces' twin nodes, negative where they would pass through each other;
+        N/mm on each tooth."""
         matrix = stiffness_matrix(self.space, P2, self.material.poissons_ratio)
         starts, columns, values = matrix.getValuesCSR()
         stiffness = sparse.csr_matrix((values, columns, starts), shape=matrix.getSize())
@@ -62,7 +64,9 @@ class CrackedBody:
 
     def on_flank(self, tooth: int) -> np.ndarray:
         """Forces (2f,) that press on the nodes of a tooth's flank with 1 N/mm in all, in the tooth's frame."""
-        rolls = self.gear.roll_angle(np.maximum(np.linalg.norm(self.points[self._flank(tooth)], axis=1), self.gear.base_radius))
+        rolls = self.gear.roll_angle(
+            np.maximum(np.linalg.norm(self.points[self._flank(tooth)], axis=1), self.gear.base_radius)
+        )
         weight = np.exp(-(((rolls - PLACE) / WIDTH) ** 2)) * np.gradient(rolls**2)
         return -(weight[:, None] * np.column_stack([np.cos(rolls), -np.sin(rolls)]) / weight.sum()).ravel()
 
@@ -72,7 +76,9 @@ class CrackedBody:
     def _load(self, tooth: int) -> np.ndarray:
         """The same as forces on all nodes (2 n,) in space."""
         load = np.zeros(2 * len(self.points))
-        load[dofs_of(self._flank(tooth))] = (self.on_flank(tooth).reshape(-1, 2) @ rotation(tooth * self.gear.angular_pitch).T).ravel()
+        load[dofs_of(self._flank(tooth))] = (
+            self.on_flank(tooth).reshape(-1, 2) @ rotation(tooth * self.gear.angular_pitch).T
+        ).ravel()
         return load
 
     def _faces(self, mouth: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -87,10 +93,18 @@ class CrackedBody:
 def table(bodies: dict[float, CrackedBody], line_load: float) -> list[str]:
     """Rows of a table in Markdown: at the mouth, the tooth in mesh before the cracked one, itself, and the next."""
     teeth = (CRACKED_TOOTH + 1, CRACKED_TOOTH, CRACKED_TOOTH - 1)
-    rows = ["| opening of the faces (µm) | whole load on the tooth before | whole load on the cracked tooth | whole load on the tooth after |", "|---|---|---|---|"]
+    rows = [
+        (
+            "| opening of the faces (µm) | whole load on the tooth before | whole load on the cracked tooth | whole"
+            " load on the tooth after |"
+        ),
+        "|---|---|---|---|",
+    ]
     for depth, body in bodies.items():
         found = body.openings(teeth, line_load)
-        rows.append(f"| crack of {depth:g} mm | " + " | ".join(f"{each[np.argmax(np.abs(each))]:.1f}" for each in found) + " |")
+        rows.append(
+            f"| crack of {depth:g} mm | " + " | ".join(f"{each[np.argmax(np.abs(each))]:.1f}" for each in found) + " |"
+        )
     return rows
 
 

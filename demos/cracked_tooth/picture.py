@@ -1,4 +1,5 @@
-"""A turn of the pinion with a tooth cracked to several depths: transmission error, stiffness, load share, orders, and the mesh."""
+"""A turn of the pinion with a tooth cracked to several depths: transmission error, stiffness, load share, orders, and
+the mesh."""
 
 from __future__ import annotations
 
@@ -25,7 +26,8 @@ ARROW = {"arrowstyle": "-", "linewidth": 0.8, "color": DARK, "shrinkB": 2.0}
 
 @styled
 def draw(turns: Sequence[Turn], gear: Gear, sector: BodyMesh, crack: RootCrack) -> Figure:
-    """`turns`: the healthy one first; `sector`: the mesh (mm) of the cracked tooth's sector in its body frame, with `crack`."""
+    """`turns`: the healthy one first; `sector`: the mesh (mm) of the cracked tooth's sector in its body frame, with
+    `crack`."""
     figure = Figure(figsize=(13.0, 12.0), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.12)
     axes = figure.subplot_mosaic(
@@ -34,7 +36,9 @@ def draw(turns: Sequence[Turn], gear: Gear, sector: BodyMesh, crack: RootCrack) 
     )  # fmt: skip
     load = turns[0].load
     figure.suptitle(
-        f"One cracked tooth of {gear.teeth}: the paper's pair under {load / 1e3:.3g} kN, quasi-static, without friction", x=0.012, ha="left", fontsize=15,
+        f"One cracked tooth of {gear.teeth}: the paper's pair under {load / 1e3:.3g} kN, quasi-static, without "
+        f"friction",
+        x=0.012, ha="left", fontsize=15,
     )  # fmt: skip
     _error(axes["error"], turns)
     _stiffness(axes["stiffness"], turns)
@@ -77,7 +81,13 @@ def _stiffness(axes: Axes, turns: Sequence[Turn]) -> None:
 def _share(axes: Axes, turns: Sequence[Turn]) -> None:
     for turn, colour in zip(turns, COLOURS):
         for cycle, style in ((ITS_CYCLE - 1, ":"), (ITS_CYCLE, "-"), (ITS_CYCLE + 1, ":")):
-            axes.plot(turn.phase, 100.0 * turn.force_of(cycle) / turn.load, style, color=colour, linewidth=2.0 if style == "-" else 1.4)
+            axes.plot(
+                turn.phase,
+                100.0 * turn.force_of(cycle) / turn.load,
+                style,
+                color=colour,
+                linewidth=2.0 if style == "-" else 1.4,
+            )
     axes.set_title("Load share (neighbours dotted)")
     axes.set_xlim(*AROUND)
     axes.set_ylim(0.0, 106.0)
@@ -101,7 +111,13 @@ def _orders(axes: Axes, turns: Sequence[Turn], teeth: int) -> None:
     axes.set_ylabel("Amplitude (µm)")
     top = axes.get_ylim()[1]
     for multiple in range(1, int(HIGHEST_ORDER / teeth) + 1):
-        axes.annotate("mesh" if multiple == 1 else f"{multiple} × mesh", (multiple * teeth, 0.8 * top), ha="center", va="top", color=DARK)
+        axes.annotate(
+            "mesh" if multiple == 1 else f"{multiple} × mesh",
+            (multiple * teeth, 0.8 * top),
+            ha="center",
+            va="top",
+            color=DARK,
+        )
 
 
 def _mesh(axes: Axes, gear: Gear, sector: BodyMesh, crack: RootCrack, around_crack: bool = False) -> None:
@@ -125,4 +141,6 @@ def _mesh(axes: Axes, gear: Gear, sector: BodyMesh, crack: RootCrack, around_cra
         axes.annotate("crack", line[1], (-42, -26), textcoords="offset points", color=DARK, arrowprops=ARROW)
         flank = points[np.unique(sector.edges["flank"])]
         upper = flank[np.argmin(np.abs(flank[:, 1] - 0.8 * gear.tip_radius - 0.2 * gear.root_radius))]
-        axes.annotate("drive\nflank", upper, (-34, 12), textcoords="offset points", ha="center", color=DARK, arrowprops=ARROW)
+        axes.annotate(
+            "drive\nflank", upper, (-34, 12), textcoords="offset points", ha="center", color=DARK, arrowprops=ARROW
+        )

@@ -2,7 +2,8 @@
 
     python -m demos.cracked_tooth.turns [directory]
 
-meshes the pinion with each crack, runs a turn of it, and writes meshes and picture into a directory, results/cracked_tooth unless given.
+meshes the pinion with each crack, runs a turn of it, and writes meshes and picture into a directory,
+results/cracked_tooth unless given.
 """
 
 from __future__ import annotations
@@ -34,16 +35,22 @@ def table(found: Sequence[Turn], teeth: int) -> list[str]:
     whole = found[0]
     alone, shared = (int(np.argmin(np.abs(whole.phase - at))) for at in (ALONE, SHARED))
     rows = [
-        "| | largest deflection (µm) | peak to peak (µm) | least stiffness (N/µm) | compliance of the pair alone | share in double contact | order 1 (µm) | mesh order ± 1 (µm) |",
+        (
+            "| | largest deflection (µm) | peak to peak (µm) | least stiffness (N/µm) | compliance of the pair alone |"
+            " share in double contact | order 1 (µm) | mesh order ± 1 (µm) |"
+        ),
         "|---|---|---|---|---|---|---|---|",
     ]
     for turn in found:
         lines = turn.orders(teeth)
-        first, below, above = (lines.amplitudes[int(np.argmin(np.abs(lines.orders - order)))] for order in (1, teeth - 1, teeth + 1))
+        first, below, above = (
+            lines.amplitudes[int(np.argmin(np.abs(lines.orders - order)))] for order in (1, teeth - 1, teeth + 1)
+        )
         softer = turn.error[alone] / whole.error[alone] - 1.0
         rows.append(
-            f"| {name(turn)} | {np.abs(turn.error).max():.1f} | {np.ptp(turn.error):.1f} | {turn.stiffness.min():.0f} | {softer:+.1%} "
-            f"| {turn.force_of(ITS_CYCLE)[shared] / turn.load:.1%} | {first:.2f} | {below:.2f}, {above:.2f} |"
+            f"| {name(turn)} | {np.abs(turn.error).max():.1f} | {np.ptp(turn.error):.1f} | {turn.stiffness.min():.0f} |"
+            f" {softer:+.1%} | {turn.force_of(ITS_CYCLE)[shared] / turn.load:.1%} | {first:.2f} | {below:.2f},"
+            f" {above:.2f} |"
         )
     return rows
 

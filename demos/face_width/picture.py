@@ -1,4 +1,5 @@
-"""Peak-to-peak transmission error over the overlap ratio, beside what published formulas expect of stiff gear bodies."""
+"""Peak-to-peak transmission error over the overlap ratio, beside what published formulas expect of stiff gear
+bodies."""
 
 from __future__ import annotations
 
@@ -32,8 +33,19 @@ def picture(found: list) -> Figure:
         # Of the mean of the widest pair: bodies bend least there.
         spans = [found[-1].mean * expected(formula, found[0].contact_ratio, ratio) for ratio in ratios]
         axes.plot(ratios, spans, style, color=colour, linewidth=1.6, label=label)
-    axes.plot([case.overlap_ratio for case in found], [case.peak_to_peak for case in found], "-o", color=PALETTE[0], markersize=6, label="this program")
-    axes.set(xlim=(0.0, largest + 0.05), xlabel=r"Overlap ratio $\varepsilon_\beta$, by the face width", ylabel="Peak-to-peak transmission error (µm)")
+    axes.plot(
+        [case.overlap_ratio for case in found],
+        [case.peak_to_peak for case in found],
+        "-o",
+        color=PALETTE[0],
+        markersize=6,
+        label="this program",
+    )
+    axes.set(
+        xlim=(0.0, largest + 0.05),
+        xlabel=r"Overlap ratio $\varepsilon_\beta$, by the face width",
+        ylabel="Peak-to-peak transmission error (µm)",
+    )
     axes.set_ylim(bottom=0.0)
     axes.set_title("Helical pair without modifications, the same load per face width")
     axes.legend(loc="upper right")

@@ -15,7 +15,8 @@ PICTURE, TABLE = "face_width.png", "face_width.md"
 
 @dataclass(frozen=True)
 class Width:
-    """A case of the study: overlap ratio, face width (mm), and mean and peak-to-peak transmission error (um on the wheel's base circle)."""
+    """A case of the study: overlap ratio, face width (mm), and mean and peak-to-peak transmission error (um on the
+    wheel's base circle)."""
 
     overlap_ratio: float
     contact_ratio: float
@@ -47,7 +48,10 @@ def cases(directory: Path) -> list[Width]:
     for file in sorted((directory / "cases").glob("*.nc")):
         with xr.open_dataset(file, engine="h5netcdf") as run:
             pair, attributes = model_of(scene_from_text(run.attrs["scene"])).pair, run.attrs
-            error = [1e3 * pair.wheel.base_radius * attributes[f"{name}_transmission_error"] for name in ("mean", "peak_to_peak")]
+            error = [
+                1e3 * pair.wheel.base_radius * attributes[f"{name}_transmission_error"]
+                for name in ("mean", "peak_to_peak")
+            ]
         found.append(Width(pair.overlap_ratio, pair.contact_ratio, pair.face_width, *error))
     return sorted(found, key=lambda case: case.overlap_ratio)
 
@@ -55,7 +59,10 @@ def cases(directory: Path) -> list[Width]:
 def table(found: list[Width]) -> str:
     """Markdown: a row for each width."""
     rows = ["| overlap ratio | face width (mm) | mean T_E (µm) | T_EPP (µm) |", "|---|---|---|---|"]
-    rows += [f"| {case.overlap_ratio:.2f} | {case.face_width:.1f} | {case.mean:.2f} | {case.peak_to_peak:.2f} |" for case in found]
+    rows += [
+        f"| {case.overlap_ratio:.2f} | {case.face_width:.1f} | {case.mean:.2f} | {case.peak_to_peak:.2f} |"
+        for case in found
+    ]
     return "\n".join(rows) + "\n"
 
 

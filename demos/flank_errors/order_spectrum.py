@@ -1,4 +1,5 @@
-"""Orders of a pair with errors of manufacture: run flank_errors.toml, draw its order spectrum, print its lines. Called by `run`."""
+"""Orders of a pair with errors of manufacture: run flank_errors.toml, draw its order spectrum, print its lines. Called
+by `run`."""
 
 from __future__ import annotations
 
@@ -9,7 +10,8 @@ from demos.arguments import output_directory
 
 SCENE = Path(__file__).parent / "flank_errors.toml"
 PICTURE = "order_spectrum.png"
-# Lines of the table, turns of the pinion being order 1: turns of the wheel are order 2/3, mesh orders the multiples of its 16 teeth.
+# Lines of the table, turns of the pinion being order 1: turns of the wheel are order 2/3, mesh orders the multiples of
+# its 16 teeth.
 NAMED = {
     "run-out of the wheel": 2 / 3,
     "run-out of the pinion": 1.0,
@@ -24,7 +26,9 @@ NAMED = {
 
 def main(arguments: list[str] | None = None) -> int:
     """Run, draw, print; returns 0."""
-    directory = output_directory("flank_errors", "Orders of the transmission error of a pair with errors of manufacture.", arguments)
+    directory = output_directory(
+        "flank_errors", "Orders of the transmission error of a pair with errors of manufacture.", arguments
+    )
     from fenics_gears import load_scene, simulate
     from fenics_gears.show.plots import run_figures, save_figures
 
@@ -37,7 +41,8 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def named_lines(result) -> dict[str, float]:
-    """Amplitudes (um on the wheel's base circle) of the orders that one cause is known for; `result`: of whole hunting tooth periods."""
+    """Amplitudes (um on the wheel's base circle) of the orders that one cause is known for; `result`: of whole hunting
+    tooth periods."""
     from fenics_gears.show.run import scene_of
     from fenics_gears.results.spectrum import order_lines
 

@@ -8,7 +8,15 @@ from pathlib import Path
 from demos.arguments import output_directory
 
 HERE = Path(__file__).parent
-COLUMNS = ("flanks and axes", "T_EPP (µm)", "K_Hβ", "largest line load over even one", "largest pressure off the edges (MPa)", "axial force (N)", "tilt of the wheel (µrad)")
+COLUMNS = (
+    "flanks and axes",
+    "T_EPP (µm)",
+    "K_Hβ",
+    "largest line load over even one",
+    "largest pressure off the edges (MPa)",
+    "axial force (N)",
+    "tilt of the wheel (µrad)",
+)
 
 
 def variants(scene) -> dict:
@@ -24,7 +32,8 @@ def row(name: str, result) -> tuple[str, ...]:
     error = 1e3 * result.attrs["base_radius_wheel"] * result.attrs["peak_to_peak_transmission_error"]
     tilt = np.hypot(result.tilt_x.sel(gear="wheel"), result.tilt_y.sel(gear="wheel")).max()
     return (
-        name, f"{error:.2f}", f"{result.attrs['face_load_factor']:.2f}", f"{result.attrs['largest_line_load_factor']:.2f}", f"{result.attrs['peak_contact_pressure']:.0f}",
+        name, f"{error:.2f}", f"{result.attrs['face_load_factor']:.2f}",
+        f"{result.attrs['largest_line_load_factor']:.2f}", f"{result.attrs['peak_contact_pressure']:.0f}",
         f"{float(abs(result.reaction_z).max()):.0f}", f"{1e6 * float(tilt):.0f}",
     )  # fmt: skip
 

@@ -13,17 +13,30 @@ from fenics_gears.show.run import Run
 
 @styled
 def picture(results: dict) -> Figure:
-    """One column for each result: the largest pressure at each point of the pinion's flank, and below it the largest line load of a pair over the face."""
+    """One column for each result: the largest pressure at each point of the pinion's flank, and below it the largest
+    line load of a pair over the face."""
     figure = Figure(figsize=(13.0, 7.0), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1)
     axes = figure.subplots(2, len(results), sharex=True, sharey="row", squeeze=False, height_ratios=[2.0, 1.3])
-    figure.suptitle("A helical gear stage of a car: contact pattern on the pinion, and line load of a tooth pair", x=0.012, ha="left", fontsize=14)
+    figure.suptitle(
+        "A helical gear stage of a car: contact pattern on the pinion, and line load of a tooth pair",
+        x=0.012,
+        ha="left",
+        fontsize=14,
+    )
     fields = {name: contact_patterns(Run(result))[0].field for name, result in results.items()}
     limit = max(1.1 * result.attrs["peak_contact_pressure"] for result in results.values())
     for column, (name, result) in enumerate(results.items()):
         above, below = axes[:, column]
         field = fields[name]
-        drawn = above.pcolormesh(field.x, field.y, np.ma.masked_invalid(field.values), cmap=LinearSegmentedColormap.from_list("pressure", list(field.colours)), vmin=0.0, vmax=limit)
+        drawn = above.pcolormesh(
+            field.x,
+            field.y,
+            np.ma.masked_invalid(field.values),
+            cmap=LinearSegmentedColormap.from_list("pressure", list(field.colours)),
+            vmin=0.0,
+            vmax=limit,
+        )
         above.set_title(name)
         above.grid(False)
         load = result.line_load.values

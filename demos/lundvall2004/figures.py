@@ -32,13 +32,17 @@ def draw_figure(name: str, measured: Measured, directory: Path) -> Path:
 @styled
 def figure02(measured: Measured) -> Figure:
     """Static transmission error and shaft displacement."""
-    return _errors_and_displacement(measured.study("figure02"), "Fig. 2: static transmission error and shaft displacement d_y2")
+    return _errors_and_displacement(
+        measured.study("figure02"), "Fig. 2: static transmission error and shaft displacement d_y2"
+    )
 
 
 @styled
 def figure05(measured: Measured) -> Figure:
     """The same at 200 Hz."""
-    return _errors_and_displacement(measured.study("figure05"), "Fig. 5: transmission error and shaft displacement d_y2 at 200 Hz")
+    return _errors_and_displacement(
+        measured.study("figure05"), "Fig. 5: transmission error and shaft displacement d_y2 at 200 Hz"
+    )
 
 
 @styled
@@ -164,7 +168,14 @@ def _draw_frequencies(axes: Axes, curve: xr.Dataset, static: xr.Dataset) -> None
 def _draw_depths(axes: Axes, dynamic: xr.Dataset, static: xr.Dataset) -> None:
     """T_EPP over relief depth, with the optima marked."""
     curves = [(dynamic, friction, line | {"label": f"200 Hz, {line['label']}"}) for friction, line in LINES.items()]
-    curves += [(static, WITHOUT, STATIC), (static, WITH, {"color": GREY, "linestyle": ":", "linewidth": 1.2, "label": "static, μ = 0.1 (not in the paper)"})]
+    curves += [
+        (static, WITHOUT, STATIC),
+        (
+            static,
+            WITH,
+            {"color": GREY, "linestyle": ":", "linewidth": 1.2, "label": "static, μ = 0.1 (not in the paper)"},
+        ),
+    ]
     for study, friction, line in curves:
         error = peak_to_peak(study, friction)
         axes.plot(study.depth, error, **line)
@@ -181,7 +192,9 @@ def _figure(heading: str, heights: Sequence[float]) -> tuple[Figure, list[Axes]]
     figure = Figure(figsize=(10.0, 1.2 + sum(heights)), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1)
     figure.suptitle(heading, x=0.012, ha="left", fontsize=14)
-    return figure, list(figure.subplots(len(heights), sharex=True, squeeze=False, gridspec_kw={"height_ratios": heights})[:, 0])
+    return figure, list(
+        figure.subplots(len(heights), sharex=True, squeeze=False, gridspec_kw={"height_ratios": heights})[:, 0]
+    )
 
 
 def _label(axes: Axes, name: str, millimetres: float | None = None) -> None:
@@ -190,7 +203,9 @@ def _label(axes: Axes, name: str, millimetres: float | None = None) -> None:
     axes.ticklabel_format(axis="y", style="sci", scilimits=(-2, 4), useMathText=True)
     if millimetres is not None:
         scale = millimetres * 1e3
-        axes.secondary_yaxis("right", functions=(lambda v: v * scale, lambda v: v / scale)).set_ylabel("(µm)" if millimetres == 1.0 else "On the wheel's base circle (µm)")
+        axes.secondary_yaxis("right", functions=(lambda v: v * scale, lambda v: v / scale)).set_ylabel(
+            "(µm)" if millimetres == 1.0 else "On the wheel's base circle (µm)"
+        )
 
 
 def _over_cycles(axes: Axes, phase: np.ndarray) -> None:
@@ -204,5 +219,6 @@ def _save(figure: Figure, path: Path) -> None:
 
 
 FIGURES: dict[str, Callable[[Measured], Figure]] = {
-    draw.__name__: draw for draw in (figure02, figure04, figure05, figure06, figure08, figure09, figure10, readings_of_inertia, undamped)
+    draw.__name__: draw
+    for draw in (figure02, figure04, figure05, figure06, figure08, figure09, figure10, readings_of_inertia, undamped)
 }

@@ -17,14 +17,34 @@ from demos.arguments import output_directory
 
 INTERRUPTED = 130
 # Those that read and draw most first.
-FIGURES = ("readings_of_inertia", "figure10", "figure06", "figure09", "figure02", "figure04", "figure05", "figure08", "undamped")
+FIGURES = (
+    "readings_of_inertia",
+    "figure10",
+    "figure06",
+    "figure09",
+    "figure02",
+    "figure04",
+    "figure05",
+    "figure08",
+    "undamped",
+)
 # Longest first, so that no process is left alone with one at the end.
-LONGEST_FIRST = ("figure10_high", "figure06_high", "figure10_low", "figure06_low", "figure06_beyond", "figure09", "undamped")
+LONGEST_FIRST = (
+    "figure10_high",
+    "figure06_high",
+    "figure10_low",
+    "figure06_low",
+    "figure06_beyond",
+    "figure09",
+    "undamped",
+)
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run, draw, write; returns the exit code of `gears study`."""
-    directory = output_directory("lundvall2004", "The figures and claims of Lundvall, Strömberg and Klarbring, 2004.", arguments)
+    directory = output_directory(
+        "lundvall2004", "The figures and claims of Lundvall, Strömberg and Klarbring, 2004.", arguments
+    )
     begun = time.perf_counter()
     # Processes of their own: one that is forked shares locks of BLAS and MPI.
     with ProcessPoolExecutor(_cores(), multiprocessing.get_context("spawn")) as pool:
@@ -55,7 +75,10 @@ def run_studies(pool: ProcessPoolExecutor, directory: Path, begun: float) -> int
         for number, task in enumerate(as_completed(tasks), 1):
             code, words, seconds = task.result()
             worst = max(worst, code)
-            _say(f"[{number}/{len(files)}] {tasks[task]}: {words}, {seconds:.1f} s (after {time.perf_counter() - begun:.0f} s)")
+            _say(
+                f"[{number}/{len(files)}] {tasks[task]}: {words}, {seconds:.1f} s (after"
+                f" {time.perf_counter() - begun:.0f} s)"
+            )
     except KeyboardInterrupt:
         pool.shutdown(cancel_futures=True)
         _say("interrupted; the same command goes on from here")

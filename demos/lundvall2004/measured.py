@@ -49,7 +49,8 @@ class Measured:
         return self._read[file]
 
     def sweep(self, *names: str) -> xr.Dataset:
-        """Peak-to-peak transmission error (rad) and warnings of studies that continue each other in mesh frequency (Hz)."""
+        """Peak-to-peak transmission error (rad) and warnings of studies that continue each other in mesh frequency
+        (Hz)."""
         parts = [self.study(name)[["peak_to_peak_transmission_error", "warnings"]] for name in names]
         return xr.concat(parts, "mesh_frequency")
 

@@ -22,8 +22,18 @@ def write_table(measured: Measured, file: Path) -> Path:
 
 def claims_text(measured: Measured) -> str:
     """The Markdown of both tables."""
-    parts = ["# What the paper claims, and what was measured", "", *_rows(table_of_claims(measured)), "", "## The two readings of J", ""]
-    parts += [f"* {HEADINGS[reading]}: natural frequencies {_frequencies(measured, reading)} Hz (one tooth pair in mesh)" for reading in HEADINGS]
+    parts = [
+        "# What the paper claims, and what was measured",
+        "",
+        *_rows(table_of_claims(measured)),
+        "",
+        "## The two readings of J",
+        "",
+    ]
+    parts += [
+        f"* {HEADINGS[reading]}: natural frequencies {_frequencies(measured, reading)} Hz (one tooth pair in mesh)"
+        for reading in HEADINGS
+    ]
     claims = {reading: claims_of_inertia(measured, reading) for reading in HEADINGS}
     parts += ["", "| | claim | " + " | ".join(HEADINGS.values()) + " |", "|---|---|---|---|"]
     for rows in zip(*claims.values()):
@@ -34,7 +44,9 @@ def claims_text(measured: Measured) -> str:
 
 def _rows(claims: Sequence[Claim]) -> list[str]:
     head = ["| | claim | where | criterion | measured | |", "|---|---|---|---|---|---|"]
-    return head + [f"| {c.number} | {c.statement} | {c.where} | {c.criterion} | {_measured(c)} | **{c.verdict}** |" for c in claims]
+    return head + [
+        f"| {c.number} | {c.statement} | {c.where} | {c.criterion} | {_measured(c)} | **{c.verdict}** |" for c in claims
+    ]
 
 
 def _measured(claim: Claim) -> str:
@@ -42,4 +54,6 @@ def _measured(claim: Claim) -> str:
 
 
 def _frequencies(measured: Measured, reading: str) -> str:
-    return ", ".join(f"{frequency:.0f}" for frequency in frequencies_of(measured.run(f"{reading}figure05", friction=WITH)))
+    return ", ".join(
+        f"{frequency:.0f}" for frequency in frequencies_of(measured.run(f"{reading}figure05", friction=WITH))
+    )

@@ -1,4 +1,5 @@
-"""The paper's spur pair on axes that are not parallel: line load without modification, with crowning and with end relief."""
+"""The paper's spur pair on axes that are not parallel: line load without modification, with crowning and with end
+relief."""
 
 from __future__ import annotations
 
@@ -26,7 +27,13 @@ def flanks() -> dict:
 def row(misalignment: float, name: str, result) -> tuple[str, ...]:
     """A row of the table."""
     error = 1e3 * result.attrs["base_radius_wheel"] * result.attrs["peak_to_peak_transmission_error"]
-    return f"{1e3 * misalignment:g}", name, f"{result.attrs['face_load_factor']:.2f}", f"{result.attrs['largest_line_load_factor']:.2f}", f"{error:.1f}"
+    return (
+        f"{1e3 * misalignment:g}",
+        name,
+        f"{result.attrs['face_load_factor']:.2f}",
+        f"{result.attrs['largest_line_load_factor']:.2f}",
+        f"{error:.1f}",
+    )
 
 
 def table(rows: list[tuple[str, ...]]) -> str:
@@ -46,7 +53,9 @@ def main(arguments: list[str] | None = None) -> None:
     scene, results, rows = load_scene(HERE / "misaligned.toml"), {}, []
     for name, modifications in flanks().items():
         for misalignment in MISALIGNMENTS:
-            result = simulate(replace(scene, misalignment=Misalignment(in_plane=misalignment), lead_modifications=modifications))
+            result = simulate(
+                replace(scene, misalignment=Misalignment(in_plane=misalignment), lead_modifications=modifications)
+            )
             results[name, misalignment] = result
             rows.append(row(misalignment, name, result))
             print(rows[-1], flush=True)

@@ -1,10 +1,13 @@
-"""The pair as ROSS has it: the mesh stiffness of `GearElementTVMS` over a mesh cycle, and the natural frequencies of a `MultiRotor`.
+"""The pair as ROSS has it: the mesh stiffness of `GearElementTVMS` over a mesh cycle, and the natural frequencies of a
+`MultiRotor`.
 
-Reads a JSON object from standard input and writes one to standard output; run by a Python that has ROSS, without this program. N, m, kg, s, rad.
+Reads a JSON object from standard input and writes one to standard output; run by a Python that has ROSS, without this
+program. N, m, kg, s, rad.
 
-`GearElementTVMS` adds bending, shear and axial compression of the tooth as a beam, the gear body by Sainsot, Velex and Duverger (2004), and a Hertz stiffness
-that knows no load. The rotors: a shaft that twists as a torsional spring does, on a flywheel (the prescribed rotation) or the load at its far end;
-it is so long that it hardly bends.
+`GearElementTVMS` adds bending, shear and axial compression of the tooth as a beam, the gear body by Sainsot, Velex and
+Duverger (2004), and a Hertz stiffness
+that knows no load. The rotors: a shaft that twists as a torsional spring does, on a flywheel (the prescribed rotation)
+or the load at its far end; it is so long that it hardly bends.
 """
 
 import json
@@ -27,7 +30,13 @@ def tvms(given, number):
     """The gear `number` (0 the pinion) with its tooth stiffness."""
     steel = rs.Material("steel_of_the_pair", rho=7850.0, E=given["youngs_modulus"], Poisson=given["poissons_ratio"])
     return rs.GearElementTVMS(
-        n=0, material=steel, width=given["face_width"], bore_diameter=given["bores"][number], module=given["module"], n_teeth=given["teeth"][number], pr_angle=given["pressure_angle"]
+        n=0,
+        material=steel,
+        width=given["face_width"],
+        bore_diameter=given["bores"][number],
+        module=given["module"],
+        n_teeth=given["teeth"][number],
+        pr_angle=given["pressure_angle"],
     )
 
 
@@ -39,11 +48,20 @@ def rotor(given, number, far_inertia):
     shaft = [rs.ShaftElement(L=SHAFT_LENGTH, idl=0.0, odl=diameter, material=light)]
     inertia = given["inertia"][number]
     gear = rs.GearElement(
-        n=0, m=given["mass"][number], Id=0.5 * inertia, Ip=inertia, n_teeth=given["teeth"][number], pitch_diameter=given["module"] * given["teeth"][number], pr_angle=given["pressure_angle"]
+        n=0,
+        m=given["mass"][number],
+        Id=0.5 * inertia,
+        Ip=inertia,
+        n_teeth=given["teeth"][number],
+        pitch_diameter=given["module"] * given["teeth"][number],
+        pr_angle=given["pressure_angle"],
     )
     far = rs.DiskElement(n=1, m=1e3, Id=FLYWHEEL, Ip=far_inertia)
     bearing = given["bearing"]
-    bearings = [rs.BearingElement(n=0, kxx=bearing, kyy=bearing, kzz=HELD, cxx=0.0), rs.BearingElement(n=1, kxx=HELD, kyy=HELD, kzz=HELD, cxx=0.0)]
+    bearings = [
+        rs.BearingElement(n=0, kxx=bearing, kyy=bearing, kzz=HELD, cxx=0.0),
+        rs.BearingElement(n=1, kxx=HELD, kyy=HELD, kzz=HELD, cxx=0.0),
+    ]
     return rs.Rotor(shaft, [gear, far], bearings)
 
 
@@ -54,11 +72,23 @@ def main():
     pitch = 2.0 * np.pi / given["teeth"][0]
     phase = (np.arange(POINTS) + 0.5) / POINTS
     stiffness = [float(mesh.get_variable_stiffness(each * pitch)) for each in phase]
-    both = rs.MultiRotor(rotor(given, 0, FLYWHEEL), rotor(given, 1, given["load"]), coupled_nodes=(0, 0), gear_mesh_stiffness=given["mesh_stiffness"])
+    both = rs.MultiRotor(
+        rotor(given, 0, FLYWHEEL),
+        rotor(given, 1, given["load"]),
+        coupled_nodes=(0, 0),
+        gear_mesh_stiffness=given["mesh_stiffness"],
+    )
     squares = eigh(both.K(0.0), both.M(0.0), eigvals_only=True)
     frequencies = np.sqrt(np.maximum(squares, 0.0)) / (2.0 * np.pi)
     json.dump(
-        {"version": rs.__version__, "contact_ratio": float(mesh.contact_ratio), "phase": phase.tolist(), "stiffness": stiffness, "frequencies": frequencies.tolist()}, sys.stdout
+        {
+            "version": rs.__version__,
+            "contact_ratio": float(mesh.contact_ratio),
+            "phase": phase.tolist(),
+            "stiffness": stiffness,
+            "frequencies": frequencies.tolist(),
+        },
+        sys.stdout,
     )
 
 

@@ -2,7 +2,8 @@
 # # First steps in Python
 #
 # A pair of spur gears is loaded from its scene, simulated, looked at, changed and simulated again.
-# Run this file from top to bottom (`demos/python_interface/run`), or cell by cell: VS Code, Spyder and Jupyter with Jupytext open it as a notebook.
+# Run this file from top to bottom (`demos/python_interface/run`), or cell by cell: VS Code, Spyder and Jupyter with
+# Jupytext open it as a notebook.
 
 # %%
 import sys
@@ -14,7 +15,9 @@ import numpy as np
 import xarray as xr
 
 # The checkout, from any folder in it; its path is not needed where fenics_gears is installed.
-CHECKOUT = next(folder for folder in (Path.cwd(), *Path.cwd().parents) if (folder / "demos" / "lundvall2004.toml").is_file())
+CHECKOUT = next(
+    folder for folder in (Path.cwd(), *Path.cwd().parents) if (folder / "demos" / "lundvall2004.toml").is_file()
+)
 sys.path.insert(0, str(CHECKOUT))
 PICTURES = CHECKOUT / "results" / "python_interface"
 PICTURES.mkdir(parents=True, exist_ok=True)
@@ -25,7 +28,8 @@ from fenics_gears.results import by_pair, shown
 # %% [markdown]
 # ## A scene
 #
-# A scene says what is simulated. Read from its file it is a frozen dataclass, checked, in N, mm, s and rad; a section that the file does not have is `None`, and that effect is not there.
+# A scene says what is simulated. Read from its file it is a frozen dataclass, checked, in N, mm, s and rad; a section
+# that the file does not have is `None`, and that effect is not there.
 
 # %%
 paper = load_scene(CHECKOUT / "demos" / "lundvall2004.toml")
@@ -38,7 +42,8 @@ print("tip relief:", paper.tip_relief)
 # %% [markdown]
 # ## A run
 #
-# `simulate` returns an `xarray.Dataset`. Everything in it has a name, dimensions and units; about the run as a whole there are attributes.
+# `simulate` returns an `xarray.Dataset`. Everything in it has a name, dimensions and units; about the run as a whole
+# there are attributes.
 
 # %%
 result = simulate(paper)
@@ -51,7 +56,8 @@ for name in ("transmission_error", "normal_force", "pair_normal_force", "contact
 print("warnings:", result.attrs["warnings"] or "none")
 
 # %% [markdown]
-# The transmission error is an angle of the wheel; as a length on its base circle it compares with tolerances and reliefs. Steps are best counted in mesh cycles.
+# The transmission error is an angle of the wheel; as a length on its base circle it compares with tolerances and
+# reliefs. Steps are best counted in mesh cycles.
 
 # %%
 radius = result.attrs["base_radius_wheel"]  # mm
@@ -69,7 +75,8 @@ print(f"mean {with_friction.mean().item():.1f} um, peak to peak {np.ptp(with_fri
 # %% [markdown]
 # ## The same without friction
 #
-# Scenes are not changed; `dataclasses.replace` makes another one. `None` takes an effect away: its unknowns, its terms and its variables are not there.
+# Scenes are not changed; `dataclasses.replace` makes another one. `None` takes an effect away: its unknowns, its terms
+# and its variables are not there.
 
 # %%
 frictionless = simulate(replace(paper, friction=None))
@@ -91,8 +98,9 @@ figure.savefig(PICTURES / "curves.png", dpi=110)
 # %% [markdown]
 # ## A small parameter study
 #
-# A loop is enough. A `GearStore` keeps the gears and their contact operators from run to run, so that runs which differ in speed, torque or drivetrain take only the time to march.
-# (Large studies: `gears study`, under mpirun, with files that a stopped study goes on from.)
+# A loop is enough. A `GearStore` keeps the gears and their contact operators from run to run, so that runs which differ
+# in speed, torque or drivetrain take only the time to march. (Large studies: `gears study`, under mpirun, with files
+# that a stopped study goes on from.)
 
 # %%
 from fenics_gears.studies.gear_store import GearStore
@@ -113,7 +121,8 @@ study = xr.DataArray(values, {"torque": torques, "mesh_frequency": frequencies},
 print(study.to_pandas().round(1))
 
 # %% [markdown]
-# What an effect takes is a dataclass, too. A relief of both tips, by its depth in mm and its start as a roll angle; `None` starts it at the highest point of single tooth contact.
+# What an effect takes is a dataclass, too. A relief of both tips, by its depth in mm and its start as a roll angle;
+# `None` starts it at the highest point of single tooth contact.
 
 # %%
 from fenics_gears.effects.relief import Relief
@@ -125,8 +134,8 @@ print(f"peak to peak with tip relief: {np.ptp(micrometres(relieved).values):.1f}
 # %% [markdown]
 # ## Spectrum
 #
-# In the steady state the transmission error repeats with every mesh cycle, so that a Fourier transform over whole cycles gives its mesh orders exactly.
-# (Errors of single teeth take longer to repeat: see `demos/flank_errors`.)
+# In the steady state the transmission error repeats with every mesh cycle, so that a Fourier transform over whole
+# cycles gives its mesh orders exactly. (Errors of single teeth take longer to repeat: see `demos/flank_errors`.)
 
 
 # %%
@@ -140,7 +149,12 @@ def mesh_orders(run: xr.Dataset, highest: int = 6) -> np.ndarray:
 figure, (left, right) = plt.subplots(1, 2, figsize=(12, 4.5), layout="constrained")
 study.plot.line(ax=left, x="mesh_frequency", marker="o", add_legend=False)
 left.legend([f"{torque} N m" for torque in torques])
-left.set(title="Three torques, friction 0.1", xlabel="Mesh frequency (Hz)", ylabel="Transmission error,\npeak to peak (µm)", ylim=(0, None))
+left.set(
+    title="Three torques, friction 0.1",
+    xlabel="Mesh frequency (Hz)",
+    ylabel="Transmission error,\npeak to peak (µm)",
+    ylim=(0, None),
+)
 for place, (label, run) in enumerate({"true involutes": result, "tip relief of 28 µm": relieved}.items()):
     right.bar(np.arange(1, 7) + 0.4 * place - 0.2, mesh_orders(run), 0.38, label=label)
 right.set(title="Orders at 200 Hz and 437 N m", xlabel="Mesh order", ylabel="Amplitude (µm)", yscale="log")
@@ -158,7 +172,9 @@ from fenics_gears.show.drawn_scale import automatic_scale
 from fenics_gears.show.stress_picture import colour_limit, stress_picture
 
 with RunStresses(result, paper) as stresses:
-    mesh = stresses.at(int(result.attrs["steps_per_mesh_cycle"]) // 4)  # a quarter of a mesh cycle after the first stored step
+    mesh = stresses.at(
+        int(result.attrs["steps_per_mesh_cycle"]) // 4
+    )  # a quarter of a mesh cycle after the first stored step
 for name, gear in zip(("pinion", "wheel"), mesh.gears):
     print(f"{name}: {len(gear.points)} nodes, largest von Mises stress {gear.von_mises.max():.0f} MPa")
 figure = stress_picture(mesh, result, scale=automatic_scale([mesh]), limit=colour_limit([mesh]))
@@ -168,7 +184,8 @@ figure  # a notebook shows it
 # %% [markdown]
 # ## Keep it
 #
-# A result goes to NetCDF, as `gears run` writes it, and comes back. `gears plot` and `gears picture` take such a file as well.
+# A result goes to NetCDF, as `gears run` writes it, and comes back. `gears plot` and `gears picture` take such a file
+# as well.
 
 # %%
 from fenics_gears import results

@@ -9,7 +9,16 @@ from demos.arguments import output_directory
 
 HERE = Path(__file__).parent
 SCENES = ("fzg_type_c", "ben_gurion_18_35", "meng_25_30")
-COLUMNS = ("pair", "mesh frequency (Hz)", "J1 (kg mm²)", "J2 (kg mm²)", "mesh mode (Hz)", "T_EPP without inertia (µm)", "T_EPP at speed (µm)", "dynamic factor")
+COLUMNS = (
+    "pair",
+    "mesh frequency (Hz)",
+    "J1 (kg mm²)",
+    "J2 (kg mm²)",
+    "mesh mode (Hz)",
+    "T_EPP without inertia (µm)",
+    "T_EPP at speed (µm)",
+    "dynamic factor",
+)
 
 
 @dataclass(frozen=True)
@@ -22,7 +31,8 @@ class Pair:
 
 
 def measured(path: Path) -> Pair:
-    """The last cycles of both runs of a scene; the dynamic factor is the largest force of a tooth pair over that without inertia."""
+    """The last cycles of both runs of a scene; the dynamic factor is the largest force of a tooth pair over that
+    without inertia."""
     from fenics_gears import load_scene, simulate
     from fenics_gears.model.drivetrain import lumped_gears
     from fenics_gears.model.model import model_of
@@ -33,10 +43,13 @@ def measured(path: Path) -> Pair:
     at_speed = shown(simulate(scene))
     static = shown(simulate(replace(scene, inertia=None, damping=None, motion=replace(scene.motion, mesh_cycles=2))))
     inertias = [1e3 * gear.moment_of_inertia for gear in lumped_gears(scene, model.pair).values()]
-    errors = [1e3 * model.pair.wheel.base_radius * run.attrs["peak_to_peak_transmission_error"] for run in (static, at_speed)]
+    errors = [
+        1e3 * model.pair.wheel.base_radius * run.attrs["peak_to_peak_transmission_error"] for run in (static, at_speed)
+    ]
     forces = [float(run.pair_normal_force.max()) for run in (at_speed, static)]
     row = (
-        scene.title, f"{scene.motion.mesh_frequency:.0f}", *(f"{each:.0f}" for each in inertias), f"{model.vibrations[-1].frequency:.0f}",
+        scene.title, f"{scene.motion.mesh_frequency:.0f}", *(f"{each:.0f}" for each in inertias),
+        f"{model.vibrations[-1].frequency:.0f}",
         *(f"{error:.3g}" for error in errors), f"{forces[0] / forces[1]:.3f}",
     )  # fmt: skip
     return Pair(at_speed, static, row)

@@ -16,13 +16,24 @@ def picture(pairs) -> Figure:
     figure = Figure(figsize=(13.0, 7.0), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1)
     axes = figure.subplots(2, len(pairs), sharex=True, squeeze=False)
-    figure.suptitle("Three real pairs, each gear with an inertia of its own, at their mesh frequencies", x=0.012, ha="left", fontsize=14)
+    figure.suptitle(
+        "Three real pairs, each gear with an inertia of its own, at their mesh frequencies",
+        x=0.012,
+        ha="left",
+        fontsize=14,
+    )
     for column, pair in enumerate(pairs):
         above, below = axes[:, column]
         for name, (label, colour, width) in CURVES.items():
             run = getattr(pair, name)
             phase = run.mesh_phase.values - run.mesh_phase.values[0]
-            above.plot(phase, 1e3 * run.attrs["base_radius_wheel"] * run.transmission_error.values, color=colour, linewidth=width, label=label)
+            above.plot(
+                phase,
+                1e3 * run.attrs["base_radius_wheel"] * run.transmission_error.values,
+                color=colour,
+                linewidth=width,
+                label=label,
+            )
             force = 1e-3 * run.pair_normal_force.values
             below.plot(phase, np.where(force > 0.0, force, np.nan), color=colour, linewidth=width)
         above.set_title(f"{pair.row[0]}, {pair.row[1]} Hz")

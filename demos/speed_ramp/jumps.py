@@ -13,7 +13,9 @@ STEADY = (160.0, 180.0, 190.0, 200.0, 208.0, 214.0, 225.0, 240.0)
 
 def main(arguments: list[str] | None = None) -> int:
     """Run, draw, print; returns 0."""
-    directory = output_directory("speed_ramp", "Jumps between branches of vibration, on the way up and down.", arguments)
+    directory = output_directory(
+        "speed_ramp", "Jumps between branches of vibration, on the way up and down.", arguments
+    )
     import numpy as np
 
     from demos.speed_ramp.picture import draw
@@ -31,7 +33,10 @@ def main(arguments: list[str] | None = None) -> int:
     written: list[Path] = []
     with written_aside(directory, written) as aside:
         draw(passed, np.array(STEADY), held, radius).savefig(aside / "speed_ramp.png", dpi=DOTS_PER_INCH)
-    print("mesh frequency (Hz), transmission error peak to peak on the wheel's base circle (um): reached from below, from above")
+    print(
+        "mesh frequency (Hz), transmission error peak to peak on the wheel's base circle (um): reached from below, from"
+        " above"
+    )
     for frequency, up, down in zip(STEADY, held["up"], held["down"]):
         print(f"{frequency:g}  {1e3 * radius * up:.1f}  {1e3 * radius * down:.1f}")
     print(written[0])

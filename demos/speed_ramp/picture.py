@@ -18,8 +18,11 @@ COLOURS = {"up": PALETTE[0], "down": PALETTE[1]}
 
 
 @styled
-def draw(ramps: Mapping[str, Sweep], frequencies: np.ndarray, steady: Mapping[str, np.ndarray], base_radius: float) -> Figure:
-    """Ramps as lines, runs at the steady mesh `frequencies` (Hz) that a ramp leads to as rings; `base_radius` of the wheel, mm."""
+def draw(
+    ramps: Mapping[str, Sweep], frequencies: np.ndarray, steady: Mapping[str, np.ndarray], base_radius: float
+) -> Figure:
+    """Ramps as lines, runs at the steady mesh `frequencies` (Hz) that a ramp leads to as rings; `base_radius` of the
+    wheel, mm."""
     length = 1e3 * base_radius
     figure = Figure(figsize=(10.0, 6.0), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1)
@@ -31,10 +34,25 @@ def draw(ramps: Mapping[str, Sweep], frequencies: np.ndarray, steady: Mapping[st
     )  # fmt: skip
     for name, passed in ramps.items():
         axes.plot(passed.frequency, length * passed.amplitude, color=COLOURS[name], label=LABELS[name])
-        axes.plot(frequencies, length * steady[name], "o", color=COLOURS[name], markerfacecolor="white", markersize=7, label=REACHED[name])
+        axes.plot(
+            frequencies,
+            length * steady[name],
+            "o",
+            color=COLOURS[name],
+            markerfacecolor="white",
+            markersize=7,
+            label=REACHED[name],
+        )
         order = np.argsort(passed.frequency)
-        tail, tip = ((at, length * np.interp(at, passed.frequency[order], passed.amplitude[order]) + 6.0) for at in ARROWS[name])
-        axes.annotate("", tip, tail, arrowprops={"arrowstyle": "-|>", "color": COLOURS[name], "linewidth": 2.0, "mutation_scale": 18})
+        tail, tip = (
+            (at, length * np.interp(at, passed.frequency[order], passed.amplitude[order]) + 6.0) for at in ARROWS[name]
+        )
+        axes.annotate(
+            "",
+            tip,
+            tail,
+            arrowprops={"arrowstyle": "-|>", "color": COLOURS[name], "linewidth": 2.0, "mutation_scale": 18},
+        )
     axes.set_xlabel("Mesh frequency (Hz)")
     axes.set_ylabel("Transmission error, peak to peak,\non the wheel's base circle (µm)")
     axes.set_xlim(150.0, 260.0)

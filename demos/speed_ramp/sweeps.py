@@ -26,14 +26,16 @@ SETTLING_CYCLES, MEASURED_CYCLES = 150, 10
 
 @dataclass(frozen=True)
 class Sweep:
-    """Mesh frequency (cycles,), Hz, and peak-to-peak transmission error (cycles,), rad, of every mesh cycle of a run."""
+    """Mesh frequency (cycles,), Hz, and peak-to-peak transmission error (cycles,), rad, of every mesh cycle of a
+    run."""
 
     frequency: np.ndarray
     amplitude: np.ndarray
 
 
 def sweep(scene: Scene, store: GearStore, cycles: int | None = None) -> Sweep:
-    """March a scene without friction, over more `cycles` than it has if asked to; after its ramp the speed is that of its end."""
+    """March a scene without friction, over more `cycles` than it has if asked to; after its ramp the speed is that of
+    its end."""
     model = model_of(scene)
     _, cycle = store.prepared(model, SilentProgress(), user_cache())
     marcher = Marcher(cycle, model.equations_of_motion)
@@ -67,7 +69,8 @@ def ramps(store: GearStore) -> dict[str, Sweep]:
 
 
 def steady(name: str, frequency: float, store: GearStore) -> float:
-    """Mean peak-to-peak transmission error (rad) at a steady mesh frequency (Hz) that is reached by the ramp "up" or "down"."""
+    """Mean peak-to-peak transmission error (rad) at a steady mesh frequency (Hz) that is reached by the ramp "up" or
+    "down"."""
     scene = load_scene(HERE / f"{name}.toml")
     start, end, ramp = scene.motion.mesh_frequency, scene.speed_ramp.end_frequency, scene.speed_ramp
     # As fast as the whole ramp.

@@ -15,7 +15,11 @@ TABLE = "tip_relief.md"
 
 def main(arguments: list[str] | None = None) -> int:
     """Measure, draw, write; returns 0."""
-    directory = output_directory("tip_relief", "Tip relief of the paper's gears, chosen for the least transmission error with friction and without.", arguments)
+    directory = output_directory(
+        "tip_relief",
+        "Tip relief of the paper's gears, chosen for the least transmission error with friction and without.",
+        arguments,
+    )
     begun = time.perf_counter()
     for file in measured(directory):
         print(file)
@@ -43,8 +47,16 @@ def measured(directory: Path) -> list[Path]:
     designs = findings.compared(best["μ = 0"].design)
     _say("other loads")
     torques = benches["μ = 0"].torque(findings.LOADS)
-    over_load = {(name, design): left for name in findings.DRAWN for design, left in findings.over_load(benches[name], designs).items()}
-    curves = {(name, which): benches[name].error(designs[which]) for name in findings.DRAWN for which in ("true involutes", "best relief")}
+    over_load = {
+        (name, design): left
+        for name in findings.DRAWN
+        for design, left in findings.over_load(benches[name], designs).items()
+    }
+    curves = {
+        (name, which): benches[name].error(designs[which])
+        for name in findings.DRAWN
+        for which in ("true involutes", "best relief")
+    }
     with written_aside(directory, written := []) as aside:
         save_figure(pictures.draw_choice(maps, best, curves, (torques, over_load)), aside / PICTURES[0])
         save_figure(pictures.draw_harris_map(teeth_alone, designs), aside / PICTURES[1])

@@ -20,15 +20,19 @@ from fenics_gears.studies.gear_store import GearStore
 
 SHAPES = (LINEAR, PARABOLIC)
 SHORT, LONG = 0.5, 1.0
-"""Lengths by the names that the field has for them: short leaves one base pitch of involute, long begins at the highest point of single tooth contact."""
+"""Lengths by the names that the field has for them: short leaves one base pitch of involute, long begins at the highest
+point of single tooth contact."""
 MICROMETRES = 1e3  # in a millimetre
 # Fine enough for contact of twice the load; the paper's elements and steps.
-ACCURACY = Accuracy(element="P2", flank_element_size=0.08, contact_length=2.5, contact_nodes=32, steps_per_mesh_cycle=100)
+ACCURACY = Accuracy(
+    element="P2", flank_element_size=0.08, contact_length=2.5, contact_nodes=32, steps_per_mesh_cycle=100
+)
 
 
 @dataclass(frozen=True)
 class Design:
-    """Relief of both gears: depth at the tip (um), length from the tip as a part of the double contact, "linear" or "parabolic"."""
+    """Relief of both gears: depth at the tip (um), length from the tip as a part of the double contact, "linear" or
+    "parabolic"."""
 
     depth: float
     length: float
@@ -36,9 +40,17 @@ class Design:
 
 
 def paper_scene(accuracy: Accuracy = ACCURACY) -> Scene:
-    """The paper's gears at its torque, quasi-static, one mesh cycle; tips touch where they do, before and after the path of contact too."""
+    """The paper's gears at its torque, quasi-static, one mesh cycle; tips touch where they do, before and after the
+    path of contact too."""
     scene = load_scene(Path(__file__).parents[1] / "lundvall2004.toml")
-    return replace(scene, inertia=None, damping=None, corner_contact=CornerContact((0.0, 0.0)), accuracy=accuracy, motion=Motion(200.0, 1, 1))
+    return replace(
+        scene,
+        inertia=None,
+        damping=None,
+        corner_contact=CornerContact((0.0, 0.0)),
+        accuracy=accuracy,
+        motion=Motion(200.0, 1, 1),
+    )
 
 
 def conditions(scene: Scene) -> dict[str, Scene]:
@@ -54,8 +66,16 @@ def conditions(scene: Scene) -> dict[str, Scene]:
 
 def relief(pair: GearPair, design: Design) -> TipRelief:
     """The relief of both gears as a scene has it; a length of 1 begins at HPSTC."""
-    ends = ((pair.pinion.tip_roll_angle, pair.hpstc_roll_angles[0]), (pair.wheel.tip_roll_angle, pair.hpstc_roll_angles[1]))
-    return TipRelief(*(Relief(design.depth / MICROMETRES, tip - design.length * (tip - single), design.shape) for tip, single in ends))
+    ends = (
+        (pair.pinion.tip_roll_angle, pair.hpstc_roll_angles[0]),
+        (pair.wheel.tip_roll_angle, pair.hpstc_roll_angles[1]),
+    )
+    return TipRelief(
+        *(
+            Relief(design.depth / MICROMETRES, tip - design.length * (tip - single), design.shape)
+            for tip, single in ends
+        )
+    )
 
 
 class Bench:
@@ -78,7 +98,9 @@ class Bench:
     def error(self, design: Design | None, load: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
         """Time (n,) in mesh cycles, and transmission error (n,) in um on the wheel's base circle, load included."""
         result = shown(self.run(design, load))
-        return result["mesh_phase"].values, result["transmission_error"].values * self.pair.wheel.base_radius * MICROMETRES
+        return result["mesh_phase"].values, result[
+            "transmission_error"
+        ].values * self.pair.wheel.base_radius * MICROMETRES
 
     def peak_to_peak(self, design: Design | None, load: float = 1.0) -> float:
         """Peak-to-peak transmission error, um on the wheel's base circle."""

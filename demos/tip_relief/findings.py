@@ -34,7 +34,9 @@ class Map:
 def relief_map(bench: Bench, depths: np.ndarray = DEPTHS, lengths: np.ndarray = LENGTHS) -> Map:
     """The transmission error of every linear relief of a grid; without depth all lengths are the same."""
     none = bench.peak_to_peak(None)
-    rows = [[bench.peak_to_peak(Design(depth, length)) if depth > 0.0 else none for length in lengths] for depth in depths]
+    rows = [
+        [bench.peak_to_peak(Design(depth, length)) if depth > 0.0 else none for length in lengths] for depth in depths
+    ]
     return Map(depths, lengths, np.array(rows))
 
 
@@ -49,13 +51,16 @@ def compared(best: Design) -> dict[str, Design | None]:
     return {"true involutes": None, "short relief": Design(best.depth, SHORT), "best relief": best}
 
 
-def over_load(bench: Bench, designs: Mapping[str, Design | None], loads: Sequence[float] = LOADS) -> dict[str, np.ndarray]:
+def over_load(
+    bench: Bench, designs: Mapping[str, Design | None], loads: Sequence[float] = LOADS
+) -> dict[str, np.ndarray]:
     """Peak-to-peak transmission error (loads,), um, of each design over the load."""
     return {name: np.array([bench.peak_to_peak(design, load) for load in loads]) for name, design in designs.items()}
 
 
 def single_pair_deflection(bench: Bench) -> tuple[float, float]:
-    """Least and largest approach (um) of the true flanks of frictionless gears on stiff shafts while one tooth pair carries the load."""
+    """Least and largest approach (um) of the true flanks of frictionless gears on stiff shafts while one tooth pair
+    carries the load."""
     phase, error = bench.error(None)
     # A cycle begins where a new pair enters; the pair before it leaves when the contact ratio is used up.
     single = (phase > bench.pair.contact_ratio - 1.0 + 0.1) & (phase < 0.9)

@@ -27,7 +27,8 @@ ALLOWED = 1.0  # um
 
 @dataclass(frozen=True)
 class Optimum:
-    """The best relief, what it leaves (um, peak to peak), and from which depth (um) to which and length to which at most ALLOWED more is left."""
+    """The best relief, what it leaves (um, peak to peak), and from which depth (um) to which and length to which at
+    most ALLOWED more is left."""
 
     design: Design
     peak_to_peak: float
@@ -36,7 +37,8 @@ class Optimum:
 
 
 def optimum(bench: Bench, shape: str = LINEAR) -> Optimum:
-    """The best by dividing rectangles (DIRECT), since the peak-to-peak value has a long valley with kinks, and from there by Nelder and Mead."""
+    """The best by dividing rectangles (DIRECT), since the peak-to-peak value has a long valley with kinks, and from
+    there by Nelder and Mead."""
 
     def left(place) -> float:
         return bench.peak_to_peak(Design(UNIT_DEPTH * place[0], place[1], shape))
@@ -44,7 +46,9 @@ def optimum(bench: Bench, shape: str = LINEAR) -> Optimum:
     bounds = [tuple(end / UNIT_DEPTH for end in DEPTHS), LENGTHS]
     start = direct(left, bounds, maxfun=SEARCHED).x
     around = [start, start + [STEP, 0.0], start - [0.0, STEP]]
-    place = minimize(left, start, method="Nelder-Mead", bounds=bounds, options=TOLERANCE | {"initial_simplex": around}).x
+    place = minimize(
+        left, start, method="Nelder-Mead", bounds=bounds, options=TOLERANCE | {"initial_simplex": around}
+    ).x
     found = Design(UNIT_DEPTH * float(place[0]), float(place[1]), shape)
     return _with_ranges(bench, found)
 
@@ -61,7 +65,8 @@ def _with_ranges(bench: Bench, found: Design) -> Optimum:
 
 
 def _crossing(excess: Callable[[float], float], inside: float, end: float) -> float:
-    """Where the excess becomes positive between a place inside and an end, within a fiftieth of their distance; the end where it never does."""
+    """Where the excess becomes positive between a place inside and an end, within a fiftieth of their distance; the end
+    where it never does."""
     if excess(end) <= 0.0:
         return end
     step = 0.02 * abs(end - inside)

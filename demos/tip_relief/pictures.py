@@ -1,4 +1,5 @@
-"""Two pictures: what a relief leaves over depth, length and load; and the loaded transmission error under it, as Harris drew it."""
+"""Two pictures: what a relief leaves over depth, length and load; and the loaded transmission error under it, as Harris
+drew it."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ def draw_choice(
     curves: Mapping[tuple[str, str], tuple[np.ndarray, np.ndarray]],
     loads: tuple[np.ndarray, Mapping[tuple[str, str], np.ndarray]],
 ) -> Figure:
-    """Maps and optima by friction; curves (mesh cycles, um) by friction and design; loads (N m), and what is left (um) at them by friction and design."""
+    """Maps and optima by friction; curves (mesh cycles, um) by friction and design; loads (N m), and what is left (um)
+    at them by friction and design."""
     figure = Figure(figsize=(13.0, 11.0), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.1, h_pad=0.1)
     figure.suptitle(
@@ -54,13 +56,26 @@ def _draw_map(axes: Axes, found: Map, best: Optimum, scale: Normalize):
     axes.clabel(lines, fmt="%g µm", fontsize=10)
     for length, words in ((SHORT, "short"), (LONG, "long")):
         axes.axvline(length, color="white", linewidth=1.0, linestyle=":")
-        axes.annotate(words, (length, found.depths[-1]), xytext=(5, -14), textcoords="offset points", color="white", va="top", fontsize=12, fontweight="bold")
+        axes.annotate(
+            words,
+            (length, found.depths[-1]),
+            xytext=(5, -14),
+            textcoords="offset points",
+            color="white",
+            va="top",
+            fontsize=12,
+            fontweight="bold",
+        )
     axes.plot(best.design.length, best.design.depth, "o", color=PALETTE[1], markeredgecolor="white", markersize=10)
-    axes.contour(found.lengths, found.depths, found.left, levels=[best.peak_to_peak + ALLOWED], colors=PALETTE[1], linewidths=2.2)
+    axes.contour(
+        found.lengths, found.depths, found.left, levels=[best.peak_to_peak + ALLOWED], colors=PALETTE[1], linewidths=2.2
+    )
     axes.annotate(
-        f"best: {best.design.depth:.0f} µm, length {best.design.length:.2f}\nwithin the line: at most 1 µm worse", (best.design.length, best.design.depth),
+        f"best: {best.design.depth:.0f} µm, length {best.design.length:.2f}\nwithin the line: at most 1 µm worse",
+        (best.design.length, best.design.depth),
         xytext=(0.97, 0.03), textcoords="axes fraction", ha="right", color=DARK, fontsize=11,
-        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.88}, arrowprops={"arrowstyle": "-", "color": "white"},
+        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.88},
+        arrowprops={"arrowstyle": "-", "color": "white"},
     )  # fmt: skip
     axes.set_xlabel(LENGTH)
     axes.grid(False)
@@ -69,7 +84,13 @@ def _draw_map(axes: Axes, found: Map, best: Optimum, scale: Normalize):
 
 def _draw_curves(axes: Axes, curves: Mapping[tuple[str, str], tuple[np.ndarray, np.ndarray]]) -> None:
     for (friction, design), (phase, error) in curves.items():
-        axes.plot(phase, error - error.mean(), color=COLOURS[friction], linestyle=STYLES[design], label=f"{friction}, {design}")
+        axes.plot(
+            phase,
+            error - error.mean(),
+            color=COLOURS[friction],
+            linestyle=STYLES[design],
+            label=f"{friction}, {design}",
+        )
     axes.set_title("Before and after, at 437 N m", pad=46.0)
     axes.set_xlabel("Time (mesh cycles)")
     axes.set_ylabel("Transmission error\nless its mean (µm)")
@@ -81,7 +102,15 @@ def _draw_loads(axes: Axes, torques: np.ndarray, left: Mapping[tuple[str, str], 
     for (friction, design), values in left.items():
         axes.plot(torques, values, color=COLOURS[friction], linestyle=STYLES[design], label=f"{friction}, {design}")
     axes.axvline(0.5 * torques[-1], color=GREY, linewidth=1.0)
-    axes.annotate("chosen for\nthis load", (0.5 * torques[-1], axes.get_ylim()[1]), xytext=(5, -2), textcoords="offset points", va="top", fontsize=11, color=DARK)
+    axes.annotate(
+        "chosen for\nthis load",
+        (0.5 * torques[-1], axes.get_ylim()[1]),
+        xytext=(5, -2),
+        textcoords="offset points",
+        va="top",
+        fontsize=11,
+        color=DARK,
+    )
     axes.set_title("What the same reliefs leave at other loads", pad=64.0)
     axes.set_xlabel("Torque on the wheel (N m)")
     axes.set_ylabel(LEFT)
@@ -91,7 +120,9 @@ def _draw_loads(axes: Axes, torques: np.ndarray, left: Mapping[tuple[str, str], 
 
 
 @styled
-def draw_harris_map(bench: Bench, designs: Mapping[str, Design | None], loads: Sequence[float] = HARRIS_LOADS) -> Figure:
+def draw_harris_map(
+    bench: Bench, designs: Mapping[str, Design | None], loads: Sequence[float] = HARRIS_LOADS
+) -> Figure:
     """The transmission error over a mesh cycle under each design, one line a load (in parts of the bench's torque)."""
     from matplotlib import colormaps
 
@@ -109,7 +140,16 @@ def draw_harris_map(bench: Bench, designs: Mapping[str, Design | None], loads: S
             colour = colormaps["viridis"](0.9 * (1.0 - load / loads[-1]))
             chosen = load == 1.0
             axes.plot(phase, error, color=PALETTE[1] if chosen else colour, linewidth=2.6 if chosen else 1.6)
-            axes.annotate(f"{bench.torque(load):.3g} N m", (phase[-1], error[-1]), xytext=(4, 0), textcoords="offset points", va="center", fontsize=10, color=DARK, annotation_clip=False)
+            axes.annotate(
+                f"{bench.torque(load):.3g} N m",
+                (phase[-1], error[-1]),
+                xytext=(4, 0),
+                textcoords="offset points",
+                va="center",
+                fontsize=10,
+                color=DARK,
+                annotation_clip=False,
+            )
         axes.set_title(name if design is None else f"{name}: {design.depth:.0f} µm, length {design.length:.2g}")
         axes.set_xlim(0.0, 1.0)
         axes.set_xlabel("Time (mesh cycles)")

@@ -20,12 +20,18 @@ SHADE = "#F3EBDD"
 
 @styled
 def draw(curves: Mapping[str, Sweep]) -> Figure:
-    """Above the transmission error, filled where contact was kept, open where it was lost, crossed where the run has no meaning; below
+    """Above the transmission error, filled where contact was kept, open where it was lost, crossed where the run has no
+    meaning; below
     how much of the time the drive flanks did not touch."""
     figure = Figure(figsize=(10.0, 7.6), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1)
     above, below = figure.subplots(2, sharex=True, gridspec_kw={"height_ratios": [1.6, 1.0]})
-    figure.suptitle("The paper's pair without damping, through its first torsional resonance: where contact is lost", x=0.012, ha="left", fontsize=14)
+    figure.suptitle(
+        "The paper's pair without damping, through its first torsional resonance: where contact is lost",
+        x=0.012,
+        ha="left",
+        fontsize=14,
+    )
     micrometres = curves[WITH].base_radius * 1e3
     for name, curve in curves.items():
         _line(above, curve, curve.amplitude * micrometres, COLOURS[name], name)
@@ -50,12 +56,24 @@ def _line(axes: Axes, curve: Sweep, values: np.ndarray, colour: str, name: str) 
     kept, open_ = ~curve.lost, curve.lost & ~curve.meaningless
     axes.plot(curve.frequency[kept], values[kept], "o", color=colour, markersize=SIZES[name])
     axes.plot(curve.frequency[open_], values[open_], "o", color=colour, markerfacecolor="white", markersize=SIZES[name])
-    axes.plot(curve.frequency[curve.meaningless], values[curve.meaningless], "x", color=colour, markersize=9, markeredgewidth=2.4, zorder=4)
+    axes.plot(
+        curve.frequency[curve.meaningless],
+        values[curve.meaningless],
+        "x",
+        color=colour,
+        markersize=9,
+        markeredgewidth=2.4,
+        zorder=4,
+    )
 
 
 def _marks(axes: Axes) -> None:
     """Entries of the legend that say what a mark means, without colour."""
-    marks = {"contact kept": ("o", GREY), "contact lost": ("o", "white"), "lost beyond the backlash: no meaning": ("x", GREY)}
+    marks = {
+        "contact kept": ("o", GREY),
+        "contact lost": ("o", "white"),
+        "lost beyond the backlash: no meaning": ("x", GREY),
+    }
     for label, (mark, face) in marks.items():
         axes.plot([], [], mark, color=GREY, markerfacecolor=face, markersize=7, markeredgewidth=1.6, label=label)
 

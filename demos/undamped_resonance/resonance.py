@@ -14,7 +14,9 @@ PICTURE = "undamped_resonance.png"
 
 def main(arguments: list[str] | None = None) -> int:
     """Run, draw; returns the exit code of `gears study`."""
-    directory = output_directory("undamped_resonance", "The undamped pair through its first torsional resonance.", arguments)
+    directory = output_directory(
+        "undamped_resonance", "The undamped pair through its first torsional resonance.", arguments
+    )
     code = compute(STUDY, directory)
     if code == 0:
         print(picture(directory))

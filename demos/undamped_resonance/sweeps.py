@@ -18,8 +18,9 @@ WITH, WITHOUT = "with coast flanks", "drive flanks only"
 class Sweep:
     """One curve over `frequency` (n,), Hz.
 
-    `amplitude` (n,): peak-to-peak transmission error of the recorded cycles, rad; `base_radius`: of the wheel, mm; `share` (n,): of the
-    run's time without contact of the drive flanks; `opening` (n,): the widest, mm, 0 where contact was kept; `meaningless` (n,):
+    `amplitude` (n,): peak-to-peak transmission error of the recorded cycles, rad; `base_radius`: of the wheel, mm;
+    `share` (n,): of the run's time without contact of the drive flanks; `opening` (n,): the widest, mm, 0 where contact
+    was kept; `meaningless` (n,):
     whether the run says that it has no meaning from some time on.
     """
 

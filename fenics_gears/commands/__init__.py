@@ -1,1 +1,2 @@
-"""The commands of ``gears``: each module adds one to the parser and carries it out. Nothing heavy is imported before it is needed."""
+"""The commands of ``gears``: each module adds one to the parser and carries it out. Nothing heavy is imported before it
+is needed."""

@@ -10,14 +10,18 @@ from fenics_gears.commands.shared import add_memory_argument, add_output_argumen
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    words = "measure error and time of each accuracy setting of a scene; print and write a table and a picture of error against time"
+    words = (
+        "measure error and time of each accuracy setting of a scene; print and write a table and a picture of error"
+        " against time"
+    )
     command = commands.add_parser("accuracy", parents=[shared], help=words)
     add_scene_argument(command)
     add_output_argument(command)
     command.add_argument("--quick", action="store_true", help="few, coarse values of each setting, each timed once")
     command.add_argument(
         "--timing-seconds", type=float, metavar="SECONDS",
-        help="time limit for repeating runs of single settings, which are timed five times each, the quickest first (default: 60)",
+        help="time limit for repeating runs of single settings, which are timed five times each, the quickest first "
+            "(default: 60)",
     )  # fmt: skip
     add_memory_argument(command)
     command.set_defaults(command=accuracy)
@@ -31,7 +35,9 @@ def accuracy(options: argparse.Namespace) -> int:
     from fenics_gears.studies.accuracy.table import write_csv
 
     seconds = SECONDS_ON_SINGLE if options.timing_seconds is None else options.timing_seconds
-    report = measured(lambda progress: measure(scene, progress, options.quick, seconds_on_single=seconds), options.quiet)
+    report = measured(
+        lambda progress: measure(scene, progress, options.quick, seconds_on_single=seconds), options.quiet
+    )
     files = write_report(report, directory, "accuracy", write_csv, work_precision)
     if not options.quiet:
         _print(report, files)
@@ -44,7 +50,11 @@ def _print(report, files) -> None:
 
     title = f"{report.scene.title}: each setting's error, the others at {report.fine.words}"
     print_table(title, table.headings(report), table.table_rows(report))
-    print_table("Combinations of settings, and cheaper models; * on the Pareto front", table.whole_headings(report), table.whole_rows(report))
+    print_table(
+        "Combinations of settings, and cheaper models; * on the Pareto front",
+        table.whole_headings(report),
+        table.whole_rows(report),
+    )
     print_rows("Result", [("", table.in_one_sentence(report), "")])
     print_rows("Remarks", [("", remark, "") for remark in (*table.remarks(report), table.timed(report))])
     if report.failures:

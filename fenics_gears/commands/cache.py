@@ -8,8 +8,12 @@ from datetime import datetime
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("cache", parents=[shared], help="show what the cache of condensed gears holds, or empty it")
-    command.add_argument("--clear", action="store_true", help="remove all entries; gears are condensed again when they are needed")
+    command = commands.add_parser(
+        "cache", parents=[shared], help="show what the cache of condensed gears holds, or empty it"
+    )
+    command.add_argument(
+        "--clear", action="store_true", help="remove all entries; gears are condensed again when they are needed"
+    )
     command.set_defaults(command=cache)
 
 

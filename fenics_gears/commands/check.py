@@ -11,14 +11,19 @@ from fenics_gears.system.memory import allowed_memory
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("check", parents=[shared], help="check a scene; print its geometry, effects, accuracy and expected cost; compute nothing")
+    command = commands.add_parser(
+        "check",
+        parents=[shared],
+        help="check a scene; print its geometry, effects, accuracy and expected cost; compute nothing",
+    )
     add_scene_argument(command)
     add_memory_argument(command)
     command.set_defaults(command=check)
 
 
 def check(options: argparse.Namespace) -> int:
-    """Print the description of a scene and its effects. Raises ComputationError, as a run of it would, where memory does not hold it."""
+    """Print the description of a scene and its effects. Raises ComputationError, as a run of it would, where memory
+    does not hold it."""
     from fenics_gears.model.cost import expected_cost, too_large
     from fenics_gears.model.model import model_of
     from fenics_gears.system.console import print_rows

@@ -1,8 +1,10 @@
 """The command ``gears``. Logging is configured here and nowhere else; what the commands do is in ``commands``.
 
-Exit codes: 0 done, 2 the scene or the call is wrong (nothing written), 3 the computation failed (the steps computed are kept,
-marked incomplete) or cannot fit into memory, 4 the run ended with a result that has no meaning (it is kept, with the reason), 130 interrupted by Ctrl-C (the steps computed are kept), 141 the
-standard output could not be written, as when the program that reads it closed the pipe.
+Exit codes: 0 done, 2 the scene or the call is wrong (nothing written), 3 the computation failed (the steps computed are
+    kept,
+marked incomplete) or cannot fit into memory, 4 the run ended with a result that has no meaning (it is kept, with the
+reason), 130 interrupted by Ctrl-C (the steps computed are kept), 141 the standard output could not be written, as when
+the program that reads it closed the pipe.
 """
 
 from __future__ import annotations
@@ -14,7 +16,25 @@ import sys
 from collections.abc import Callable, Sequence
 
 from fenics_gears import __version__
-from fenics_gears.commands import accuracy, cache, check, effects, export, import_rexs, listen, map, optimize, picture, plot, python, rate, report, run, study, tests
+from fenics_gears.commands import (
+    accuracy,
+    cache,
+    check,
+    effects,
+    export,
+    import_rexs,
+    listen,
+    map,
+    optimize,
+    picture,
+    plot,
+    python,
+    rate,
+    report,
+    run,
+    study,
+    tests,
+)
 from fenics_gears.commands.shared import INTERRUPTED, NOBODY_READS
 from fenics_gears.errors import GearsError
 from fenics_gears.system import environment
@@ -108,18 +128,41 @@ def _configure_logging(verbose: bool) -> None:
 def _parser() -> argparse.ArgumentParser:
     shared = argparse.ArgumentParser(add_help=False)
     loudness = shared.add_mutually_exclusive_group()
-    loudness.add_argument("-v", "--verbose", action="store_true", default=argparse.SUPPRESS, help="report in detail what is being done")
-    loudness.add_argument("-q", "--quiet", action="store_true", default=argparse.SUPPRESS, help="no progress and no summary, only errors")
+    loudness.add_argument(
+        "-v", "--verbose", action="store_true", default=argparse.SUPPRESS, help="report in detail what is being done"
+    )
+    loudness.add_argument(
+        "-q", "--quiet", action="store_true", default=argparse.SUPPRESS, help="no progress and no summary, only errors"
+    )
     parser = argparse.ArgumentParser(
         prog="gears",
         description="Spur and helical gear pairs as flexible multi-body systems with frictional contact.",
-        epilog="Exit codes: 0 done, 2 wrong scene or call, 3 computation failed or cannot fit, 4 result without meaning, 130 interrupted, 141 output closed.",
+        epilog=(
+            "Exit codes: 0 done, 2 wrong scene or call, 3 computation failed or cannot fit, 4 result without meaning,"
+            " 130 interrupted, 141 output closed."
+        ),
         parents=[shared],
     )
     parser.set_defaults(verbose=False, quiet=False)
     parser.add_argument("--version", action="version", version=f"gears {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (check, run, study, map, optimize, effects, accuracy, plot, picture, report, export, listen, rate, import_rexs, cache):
+    for command in (
+        check,
+        run,
+        study,
+        map,
+        optimize,
+        effects,
+        accuracy,
+        plot,
+        picture,
+        report,
+        export,
+        listen,
+        rate,
+        import_rexs,
+        cache,
+    ):
         command.add(commands, shared)
     python.add(commands)
     tests.add(commands)

@@ -10,7 +10,10 @@ from fenics_gears.commands.shared import add_memory_argument, add_output_argumen
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    words = "run a scene with subsets of its effects; print and write, as table and picture, the time each effect takes and how it changes the result"
+    words = (
+        "run a scene with subsets of its effects; print and write, as table and picture, the time each effect takes and"
+        " how it changes the result"
+    )
     command = commands.add_parser("effects", parents=[shared], help=words)
     add_scene_argument(command)
     add_output_argument(command)

@@ -13,9 +13,13 @@ CURVES_FILE = "curves.csv"
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("export", parents=[shared], help="write the curves of a run as a table (CSV) for spreadsheets")
+    command = commands.add_parser(
+        "export", parents=[shared], help="write the curves of a run as a table (CSV) for spreadsheets"
+    )
     add_run_argument(command)
-    command.add_argument("-o", "--output", type=Path, metavar="FILE", help=f"file to write (default: {CURVES_FILE} beside run.nc)")
+    command.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help=f"file to write (default: {CURVES_FILE} beside run.nc)"
+    )
     command.set_defaults(command=export)
 
 

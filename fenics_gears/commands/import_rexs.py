@@ -12,11 +12,27 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("import", parents=[shared], help="write a gear pair of a REXS file as a scene")
     command.add_argument("file", type=Path, metavar="FILE", help="a REXS file: .rexs, .rexsj or .rexsz")
-    command.add_argument("-o", "--output", type=Path, metavar="SCENE", help="scene file to write (default: name of FILE with .toml, in the current folder)")
-    command.add_argument("--stage", type=int, metavar="ID", help="number of the component of the stage, if the file has several stages")
+    command.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="SCENE",
+        help="scene file to write (default: name of FILE with .toml, in the current folder)",
+    )
+    command.add_argument(
+        "--stage", type=int, metavar="ID", help="number of the component of the stage, if the file has several stages"
+    )
     command.add_argument("--load-case", metavar="ID", help="number of the load case, if the file has several")
-    command.add_argument("--wheel-torque", metavar="TORQUE", help='torque on the driven gear in place of that of the file, such as "437 N m"')
-    command.add_argument("--pinion-speed", metavar="SPEED", help='speed of the driving gear in place of that of the file, such as "750 rpm"')
+    command.add_argument(
+        "--wheel-torque",
+        metavar="TORQUE",
+        help='torque on the driven gear in place of that of the file, such as "437 N m"',
+    )
+    command.add_argument(
+        "--pinion-speed",
+        metavar="SPEED",
+        help='speed of the driving gear in place of that of the file, such as "750 rpm"',
+    )
     command.set_defaults(command=import_rexs)
 
 
@@ -45,11 +61,14 @@ def _check_output(output: Path) -> None:
     if output.suffix != ".toml":
         raise SceneError(f"{output}: a scene is a .toml file; give --output such a name.")
     if output.exists():
-        raise SceneError(f"{output} exists already; nothing was written. Name another file with --output SCENE, or remove it.")
+        raise SceneError(
+            f"{output} exists already; nothing was written. Name another file with --output SCENE, or remove it."
+        )
 
 
 def _check_scene(imported, file: Path, output: Path) -> None:
-    """What the file says makes a scene and gears that mesh. Raises SceneError, which also says what had to be assumed."""
+    """What the file says makes a scene and gears that mesh. Raises SceneError, which also says what had to be
+    assumed."""
     from fenics_gears.geometry.pair import gear_pair
     from fenics_gears.model.modification import removals
     from fenics_gears.scene.read import scene_from_text
@@ -68,6 +87,10 @@ def _check_scene(imported, file: Path, output: Path) -> None:
 def _summary(imported, output: Path) -> str:
     """What the user should look at, and what comes next."""
     parts = [(f"{output}: {imported.stage.pinion.gear} drives {imported.stage.wheel.gear}.", ())]
-    parts += [(heading, listed) for heading, listed in (("Assumed:", imported.assumed), ("Left out:", imported.left_out)) if listed]
+    parts += [
+        (heading, listed)
+        for heading, listed in (("Assumed:", imported.assumed), ("Left out:", imported.left_out))
+        if listed
+    ]
     lines = [line for heading, listed in parts for line in (heading, *(f"    {each}" for each in listed))]
     return "\n".join([*lines, f"Next: gears check {output}"])

@@ -16,12 +16,30 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("listen", parents=[shared], help="write a curve of a run as sound (WAV)")
     add_run_argument(command)
-    command.add_argument("--curve", default="normal_force", metavar="NAME", help="variable over time to hear (default: normal_force, the mesh force)")
-    command.add_argument("--seconds", type=float, default=SECONDS, metavar="N", help=f"length of a steady run's sound (default: {SECONDS:g}); a speed ramp is heard once")
     command.add_argument(
-        "--full-scale", metavar="VALUE", help='value of the curve at which the file is full, such as "500 N", so that two runs can be compared by ear (default: from the loudest sample)'
+        "--curve",
+        default="normal_force",
+        metavar="NAME",
+        help="variable over time to hear (default: normal_force, the mesh force)",
     )
-    command.add_argument("-o", "--output", type=Path, metavar="FILE", help="file to write (default: CURVE.wav beside run.nc)")
+    command.add_argument(
+        "--seconds",
+        type=float,
+        default=SECONDS,
+        metavar="N",
+        help=f"length of a steady run's sound (default: {SECONDS:g}); a speed ramp is heard once",
+    )
+    command.add_argument(
+        "--full-scale",
+        metavar="VALUE",
+        help=(
+            'value of the curve at which the file is full, such as "500 N", so that two runs can be compared by ear'
+            " (default: from the loudest sample)"
+        ),
+    )
+    command.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="file to write (default: CURVE.wav beside run.nc)"
+    )
     command.set_defaults(command=listen)
 
 
@@ -43,7 +61,10 @@ def listen(options: argparse.Namespace) -> int:
     try:
         heard = sound(result, options.curve, options.seconds, full_scale)
     except ValueError as error:
-        raise SceneError(f"--curve {options.curve}: {error} in this run, so there is nothing to hear. A quasi-static run without friction has a constant force; its transmission error is heard with --curve transmission_error.") from None
+        raise SceneError(
+            f"--curve {options.curve}: {error} in this run, so there is nothing to hear. A quasi-static run without"
+            " friction has a constant force; its transmission error is heard with --curve transmission_error."
+        ) from None
     print_files([write_whole(output, lambda path: save_sound(heard, path))], options.quiet)
     if not options.quiet:
         print(f"full scale {heard.full_scale:.4g} {result[options.curve].attrs['units']}")
@@ -51,7 +72,8 @@ def listen(options: argparse.Namespace) -> int:
 
 
 def _checked(result, options: argparse.Namespace) -> float | None:
-    """The full scale in the curve's unit; None where none is given. Raises SceneError for a curve that is none, a run that is too slow to be heard, and a wrong unit."""
+    """The full scale in the curve's unit; None where none is given. Raises SceneError for a curve that is none, a run
+    that is too slow to be heard, and a wrong unit."""
     from fenics_gears.results.sound import LOWEST_HEARD
 
     curves = [name for name in result.data_vars if result[name].dims == ("time",) and result[name].dtype.kind == "f"]
@@ -60,7 +82,10 @@ def _checked(result, options: argparse.Namespace) -> float | None:
     phase, time = result["mesh_phase"].values, result["time"].values
     fastest = abs(phase[-1] - phase[0]) / (time[-1] - time[0]) if len(time) > 1 else 0.0
     if fastest < LOWEST_HEARD:
-        raise SceneError(f"{options.run}: has a mesh frequency of {fastest:.3g} Hz, too low to hear (from {LOWEST_HEARD:g} Hz). Give the scene a motion.mesh_frequency or motion.pinion_speed.")
+        raise SceneError(
+            f"{options.run}: has a mesh frequency of {fastest:.3g} Hz, too low to hear (from {LOWEST_HEARD:g} Hz). Give"
+            " the scene a motion.mesh_frequency or motion.pinion_speed."
+        )
     if options.full_scale is None:
         return None
     unit = result[options.curve].attrs["units"]
@@ -70,5 +95,7 @@ def _checked(result, options: argparse.Namespace) -> float | None:
     except units.QuantityError as error:
         raise SceneError(f'--full-scale "{options.full_scale}": {error}') from None
     if kind != wanted or not value > 0.0:
-        raise SceneError(f'--full-scale "{options.full_scale}": allowed is {wanted} greater than zero, such as "1 {unit}".')
+        raise SceneError(
+            f'--full-scale "{options.full_scale}": allowed is {wanted} greater than zero, such as "1 {unit}".'
+        )
     return value

@@ -1,4 +1,5 @@
-"""``gears map SCENE``: transmission error, mesh stiffness and vibration of a pair over loads and speeds, as pictures and tables."""
+"""``gears map SCENE``: transmission error, mesh stiffness and vibration of a pair over loads and speeds, as pictures
+and tables."""
 
 from __future__ import annotations
 
@@ -28,19 +29,35 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
     command = commands.add_parser(
         "map", parents=[shared],
-        help="run a scene over loads and speeds; draw its Harris map, Campbell diagram and waterfalls, alone or under mpirun; a stopped map is continued",
+        help="run a scene over loads and speeds; draw its Harris map, Campbell diagram and waterfalls, alone or under "
+            "mpirun; a stopped map is continued",
     )  # fmt: skip
     add_scene_argument(command)
     command.add_argument(
         "--loads", nargs="+", metavar="TORQUE", default=[],
-        help='torques on the wheel, such as "100 N m" "200 N m"; or ranges, "50 .. 500 N m in 10", "50 .. 500 N m by 50 N m"; torques on the pinion, or powers such as "15 kW", if the scene gives its load so (default: that of the scene)',
+        help='torques on the wheel, such as "100 N m" "200 N m"; or ranges, "50 .. 500 N m in 10", "50 .. 500 N m by '
+            '50 N m"; torques on the pinion, or powers such as "15 kW", if the scene gives its load so (default: that '
+            'of the scene)',
     )  # fmt: skip
     command.add_argument(
         "--speeds", nargs="+", metavar="SPEED", default=[],
-        help='mesh frequencies or speeds of the pinion, such as "200 Hz", "100 .. 3000 rpm in 30" or "50 .. 1000 Hz in 24, logarithmic"; needs [inertia] (default: quasi-static only)',
+        help='mesh frequencies or speeds of the pinion, such as "200 Hz", "100 .. 3000 rpm in 30" or "50 .. 1000 Hz '
+            'in 24, logarithmic"; needs [inertia] (default: quasi-static only)',
     )  # fmt: skip
-    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to write into (default: results/<name of the scene file>_map)")
-    command.add_argument("--most-runs", type=positive_count, metavar="N", default=MOST_RUNS, help=f"number of runs that are allowed (default: {MOST_RUNS})")
+    command.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="folder to write into (default: results/<name of the scene file>_map)",
+    )
+    command.add_argument(
+        "--most-runs",
+        type=positive_count,
+        metavar="N",
+        default=MOST_RUNS,
+        help=f"number of runs that are allowed (default: {MOST_RUNS})",
+    )
     add_processes_argument(command)
     add_memory_argument(command)
     command.set_defaults(command=draw_map)
@@ -49,7 +66,12 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 def draw_map(options: argparse.Namespace) -> int:
     """Run what is missing of a map and draw it."""
     if options.processes is not None:
-        values = [word for name in ("loads", "speeds") if getattr(options, name) for word in (f"--{name}", *getattr(options, name))]
+        values = [
+            word
+            for name in ("loads", "speeds")
+            if getattr(options, name)
+            for word in (f"--{name}", *getattr(options, name))
+        ]
         return under_mpirun(options, ["map", str(options.scene), *values, "--most-runs", str(options.most_runs)])
     from fenics_gears.studies.ranks import ranks
 
@@ -71,7 +93,12 @@ def _run(options: argparse.Namespace, team) -> int:
     check_writable(directory, "map.nc", "harris_map.png", "over_load.png", "over_speed.png", "campbell.png")
     studies = wanted.studies
     if not options.quiet:
-        print(f"{scene.title}: {wanted.count} runs, about {seconds_in_words(wanted.expected_seconds)} on one core of an idle machine.", file=sys.stderr, flush=True)
+        print(
+            f"{scene.title}: {wanted.count} runs, about {seconds_in_words(wanted.expected_seconds)} on one core of an"
+            " idle machine.",
+            file=sys.stderr,
+            flush=True,
+        )
     for name, study in studies.items():
         outcome = outcomes[name] = run_with(team, study, directory / name, shown_progress(options.quiet), options.quiet)
         if not options.quiet:
@@ -96,5 +123,8 @@ def _written(found, directory: Path, scene) -> list[Path]:
 
     drawing, supports = plots(), [name for name in ("shafts", "bearings") if getattr(scene, name) is not None]
     more = f"{design(scene)}{', elastic ' + ' and '.join(supports) if supports else ''}"
-    figures = {name: picture(drawing.heading(subject, scene.title, more), charts) for name, (subject, charts) in map_pictures(found).items()}
+    figures = {
+        name: picture(drawing.heading(subject, scene.title, more), charts)
+        for name, (subject, charts) in map_pictures(found).items()
+    }
     return [*save_tables(found, directory, "map"), *drawing.save_figures(figures, directory)]

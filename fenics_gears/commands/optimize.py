@@ -6,15 +6,39 @@ import argparse
 import sys
 from pathlib import Path
 
-from fenics_gears.commands.shared import INTERRUPTED, add_memory_argument, add_processes_argument, shown_progress, under_mpirun
+from fenics_gears.commands.shared import (
+    INTERRUPTED,
+    add_memory_argument,
+    add_processes_argument,
+    shown_progress,
+    under_mpirun,
+)
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("optimize", parents=[shared], help="search the best modification of a pair over loads and tolerances, alone or under mpirun; a stopped search is continued")
+    command = commands.add_parser(
+        "optimize",
+        parents=[shared],
+        help=(
+            "search the best modification of a pair over loads and tolerances, alone or under mpirun; a stopped search"
+            " is continued"
+        ),
+    )
     command.add_argument("design", type=Path, metavar="DESIGN", help="a design file (TOML)")
-    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to write into (default: results/<name of the design file>)")
-    command.add_argument("-y", "--yes", action="store_true", help="start whatever time is expected (else: refused where it is more than 8 h)")
+    command.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="folder to write into (default: results/<name of the design file>)",
+    )
+    command.add_argument(
+        "-y",
+        "--yes",
+        action="store_true",
+        help="start whatever time is expected (else: refused where it is more than 8 h)",
+    )
     add_processes_argument(command)
     add_memory_argument(command)
     command.set_defaults(command=optimize)

@@ -1,4 +1,5 @@
-"""``gears picture RUN``: the gears of a run in mesh, deformed and coloured by stress; as a moving picture; as a file for ParaView."""
+"""``gears picture RUN``: the gears of a run in mesh, deformed and coloured by stress; as a moving picture; as a file
+for ParaView."""
 
 from __future__ import annotations
 
@@ -16,14 +17,44 @@ PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("picture", parents=[shared], help="draw the gears of a run in mesh with their stresses; write them for ParaView")
+    command = commands.add_parser(
+        "picture", parents=[shared], help="draw the gears of a run in mesh with their stresses; write them for ParaView"
+    )
     add_run_argument(command)
-    command.add_argument("--at", type=float, default=0.0, metavar="PHASE", help="mesh cycles after the first step with contact fields (default: 0)")
-    command.add_argument("--scale", type=_scale, metavar="N", help="displacements are drawn N times as large (default: the largest suitable scale; in three dimensions 1)")
-    command.add_argument("-o", "--output", type=Path, metavar="FILE", help=f"file to write (default: {PICTURE_FILE} or {ANIMATION_FILE} beside run.nc)")
-    command.add_argument("--animate", action="store_true", help="draw an animation of the mesh cycles with contact fields (.gif, or .mp4 where ffmpeg is installed)")
-    command.add_argument("--vtu", type=Path, metavar="FILE", help="also write displacement and stress of both gears for ParaView")
-    command.add_argument("--pvd", type=Path, metavar="FILE", help="also write the mesh cycles with contact fields for ParaView: FILE, and a .vtu file for each step")
+    command.add_argument(
+        "--at",
+        type=float,
+        default=0.0,
+        metavar="PHASE",
+        help="mesh cycles after the first step with contact fields (default: 0)",
+    )
+    command.add_argument(
+        "--scale",
+        type=_scale,
+        metavar="N",
+        help="displacements are drawn N times as large (default: the largest suitable scale; in three dimensions 1)",
+    )
+    command.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE",
+        help=f"file to write (default: {PICTURE_FILE} or {ANIMATION_FILE} beside run.nc)",
+    )
+    command.add_argument(
+        "--animate",
+        action="store_true",
+        help="draw an animation of the mesh cycles with contact fields (.gif, or .mp4 where ffmpeg is installed)",
+    )
+    command.add_argument(
+        "--vtu", type=Path, metavar="FILE", help="also write displacement and stress of both gears for ParaView"
+    )
+    command.add_argument(
+        "--pvd",
+        type=Path,
+        metavar="FILE",
+        help="also write the mesh cycles with contact fields for ParaView: FILE, and a .vtu file for each step",
+    )
     command.set_defaults(command=picture)
 
 
@@ -70,19 +101,31 @@ def _written(options, dataset, scene, index: int, output: Path | None, progress)
             written.append(write_whole(options.vtu, lambda path: save_vtu(runs.at(index), path)))
         if options.pvd is not None:
             progress.stage("recover stresses")
-            written.append(write_whole(options.pvd, lambda path: save_series(runs, dataset, path, progress.update, save_step)))
+            written.append(
+                write_whole(options.pvd, lambda path: save_series(runs, dataset, path, progress.update, save_step))
+            )
         if output is not None:
             progress.stage("draw")
             if options.animate:
-                written.append(write_whole(output, lambda path: animate(runs, dataset, path, partial(frames, dataset, options.scale), progress.update)))
+                written.append(
+                    write_whole(
+                        output,
+                        lambda path: animate(
+                            runs, dataset, path, partial(frames, dataset, options.scale), progress.update
+                        ),
+                    )
+                )
             else:
-                written.append(write_whole(output, lambda path: save_picture(still(runs.at(index), dataset, options.scale), path)))
+                written.append(
+                    write_whole(output, lambda path: save_picture(still(runs.at(index), dataset, options.scale), path))
+                )
     return written
 
 
 def _loaded(file: Path):
     """A run's result and its scene."""
     from fenics_gears.show.run import scene_of
+
     dataset = loaded_run(file)
     scene = scene_of(dataset)
     if scene is None:
@@ -110,7 +153,9 @@ def _check_outputs(options, output: Path | None) -> None:
 
         check_suffix(output)
     elif output.suffix != ".png":
-        raise SceneError(f"{output}: a picture is a .png file; give --output such a name, or ask for a moving one with --animate")
+        raise SceneError(
+            f"{output}: a picture is a .png file; give --output such a name, or ask for a moving one with --animate"
+        )
 
 
 def _scale(text: str) -> float:

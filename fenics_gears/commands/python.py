@@ -10,7 +10,14 @@ from typing import NoReturn
 
 def add(commands) -> None:
     """Add the command to the parser, for its help only: Python's options are not ours to parse."""
-    commands.add_parser("python", help="run a Python script that imports fenics_gears, or a module such as `-m jupyter lab`, in the program's own Python", add_help=False)
+    commands.add_parser(
+        "python",
+        help=(
+            "run a Python script that imports fenics_gears, or a module such as `-m jupyter lab`, in the program's own"
+            " Python"
+        ),
+        add_help=False,
+    )
 
 
 def run_python(options: Sequence[str]) -> NoReturn:

@@ -32,14 +32,20 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     from fenics_gears.rating.finish import Finish
 
     defaults = {each.name: each.default for each in fields(Finish)}
-    command = commands.add_parser("rate", parents=[shared], help="rate a run by ISO 6336, beside its computed loads and stresses")
+    command = commands.add_parser(
+        "rate", parents=[shared], help="rate a run by ISO 6336, beside its computed loads and stresses"
+    )
     add_run_argument(command)
     for name, (unit, *_, meaning) in _QUANTITIES.items():
-        command.add_argument(_option(name), metavar="VALUE", help=f'{meaning}, such as "{defaults[name]:g} {unit}" (default)')
+        command.add_argument(
+            _option(name), metavar="VALUE", help=f'{meaning}, such as "{defaults[name]:g} {unit}" (default)'
+        )
     for name, (*_, meaning) in _NUMBERS.items():
         default = "" if "default" in meaning else f" (default: {defaults[name]:g})"
         command.add_argument(_option(name), type=float, metavar="N", help=meaning + default)
-    command.add_argument("-o", "--output", type=Path, metavar="FILE", help=f"table to write (default: {FILE} beside run.nc)")
+    command.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help=f"table to write (default: {FILE} beside run.nc)"
+    )
     command.set_defaults(command=rate)
 
 
@@ -93,7 +99,10 @@ def _finish(options: argparse.Namespace, scene):
         if value is None:
             continue
         if not low <= value <= high or (name == "tolerance_class" and value != int(value)):
-            raise SceneError(f"{_option(name)} {value:g}: allowed is {'a whole number ' if name == 'tolerance_class' else ''}from {low:g} to {high:g}.")
+            raise SceneError(
+                f"{_option(name)} {value:g}: allowed is {'a whole number ' if name == 'tolerance_class' else ''}from"
+                f" {low:g} to {high:g}."
+            )
         given[name] = int(value) if name == "tolerance_class" else value
     return Finish(**given)
 
@@ -109,10 +118,17 @@ def _show(rows) -> None:
     print(f"{'':50}{'ISO 6336':>10}{'this run':>10}")
     for row in rows:
         unit = "" if row.unit == "1" else f" {row.unit}"
-        print(f"{row.name + (',' + unit if unit else ''):50}{_written(row.standard, 4):>10}{_written(row.computed, 4) or '-':>10}")
-    print("K_v of this run: largest force of a tooth pair over that without inertia. Safeties: the same limit over the standard's stress and over the largest of this run.")
+        name = row.name + ("," + unit if unit else "")
+        print(f"{name:50}{_written(row.standard, 4):>10}{_written(row.computed, 4) or '-':>10}")
+    print(
+        "K_v of this run: largest force of a tooth pair over that without inertia. Safeties: the same limit over the"
+        " standard's stress and over the largest of this run."
+    )
     if any(isnan(row.computed) for row in rows):
-        print("-: not in this run. Root stress needs [output] root_stress, the dynamic factor [inertia], face and transverse factors a three-dimensional scene.")
+        print(
+            "-: not in this run. Root stress needs [output] root_stress, the dynamic factor [inertia], face and"
+            " transverse factors a three-dimensional scene."
+        )
 
 
 def _written(value: float, digits: int) -> str:

@@ -7,7 +7,16 @@ from contextlib import closing
 from os.path import exists, isdir
 from pathlib import Path
 
-from fenics_gears.commands.shared import CASES, JOURNAL, RUN_FILE, STUDY_FILE, loaded_run, print_files, run_or_journal, shown_progress
+from fenics_gears.commands.shared import (
+    CASES,
+    JOURNAL,
+    RUN_FILE,
+    STUDY_FILE,
+    loaded_run,
+    print_files,
+    run_or_journal,
+    shown_progress,
+)
 from fenics_gears.errors import SceneError
 
 REPORT_FILE = "report.html"
@@ -16,19 +25,39 @@ ENDINGS = (".html", ".htm")
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("report", parents=[shared], help="write one HTML page on a run or a study, readable without a network")
-    command.add_argument(
-        "run", type=Path, metavar="RUN", help="folder of a run or its run.nc, folder of a study, or file of one of its cases"
+    command = commands.add_parser(
+        "report", parents=[shared], help="write one HTML page on a run or a study, readable without a network"
     )
-    command.add_argument("-o", "--output", type=Path, metavar="FILE|DIR", help=f"file or folder to write (default: {REPORT_FILE} beside {RUN_FILE})")
+    command.add_argument(
+        "run",
+        type=Path,
+        metavar="RUN",
+        help="folder of a run or its run.nc, folder of a study, or file of one of its cases",
+    )
+    command.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE|DIR",
+        help=f"file or folder to write (default: {REPORT_FILE} beside {RUN_FILE})",
+    )
     command.add_argument(
         "--at",
         type=float,
         metavar="PHASE",
-        help="position of the stress picture: mesh cycles after the first step with contact fields (default: where the force is largest)",
+        help=(
+            "position of the stress picture: mesh cycles after the first step with contact fields (default: where the"
+            " force is largest)"
+        ),
     )
-    command.add_argument("--no-stress", action="store_true", help="leave out the stress picture, which takes some seconds")
-    command.add_argument("--effects", action="store_true", help="measure first the time each effect takes and how it changes the result, as `gears effects` does")
+    command.add_argument(
+        "--no-stress", action="store_true", help="leave out the stress picture, which takes some seconds"
+    )
+    command.add_argument(
+        "--effects",
+        action="store_true",
+        help="measure first the time each effect takes and how it changes the result, as `gears effects` does",
+    )
     command.set_defaults(command=report)
 
 
@@ -53,17 +82,21 @@ def found_file(path: Path) -> tuple[Path, bool]:
             return path / STUDY_FILE, True
         if (path / CASES).is_dir():
             raise SceneError(
-                f"{path}: there is no {STUDY_FILE} yet beside its cases; run the study again, it writes the file from what there is."
+                f"{path}: there is no {STUDY_FILE} yet beside its cases; run the study again, it writes the file from"
+                " what there is."
             )
         raise SceneError(
-            f"{path}: there is neither {RUN_FILE} nor {STUDY_FILE} in it. A report is on a directory that `gears run` or `gears study` "
-            "wrote."
+            f"{path}: there is neither {RUN_FILE} nor {STUDY_FILE} in it. A report is on a directory that `gears run`"
+            " or `gears study` wrote."
         )
-    raise SceneError(f"{path}: there is no such file or directory. A report is on what `gears run` or `gears study` wrote.")
+    raise SceneError(
+        f"{path}: there is no such file or directory. A report is on what `gears run` or `gears study` wrote."
+    )
 
 
 def output_file(asked: Path | None, file: Path, is_study: bool) -> Path:
-    """The page's file: as asked for, in the directory asked for, or beside the result; a study's case has its own name."""
+    """The page's file: as asked for, in the directory asked for, or beside the result; a study's case has its own
+    name."""
     own = file.name in (RUN_FILE, STUDY_FILE, JOURNAL)
     name = REPORT_FILE if own else f"{file.stem}.html"
     if asked is None:
@@ -80,7 +113,9 @@ def _check(options: argparse.Namespace, output: Path, is_study: bool) -> None:
 
     check_writable(output.parent, output.name)
     if is_study and (options.effects or options.at is not None):
-        raise SceneError("--effects and --at are for the report on a run; this is a study. Leave them out, or name one of its cases.")
+        raise SceneError(
+            "--effects and --at are for the report on a run; this is a study. Leave them out, or name one of its cases."
+        )
 
 
 def _run(options: argparse.Namespace, file: Path, output: Path, progress) -> list[Path]:
@@ -115,10 +150,14 @@ def _measure_effects(run, progress) -> list[Path]:
 
     if run.scene is None:
         raise SceneError(
-            f"{run.file}: the scene in it is none of this version, so that its effects cannot be measured. Run the scene again."
+            f"{run.file}: the scene in it is none of this version, so that its effects cannot be measured. Run the"
+            " scene again."
         )
     if communicator() is not None:
-        raise SceneError("--effects measures times, which mean nothing while processes share the machine. Start gears without mpirun.")
+        raise SceneError(
+            "--effects measures times, which mean nothing while processes share the machine. Start gears without"
+            " mpirun."
+        )
     return write_report(measure(run.scene, progress), run.file.parent, "effects", write_csv, effect_costs)
 
 

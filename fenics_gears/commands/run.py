@@ -31,7 +31,9 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command = commands.add_parser("run", parents=[shared], help="run a scene; write run.nc and pictures")
     add_scene_argument(command)
     add_output_argument(command)
-    command.add_argument("--no-pictures", action="store_true", help="write run.nc without pictures; `gears plot` can draw them later")
+    command.add_argument(
+        "--no-pictures", action="store_true", help="write run.nc without pictures; `gears plot` can draw them later"
+    )
     add_memory_argument(command)
     command.set_defaults(command=run)
 
@@ -68,7 +70,10 @@ def _run(options: argparse.Namespace, job: Job | None) -> int:
                 interruption.stage("draw pictures")
                 files += plots().draw_run(dataset, directory, shared=True)
             except KeyboardInterrupt:
-                last_words = f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; `gears plot {directory}` draws them."
+                last_words = (
+                    f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; `gears plot"
+                    f" {directory}` draws them."
+                )
     if not options.quiet:
         _print_summary(scene.title, dataset, files, interruption.finished)
     if last_words:

@@ -19,7 +19,8 @@ from fenics_gears.system.memory import size_in_bytes
 from fenics_gears.system.printable import printable
 from fenics_gears.system.progress import BarProgress, LineProgress, Progress, SilentProgress
 
-# Exit codes that no error carries itself (`errors` has those). The run came to its end, but jammed or came apart: its numbers mean nothing.
+# Exit codes that no error carries itself (`errors` has those). The run came to its end, but jammed or came apart: its
+# numbers mean nothing.
 NO_MEANING = 4
 INTERRUPTED = 130
 # 128 + SIGPIPE, as a shell has it.
@@ -37,27 +38,43 @@ def add_scene_argument(command) -> None:
 
 def add_output_argument(command) -> None:
     """The option --output of a command that writes a scene's results."""
-    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to write into (default: results/<name of the scene file>)")
+    command.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="folder to write into (default: results/<name of the scene file>)",
+    )
 
 
 def add_memory_argument(command) -> None:
     """The option --memory of a command that runs scenes."""
     command.add_argument(
         "--memory", metavar="SIZE", default=argparse.SUPPRESS, type=_size,
-        help='memory that a run may take, such as "8 GB" (default: 0.6 of what is free, shared by the processes of an MPI job on a machine)',
+        help='memory that a run may take, such as "8 GB" (default: 0.6 of what is free, shared by the processes of an '
+            'MPI job on a machine)',
     )  # fmt: skip
 
 
 def add_processes_argument(command) -> None:
     """The option --processes of a command that computes many cases."""
-    command.add_argument("-n", "--processes", type=positive_count, metavar="N", help="start mpirun with N processes, which share the cases")
+    command.add_argument(
+        "-n",
+        "--processes",
+        type=positive_count,
+        metavar="N",
+        help="start mpirun with N processes, which share the cases",
+    )
 
 
 def under_mpirun(options: argparse.Namespace, arguments: list[str]) -> int:
-    """The command of these arguments under mpirun, with --output and --quiet as they are; it finds its settings (as root, say) in the environment that `prepare` has completed."""
+    """The command of these arguments under mpirun, with --output and --quiet as they are; it finds its settings (as
+    root, say) in the environment that `prepare` has completed."""
     mpirun = shutil.which("mpirun")
     if mpirun is None:
-        raise SceneError("There is no mpirun on PATH. Install Open MPI or MPICH, or leave --processes out to run alone.")
+        raise SceneError(
+            "There is no mpirun on PATH. Install Open MPI or MPICH, or leave --processes out to run alone."
+        )
     command = [mpirun, "-n", str(options.processes)]
     if options.processes > (os.cpu_count() or 1):
         command.append("--oversubscribe")
@@ -127,7 +144,8 @@ def checked_scene_and_directory(options, *names: str):
 
 
 def run_file(path: Path) -> Path:
-    """The file of the run that is meant by its directory or the file itself. Raises SceneError for what is no run, a study among others."""
+    """The file of the run that is meant by its directory or the file itself. Raises SceneError for what is no run, a
+    study among others."""
     has_cases = isdir(path) and ((path / STUDY_FILE).is_file() or (path / CASES).is_dir())
     if path.name == STUDY_FILE or has_cases and not (path / RUN_FILE).is_file():
         directory = path if isdir(path) else path.parent
@@ -137,12 +155,15 @@ def run_file(path: Path) -> Path:
         )
     file = run_or_journal(path)
     if not exists(file):
-        raise SceneError(f"{file}: there is no such file. A run is the directory that `gears run` wrote, or the {RUN_FILE} in it.")
+        raise SceneError(
+            f"{file}: there is no such file. A run is the directory that `gears run` wrote, or the {RUN_FILE} in it."
+        )
     return file
 
 
 def run_or_journal(path: Path) -> Path:
-    """The file of a run in a directory or, where there is none, the journal of one that has not ended; any other path as it is."""
+    """The file of a run in a directory or, where there is none, the journal of one that has not ended; any other path
+    as it is."""
     if not isdir(path) or path.name == JOURNAL:
         return path
     from fenics_gears.results.journal import is_journal
@@ -151,7 +172,8 @@ def run_or_journal(path: Path) -> Path:
 
 
 def loaded_run(file: Path, load: Callable | None = None):
-    """The dataset of a run's file, by `load` where it is another kind of result. Raises SceneError where it cannot be read: the call is wrong.
+    """The dataset of a run's file, by `load` where it is another kind of result. Raises SceneError where it cannot be
+    read: the call is wrong.
 
     Of a run that has not ended, its journal is read, and it is said on the standard error what is missing.
     """
@@ -172,7 +194,8 @@ def loaded_run(file: Path, load: Callable | None = None):
 
 
 def shown_progress(quiet: bool) -> Progress:
-    """What shows a computation's progress on the standard error: bars on a terminal, lines elsewhere, nothing if `quiet`."""
+    """What shows a computation's progress on the standard error: bars on a terminal, lines elsewhere, nothing if
+    `quiet`."""
     if quiet:
         return SilentProgress()
     if not on_terminal(sys.stderr):
@@ -183,7 +206,8 @@ def shown_progress(quiet: bool) -> Progress:
 
 
 def plots() -> ModuleType:
-    """The module `show.plots`; matplotlib is imported without the lists of properties in its docstrings, whose making is a quarter of that time."""
+    """The module `show.plots`; matplotlib is imported without the lists of properties in its docstrings, whose making
+    is a quarter of that time."""
     from matplotlib import artist
 
     properties, artist.kwdoc = artist.kwdoc, lambda kind: ""

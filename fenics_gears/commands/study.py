@@ -1,4 +1,5 @@
-"""``gears study STUDY``: run what is missing of a parameter study, alone or as one of the processes that mpirun started."""
+"""``gears study STUDY``: run what is missing of a parameter study, alone or as one of the processes that mpirun
+started."""
 
 from __future__ import annotations
 
@@ -6,15 +7,32 @@ import argparse
 import sys
 from pathlib import Path
 
-from fenics_gears.commands.shared import INTERRUPTED, add_memory_argument, add_processes_argument, plots, shown_progress, under_mpirun
+from fenics_gears.commands.shared import (
+    INTERRUPTED,
+    add_memory_argument,
+    add_processes_argument,
+    plots,
+    shown_progress,
+    under_mpirun,
+)
 from fenics_gears.errors import ComputationError
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("study", parents=[shared], help="run a parameter study and draw it, alone or under mpirun; a stopped study is continued")
+    command = commands.add_parser(
+        "study",
+        parents=[shared],
+        help="run a parameter study and draw it, alone or under mpirun; a stopped study is continued",
+    )
     command.add_argument("study", type=Path, metavar="STUDY", help="a study file (TOML)")
-    command.add_argument("-o", "--output", type=Path, metavar="DIR", help="folder to write into (default: results/<name of the study file>)")
+    command.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="DIR",
+        help="folder to write into (default: results/<name of the study file>)",
+    )
     add_processes_argument(command)
     add_memory_argument(command)
     command.set_defaults(command=study)

@@ -1,4 +1,5 @@
-"""Where arrays lie in memory, so that one call of compiled code goes through the contact operators of many steps without copying them."""
+"""Where arrays lie in memory, so that one call of compiled code goes through the contact operators of many steps
+without copying them."""
 
 from __future__ import annotations
 
@@ -9,7 +10,18 @@ from numba import carray, njit, types
 from numba.extending import intrinsic
 
 # What `Position.in_memory` holds of a contact operator.
-NODES, COMPLIANCE, JACOBIAN, GAP, ON_DRIVE_FLANKS, NODE_PAIR, CARRIED, RIGID_SLIP, PREVIOUS_JACOBIAN, PREVIOUS_COMPLIANCE = range(10)
+(
+    NODES,
+    COMPLIANCE,
+    JACOBIAN,
+    GAP,
+    ON_DRIVE_FLANKS,
+    NODE_PAIR,
+    CARRIED,
+    RIGID_SLIP,
+    PREVIOUS_JACOBIAN,
+    PREVIOUS_COMPLIANCE,
+) = range(10)
 
 
 def _pointer_to(kind):
@@ -51,6 +63,9 @@ def flags_at(address, size):
 
 
 def addresses(arrays: Sequence[np.ndarray | None]) -> tuple[np.ndarray, list[np.ndarray]]:
-    """Address of each array, 0 for None; and the arrays, which lie in one piece there and have to be held as long as the addresses are used."""
+    """Address of each array, 0 for None; and the arrays, which lie in one piece there and have to be held as long as
+    the addresses are used."""
     held = [np.empty(0) if array is None else np.ascontiguousarray(array) for array in arrays]
-    return np.array([0 if array is None else kept.ctypes.data for array, kept in zip(arrays, held)], dtype=np.int64), held
+    return np.array(
+        [0 if array is None else kept.ctypes.data for array, kept in zip(arrays, held)], dtype=np.int64
+    ), held

@@ -17,12 +17,14 @@ def directions(contact_roll: float, tangential: bool) -> np.ndarray:
 
 @njit(cache=True)
 def compliance_product(block, responding, now, compliance, before, previous_compliance):
-    """Add `N_a A N_b^T` of the contact nodes a of a flank and those b of another to compliances between all contact nodes, mm per N/mm.
+    """Add `N_a A N_b^T` of the contact nodes a of a flank and those b of another to compliances between all contact
+    nodes, mm per N/mm.
 
-    `block` (2n, 2n): displacement of the flank of a due to forces on the flank of b. `responding`: place of the first node of a among all,
-    `near` and `first` of its FlankInterpolation, directions (d, 2) in the tooth's frame. `now`: the same of b; `before`: of b as it stood a step
-    before. `compliance` (d, n, d, n): first d of the directions of a, nodes of b that come after those of a left out; `previous_compliance` (1, n, 2,
-    n before): the direction that follows.
+    `block` (2n, 2n): displacement of the flank of a due to forces on the flank of b. `responding`: place of the first
+    node of a among all, `near` and `first` of its FlankInterpolation, directions (d, 2) in the tooth's frame. `now`:
+    the same of b; `before`: of b as it stood a step before. `compliance` (d, n, d, n): first d of the directions of a,
+    nodes of b that come after those of a left out; `previous_compliance` (1, n, 2, n before): the direction that
+    follows.
     """
     row, near, first, directions = responding
     start, end = block.shape[1] // 2, 0
@@ -47,7 +49,8 @@ def compliance_product(block, responding, now, compliance, before, previous_comp
 @njit(cache=True)
 def _add(total, weight, values, first):
     """Add weight times the values from `first` on."""
-    # A function of its own, and unsigned places (no look for a negative index): so the loop is compiled for several numbers at a time.
+    # A function of its own, and unsigned places (no look for a negative index): so the loop is compiled for several
+    # numbers at a time.
     first = np.uint64(first)
     for i in range(len(total)):
         total[i] += weight * values[first + np.uint64(i)]
@@ -55,7 +58,8 @@ def _add(total, weight, values, first):
 
 @njit(cache=True)
 def _at_nodes(along, start, row, loaded, result, symmetric):
-    """Add displacements `along` directions (d, n, 2 k), by x and y of each flank node from `start` on, to rows of `result` (d, n, e, m) from `row` on.
+    """Add displacements `along` directions (d, n, 2 k), by x and y of each flank node from `start` on, to rows of
+    `result` (d, n, e, m) from `row` on.
 
     Where it is symmetric, only nodes up to the row's own, and what follows from them.
     """

@@ -1,10 +1,12 @@
 """Corner contact: a tip's edge on the mate's flank, before and after the theoretical path of contact.
 
-There the tip touches off the line of action, along the mate's own normal. That normal is tangent to the mate's base circle
-and passes through the centre of the edge's arc, and so is a line of action of its own: turned by `lean` from the theoretical
-one, at the base radius from the mate's centre and at another distance from the tip's. Along it a pair has contact nodes, gaps
-and compliance as any other pair, with the tip at the end of its window. Where the edge leaves the path of contact the two lines
-coincide: nothing jumps, and no contact is counted twice. The edge between the involute and the fillet of an undercut gear is one more such edge.
+There the tip touches off the line of action, along the mate's own normal. That normal is tangent to the mate's base
+circle and passes through the centre of the edge's arc, and so is a line of action of its own: turned by `lean` from the
+theoretical one, at the base radius from the mate's centre and at another distance from the tip's. Along it a pair has
+contact nodes, gaps and compliance as any other pair, with the tip at the end of its window. Where the edge leaves the
+path of contact the two lines
+coincide: nothing jumps, and no contact is counted twice. The edge between the involute and the fillet of an undercut
+    gear is one more such edge.
 """
 
 from __future__ import annotations
@@ -24,13 +26,15 @@ from fenics_gears.geometry.tip_edge import TipEdge, form_edge, tip_edge
 
 @dataclass(frozen=True, eq=False)
 class CornerContact:
-    """The tip edges of pinion and wheel, and those at their form circles where they are undercut; equal to itself alone, so that what depends on it can be kept by it."""
+    """The tip edges of pinion and wheel, and those at their form circles where they are undercut; equal to itself
+    alone, so that what depends on it can be kept by it."""
 
     edges: tuple[TipEdge, TipEdge]
     form_edges: tuple[TipEdge | None, TipEdge | None] = (None, None)
 
     def edge_beyond(self, place: Place) -> tuple[int, TipEdge] | None:
-        """The gear, 0 or 1, of which an edge has left the path of contact at a place, and the edge; None where its flanks touch."""
+        """The gear, 0 or 1, of which an edge has left the path of contact at a place, and the edge; None where its
+        flanks touch."""
         for gear, edge in enumerate(self.form_edges):
             if edge is not None and place.contact_rolls[gear] < edge.flank_roll:
                 return gear, edge
@@ -53,15 +57,17 @@ def corner_contact(pair: GearPair, edge_radius: float | tuple[float, float] = 0.
 
 
 def edge_warnings(pair: GearPair, corner: CornerContact) -> list[str]:
-    """A warning where the edges leave the flanks less than one base pitch of the path of contact, so that at times only edges carry."""
+    """A warning where the edges leave the flanks less than one base pitch of the path of contact, so that at times only
+    edges carry."""
     pinion, wheel = corner.edges
     start = max(pair.line_of_action_length - pair.wheel.base_radius * wheel.flank_roll, pair.path_start)
     ratio = (min(pair.pinion.base_radius * pinion.flank_roll, pair.path_end) - start) / pair.base_pitch
     if ratio >= 1.0:
         return []
     return [
-        f"the rounded edges of corner_contact leave the flanks a contact ratio of {ratio:.3g}: at some positions only the tips' edges touch; "
-        "lower corner_contact.edge_radius, or see that accuracy.contact_length reaches to the next pair"
+        f"the rounded edges of corner_contact leave the flanks a contact ratio of {ratio:.3g}: at some positions only"
+        " the tips' edges touch; lower corner_contact.edge_radius, or see that accuracy.contact_length reaches to the"
+        " next pair"
     ]
 
 
@@ -91,18 +97,22 @@ def corner_place(pair: GearPair, corner: CornerContact, place: Place) -> Place:
 
 def _turned(axes, cosine: float, sine: float):
     along, across = np.array(axes)
-    return tuple(tuple(float(v) for v in axis) for axis in (cosine * along + sine * across, cosine * across - sine * along))
+    return tuple(
+        tuple(float(v) for v in axis) for axis in (cosine * along + sine * across, cosine * across - sine * along)
+    )
 
 
 def edge_position(edge: TipEdge, contact_roll: float, point: np.ndarray | None = None) -> tuple[float, float]:
-    """Position (x, h), mm as in flank_point, of the arc's centre, or of another `point` (2,) of the tooth's body frame."""
+    """Position (x, h), mm as in flank_point, of the arc's centre, or of another `point` (2,) of the tooth's body
+    frame."""
     x, y = edge.centre if point is None else point
     cosine, sine = np.cos(contact_roll), np.sin(contact_roll)
     return float(cosine * x - sine * y), float(-(sine * x + cosine * y))
 
 
 def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theoretical: Place) -> ToothPair | None:
-    """The contact nodes of the flanks at a theoretical place, tip edges included, or None where their window is empty."""
+    """The contact nodes of the flanks at a theoretical place, tip edges included, or None where their window is
+    empty."""
     pair = flanks.pair
     place = corner_place(pair, corner, theoretical)
     gears, line = (pair.pinion, pair.wheel), place.line_in(pair)
@@ -112,15 +122,20 @@ def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theore
     at, removals = INTERPOLATIONS[grid.interpolation].places(offsets), flanks.removal_at(place)
     x_1, x_2 = (
         _surface(gear, edge, roll, arm + sense * at, removal)
-        for gear, edge, roll, arm, sense, removal in zip(gears, corner.edges, place.contact_rolls, line.lever_arms, SENSES, removals)
+        for gear, edge, roll, arm, sense, removal in zip(
+            gears, corner.edges, place.contact_rolls, line.lever_arms, SENSES, removals
+        )
     )
     return nodes_on_flanks(flanks, grid, place, offsets, (x_1, x_2), line.length - x_1 - x_2)
 
 
 def edge_ends(pair: GearPair, corner: CornerContact, place: Place) -> Ends:
-    """Offsets (mm) where the flanks end, seen along the place's line, as of `window.flank_ends`; tips at the far end of their edge."""
+    """Offsets (mm) where the flanks end, seen along the place's line, as of `window.flank_ends`; tips at the far end of
+    their edge."""
     line, ends = place.line_in(pair), []
-    for gear, edge, roll, arm, sense in zip((pair.pinion, pair.wheel), corner.edges, place.contact_rolls, line.lever_arms, SENSES):
+    for gear, edge, roll, arm, sense in zip(
+        (pair.pinion, pair.wheel), corner.edges, place.contact_rolls, line.lever_arms, SENSES
+    ):
         tip = edge_position(edge, roll, edge.centre + edge.radius * edge.tip_normal)[1]
         form = flank_point(gear.base_radius, gear.form_roll_angle, roll)[1]
         ends.append((sense * (tip - arm), sense * (form - arm)))
@@ -129,7 +144,8 @@ def edge_ends(pair: GearPair, corner: CornerContact, place: Place) -> Ends:
 
 
 def _surface(gear, edge: TipEdge, contact_roll: float, height: np.ndarray, removal) -> np.ndarray:
-    """Distance (mm, shape of `height`) from the line's foot to a tooth's surface at heights (mm): involute, then the edge's arc."""
+    """Distance (mm, shape of `height`) from the line's foot to a tooth's surface at heights (mm): involute, then the
+    edge's arc."""
     roll, x = flank_at_height(gear.base_radius, contact_roll, height)
     if edge.radius > 0.0:
         centre_x, centre_height = edge_position(edge, contact_roll)
@@ -139,14 +155,18 @@ def _surface(gear, edge: TipEdge, contact_roll: float, height: np.ndarray, remov
 
 
 def pair_reaches(pair: GearPair, grid: ContactGrid, corner: CornerContact, theoretical: Place) -> bool:
-    """Whether a pair's flanks may touch: a window that is not empty, and a tip edge at most a window's length beyond the path.
+    """Whether a pair's flanks may touch: a window that is not empty, and a tip edge at most a window's length beyond
+    the path.
 
-    A tip's gap grows with the distance squared, as the gap between flanks does across the window, but slower: half a window's
-    length is not always enough.
+    A tip's gap grows with the distance squared, as the gap between flanks does across the window, but slower: half a
+    window's length is not always enough.
     """
     beyond = corner.edge_beyond(theoretical)
     if beyond is not None:
         gear, edge = beyond
-        if abs(theoretical.contact_rolls[gear] - edge.flank_roll) * (pair.pinion, pair.wheel)[gear].base_radius > grid.length:
+        if (
+            abs(theoretical.contact_rolls[gear] - edge.flank_roll) * (pair.pinion, pair.wheel)[gear].base_radius
+            > grid.length
+        ):
             return False
     return window(edge_ends(pair, corner, corner_place(pair, corner, theoretical)), grid) is not None

@@ -16,7 +16,8 @@ Deviation = Callable[[float, Position], np.ndarray]
 class DeviatingCycle(Cycle):
     """The positions of a `cycle`, whose operators it shares, with gaps of their own at every step.
 
-    `deviations`: functions of the step, counted from the start of the run, and its position, giving what opens the contact nodes
+    `deviations`: functions of the step, counted from the start of the run, and its position, giving what opens the
+        contact nodes
     further (n,), mm, negative where material is in excess.
     """
 
@@ -39,7 +40,9 @@ class DeviatingCycle(Cycle):
         """The tooth pairs that can touch at position `index` (0 to steps - 1)."""
         return self.cycle.pairs_at(index)
 
-    def solve(self, position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
+    def solve(
+        self, position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+    ) -> StepSolution:
         """Solve a step at a position, as the cycle does. Raises ContactNotConverged."""
         return self.cycle.solve(position, problem, status, last)
 

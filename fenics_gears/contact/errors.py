@@ -10,9 +10,11 @@ from fenics_gears.errors import ComputationError
 
 
 class ContactNotConverged(ComputationError):
-    """No solution of a contact step was found: names the step, the methods tried, the residuals and the alternating sets.
+    """No solution of a contact step was found: names the step, the methods tried, the residuals and the alternating
+    sets.
 
-    Attributes: `time` (s) and `step`, None until the march fills them in; `attempts`: list of (method, outcome, residual
+    Attributes: `time` (s) and `step`, None until the march fills them in; `attempts`: list of (method, outcome,
+        residual
     history (iterations, 5), sets (iterations, nodes)); `partial`: the dataset of the steps before, or None.
     """
 
@@ -25,7 +27,9 @@ class ContactNotConverged(ComputationError):
         place = "" if self.time is None else f" at step {self.step}, t = {self.time:.6g} s"
         lines = [f"contact did not converge{place}: {self.reason}"]
         for method, outcome, history, sets in self.attempts:
-            lines.append(f"  {method}: {outcome} after {len(history)} iterations{_last_residual(history)}{_alternating(sets)}")
+            lines.append(
+                f"  {method}: {outcome} after {len(history)} iterations{_last_residual(history)}{_alternating(sets)}"
+            )
         return "\n".join(lines)
 
 

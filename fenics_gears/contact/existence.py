@@ -1,7 +1,7 @@
 """Why a contact step has no solution: by its load, its friction and the flexibility of the contact nodes.
 
-Where only contact holds the load, contact forces must balance it along the motion f that nothing else holds: a normal force p_n at a
-node with friction that opposes its slip (sign sigma) gives (a_n + sigma mu a_t) p_n along f, a = G f.
+Where only contact holds the load, contact forces must balance it along the motion f that nothing else holds: a normal
+force p_n at a node with friction that opposes its slip (sign sigma) gives (a_n + sigma mu a_t) p_n along f, a = G f.
 """
 
 from __future__ import annotations
@@ -22,7 +22,8 @@ LAST_SETS = 6
 class Balance:
     """How much of the load along the free motion a unit normal force at each node balances, (n,).
 
-    `normal`: by itself; `sliding`: with the friction that opposes the node's slip; `most`: with the friction that helps most.
+    `normal`: by itself; `sliding`: with the friction that opposes the node's slip; `most`: with the friction that helps
+        most.
     """
 
     normal: np.ndarray
@@ -41,7 +42,8 @@ def balance(jacobian: np.ndarray, motion: np.ndarray, friction: float, slip_sign
 
 
 def working(jacobian: np.ndarray, motion: np.ndarray, forces: np.ndarray) -> Balance:
-    """Balance of the nodes that a solution, `forces` (m,), presses, with the friction that acts there; zero elsewhere."""
+    """Balance of the nodes that a solution, `forces` (m,), presses, with the friction that acts there; zero
+    elsewhere."""
     along, n = jacobian @ motion, len(forces) // 2
     pressed = forces[:n] > 0.0
     normal = np.where(pressed, along[:n], 0.0)
@@ -59,7 +61,9 @@ def explained(problem, attempts) -> ContactNotConverged:
     words = problem.free_words or f"a load of {np.abs(problem.load).max(initial=0.0):.4g} N moves the drivetrain freely"
     if not len(problem.gap):
         return NoStaticEquilibrium(
-            attempts, f"no equilibrium: no tooth pair can touch at this position, and nothing else holds the static load: {words}"
+            attempts,
+            "no equilibrium: no tooth pair can touch at this position, and nothing else holds the static load:"
+            f" {words}",
         )
     weights = None
     if len(problem.free_motion):
@@ -123,12 +127,18 @@ def _several(problem, visited: np.ndarray) -> str:
 
     for sets in visited:
         certified = is_only_solution(
-            problem.stiffness, problem.compliance, problem.jacobian, problem.friction, sets != OPEN, _signs(problem, sets)
+            problem.stiffness,
+            problem.compliance,
+            problem.jacobian,
+            problem.friction,
+            sets != OPEN,
+            _signs(problem, sets),
         )
         if not certified:
             return (
-                f"more than one solution, or none: with a friction coefficient of {problem.friction:g} friction couples "
-                "the closed nodes so strongly that the certificate, sym(W_nn + W_nt diag(sigma mu)) positive definite, fails"
+                f"more than one solution, or none: with a friction coefficient of {problem.friction:g} friction couples"
+                " the closed nodes so strongly that the certificate, sym(W_nn + W_nt diag(sigma mu)) positive"
+                " definite, fails"
             )
     return ""
 

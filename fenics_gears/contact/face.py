@@ -1,4 +1,5 @@
-"""The face of a gear pair, cut into slices across the axes: where a slice stands, and how far its mesh is ahead of the middle one's."""
+"""The face of a gear pair, cut into slices across the axes: where a slice stands, and how far its mesh is ahead of the
+middle one's."""
 
 from __future__ import annotations
 
@@ -11,9 +12,11 @@ import numpy as np
 
 @dataclass(frozen=True, eq=False)
 class Face:
-    """Slices of the common face: `positions` of their middles and `widths` (S,), mm; z runs along the axes from the middle of the common face.
+    """Slices of the common face: `positions` of their middles and `widths` (S,), mm; z runs along the axes from the
+    middle of the common face.
 
-    `slope`: mm along the path of contact per mm of z: the tangent of the base helix angle, positive for a right-hand pinion. `middles` (mm): of the
+    `slope`: mm along the path of contact per mm of z: the tangent of the base helix angle, positive for a right-hand
+        pinion. `middles` (mm): of the
     faces of pinion and wheel.
     """
 
@@ -43,7 +46,8 @@ class Face:
         return self.slope * self.positions
 
     def axial_share(self, gear: int, turn: float) -> float:
-        """Axial component of the contact normal of the pinion (0) or the wheel (1) in that gear's own tooth frame; `turn`: as of a Place."""
+        """Axial component of the contact normal of the pinion (0) or the wheel (1) in that gear's own tooth frame;
+        `turn`: as of a Place."""
         return -turn * (1.0, -1.0)[gear] * self.slope * self.cosine
 
 

@@ -1,4 +1,5 @@
-"""The contact operators of a mesh cycle of pairs whose flanks are resolved over the face: a slice is a spur mesh at another phase."""
+"""The contact operators of a mesh cycle of pairs whose flanks are resolved over the face: a slice is a spur mesh at
+another phase."""
 
 from __future__ import annotations
 
@@ -20,8 +21,11 @@ from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 Opening = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
-def face_places(pair, grid: ContactGrid, face: Face, phase: float, coast_flanks: bool = False, corner=None) -> list[Place]:
-    """Every pair of flanks in every slice whose window is not empty at `phase` (0 <= phase < 1), as `pair_places` has it; by pair, then slice."""
+def face_places(
+    pair, grid: ContactGrid, face: Face, phase: float, coast_flanks: bool = False, corner=None
+) -> list[Place]:
+    """Every pair of flanks in every slice whose window is not empty at `phase` (0 <= phase < 1), as `pair_places` has
+    it; by pair, then slice."""
     found = []
     for number, (height, shift) in enumerate(zip(face.positions.tolist(), (face.shifts / pair.base_pitch).tolist())):
         passed = floor(phase + shift)
@@ -32,10 +36,12 @@ def face_places(pair, grid: ContactGrid, face: Face, phase: float, coast_flanks:
 
 
 class FaceCycle(MeshCycle):
-    """Contact nodes in the slices of a `face`: compliance of the gears' three-dimensional `bodies`, and of fine plane sections near the contact.
+    """Contact nodes in the slices of a `face`: compliance of the gears' three-dimensional `bodies`, and of fine plane
+    sections near the contact.
 
-    `opening(z, positions)`: gap (k,), mm along the line of action, that lead modifications and misalignment leave between the flanks, at heights z (k,), mm,
-    and positions (k,), mm from T1, of the contact; `coast_opening` the same of the coast flanks, None for no gap. Other arguments as of MeshCycle.
+    `opening(z, positions)`: gap (k,), mm along the line of action, that lead modifications and misalignment leave
+    between the flanks, at heights z (k,), mm, and positions (k,), mm from T1, of the contact; `coast_opening` the same
+    of the coast flanks, None for no gap. Other arguments as of MeshCycle.
     """
 
     def __init__(
@@ -69,15 +75,22 @@ class FaceCycle(MeshCycle):
 
     def _openings(self, places: list[Place]) -> list[float]:
         """What opens the flanks at each place, mm along the line of action."""
-        flanks, heights = np.array([place.flank for place in places], dtype=int), np.array([place.height for place in places])
-        positions, found = self.pair.pinion.base_radius * np.array([place.contact_rolls[0] for place in places]), np.zeros(len(places))
+        flanks, heights = (
+            np.array([place.flank for place in places], dtype=int),
+            np.array([place.height for place in places]),
+        )
+        positions, found = (
+            self.pair.pinion.base_radius * np.array([place.contact_rolls[0] for place in places]),
+            np.zeros(len(places)),
+        )
         for flank, opening in zip((DRIVE, COAST), self._openings_of):
             if opening is not None:
                 found[flanks == flank] = opening(heights[flanks == flank], positions[flanks == flank])
         return found.tolist()
 
     def _pair(self, place: Place) -> FacePair | None:
-        """The contact nodes of a tooth pair in a slice, with the gap of flanks that are not modified along the face, along the line of action."""
+        """The contact nodes of a tooth pair in a slice, with the gap of flanks that are not modified along the face,
+        along the line of action."""
         pair = super()._pair(place)
         if pair is None:
             return None
@@ -91,13 +104,19 @@ class FaceCycle(MeshCycle):
     def _position(self, index: float, pairs, previous, advance: float, carried: np.ndarray) -> Position:
         before = previous if self._tangential else None
         compliance, earlier, dependent = self._pairing.compliance(pairs, before, turned(self.pair, advance))
-        operator = operator_on_lines(self.pair, pairs, self._coordinates, compliance, earlier, advance, dependent, self.face)
+        operator = operator_on_lines(
+            self.pair, pairs, self._coordinates, compliance, earlier, advance, dependent, self.face
+        )
         return Position(operator, carried)
 
 
-def touching_on_face(pair, grid: ContactGrid, face: Face, steps: int, coast_flanks: bool = False, corner=None) -> Touching:
+def touching_on_face(
+    pair, grid: ContactGrid, face: Face, steps: int, coast_flanks: bool = False, corner=None
+) -> Touching:
     """Where the pairs of a mesh cycle touch in any slice."""
     ends = sorted({int(face.shifts.argmin()), int(face.shifts.argmax())})
     # Slices between the outermost two touch between them.
     outer = Face(face.positions[ends], face.widths[ends], face.slope, face.middles)
-    return touching_at(lambda step: face_places(pair, grid, outer, step / steps, coast_flanks, corner), steps, coast_flanks)
+    return touching_at(
+        lambda step: face_places(pair, grid, outer, step / steps, coast_flanks, corner), steps, coast_flanks
+    )

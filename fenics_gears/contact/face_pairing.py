@@ -1,8 +1,10 @@
-"""Compliance between contact nodes over a face: a body in three dimensions, and near each contact the plane route's own flanks (docs/third_dimension.md).
+"""Compliance between contact nodes over a face: a body in three dimensions, and near each contact the plane route's own
+flanks (docs/third_dimension.md).
 
-The body's mesh is too coarse for the contact. Under a load that does not vary along the face its error is that of the same section in plane strain;
-the difference between a fine section and the body's own section is therefore added in each slice. A force dF on a slice of width dz is the line load
-cos(beta_b) dF/dz on the line of contact, across which the section is in plane strain.
+The body's mesh is too coarse for the contact. Under a load that does not vary along the face its error is that of the
+same section in plane strain; the difference between a fine section and the body's own section is therefore added in
+each slice. A force dF on a slice of width dz is the line load cos(beta_b) dF/dz on the line of contact, across which
+the section is in plane strain.
 """
 
 from __future__ import annotations
@@ -29,7 +31,8 @@ UNIT_WIDTH = 1.0
 
 @dataclass(frozen=True)
 class FacePair(ToothPair):
-    """Contact nodes of a tooth pair in one slice, that see the fine flanks by `interpolation` and the body's by `coarse`."""
+    """Contact nodes of a tooth pair in one slice, that see the fine flanks by `interpolation` and the body's by
+    `coarse`."""
 
     coarse: tuple[FlankInterpolation, FlankInterpolation]
 
@@ -43,7 +46,11 @@ class FacePairing:
         self._fine, self._shares = CompliancePairing(flanks, width=UNIT_WIDTH), face.cosine / face.widths
         self._bodies = tuple(
             (
-                on_slices(body.blocks, slice_averages(body.heights, body.element_order, face.positions - middle, face.widths), body.flanks),
+                on_slices(
+                    body.blocks,
+                    slice_averages(body.heights, body.element_order, face.positions - middle, face.widths),
+                    body.flanks,
+                ),
                 np.stack([body.plane.block(offset) for offset in range(-body.plane.offsets, body.plane.offsets + 1)]),
             )
             for body, middle in zip(bodies, face.middles)
@@ -52,7 +59,8 @@ class FacePairing:
     def compliance(
         self, pairs: Sequence[FacePair], previous: Sequence[FacePair] | None, turned: tuple[float, float]
     ) -> tuple[np.ndarray, np.ndarray | None, int]:
-        """C (m, m) and E (n, m before), mm/N, as of `CompliancePairing.compliance`; and the dependent rows, which have a thin layer each (`contact.rank`)."""
+        """C (m, m) and E (n, m before), mm/N, as of `CompliancePairing.compliance`; and the dependent rows, which have
+        a thin layer each (`contact.rank`)."""
         kinds, seen = 1 if previous is None else 2, seen_by([pair.coarse for pair in pairs])
         now = [self._views(gear, pairs, seen, kinds == 2) for gear in range(2)]
         compliance, earlier = self._seen_compliance(now, seen, now, seen, symmetric=True), None
@@ -64,10 +72,17 @@ class FacePairing:
             earlier = self._seen_compliance(before, seen_before, earlier_tangents, seen)
         dependent = self._add_fine(compliance, earlier, pairs, previous, turned)
         rows = kinds * _count(pairs)
-        return compliance.reshape(rows, rows), None if previous is None else earlier.reshape(2 * _count(previous), _count(pairs)).T, dependent
+        return (
+            compliance.reshape(rows, rows),
+            None if previous is None else earlier.reshape(2 * _count(previous), _count(pairs)).T,
+            dependent,
+        )
 
-    def _seen_compliance(self, rows: list[Views], seen: Seen, columns: list[Views], seen_by_columns: Seen, symmetric: bool = False) -> np.ndarray:
-        """Between contact nodes (d, n, e, m), mm/N: of the bodies, less what their plane sections give in each slice."""
+    def _seen_compliance(
+        self, rows: list[Views], seen: Seen, columns: list[Views], seen_by_columns: Seen, symmetric: bool = False
+    ) -> np.ndarray:
+        """Between contact nodes (d, n, e, m), mm/N: of the bodies, less what their plane sections give in each
+        slice."""
         kinds, others = rows[0].axes.shape[1], columns[0].axes.shape[1]
         sizes = (groups.seen[-1].stop if groups.seen else 0 for groups in (seen, seen_by_columns))
         between = np.zeros((kinds, next(sizes), others, next(sizes)))
@@ -76,10 +91,17 @@ class FacePairing:
             add_between_seen(blocks, sections, self._shares, own, other, symmetric, between)
         return at_contact_nodes(between, seen, seen_by_columns, symmetric)
 
-    def _views(self, gear: int, pairs: Sequence[FacePair], seen: Seen, tangential: bool, turned: float | None = None) -> Views:
-        """How the pairs' nodes see one gear's body: along normal and tangent, or with `turned` (rad) along the tangent as it stood before."""
+    def _views(
+        self, gear: int, pairs: Sequence[FacePair], seen: Seen, tangential: bool, turned: float | None = None
+    ) -> Views:
+        """How the pairs' nodes see one gear's body: along normal and tangent, or with `turned` (rad) along the tangent
+        as it stood before."""
         places = [pair.place for pair in pairs]
-        teeth, flanks, slices = np.array([(place.ahead(gear), place.flank, place.slice) for place in places], dtype=np.int64).reshape(-1, 3).T.copy()
+        teeth, flanks, slices = (
+            np.array([(place.ahead(gear), place.flank, place.slice) for place in places], dtype=np.int64)
+            .reshape(-1, 3)
+            .T.copy()
+        )
         first, nodes = seen.firsts[gear], self._nodes[gear]
         plane = _plane_directions(gear, places, tangential, turned)
         axes = np.concatenate([plane, np.zeros((*plane.shape[:2], 1))], axis=2)
@@ -87,7 +109,9 @@ class FacePairing:
             axes[:, 0] *= self.face.cosine
             axes[:, 0, 2] = [self.face.axial_share(gear, place.turn) for place in places]
         dofs = 3 * (nodes * (flanks * self.face.slices + slices) + first)
-        return Views(teeth, slices, seen.widths[gear], seen.places[gear], dofs, 2 * (nodes * flanks + first), axes, plane)
+        return Views(
+            teeth, slices, seen.widths[gear], seen.places[gear], dofs, 2 * (nodes * flanks + first), axes, plane
+        )
 
     def _add_fine(self, compliance, earlier, pairs, previous, turned) -> int:
         """Add the compliance of the fine sections in each slice; returns the dependent rows."""
@@ -104,20 +128,29 @@ class FacePairing:
         return dependent
 
     def _fine_section(self, pairs, previous, turned) -> tuple[np.ndarray, np.ndarray | None, int]:
-        """Of one slice, mm per N/mm: between its nodes (d, n, d, n), by those before (1, n, 2, before), and its dependent rows."""
+        """Of one slice, mm per N/mm: between its nodes (d, n, d, n), by those before (1, n, 2, before), and its
+        dependent rows."""
         count, kinds = _count(pairs), 1 if previous is None else 2
         fine, before = self._fine.compliance(pairs, previous, turned)
         fine, dependent = of_full_rank(fine)
-        return fine.reshape(kinds, count, kinds, count), None if before is None else before.reshape(1, count, 2, -1), dependent
+        return (
+            fine.reshape(kinds, count, kinds, count),
+            None if before is None else before.reshape(1, count, 2, -1),
+            dependent,
+        )
 
 
 def _check_known(offsets: int, responding: np.ndarray, loaded: np.ndarray) -> None:
-    """Raise ComputationError for teeth (P,) that are further apart than the bodies' compliance is known: compiled code would not notice."""
+    """Raise ComputationError for teeth (P,) that are further apart than the bodies' compliance is known: compiled code
+    would not notice."""
     if not len(responding) or not len(loaded):
         return
     apart = max(responding.max() - loaded.min(), loaded.max() - responding.min())
     if apart > offsets:
-        raise ComputationError(f"compliance over the face: teeth {apart} pitches apart touch, it is known for {offsets}; ask face_compliance for a larger reach")
+        raise ComputationError(
+            f"compliance over the face: teeth {apart} pitches apart touch, it is known for {offsets}; ask"
+            " face_compliance for a larger reach"
+        )
 
 
 def directions_on_face(place: Place, face: Face, gear: int, tangential: bool) -> np.ndarray:
@@ -129,7 +162,8 @@ def directions_on_face(place: Place, face: Face, gear: int, tangential: bool) ->
 
 
 def _plane_directions(gear: int, places: Sequence[Place], tangential: bool, turned: float | None) -> np.ndarray:
-    """Unit vectors (P, d, 2) in the transverse section, in the tooth's frame; with `turned` (rad) the tangent as it stood before."""
+    """Unit vectors (P, d, 2) in the transverse section, in the tooth's frame; with `turned` (rad) the tangent as it
+    stood before."""
     if turned is None:
         found = [directions(place.contact_rolls[gear], tangential) for place in places]
     else:

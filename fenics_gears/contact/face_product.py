@@ -1,4 +1,5 @@
-"""The compliance of two gears' bodies seen by contact nodes in slices of the face: `W M W^T`, with M between the flank nodes that they see.
+"""The compliance of two gears' bodies seen by contact nodes in slices of the face: `W M W^T`, with M between the flank
+nodes that they see.
 
 M is in the directions of contact: a flank node has as many displacements as a contact node, not three.
 """
@@ -17,8 +18,9 @@ from fenics_gears.contact.interpolation import FlankInterpolation
 
 
 class Views(NamedTuple):
-    """How groups (P,) of contact nodes see one gear: its `teeth`; their `slices`; how many flank nodes they see (`widths`), and their `places` among all
-    that are seen; the first of their degrees of freedom in the body (`dofs`) and in its plane section (`plane_dofs`); the directions of contact in the
+    """How groups (P,) of contact nodes see one gear: its `teeth`; their `slices`; how many flank nodes they see
+    (`widths`), and their `places` among all that are seen; the first of their degrees of freedom in the body (`dofs`)
+    and in its plane section (`plane_dofs`); the directions of contact in the
     tooth's frame (`axes`, (P, d, 3)) and in the section (`plane_axes`, (P, d, 2))."""
 
     teeth: np.ndarray
@@ -35,7 +37,8 @@ class Views(NamedTuple):
 class Seen:
     """Flank nodes that groups of contact nodes see, those of the pinion and then those of the wheel for each group.
 
-    `weights`: (nodes, seen) of each group; `nodes`, `seen`: where its own stand among all; `firsts`, `widths`, `places` (2, P), of either gear: the first
+    `weights`: (nodes, seen) of each group; `nodes`, `seen`: where its own stand among all; `firsts`, `widths`, `places`
+        (2, P), of either gear: the first
     flank node that a group sees, how many it sees, and where they stand among all seen.
     """
 
@@ -58,7 +61,14 @@ def seen_by(groups: Sequence[tuple[FlankInterpolation, FlankInterpolation]]) -> 
     first, width = (np.array(numbers, dtype=np.int64).reshape(-1, 2).T for numbers in (firsts, widths))
     seen = _one_after_the_other([part.shape[1] for part in weights])
     begin = np.array([part.start for part in seen], dtype=np.int64)
-    return Seen(weights, _one_after_the_other([len(part) for part in weights]), seen, first, width, np.stack([begin, begin + width[0]]))
+    return Seen(
+        weights,
+        _one_after_the_other([len(part) for part in weights]),
+        seen,
+        first,
+        width,
+        np.stack([begin, begin + width[0]]),
+    )
 
 
 def _dense(view: FlankInterpolation) -> tuple[np.ndarray, int]:
@@ -76,10 +86,12 @@ def _one_after_the_other(sizes: Sequence[int]) -> list[slice]:
 
 @njit(cache=True)
 def add_between_seen(blocks, sections, shares, rows, columns, symmetric, result):
-    """Add to `result` (d, s, e, s'), mm/N, one gear's compliance between the flank nodes that groups `rows` and `columns` see.
+    """Add to `result` (d, s, e, s'), mm/N, one gear's compliance between the flank nodes that groups `rows` and
+    `columns` see.
 
-    `blocks` (k, D, D), mm/N, of the body: that of tooth i under forces on tooth j is number (k - 1)/2 + i - j; less `sections` (k, D', D'), mm per N/mm,
-    times `shares` (S,), 1/mm, for groups in the same slice. `symmetric`: rows and columns are the same; of two groups only the later one has rows.
+    `blocks` (k, D, D), mm/N, of the body: that of tooth i under forces on tooth j is number (k - 1)/2 + i - j; less
+    `sections` (k, D', D'), mm per N/mm, times `shares` (S,), 1/mm, for groups in the same slice. `symmetric`: rows and
+    columns are the same; of two groups only the later one has rows.
     """
     offsets, along = (len(blocks) - 1) // 2, np.empty(3)
     for p in range(len(rows.teeth)):
@@ -95,20 +107,28 @@ def add_between_seen(blocks, sections, shares, rows, columns, symmetric, result)
                     for j in range(columns.widths[q]):
                         column, other = columns.dofs[q] + 3 * j, columns.places[q] + j
                         for b in range(3):
-                            along[b] = across[0] * block[row, column + b] + across[1] * block[row + 1, column + b] + across[2] * block[row + 2, column + b]
+                            along[b] = (
+                                across[0] * block[row, column + b]
+                                + across[1] * block[row + 1, column + b]
+                                + across[2] * block[row + 2, column + b]
+                            )
                         for e in range(columns.axes.shape[1]):
                             axis = columns.axes[q, e]
                             value = along[0] * axis[0] + along[1] * axis[1] + along[2] * axis[2]
                             if share != 0.0:
                                 at = columns.plane_dofs[q] + 2 * j
                                 for b in range(2):
-                                    in_plane = across_plane[0] * section[plane_row, at + b] + across_plane[1] * section[plane_row + 1, at + b]
+                                    in_plane = (
+                                        across_plane[0] * section[plane_row, at + b]
+                                        + across_plane[1] * section[plane_row + 1, at + b]
+                                    )
                                     value -= share * in_plane * columns.plane_axes[q, e, b]
                             result[d, place, e, other] += value
 
 
 def at_contact_nodes(between: np.ndarray, rows: Seen, columns: Seen, symmetric: bool = False) -> np.ndarray:
-    """Compliance (d, n, e, m), mm/N, between contact nodes from that `between` (d, s, e, s') the flank nodes that they see.
+    """Compliance (d, n, e, m), mm/N, between contact nodes from that `between` (d, s, e, s') the flank nodes that they
+    see.
 
     `symmetric`: rows and columns are the same, and of two groups `between` is known where the later one has the rows.
     """
@@ -121,7 +141,11 @@ def at_contact_nodes(between: np.ndarray, rows: Seen, columns: Seen, symmetric: 
             known = slice(seen.start if symmetric else 0, None)
             half[known, own] = between[d, known, e, seen] @ weights.T
         for weights, own, seen in zip(rows.weights, rows.nodes, rows.seen):
-            np.matmul(weights, half[seen, : own.stop if symmetric else None], out=found[d, own, e, : own.stop if symmetric else None])
+            np.matmul(
+                weights,
+                half[seen, : own.stop if symmetric else None],
+                out=found[d, own, e, : own.stop if symmetric else None],
+            )
     if symmetric:
         for (d, e), own in product(np.ndindex(kinds, others), rows.nodes):
             found[e, : own.start, d, own] = found[d, own, e, : own.start].T

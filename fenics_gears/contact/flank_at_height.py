@@ -1,4 +1,5 @@
-"""The flank point at a height above the gear's centre (compiled, since every contact node of every position asks for several)."""
+"""The flank point at a height above the gear's centre (compiled, since every contact node of every position asks for
+several)."""
 
 from __future__ import annotations
 
@@ -15,7 +16,8 @@ ROUND_OFF = 4e-16
 
 
 def flank_at_height(base_radius: float, contact_roll_angle: float, height) -> tuple[np.ndarray, np.ndarray]:
-    """Roll angle (rad) and ``x`` (mm, as of `geometry.involute.flank_point`) of the flank point at a height ``h`` (mm, any shape).
+    """Roll angle (rad) and ``x`` (mm, as of `geometry.involute.flank_point`) of the flank point at a height ``h`` (mm,
+    any shape).
 
     ``nan`` where the involute has no such point: below ``base_radius cos(contact_roll_angle)``, where it starts, and
     above the height at which it turns away.
@@ -32,7 +34,8 @@ def roll_angle_at_height(base_radius: float, contact_roll_angle: float, height) 
 
 @njit(cache=True)
 def _points(base_radius, contact, heights):
-    """Newton in ``s = v^2/2`` (arc length over base radius), in which ``dh/ds = rb cos(vc - v)``: h is convex in s below the
+    """Newton in ``s = v^2/2`` (arc length over base radius), in which ``dh/ds = rb cos(vc - v)``: h is convex in s
+    below the
     contact point and concave above it, so steps from the contact point never pass the root."""
     lowest, turning = math.cos(contact) - ROUND_OFF, contact + 0.5 * math.pi
     rolls, x = np.full(len(heights), np.nan), np.full(len(heights), np.nan)

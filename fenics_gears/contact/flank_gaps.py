@@ -1,8 +1,8 @@
 """Gaps that deviations of single teeth add to those of the contact nodes, step by step.
 
-The gap of a node is linear in the deviations of the two teeth that meet there. The factors depend on the position in the mesh
-cycle alone and are kept; each step multiplies them by the deviations of the teeth then in mesh. Where displacements are averaged over
-a node's function, so are deviations.
+The gap of a node is linear in the deviations of the two teeth that meet there. The factors depend on the position in
+the mesh cycle alone and are kept; each step multiplies them by the deviations of the teeth then in mesh. Where
+displacements are averaged over a node's function, so are deviations.
 """
 
 from __future__ import annotations
@@ -26,14 +26,16 @@ from fenics_gears.geometry.pair import GearPair
 if TYPE_CHECKING:
     from fenics_gears.contact.face import Face
 
-# A later tooth stands behind on the pinion, whose flank drives: the gap opens. On the wheel it stands nearer to the pinion's.
+# A later tooth stands behind on the pinion, whose flank drives: the gap opens. On the wheel it stands nearer to the
+# pinion's.
 SENSES = (1.0, -1.0)
 FEWEST_STEPS_A_WAVE = 2
 
 
 @dataclass(frozen=True)
 class _Nodes:
-    """The contact nodes of one pair at a position: where they stand among all; for either gear the index of its tooth and the gap (n, m)
+    """The contact nodes of one pair at a position: where they stand among all; for either gear the index of its tooth
+    and the gap (n, m)
     per unit of each deviation; of either gear the functions that give the measured excess (n,) of a tooth."""
 
     nodes: slice
@@ -45,11 +47,15 @@ class _Nodes:
 class FlankGaps:
     """Additional gaps (n,), mm, by deviations of the teeth at a step and its position; `steps` of a mesh cycle."""
 
-    def __init__(self, pair: GearPair, deviations: tuple[FlankDeviations, FlankDeviations], steps: int, slope: float = 0.0):
+    def __init__(
+        self, pair: GearPair, deviations: tuple[FlankDeviations, FlankDeviations], steps: int, slope: float = 0.0
+    ):
         """`slope`: of the lines of contact, mm along the path of contact per mm of height."""
         self._pair, self._deviations, self._steps, self._slope = pair, deviations, steps, slope
         gears = (pair.pinion, pair.wheel)
-        self._amounts = tuple(_amounts(own, gear.angular_pitch, sense) for own, gear, sense in zip(deviations, gears, SENSES))
+        self._amounts = tuple(
+            _amounts(own, gear.angular_pitch, sense) for own, gear, sense in zip(deviations, gears, SENSES)
+        )
         self._teeth = tuple(gear.teeth for gear in gears)
         self._kept: dict[int, list[_Nodes]] = {}
 
@@ -73,7 +79,12 @@ class FlankGaps:
             return self._kept[index]
         pairs = position.operator.pairs
         found = [
-            _Nodes(nodes, pair.place.teeth, (self._shapes(0, pair), self._shapes(1, pair)), (self._measured(0, pair), self._measured(1, pair)))
+            _Nodes(
+                nodes,
+                pair.place.teeth,
+                (self._shapes(0, pair), self._shapes(1, pair)),
+                (self._measured(0, pair), self._measured(1, pair)),
+            )
             for nodes, pair in zip(node_slices(pairs), pairs)
         ]
         if index == int(index):
@@ -81,12 +92,16 @@ class FlankGaps:
         return found
 
     def _shapes(self, gear: int, pair: PairNodes) -> np.ndarray:
-        """The gap (n, m) that a unit of each deviation makes: index, and on drive flanks slope, form, both of the helix where there is one, and both
-        parts of the waviness.
+        """The gap (n, m) that a unit of each deviation makes: index, and on drive flanks slope, form, both of the helix
+        where there is one, and both parts of the waviness.
 
         Profiles and helices of coast flanks are true; an index deviation displaces both flanks of a tooth.
         """
-        own, body, arm = self._deviations[gear], (self._pair.pinion, self._pair.wheel)[gear], pair.place.line_in(self._pair).lever_arms[gear]
+        own, body, arm = (
+            self._deviations[gear],
+            (self._pair.pinion, self._pair.wheel)[gear],
+            pair.place.line_in(self._pair).lever_arms[gear],
+        )
         displaced = np.full(len(pair.offsets), pair.place.turn * SENSES[gear] * arm / body.reference_radius)
         if pair.place.flank != DRIVE:
             return displaced[:, None]
@@ -103,7 +118,8 @@ class FlankGaps:
         return roll_angle_at_height(body.base_radius, pair.place.contact_rolls[gear], arm - SENSES[gear] * offsets)
 
     def _measured(self, gear: int, pair: PairNodes) -> list[Callable[[int], np.ndarray]]:
-        """Functions of the tooth that give the excess of material (n,), mm, by its measured profile and helix; none without curves and on coast flanks."""
+        """Functions of the tooth that give the excess of material (n,), mm, by its measured profile and helix; none
+        without curves and on coast flanks."""
         own, functions = self._deviations[gear], []
         if pair.place.flank != DRIVE:
             return functions
@@ -116,7 +132,9 @@ class FlankGaps:
         return functions
 
 
-def _excess(curves: np.ndarray, along: np.ndarray, pair: PairNodes, averaged: bool = True) -> Callable[[int], np.ndarray]:
+def _excess(
+    curves: np.ndarray, along: np.ndarray, pair: PairNodes, averaged: bool = True
+) -> Callable[[int], np.ndarray]:
     """The excess (n,), mm, of a tooth at places from 0 to 1 `along` its curve; beyond the ends the curve is level."""
     points = np.linspace(0.0, 1.0, curves.shape[1])
     if averaged and isinstance(pair, ToothPair):
@@ -124,10 +142,14 @@ def _excess(curves: np.ndarray, along: np.ndarray, pair: PairNodes, averaged: bo
     return lambda tooth: np.interp(along, points, curves[tooth])
 
 
-def profile_shapes(deviations: FlankDeviations, roll: np.ndarray, pair: PairNodes, turned: float = 0.0) -> list[np.ndarray]:
-    """Excess of material (n,) at a pair's nodes for a unit of slope, form, of slope and form of the helix, and of the cosine and the sine of the waviness.
+def profile_shapes(
+    deviations: FlankDeviations, roll: np.ndarray, pair: PairNodes, turned: float = 0.0
+) -> list[np.ndarray]:
+    """Excess of material (n,) at a pair's nodes for a unit of slope, form, of slope and form of the helix, and of the
+    cosine and the sine of the waviness.
 
-    `roll`: roll angles (rad) at the nodes, or where these average; `turned`: by which the helix turns the gear's section at the pair's height, in the sense of rotation.
+    `roll`: roll angles (rad) at the nodes, or where these average; `turned`: by which the helix turns the gear's
+        section at the pair's height, in the sense of rotation.
     """
     start, end = deviations.active_profile
     along = (roll - start) / (end - start)
@@ -144,7 +166,8 @@ def profile_shapes(deviations: FlankDeviations, roll: np.ndarray, pair: PairNode
 def _amounts(deviations: FlankDeviations, angular_pitch: float, sense: float) -> np.ndarray:
     """The deviations of each tooth (z, m), mm, in the order of the shapes.
 
-    Waves continue from tooth to tooth: roll angle v of the pinion's tooth i is on the line of action when the pinion has turned by v + i
+    Waves continue from tooth to tooth: roll angle v of the pinion's tooth i is on the line of action when the pinion
+        has turned by v + i
     times the angular pitch; on the wheel, where roll angles fall, by i times the angular pitch less v.
     """
     columns = [deviations.index, deviations.slope, deviations.form]
@@ -158,14 +181,16 @@ def _amounts(deviations: FlankDeviations, angular_pitch: float, sense: float) ->
 
 
 def flank_gaps(errors: FlankErrors, pair: GearPair, steps: int, face: Face | None = None) -> FlankGaps:
-    """The gaps that flank errors add, in a run of so many steps a mesh cycle; `face`: of a scene that has one. Raises SceneError for waves that the
+    """The gaps that flank errors add, in a run of so many steps a mesh cycle; `face`: of a scene that has one. Raises
+    SceneError for waves that the
     steps do not sample."""
     deviations = flank_deviations(errors, pair, None if face is None else face.middles)
     for own, gear, name in zip(deviations, (pair.pinion, pair.wheel), ("pinion", "wheel")):
         waves = 0 if own.waviness is None else own.waviness.waves
         if waves * FEWEST_STEPS_A_WAVE > steps * gear.teeth:
             raise SceneError(
-                f"flank_errors.{name}.waviness.waves = {waves}: a turn of the {name} has {steps * gear.teeth} steps, fewer than "
-                f"{FEWEST_STEPS_A_WAVE} a wave; raise accuracy.steps_per_mesh_cycle to {-(-FEWEST_STEPS_A_WAVE * waves // gear.teeth)} or more"
+                f"flank_errors.{name}.waviness.waves = {waves}: a turn of the {name} has {steps * gear.teeth} steps,"
+                f" fewer than {FEWEST_STEPS_A_WAVE} a wave; raise accuracy.steps_per_mesh_cycle to"
+                f" {-(-FEWEST_STEPS_A_WAVE * waves // gear.teeth)} or more"
             )
     return FlankGaps(pair, deviations, steps, 0.0 if face is None else face.slope)

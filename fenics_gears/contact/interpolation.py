@@ -1,11 +1,14 @@
-"""How contact nodes see the flanks: displacements, gaps and positions averaged over functions of their own, or taken at their points.
+"""How contact nodes see the flanks: displacements, gaps and positions averaged over functions of their own, or taken at
+their points.
 
 Contact force and gap use the same averages, so that energy and symmetry are kept: a nodal force acts as the line load
-`p_j psi_j / integral(psi_j)`, and a nodal displacement or gap is `integral(psi_j u) / integral(psi_j)` (model.md section 2).
+`p_j psi_j / integral(psi_j)`, and a nodal displacement or gap is `integral(psi_j u) / integral(psi_j)` (model.md
+section 2).
 
-On each cell `psi_j` is `2 hat_j - 1/2`, midway between the hat function and its dual `3 hat_j - 1` (B. I. Wohlmuth, SIAM J. Numer. Anal. 38, 2000). Its
-integrals are the hat's and its sum over the nodes is one, so that an even pressure is passed on exactly; but averages of parabolas over even cells are
-exact too, while hats see a gap too large by h^2/(12 R) for cells of h and flanks of relative radius R.
+On each cell `psi_j` is `2 hat_j - 1/2`, midway between the hat function and its dual `3 hat_j - 1` (B. I. Wohlmuth,
+SIAM J. Numer. Anal. 38, 2000). Its integrals are the hat's and its sum over the nodes is one, so that an even pressure
+is passed on exactly; but averages of parabolas over even cells are exact too, while hats see a gap too large by h^2/(12
+R) for cells of h and flanks of relative radius R.
 """
 
 from __future__ import annotations
@@ -23,7 +26,8 @@ GAUSS_WEIGHTS = 0.5 * GAUSS_WEIGHTS
 
 @dataclass(frozen=True)
 class FlankInterpolation:
-    """Row `j` of `near` (n, w) takes the flank's dof nodes `first[j]` to `first[j] + w - 1` to the average of node `j`; `flank_nodes` of the flank."""
+    """Row `j` of `near` (n, w) takes the flank's dof nodes `first[j]` to `first[j] + w - 1` to the average of node `j`;
+    `flank_nodes` of the flank."""
 
     # A node sees a few flank nodes: whole rows would take several times what the compliance between contact nodes does.
     near: np.ndarray
@@ -95,7 +99,10 @@ def _averaging_weights(offsets, rolls, base_radius, contact_roll, sense, flank_r
     lowest, highest = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
     for node in range(n):
         beside = arcs[max(node - 1, 0) : node + 2]
-        lowest[node], highest[node] = _element(vertex_arc, beside.min(), "right"), _element(vertex_arc, beside.max(), "left")
+        lowest[node], highest[node] = (
+            _element(vertex_arc, beside.min(), "right"),
+            _element(vertex_arc, beside.max(), "left"),
+        )
     width = order * (highest - lowest + 1).max() + 1
     near, first = np.zeros((n, width)), np.minimum(order * lowest, len(flank_rolls) - width)
     for cell in range(n - 1):
@@ -150,11 +157,16 @@ def flank_interpolation(
 class Averages:
     """A contact node sees averages over its function, so that nothing jumps as it passes nodes of the flank.
 
-    `places`: offsets at which nodes need the values that they see; `seen`: what they see of values there; `of_flank`: the weights of
+    `places`: offsets at which nodes need the values that they see; `seen`: what they see of values there; `of_flank`:
+        the weights of
     the flank's nodes.
     """
 
-    places, seen, of_flank = staticmethod(quadrature_offsets), staticmethod(node_average), staticmethod(flank_interpolation)
+    places, seen, of_flank = (
+        staticmethod(quadrature_offsets),
+        staticmethod(node_average),
+        staticmethod(flank_interpolation),
+    )
 
 
 class Points:
@@ -168,7 +180,9 @@ class Points:
         """The values (n,) themselves."""
         return values
 
-    def of_flank(self, offsets, rolls, base_radius, contact_roll, sense, flank_rolls, element_order) -> FlankInterpolation:
+    def of_flank(
+        self, offsets, rolls, base_radius, contact_roll, sense, flank_rolls, element_order
+    ) -> FlankInterpolation:
         """The element's shape functions at the nodes' roll angles; arguments as of `flank_interpolation`."""
         arc, places = 0.5 * base_radius * rolls**2, 0.5 * base_radius * flank_rolls[::element_order] ** 2
         element = np.clip(np.searchsorted(places, arc, side="right") - 1, 0, len(places) - 2)

@@ -25,7 +25,8 @@ class Tolerance:
 
     @classmethod
     def of_load(cls, transmitted_force: float) -> Tolerance:
-        """The tolerance for a transmitted force F = T/rb2 (N): 1e-4 um and 1e-6 F, at least 5e-9 N, which is above the round-off of stiff springs."""
+        """The tolerance for a transmitted force F = T/rb2 (N): 1e-4 um and 1e-6 F, at least 5e-9 N, which is above the
+        round-off of stiff springs."""
         return cls(length=1e-7, force=1e-6 * max(transmitted_force, 5e-3))
 
 

@@ -1,7 +1,8 @@
 """The contact operators of all positions that one mesh cycle passes, built once and used by every cycle.
 
 Steps are counted from phase 0, where a new tooth pair reaches the theoretical start of contact; step `i` stands at
-phase `i / steps`. All teeth being alike, the equations at a phase are the same in every cycle; only the pairs' numbers move on.
+phase `i / steps`. All teeth being alike, the equations at a phase are the same in every cycle; only the pairs' numbers
+move on.
 """
 
 from __future__ import annotations
@@ -34,14 +35,17 @@ class Position:
 
     @cached_property
     def in_memory(self) -> tuple[np.ndarray, list[np.ndarray]]:
-        """For compiled code: number of contact nodes, then addresses of the operator's arrays (10,), by the names in `contact.addresses`; and those arrays.
+        """For compiled code: number of contact nodes, then addresses of the operator's arrays (10,), by the names in
+        `contact.addresses`; and those arrays.
 
         The previous compliance lies there by columns: few nodes are loaded.
         """
         operator = self.operator
         found, held = addresses([
-            operator.compliance, operator.jacobian, operator.gap, operator.on_drive_flanks, operator.node_pair, self.carried_from,
-            operator.rigid_slip, operator.previous_jacobian, None if operator.previous_compliance is None else operator.previous_compliance.T,
+            operator.compliance, operator.jacobian, operator.gap, operator.on_drive_flanks, operator.node_pair,
+            self.carried_from,
+            operator.rigid_slip, operator.previous_jacobian,
+            None if operator.previous_compliance is None else operator.previous_compliance.T,
         ])  # fmt: skip
         return np.array([operator.nodes, *found], dtype=np.int64), held
 
@@ -65,10 +69,11 @@ class Position:
 def pair_places(
     pair: GearPair, grid: ContactGrid, phase: float, coast_flanks: bool = False, corner: CornerContact | None = None
 ) -> tuple[Place, ...]:
-    """Every pair of flanks whose window is not empty at `phase` (0 <= phase < 1): drive flanks, then coast flanks if asked for.
+    """Every pair of flanks whose window is not empty at `phase` (0 <= phase < 1): drive flanks, then coast flanks if
+    asked for.
 
-    Index 0 is the pair that reached the start of contact last, 1 the one before it, -1 the one to come. `corner`: tips touch by
-    their edges too; places are theoretical ones all the same.
+    Index 0 is the pair that reached the start of contact last, 1 the one before it, -1 the one to come. `corner`: tips
+    touch by their edges too; places are theoretical ones all the same.
     """
 
     def can_touch(place: Place) -> bool:
@@ -90,9 +95,12 @@ def pair_places(
 class CycleTraits:
     """What the contact nodes of a cycle are.
 
-    `divisible`: there are positions between its steps; `nodes_on_flanks`: nodes are points of the flanks, springs are not;
-    `has_pressure`: forces of nodes are a pressure on the flank, those of springs and rigid flanks are not; `prescribes_friction`:
-    friction follows from the place of a tooth pair, not from the slip of its nodes; `own_solver`: steps are not solved by Newton's method first.
+    `divisible`: there are positions between its steps; `nodes_on_flanks`: nodes are points of the flanks, springs are
+        not;
+    `has_pressure`: forces of nodes are a pressure on the flank, those of springs and rigid flanks are not;
+        `prescribes_friction`:
+    friction follows from the place of a tooth pair, not from the slip of its nodes; `own_solver`: steps are not solved
+    by Newton's method first.
     """
 
     divisible: bool = False
@@ -102,13 +110,15 @@ class CycleTraits:
     own_solver: bool = False
 
 
-# Of the memory that contact operators may take: what is kept for good, and what a march holds of a block of steps, the one before it beside.
+# Of the memory that contact operators may take: what is kept for good, and what a march holds of a block of steps, the
+# one before it beside.
 SHARE_KEPT, SHARE_OF_A_BLOCK = 0.7, 0.12
 
 
 @dataclass
 class Kept:
-    """How much memory (bytes) operators may take and the kept ones do; those beyond are made again each time the cycle comes round."""
+    """How much memory (bytes) operators may take and the kept ones do; those beyond are made again each time the cycle
+    comes round."""
 
     most: float = inf
     taken: float = 0.0
@@ -124,8 +134,8 @@ class Kept:
 class Cycle:
     """Contact equations over one mesh cycle of `steps` positions of a gear pair, each built when it is first asked for.
 
-    A route to them says in `_pair` which contact nodes a tooth pair has, and in `_position` how they respond; `corner`: tip edges
-    that touch off the line of action.
+    A route to them says in `_pair` which contact nodes a tooth pair has, and in `_position` how they respond; `corner`:
+    tip edges that touch off the line of action.
     """
 
     traits = CycleTraits()
@@ -133,7 +143,12 @@ class Cycle:
     face: Face | None = None
 
     def __init__(
-        self, pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None
+        self,
+        pair: GearPair,
+        grid: ContactGrid,
+        steps: int,
+        coast_flanks: bool = False,
+        corner: CornerContact | None = None,
     ):
         self.pair, self.grid, self.steps, self.coast_flanks, self.corner = pair, grid, steps, coast_flanks, corner
         self._pairs: dict[int, tuple[PairNodes, ...]] = {}
@@ -170,14 +185,17 @@ class Cycle:
         return index in self._positions
 
     def between(self, step: float, before: float) -> Position:
-        """The contact equations at `step`, with the step before at `before`; both may lie between whole steps. Not kept.
+        """The contact equations at `step`, with the step before at `before`; both may lie between whole steps. Not
+        kept.
 
-        Only of a cycle that is divisible, and at halves, quarters and so on, which are exact: `step` decides which pairs touch.
+        Only of a cycle that is divisible, and at halves, quarters and so on, which are exact: `step` decides which
+        pairs touch.
         """
         return self._build(step, before)
 
     def pair_number(self, step: int, index: int | np.ndarray):
-        """Number of a pair counted through the run: pair `c` reaches the start of contact at the beginning of cycle `c`."""
+        """Number of a pair counted through the run: pair `c` reaches the start of contact at the beginning of cycle
+        `c`."""
         return step // self.steps - index
 
     def solve(
@@ -201,9 +219,13 @@ class Cycle:
         if cycle != earlier:
             # Passing the end of a cycle every pair's index rises by one.
             passed = int(cycle - earlier)
-            previous = tuple(replace(pair, place=replace(pair.place, index=pair.place.index + passed)) for pair in previous)
+            previous = tuple(
+                replace(pair, place=replace(pair.place, index=pair.place.index + passed)) for pair in previous
+            )
         carried = carried_nodes(pairs, previous, self.grid.spacing)
-        return self._position(index, pairs, previous, self.pair.pinion.angular_pitch * (step - before) / self.steps, carried)
+        return self._position(
+            index, pairs, previous, self.pair.pinion.angular_pitch * (step - before) / self.steps, carried
+        )
 
     def _pairs_near(self, index: float) -> tuple[PairNodes, ...]:
         """The tooth pairs at a position that may lie between two steps; only those of whole steps are kept."""
@@ -224,7 +246,8 @@ class Cycle:
 class MeshCycle(Cycle):
     """Contact nodes that see either gear's one flank compliance through interpolation.
 
-    `coordinates`: which centre coordinates are unknowns; `tangential`: whether friction acts; `corner`: how tips touch off the line of
+    `coordinates`: which centre coordinates are unknowns; `tangential`: whether friction acts; `corner`: how tips touch
+        off the line of
     action, along it where None; `pairing`: of these flanks, one of its own unless given.
     """
 
@@ -275,7 +298,8 @@ class MeshCycle(Cycle):
 def carried_nodes(pairs: tuple[PairNodes, ...], previous: tuple[PairNodes, ...], spacing: float) -> np.ndarray:
     """For each node the one of the same pair that it was a step before; -1 where there is none.
 
-    Beside an edge, with which nodes move, it is the one with as many nodes between it and the edge; else the one at the same offset.
+    Beside an edge, with which nodes move, it is the one with as many nodes between it and the edge; else the one at the
+    same offset.
     """
     earlier = {_key(pair): (nodes.start, pair.offsets) for nodes, pair in zip(node_slices(previous), previous)}
     carried = np.full(sum(len(pair.offsets) for pair in pairs), -1)
@@ -304,7 +328,9 @@ def _closer(offsets: np.ndarray, spacing: float) -> set[int]:
     """The ends, 0 and -1, at which the nodes stand closer, since an edge is there."""
     if len(offsets) < 3:
         return set()
-    return {end for end, cell in ((0, offsets[1] - offsets[0]), (-1, offsets[-1] - offsets[-2])) if cell < 0.5 * spacing}
+    return {
+        end for end, cell in ((0, offsets[1] - offsets[0]), (-1, offsets[-1] - offsets[-2])) if cell < 0.5 * spacing
+    }
 
 
 def _key(pair: PairNodes) -> tuple[int, int, int]:

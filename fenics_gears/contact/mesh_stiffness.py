@@ -1,7 +1,8 @@
 """The stiffness of the mesh at a step, from its contact solution.
 
-Deflection delta (mm): overlap of the undeformed flanks along the line of action, that is the transmission error of the teeth
-beyond that of rigid flanks. Secant stiffness F/delta (N/mm) is the mesh stiffness of ISO 6336-1, load over deformation; the tangent dF/ddelta
+Deflection delta (mm): overlap of the undeformed flanks along the line of action, that is the transmission error of the
+teeth beyond that of rigid flanks. Secant stiffness F/delta (N/mm) is the mesh stiffness of ISO 6336-1, load over
+deformation; the tangent dF/ddelta
 is the spring that small vibrations meet: the closed contact nodes stay closed and friction forces stay as they are.
 """
 
@@ -16,7 +17,8 @@ from fenics_gears.contact.newton import solved
 
 @njit(cache=True)
 def mesh_stiffness(compliance, jacobian, gap, on_drive_flanks, node_pair, status, forces, coordinates):
-    """Secant and tangent stiffness, N/mm, of the drive or coast flanks, whichever carry more, and how many tooth pairs carry there.
+    """Secant and tangent stiffness, N/mm, of the drive or coast flanks, whichever carry more, and how many tooth pairs
+    carry there.
 
     Arrays as of ContactOperator and StepSolution, of elastic flanks; all zero where nothing touches.
     """
@@ -44,9 +46,11 @@ def mesh_stiffness(compliance, jacobian, gap, on_drive_flanks, node_pair, status
 
 @njit(cache=True)
 def _highest(overlap, node_pair):
-    """Largest overlap (mm) of flanks with overlaps (n,) at evenly spaced nodes: vertex of the parabola through the largest and its neighbours.
+    """Largest overlap (mm) of flanks with overlaps (n,) at evenly spaced nodes: vertex of the parabola through the
+    largest and its neighbours.
 
-    The deepest overlap lies between two nodes as a rule; at nodes alone it would be too small by up to spacing^2/(8 rho).
+    The deepest overlap lies between two nodes as a rule; at nodes alone it would be too small by up to spacing^2/(8
+    rho).
     """
     top = np.argmax(overlap)
     at = overlap[top]

@@ -8,7 +8,8 @@ One iteration solves, for the closed nodes (normals), the sticking ones (tangent
     p_t = +-mu p_n           slipping nodes, inserted
 
 and reads the new sets off the projections [24], [25]. The laws are piecewise linear, so a set that repeats is the
-exact solution. Eliminating q first would divide by a stiffness that vanishes with growing time step (model.md section 4).
+exact solution. Eliminating q first would divide by a stiffness that vanishes with growing time step (model.md section
+4).
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ ROUND_OFF = 1e-12
 MOST_ITERATIONS = 40
 # Unknowns up to which elimination in compiled code is faster than LAPACK.
 SMALL_SYSTEM = 40
-# How sets change: every node by its projection; the same with reversals of slip stopping at stick first; or only the first
-# node that wants to change. The last is Murty's least-index rule, which cannot cycle where the matrix is a P-matrix
-# (K. G. Murty, Linear Complementarity, Linear and Nonlinear Programming, 1988, chapter 4).
+# How sets change: every node by its projection; the same with reversals of slip stopping at stick first; or only the
+# first node that wants to change. The last is Murty's least-index rule, which cannot cycle where the matrix is a
+# P-matrix (K. G. Murty, Linear Complementarity, Linear and Nonlinear Programming, 1988, chapter 4).
 ALL_AT_ONCE, THROUGH_STICK, ONE_AT_A_TIME = 0, 1, 2
 PENETRATION, TENSION, CONE_EXCESS, STICK_SLIP, EQUILIBRIUM = range(5)
 RESIDUAL_NAMES = ("penetration", "tension", "cone excess", "stick slip", "equilibrium")
@@ -126,7 +127,8 @@ def solved(matrix, right_side):
 
 @njit(cache=True)
 def relative_displacement(displacement, first, end, compliance, jacobian, forces, coordinates):
-    """u = G q - C p, mm, into rows `first` to `end` of `displacement` (m,); only loaded nodes are summed, by rows of the symmetric compliance."""
+    """u = G q - C p, mm, into rows `first` to `end` of `displacement` (m,); only loaded nodes are summed, by rows of
+    the symmetric compliance."""
     for i in range(first, end):
         displacement[i] = _product(jacobian[i], coordinates)
     for j in np.flatnonzero(forces):
@@ -137,7 +139,8 @@ def relative_displacement(displacement, first, end, compliance, jacobian, forces
 
 @njit(cache=True)
 def _tangents(displacement, compliance, jacobian, forces, coordinates, status, gap, r_scale):
-    """As `relative_displacement`, the tangential rows of the few nodes that are closed or close next; no other has a slip that counts."""
+    """As `relative_displacement`, the tangential rows of the few nodes that are closed or close next; no other has a
+    slip that counts."""
     n = len(gap)
     rows = np.empty(n, dtype=np.int64)
     count = 0
@@ -187,7 +190,8 @@ def _update_status(status, forces, displacement, compliance, gap, slip_before, f
 
 @njit(cache=True)
 def _force_round_off(stiffness, load, compliance, gap, coordinates):
-    """Round-off (N) of the forces: that of the load, and that of the lengths times the stiffnesses of springs and teeth."""
+    """Round-off (N) of the forces: that of the load, and that of the lengths times the stiffnesses of springs and
+    teeth."""
     largest_load, largest_spring, length = 0.0, 0.0, 0.0
     for c in range(len(load)):
         spring = 0.0
@@ -204,10 +208,24 @@ def _force_round_off(stiffness, load, compliance, gap, coordinates):
 
 
 @njit(cache=True)
-def measure(residual, stiffness, load, compliance, jacobian, gap, slip_before, friction, status, forces, coordinates, displacement):
+def measure(
+    residual,
+    stiffness,
+    load,
+    compliance,
+    jacobian,
+    gap,
+    slip_before,
+    friction,
+    status,
+    forces,
+    coordinates,
+    displacement,
+):
     """Violation of the laws and of equilibrium by the present solution, into `residual` (5,).
 
-    Equilibrium is solved, not iterated: a residual within the round-off of a row's terms is no violation. A slip against its
+    Equilibrium is solved, not iterated: a residual within the round-off of a row's terms is no violation. A slip
+        against its
     friction counts in proportion to that friction, as far as it exceeds the round-off of the forces.
     """
     n, tangential = len(gap), len(slip_before) > 0
@@ -258,7 +276,8 @@ def _within(residual, length_tolerance, force_tolerance, load, coordinates, stif
 
 @njit(cache=True)
 def first_node(gap, displacement, jacobian, free_motion):
-    """The node that touches first when the load moves the drivetrain along `free_motion` (k,), or else the nearest to contact."""
+    """The node that touches first when the load moves the drivetrain along `free_motion` (k,), or else the nearest to
+    contact."""
     first, distance = -1, np.inf
     for j in range(len(gap)):
         approach = 0.0
@@ -285,8 +304,8 @@ def newton(
     """Active-set Newton from the sets `status` (n,) int8, changed in place to those of the solution.
 
     `stiffness` (k, k) and `load` (k,): effective drivetrain; `slip_before` (n,): w_old, empty without friction;
-    `free_motion` (k,): how the load moves the drivetrain where only contact holds it, in which case one node at least stays closed;
-    empty where the drivetrain holds the load. `history` (iterations, 5) and
+    `free_motion` (k,): how the load moves the drivetrain where only contact holds it, in which case one node at least
+    stays closed; empty where the drivetrain holds the load. `history` (iterations, 5) and
     `sets` (iterations, n) are filled with residuals and sets. Returns (outcome, iterations, forces, coordinates, u).
     """
     n, m, k = len(gap), len(compliance), len(load)
@@ -316,7 +335,9 @@ def newton(
         iteration += 1
         if repeated:
             outcome = CYCLED if changed else SINGULAR
-            if _within(history[iteration - 1], length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap):
+            if _within(
+                history[iteration - 1], length_tolerance, force_tolerance, load, coordinates, stiffness, compliance, gap
+            ):
                 # Sets may also alternate between solutions that are the same within the tolerance.
                 outcome = CONVERGED
             break

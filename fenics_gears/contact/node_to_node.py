@@ -1,7 +1,7 @@
 """Contact of flank nodes that meet pair by pair [9]: the reference route's nodes, gaps and displacements.
 
-Both gears are meshed so that every contact node of a position is a node on either flank. Nothing is averaged and, but for the
-last step's displacement [A.2]-[A.4], nothing interpolated.
+Both gears are meshed so that every contact node of a position is a node on either flank. Nothing is averaged and, but
+for the last step's displacement [A.2]-[A.4], nothing interpolated.
 """
 
 from __future__ import annotations
@@ -32,7 +32,8 @@ SMALLEST_REST = 0.3
 
 @dataclass(frozen=True)
 class NodePairs(PairNodes):
-    """Contact nodes (n,) of a tooth pair that are nodes of both gears' meshes; `wheel_roll`: their roll angles there (rad)."""
+    """Contact nodes (n,) of a tooth pair that are nodes of both gears' meshes; `wheel_roll`: their roll angles there
+    (rad)."""
 
     wheel_roll: np.ndarray
 
@@ -91,13 +92,15 @@ def _alternating(even: np.ndarray, odd: np.ndarray) -> np.ndarray:
 
 
 def loaded_teeth(pairs: tuple[NodePairs, ...], gear: int, order: int) -> tuple[LoadedTooth, ...]:
-    """The teeth of a gear that have contact nodes, by rising angle: the pairs' order on the pinion, its reverse on the wheel."""
+    """The teeth of a gear that have contact nodes, by rising angle: the pairs' order on the pinion, its reverse on the
+    wheel."""
     teeth = (LoadedTooth(pair.place.contact_rolls[gear], pair.rolls(gear)[::order]) for pair in pairs)
     return tuple(sorted(teeth, key=lambda tooth: tooth.angle))
 
 
 def by_direction(stiffness: np.ndarray, pairs: tuple[NodePairs, ...], gear: int) -> np.ndarray:
-    """A gear's stiffness over x, y of its loaded teeth's nodes and the centre, put in the order of `pairs`: normals, tangents, centre."""
+    """A gear's stiffness over x, y of its loaded teeth's nodes and the centre, put in the order of `pairs`: normals,
+    tangents, centre."""
     count = len(over_nodes(pairs, "offsets"))
     nodes = np.arange(count)
     if gear == 1:
@@ -111,16 +114,18 @@ def by_direction(stiffness: np.ndarray, pairs: tuple[NodePairs, ...], gear: int)
 def height_lever_arms(pairs: tuple[NodePairs, ...], base_radii: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
     """Lever arms (n,), mm, of forces along the line of action: the heights of the nodes above either centre.
 
-    The paper's kinematics of material points. A flank turned by phi also moves by x phi along itself; where it is slanted, another of
-    its points then stands at the node, and with that the lever arm would be rb. Without it contact shifts by R (phi2 - phi1), R the
-    relative radius, and T1/rb1 differs from T2/rb2 by that over rb: 0.04 mm and 0.2 % on the paper's pair.
+    The paper's kinematics of material points. A flank turned by phi also moves by x phi along itself; where it is
+    slanted, another of its points then stands at the node, and with that the lever arm would be rb. Without it contact
+    shifts by R (phi2 - phi1), R the relative radius, and T1/rb1 differs from T2/rb2 by that over rb: 0.04 mm and 0.2 %
+    on the paper's pair.
     """
     offsets = over_nodes(pairs, "offsets")
     return base_radii[0] - offsets, base_radii[1] + offsets
 
 
 def roll_interpolation(rolls: np.ndarray, known: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Weights (n, k) of [A.2], [A.3] from values at roll angles `known` (k,) to `rolls` (n,), and which rolls they reach (n,)."""
+    """Weights (n, k) of [A.2], [A.3] from values at roll angles `known` (k,) to `rolls` (n,), and which rolls they
+    reach (n,)."""
     order = np.argsort(known)
     sorted_rolls = known[order]
     reached = (rolls >= sorted_rolls[0]) & (rolls <= sorted_rolls[-1])
@@ -134,7 +139,8 @@ def roll_interpolation(rolls: np.ndarray, known: np.ndarray) -> tuple[np.ndarray
 
 @dataclass(frozen=True)
 class NodeResponse:
-    """Contact nodes of one position and how either gear responds: `compliance` (2n, 2n), mm/N, hub held, normals then tangents."""
+    """Contact nodes of one position and how either gear responds: `compliance` (2n, 2n), mm/N, hub held, normals then
+    tangents."""
 
     pairs: tuple[NodePairs, ...]
     compliance: tuple[np.ndarray, np.ndarray]
@@ -177,10 +183,14 @@ def node_to_node_operator(
 GEAR_COLUMNS = ((0, 1, 2), (3, 4, 5))
 
 
-def _last_displacement(radii, pairs, before: NodeResponse, angles: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-    """E (n, 2 n of the step before) and G (n, 7) with u_t(t_n) = G q - E p at the material points that are contact nodes now.
+def _last_displacement(
+    radii, pairs, before: NodeResponse, angles: tuple[float, float]
+) -> tuple[np.ndarray, np.ndarray]:
+    """E (n, 2 n of the step before) and G (n, 7) with u_t(t_n) = G q - E p at the material points that are contact
+    nodes now.
 
-    `angles`: by which the roll angles of pinion and wheel have risen, rad. Between the last step's nodes displacements are linear
+    `angles`: by which the roll angles of pinion and wheel have risen, rad. Between the last step's nodes displacements
+        are linear
     in the roll angle [A.2]; beyond them the gear moves rigidly [A.4].
     """
     last = len(over_nodes(before.pairs, "offsets"))
@@ -196,7 +206,8 @@ def _last_displacement(radii, pairs, before: NodeResponse, angles: tuple[float, 
 
 
 def _pairwise(pairs, previous, gear: int) -> tuple[np.ndarray, np.ndarray]:
-    """Weights (n, nodes before) of [A.2] between the nodes of the same tooth pair, and whether they reach a node (n,)."""
+    """Weights (n, nodes before) of [A.2] between the nodes of the same tooth pair, and whether they reach a node
+    (n,)."""
     earlier = {pair.place.index: (columns, pair) for columns, pair in zip(node_slices(previous), previous)}
     weights = np.zeros((len(over_nodes(pairs, "offsets")), len(over_nodes(previous, "offsets"))))
     reached = np.zeros(len(weights), dtype=bool)

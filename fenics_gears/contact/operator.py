@@ -1,7 +1,8 @@
 """The contact equations at one position of the gears: the nodes that may touch, and their response.
 
-Unknowns of the mixed form (model.md section 4) are nodal forces `p` and centre coordinates `q`; the relative displacement
-of the contact nodes is `u = G q - C p`. Rows come normals first, then tangents where friction asks for them.
+Unknowns of the mixed form (model.md section 4) are nodal forces `p` and centre coordinates `q`; the relative
+displacement of the contact nodes is `u = G q - C p`. Rows come normals first, then tangents where friction asks for
+them.
 """
 
 from __future__ import annotations
@@ -23,9 +24,10 @@ from fenics_gears.geometry.pair import GearPair
 if TYPE_CHECKING:
     from fenics_gears.contact.face import Face
 
-# The centre coordinates q of the model: seven in the plane. Rotations are carried as arc lengths rb1 phi1, rb2 phi2 (mm), so that every
-# coordinate is a length and every row a force, and no equation is scaled against another. The output shaft's end goes by its
-# twist rb2 (phi3 - phi2): as the difference of two rotations the twist of a stiff shaft would be lost in round-off.
+# The centre coordinates q of the model: seven in the plane. Rotations are carried as arc lengths rb1 phi1, rb2 phi2
+# (mm), so that every coordinate is a length and every row a force, and no equation is scaled against another. The
+# output shaft's end goes by its twist rb2 (phi3 - phi2): as the difference of two rotations the twist of a stiff shaft
+# would be lost in round-off.
 CENTRE_COORDINATES = ("centre_x1", "centre_y1", "rotation_1", "centre_x2", "centre_y2", "rotation_2", "shaft_twist")
 # Six more of gears that also move along their axes and tilt; tilts are carried as arc lengths, rb theta.
 FACE_COORDINATES = ("axial_1", "tilt_x1", "tilt_y1", "axial_2", "tilt_x2", "tilt_y2")
@@ -36,15 +38,17 @@ COORDINATES = CENTRE_COORDINATES + FACE_COORDINATES
 class ContactOperator:
     """Contact at one position: n nodes, m = n without friction, 2 n with it; k centre coordinates.
 
-    `base_radii` (mm) of pinion and wheel; `pairs`: the tooth pairs whose nodes these are, in order; `normal_lever_arms` (n,),
+    `base_radii` (mm) of pinion and wheel; `pairs`: the tooth pairs whose nodes these are, in order; `normal_lever_arms`
+    (n,),
     mm: of a normal force about the pinion's and the wheel's centre.
 
-    `compliance` C (m, m), mm/N; `jacobian` G (m, k); `gap` (n,), mm; `rigid_slip` (n,), mm: slip of rigid flanks during the step that ends
-    here; `previous_compliance` E (n, m of the step before) and `previous_jacobian` (n, k): the tangential displacement that
-    the material points touching now had at the end of the step before is `previous_jacobian q - E p`. The last three are
-    None without friction.
+    `compliance` C (m, m), mm/N; `jacobian` G (m, k); `gap` (n,), mm; `rigid_slip` (n,), mm: slip of rigid flanks during
+    the step that ends here; `previous_compliance` E (n, m of the step before) and `previous_jacobian` (n, k): the
+    tangential displacement that the material points touching now had at the end of the step before is
+    `previous_jacobian q - E p`. The last three are None without friction.
 
-    `dependent_rows`: rows of the compliance that are combinations of others, see `contact.rank`. `face`: of pairs in slices; None in the plane.
+    `dependent_rows`: rows of the compliance that are combinations of others, see `contact.rank`. `face`: of pairs in
+        slices; None in the plane.
     """
 
     pairs: tuple[PairNodes, ...]
@@ -93,11 +97,12 @@ def per_node(pairs: Sequence[PairNodes], values: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Lines:
-    """Line of action of each contact node: its direction `normal` (n, 2) in space, from pinion to wheel, `tangent` (n, 2) across it, sign (n,)
-    of rotations there, and `lever_arms` (n,), mm, of normal forces about the centres of pinion and wheel.
+    """Line of action of each contact node: its direction `normal` (n, 2) in space, from pinion to wheel, `tangent` (n,
+    2) across it, sign (n,) of rotations there, and `lever_arms` (n,), mm, of normal forces about the centres of pinion
+      and wheel.
 
-    Lever arms are the base radii, and at a tip's edge those of the mate's normal. An involute turned by phi moves by rb phi along its own
-    normal wherever it is touched, so that T1/rb1 = T2/rb2 holds exactly without friction.
+    Lever arms are the base radii, and at a tip's edge those of the mate's normal. An involute turned by phi moves by rb
+    phi along its own normal wherever it is touched, so that T1/rb1 = T2/rb2 holds exactly without friction.
     """
 
     pairs: Sequence[PairNodes]
@@ -115,7 +120,10 @@ class Lines:
 def lines_of(pairs: Sequence[PairNodes], base_radii: tuple[float, float]) -> Lines:
     """The lines of action of the pairs' nodes."""
     places = [pair.place for pair in pairs]
-    of_pairs = [(*place.axes[0], *place.axes[1], place.turn, *(base_radii if place.line is None else place.line.lever_arms)) for place in places]
+    of_pairs = [
+        (*place.axes[0], *place.axes[1], place.turn, *(base_radii if place.line is None else place.line.lever_arms))
+        for place in places
+    ]
     values = per_node(pairs, np.array(of_pairs).reshape(len(pairs), 7))
     return Lines(pairs, values[:, :2], values[:, 2:4], values[:, 4], (values[:, 5].copy(), values[:, 6].copy()))
 
@@ -133,7 +141,8 @@ def displacement_jacobian(
     lines: Lines | None = None,
     face: Face | None = None,
 ) -> np.ndarray:
-    """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm; over a `face` (m, 13).
+    """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm;
+    over a `face` (m, 13).
 
     `lines`: of the nodes, where they are known.
     """
@@ -152,7 +161,8 @@ def displacement_jacobian(
     return on_face(rows, lines, face, base_radii)
 
 
-# A flank of a gear, by its tooth's place and its side; contact nodes as `compliance_product` takes them, and none of them.
+# A flank of a gear, by its tooth's place and its side; contact nodes as `compliance_product` takes them, and none of
+# them.
 _Flank = tuple[int, int]
 _Nodes = tuple[int, np.ndarray, np.ndarray, np.ndarray]
 NO_NODES: _Nodes = (0, np.empty((0, 1)), np.empty(0, dtype=np.int64), np.eye(2))
@@ -169,19 +179,28 @@ class CompliancePairing:
         self._blocks = ({}, {}) if kept is None else kept
 
     def _block(self, gear: int, responding: _Flank, loaded: _Flank) -> np.ndarray:
-        body, blocks, teeth, sides = self._gears[gear], self._blocks[gear], (responding[0], loaded[0]), (responding[1], loaded[1])
+        body, blocks, teeth, sides = (
+            self._gears[gear],
+            self._blocks[gear],
+            (responding[0], loaded[0]),
+            (responding[1], loaded[1]),
+        )
         key = body.key(*teeth), sides
         if key not in blocks:
             blocks[key] = np.ascontiguousarray(body.between(*teeth, sides))
         return blocks[key]
 
     def compliance(
-        self, pairs: Sequence[ToothPair], previous: Sequence[ToothPair] | None = None, turned: tuple[float, float] = (0.0, 0.0)
+        self,
+        pairs: Sequence[ToothPair],
+        previous: Sequence[ToothPair] | None = None,
+        turned: tuple[float, float] = (0.0, 0.0),
     ) -> tuple[np.ndarray, np.ndarray | None]:
-        """Sum over both gears of `N A N^T`, mm/N: C (m, m) between the nodes of `pairs`, and E (n, m before) by forces on those of `previous`.
+        """Sum over both gears of `N A N^T`, mm/N: C (m, m) between the nodes of `pairs`, and E (n, m before) by forces
+        on those of `previous`.
 
-        With `previous`, the pairs a step before, there are tangential rows, and E is the displacement along the tangent that the material
-        points had while the gears stood `turned` (rad, of either one) before. E is None without.
+        With `previous`, the pairs a step before, there are tangential rows, and E is the displacement along the tangent
+        that the material points had while the gears stood `turned` (rad, of either one) before. E is None without.
         """
         tangential = previous is not None
         kinds, nodes, nodes_before = 2 if tangential else 1, _count(pairs), _count(previous or ())
@@ -198,7 +217,9 @@ class CompliancePairing:
                     # The other half follows by symmetry.
                     loaded = loaded if loaded[0] <= row else NO_NODES
                     if len(loaded[2]) or len(loaded_before[2]):
-                        compliance_product(self._block(gear, flank, other), own, loaded, compliance, loaded_before, earlier)
+                        compliance_product(
+                            self._block(gear, flank, other), own, loaded, compliance, loaded_before, earlier
+                        )
         rows = kinds * nodes
         return compliance.reshape(rows, rows), earlier.reshape(nodes, 2 * nodes_before) if tangential else None
 
@@ -208,7 +229,8 @@ def _count(pairs: Sequence[PairNodes]) -> int:
 
 
 def _nodes_of(pairs: Sequence[ToothPair], gear: int, tangential: bool) -> list[tuple[_Flank, _Nodes]]:
-    """The flank of each pair, its contact nodes, and the directions of forces on them: e_x, and e_y where friction asks for it."""
+    """The flank of each pair, its contact nodes, and the directions of forces on them: e_x, and e_y where friction asks
+    for it."""
     found, start = [], 0
     for pair in pairs:
         view, place = pair.interpolation[gear], pair.place
@@ -218,7 +240,9 @@ def _nodes_of(pairs: Sequence[ToothPair], gear: int, tangential: bool) -> list[t
     return found
 
 
-def _matched(now: list[tuple[_Flank, _Nodes]], before: list[tuple[_Flank, _Nodes]]) -> list[tuple[_Flank, _Nodes, _Nodes]]:
+def _matched(
+    now: list[tuple[_Flank, _Nodes]], before: list[tuple[_Flank, _Nodes]]
+) -> list[tuple[_Flank, _Nodes, _Nodes]]:
     """Contact nodes now and a step before that are on the same flank, and those that have none beside them."""
     left, found = list(before), []
     for flank, nodes in now:
@@ -260,7 +284,8 @@ def operator_on_lines(
     dependent_rows: int = 0,
     face: Face | None = None,
 ) -> ContactOperator:
-    """The contact equations of nodes whose normal forces act along their pair's line; `previous_compliance` None without friction.
+    """The contact equations of nodes whose normal forces act along their pair's line; `previous_compliance` None
+    without friction.
 
     Arguments as of `contact_operator`, arrays as of ContactOperator.
     """
@@ -271,33 +296,49 @@ def operator_on_lines(
         base_radii=radii,
         normal_lever_arms=lines.lever_arms,
         compliance=compliance,
-        jacobian=displacement_jacobian(pairs, radii, lines.lever_arms, frictional, lines, face).take(coordinates, axis=1),
+        jacobian=displacement_jacobian(pairs, radii, lines.lever_arms, frictional, lines, face).take(
+            coordinates, axis=1
+        ),
         gap=over_nodes(pairs, "gap"),
         rigid_slip=slip_of_rigid_flanks(lines, turned(gears, advance)) if frictional else None,
         previous_compliance=np.asfortranarray(previous_compliance) if frictional else None,
-        previous_jacobian=earlier_tangential_jacobian(lines, radii, turned(gears, advance), face).take(coordinates, axis=1) if frictional else None,
+        previous_jacobian=earlier_tangential_jacobian(lines, radii, turned(gears, advance), face).take(
+            coordinates, axis=1
+        )
+        if frictional
+        else None,
         dependent_rows=dependent_rows,
         face=face,
     )
 
 
 def turned(gears: GearPair, advance: float) -> tuple[float, float]:
-    """By how much (rad) the roll angles of pinion and wheel rise while the pinion turns by `advance`; the wheel's fall."""
+    """By how much (rad) the roll angles of pinion and wheel rise while the pinion turns by `advance`; the wheel's
+    fall."""
     return advance, -advance * gears.pinion.base_radius / gears.wheel.base_radius
 
 
 def slip_of_rigid_flanks(lines: Lines, turned: tuple[float, float]) -> np.ndarray:
-    """Slip (n,), mm, of the points touching now while rigid gears turned to here: the exact integral of the sliding speed [12].
+    """Slip (n,), mm, of the points touching now while rigid gears turned to here: the exact integral of the sliding
+    speed [12].
 
-    The sliding speed times the step would be of first order only: the speed grows in proportion to the distance from the pitch point.
+    The sliding speed times the step would be of first order only: the speed grows in proportion to the distance from
+    the pitch point.
     """
     lever_arms, offsets = lines.friction_arms, over_nodes(lines.pairs, "offsets")
     straight = lines.turn * (lever_arms[0] * sin(turned[0]) + lever_arms[1] * sin(turned[1]))
-    return straight - (lines.lever_arms[0] - offsets) * (1.0 - cos(turned[0])) - (lines.lever_arms[1] + offsets) * (1.0 - cos(turned[1]))
+    return (
+        straight
+        - (lines.lever_arms[0] - offsets) * (1.0 - cos(turned[0]))
+        - (lines.lever_arms[1] + offsets) * (1.0 - cos(turned[1]))
+    )
 
 
-def earlier_tangential_jacobian(lines: Lines, radii: tuple[float, float], turned: tuple[float, float], face: Face | None = None) -> np.ndarray:
-    """Tangential rigid displacement (n, 7), over a `face` (n, 13), of the points touching now, per centre coordinate one step before."""
+def earlier_tangential_jacobian(
+    lines: Lines, radii: tuple[float, float], turned: tuple[float, float], face: Face | None = None
+) -> np.ndarray:
+    """Tangential rigid displacement (n, 7), over a `face` (n, 13), of the points touching now, per centre coordinate
+    one step before."""
     offsets, (arm_1, arm_2) = over_nodes(lines.pairs, "offsets"), lines.friction_arms
     height_1, height_2 = lines.lever_arms[0] - offsets, lines.lever_arms[1] + offsets
     tangent, turn = lines.tangent, lines.turn

@@ -1,7 +1,7 @@
 """The paper's Newton method with a merit function and a line search [Appendix B], on (24), (25) and (C.1).
 
-Unknowns y = (u, p): relative displacement and contact forces of all nodes. With H1 = K u + p + f, and H2 the difference of both
-sides of (24), (25), the merit is Phi = 1/2 H^T H. All parts of H are forces (r is a stiffness, one per node).
+Unknowns y = (u, p): relative displacement and contact forces of all nodes. With H1 = K u + p + f, and H2 the difference
+of both sides of (24), (25), the merit is Phi = 1/2 H^T H. All parts of H are forces (r is a stiffness, one per node).
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ BETA, GAMMA, MOST_HALVINGS = 0.9, 0.1, 22
 class Equations:
     """[24], [25] and [C.1] for n nodes, m = n without friction, 2 n with it.
 
-    `stiffness` (m, m), N/mm; `load` (m,), N; `gap` (n,), mm; `slip_before` (n,): w_old, mm, empty without friction; `r` (m,), N/mm.
+    `stiffness` (m, m), N/mm; `load` (m,), N; `gap` (n,), mm; `slip_before` (n,): w_old, mm, empty without friction; `r`
+    (m,), N/mm.
     """
 
     stiffness: np.ndarray
@@ -63,7 +64,8 @@ class Equations:
         return step, -first - self.stiffness @ step
 
     def _projected(self, displacement: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Normal and tangential forces (n,) that the projections cut off, and friction's limit (n,), N; the last two empty without friction."""
+        """Normal and tangential forces (n,) that the projections cut off, and friction's limit (n,), N; the last two
+        empty without friction."""
         n = len(self.gap)
         normal = forces[:n] + self.r[:n] * (displacement[:n] - self.gap)
         if not len(self.slip_before):
@@ -74,7 +76,8 @@ class Equations:
 
 @dataclass(frozen=True)
 class Iterate:
-    """One iterate: displacement u (m,), mm, forces p (m,), N, its merit Phi (N^2) and the length of the step to it (0 at the start)."""
+    """One iterate: displacement u (m,), mm, forces p (m,), N, its merit Phi (N^2) and the length of the step to it (0
+    at the start)."""
 
     displacement: np.ndarray
     forces: np.ndarray
@@ -100,7 +103,8 @@ def merit(equations: Equations, displacement: np.ndarray, forces: np.ndarray) ->
 
 
 def _line_search(equations: Equations, present: Iterate) -> Iterate:
-    """The next iterate. Where no step fulfils the criterion the shortest is taken: the paper leaves that open, and this solves its pair."""
+    """The next iterate. Where no step fulfils the criterion the shortest is taken: the paper leaves that open, and this
+    solves its pair."""
     step_u, step_p = equations.direction(present.displacement, present.forces)
     for halving in range(MOST_HALVINGS + 1):
         length = BETA**halving

@@ -1,4 +1,5 @@
-"""A step solved by the paper's Newton method; by the program's own Newton and its fallbacks where that finds no solution."""
+"""A step solved by the paper's Newton method; by the program's own Newton and its fallbacks where that finds no
+solution."""
 
 from __future__ import annotations
 
@@ -23,7 +24,8 @@ SMALL = 1e-3
 class RemeshedPosition(Position):
     """A position with its `index` in the mesh cycle and a function that gives the stiffness of either gear, N/mm.
 
-    `stiffness()`: (2n + 3, 2n + 3) over the contact nodes' normals and tangents and the centre (dx, dy, phi), in the gear's own frame.
+    `stiffness()`: (2n + 3, 2n + 3) over the contact nodes' normals and tangents and the centre (dx, dy, phi), in the
+    gear's own frame.
     """
 
     index: int
@@ -31,7 +33,8 @@ class RemeshedPosition(Position):
 
 
 class PublishedSolver:
-    """Newton with line search [B] on [24], [25] and [C.1]; what it cannot solve goes to `solve_step`, on the same equations.
+    """Newton with line search [B] on [24], [25] and [C.1]; what it cannot solve goes to `solve_step`, on the same
+    equations.
 
     The equations are reduced to the relative displacement once for each position and effective stiffness.
     """
@@ -77,8 +80,11 @@ class PublishedSolver:
         return self._reduced[key]
 
 
-def _start(position, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> tuple[np.ndarray, np.ndarray]:
-    """The last step's displacement and forces at the nodes that had the same place; at the very first, the closed nodes just touch."""
+def _start(
+    position, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+) -> tuple[np.ndarray, np.ndarray]:
+    """The last step's displacement and forces at the nodes that had the same place; at the very first, the closed nodes
+    just touch."""
     n, m = len(problem.gap), len(problem.compliance)
     displacement, forces = np.zeros(m), np.zeros(m)
     if last is None:
@@ -109,7 +115,9 @@ def _newton(equations: Equations, displacement, forces, force_tolerance: float) 
     return tried, NO_DIRECTION
 
 
-def _attempt(reduced: RelativeStiffness, problem: StepProblem, equations: Equations, tried: list[Iterate], outcome: str):
+def _attempt(
+    reduced: RelativeStiffness, problem: StepProblem, equations: Equations, tried: list[Iterate], outcome: str
+):
     """An attempt as ContactNotConverged lists it: name, outcome, residuals and sets of every iterate."""
     sets = np.array([equations.status(each.displacement, each.forces) for each in tried], dtype=np.int8)
     history = [

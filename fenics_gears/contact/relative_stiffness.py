@@ -1,12 +1,15 @@
 """The paper's equilibrium equations in the relative displacement of the contact nodes alone: [22], then [C.1].
 
-Each gear is taken in its own frame, x outwards along its flank's normal at the line of action, so that both gears respond alike to a
-contact force: K_i u_i + p + f_i = 0, and the relative displacement u is u_1 + u_2. (The wheel's frame is turned by half a
+Each gear is taken in its own frame, x outwards along its flank's normal at the line of action, so that both gears
+respond alike to a
+contact force: K_i u_i + p + f_i = 0, and the relative displacement u is u_1 + u_2. (The wheel's frame is turned by half
+    a
 turn: the paper's u_c^2 and F_e^2 are -u_2 and -f_2.)
 
-[22] eliminates the centre through K_inv = [K_qq + K^i]^-1, which exists even where the drivetrain alone holds nothing (K^i
-singular, a wheel without mass): the flank nodes hold the centre. K_i is then singular and only contact holds the gear. These
-stiffnesses are differences of far larger ones: about 1e-10 of the load is lost in round-off, whatever the time step.
+[22] eliminates the centre through K_inv = [K_qq + K^i]^-1, which exists even where the drivetrain alone holds nothing
+(K^i singular, a wheel without mass): the flank nodes hold the centre. K_i is then singular and only contact holds the
+gear. These stiffnesses are differences of far larger ones: about 1e-10 of the load is lost in round-off, whatever the
+time step.
 """
 
 from __future__ import annotations
@@ -16,7 +19,8 @@ from scipy.linalg import cho_factor, cho_solve
 
 from fenics_gears.contact.operator import CENTRE_COORDINATES
 
-# Centre coordinates of pinion and wheel in CENTRE_COORDINATES, each with how it moves (dx, dy, rb phi) in the gear's own frame.
+# Centre coordinates of pinion and wheel in CENTRE_COORDINATES, each with how it moves (dx, dy, rb phi) in the gear's
+# own frame.
 PINION = {"centre_x1": (0, 1.0), "centre_y1": (1, 1.0), "rotation_1": (2, 1.0)}
 WHEEL = {"centre_x2": (0, -1.0), "centre_y2": (1, -1.0), "rotation_2": (2, 1.0)}
 
@@ -24,7 +28,8 @@ WHEEL = {"centre_x2": (0, -1.0), "centre_y2": (1, -1.0), "rotation_2": (2, 1.0)}
 class CentreEliminated:
     """One gear without its centre [22]: `stiffness` (2n, 2n), N/mm, over the contact nodes' normals and tangents.
 
-    `stiffness` given: over the nodes and (dx, dy, phi); `motion` (3, k): of the centre per coordinate of the drivetrain;
+    `stiffness` given: over the nodes and (dx, dy, phi); `motion` (3, k): of the centre per coordinate of the
+        drivetrain;
     `effective` (k, k): the drivetrain's stiffness K^i [17], [20] on them.
     """
 
@@ -46,16 +51,20 @@ class CentreEliminated:
 class RelativeStiffness:
     """`stiffness` (m, m), N/mm, in K u + p + f = 0 [C.1] over the contact nodes: normals, and tangents with friction.
 
-    `gears`: stiffness (2n + 3, 2n + 3) of pinion and wheel over their nodes' normals, tangents and (dx, dy, phi); `effective`
+    `gears`: stiffness (2n + 3, 2n + 3) of pinion and wheel over their nodes' normals, tangents and (dx, dy, phi);
+        `effective`
     (k, k): effective stiffness of the drivetrain over `coordinates`, positions in CENTRE_COORDINATES; `base_radii`, mm.
-    Maps from drivetrain forces F and displacement u are kept as small matrices, since a run keeps many of these objects.
+    Maps from drivetrain forces F and displacement u are kept as small matrices, since a run keeps many of these
+    objects.
     """
 
     def __init__(self, gears, effective: np.ndarray, coordinates: list[int], base_radii, tangential: bool):
         shafts = _Shafts(effective, [CENTRE_COORDINATES[index] for index in coordinates])
         first, second = (
             CentreEliminated(stiffness, _motion(names, known, radius), block)
-            for stiffness, names, known, radius, block in zip(gears, shafts.names, (PINION, WHEEL), base_radii, shafts.stiffness)
+            for stiffness, names, known, radius, block in zip(
+                gears, shafts.names, (PINION, WHEEL), base_radii, shafts.stiffness
+            )
         )
         unit = np.eye(len(coordinates))
         force_1, force_2 = shafts.forces(unit)

@@ -1,4 +1,5 @@
-"""A mesh cycle of modified flanks on the operators of another one: material removed from flanks opens gaps and changes nothing else."""
+"""A mesh cycle of modified flanks on the operators of another one: material removed from flanks opens gaps and changes
+nothing else."""
 
 from __future__ import annotations
 
@@ -12,14 +13,16 @@ from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, Points
 from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle, Position
 from fenics_gears.contact.tooth_pair import PairNodes, Removal, facing_points, seen_gap
 
-# A tooth pair, and at the points that its nodes see the roll angles (rad) of pinion and wheel and the gap (mm) of true involutes.
+# A tooth pair, and at the points that its nodes see the roll angles (rad) of pinion and wheel and the gap (mm) of true
+# involutes.
 Facing = tuple[PairNodes, tuple[np.ndarray, np.ndarray], np.ndarray]
 # Cycles with different reliefs on the same operators, such as those of a study, have these in common.
 _FACING: WeakKeyDictionary[Cycle, dict[int, list[Facing]]] = WeakKeyDictionary()
 
 
 class RelievedCycle(DeviatingCycle):
-    """The positions of a `cycle` along the line of action with the gaps of flanks from which `removal` is taken, in place of its own removal.
+    """The positions of a `cycle` along the line of action with the gaps of flanks from which `removal` is taken, in
+    place of its own removal.
 
     What it gives is, to the last digit, what a MeshCycle of these flanks gives.
     """

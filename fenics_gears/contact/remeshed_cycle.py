@@ -1,4 +1,5 @@
-"""The mesh cycle of the reference route: both gears are meshed anew at every position, so that flank nodes meet pair by pair."""
+"""The mesh cycle of the reference route: both gears are meshed anew at every position, so that flank nodes meet pair by
+pair."""
 
 from __future__ import annotations
 
@@ -21,14 +22,16 @@ KEPT_COMPLIANCES = 3
 def paired_nodes(
     pair: GearPair, removal: tuple[Removal | None, Removal | None], grid: ContactGrid, order: int, steps: int
 ) -> list[tuple[NodePairs, ...]]:
-    """The contact nodes of every tooth pair at each position of a mesh cycle; `order`: of the finite element; `grid` spaces its vertices."""
+    """The contact nodes of every tooth pair at each position of a mesh cycle; `order`: of the finite element; `grid`
+    spaces its vertices."""
     places = (pair_places(pair, grid, step / steps) for step in range(steps))
     found = ([node_pairs(pair, removal, grid, order, place) for place in each] for each in places)
     return [tuple(nodes for nodes in each if nodes is not None) for each in found]
 
 
 class RemeshedCycle(Cycle):
-    """Contact nodes that are nodes of both gears' meshes: `pairs` at each position, `grid` and `order` as of `paired_nodes`.
+    """Contact nodes that are nodes of both gears' meshes: `pairs` at each position, `grid` and `order` as of
+    `paired_nodes`.
 
     `stiffness`: at each position that of pinion and wheel, N/mm per mm of face width, on the nodes of `loaded_teeth`;
     `coordinates`: which centre coordinates are unknowns; `tangential`: whether friction acts.

@@ -1,8 +1,10 @@
-"""The mesh cycle of rigid flanks: the tooth pair with the smallest gap carries the whole force, and its gap is the kinematic transmission error.
+"""The mesh cycle of rigid flanks: the tooth pair with the smallest gap carries the whole force, and its gap is the
+kinematic transmission error.
 
-All contact nodes of the drive flanks move alike with the gears, by the base radii and along the line of action; so do those of the coast
-flanks. On either side only the node with the smallest gap can touch. Where several pairs have the same gap, as true involutes do wherever two
-pairs are in mesh, their shares of the force are not determined; the step's solution puts the whole force on the first of them.
+All contact nodes of the drive flanks move alike with the gears, by the base radii and along the line of action; so do
+those of the coast flanks. On either side only the node with the smallest gap can touch. Where several pairs have the
+same gap, as true involutes do wherever two pairs are in mesh, their shares of the force are not determined; the step's
+solution puts the whole force on the first of them.
 """
 
 from __future__ import annotations
@@ -53,8 +55,11 @@ class RigidCycle(Cycle):
         super().__init__(pair, grid, steps, coast_flanks)
         self._removal, self._coordinates = removal, coordinates
 
-    def solve(self, position: RigidPosition, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
-        """The step with the first of `_candidates` that holds the load: no node touching, or the leading node of a side, or of both.
+    def solve(
+        self, position: RigidPosition, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+    ) -> StepSolution:
+        """The step with the first of `_candidates` that holds the load: no node touching, or the leading node of a
+        side, or of both.
 
         Raises ContactNotConverged where none of them holds the load.
         """
@@ -64,11 +69,14 @@ class RigidCycle(Cycle):
             forces, coordinates = _solved(problem, touching, unit)
             if forces is not None and _obeys(problem, leaders, touching, forces, coordinates):
                 displacement = problem.jacobian @ coordinates
-                return StepSolution(forces, coordinates, displacement, _status(unit, len(problem.gap)), iterations, NEWTON)
+                return StepSolution(
+                    forces, coordinates, displacement, _status(unit, len(problem.gap)), iterations, NEWTON
+                )
         raise _no_equilibrium(problem, leaders)
 
     def _candidates(self, leaders: list[int]) -> list[list[int]]:
-        """Sets of nodes that may touch. Both sides do where teeth are wider than the spaces between them and bearings let the centres move."""
+        """Sets of nodes that may touch. Both sides do where teeth are wider than the spaces between them and bearings
+        let the centres move."""
         return [[], *([leader] for leader in leaders), *([leaders] if len(leaders) == 2 else [])]
 
     def _unit_forces(self, operator: ContactOperator, problem: StepProblem, touching: list[int]) -> np.ndarray:
@@ -95,7 +103,9 @@ class RigidCycle(Cycle):
         previous_compliance = np.broadcast_to(0.0, (nodes, 2 * before)) if self.frictional else None
         compliance = np.broadcast_to(0.0, (rows, rows))
         operator = operator_on_lines(self.pair, pairs, self._coordinates, compliance, previous_compliance, advance)
-        return RigidPosition(operator, carried, (np.flatnonzero(operator.on_drive_flanks), np.flatnonzero(~operator.on_drive_flanks)))
+        return RigidPosition(
+            operator, carried, (np.flatnonzero(operator.on_drive_flanks), np.flatnonzero(~operator.on_drive_flanks))
+        )
 
 
 def pairs_that_touch(operator: ContactOperator, node: int) -> np.ndarray:
@@ -119,11 +129,16 @@ def _solved(problem: StepProblem, touching: list[int], unit: np.ndarray) -> tupl
     # Forces are carried as lengths, by the largest stiffness, so that all entries of the matrix are of one size.
     scale = np.abs(problem.stiffness).max(initial=0.0) or 1.0
     matrix = np.zeros((k + t, k + t))
-    matrix[:k, :k], matrix[:k, k:], matrix[k:, :k] = problem.stiffness, scale * (problem.jacobian.T @ unit), scale * rows
+    matrix[:k, :k], matrix[:k, k:], matrix[k:, :k] = (
+        problem.stiffness,
+        scale * (problem.jacobian.T @ unit),
+        scale * rows,
+    )
     right = np.append(problem.load, scale * gap)
     try:
         solution = np.linalg.solve(matrix, right)
-        # Iterative refinement: where slow masses are hardly any stiffness, load over stiffness is a length beside which the gap is round-off.
+        # Iterative refinement: where slow masses are hardly any stiffness, load over stiffness is a length beside which
+        # the gap is round-off.
         solution += np.linalg.solve(matrix, right - matrix @ solution)
     except np.linalg.LinAlgError:
         return None, np.zeros(k)
@@ -133,7 +148,9 @@ def _solved(problem: StepProblem, touching: list[int], unit: np.ndarray) -> tupl
 def _status(unit: np.ndarray, nodes: int) -> np.ndarray:
     """Sets (n,) of nodes under forces `unit` (m, t), friction's sign being that of the slip."""
     pressed, sense = unit[:nodes].any(axis=1), unit[nodes:].sum(axis=1)
-    slips = np.where(sense > 0.0, SLIP_FORWARD, np.where(sense < 0.0, SLIP_BACKWARD, STICK)) if len(sense) else SLIP_FORWARD
+    slips = (
+        np.where(sense > 0.0, SLIP_FORWARD, np.where(sense < 0.0, SLIP_BACKWARD, STICK)) if len(sense) else SLIP_FORWARD
+    )
     return np.where(pressed, slips, OPEN).astype(np.int8)
 
 
@@ -142,7 +159,9 @@ def _independent(rows: np.ndarray) -> bool:
     return np.linalg.matrix_rank(rows, tol=1e-9) == len(rows)
 
 
-def _obeys(problem: StepProblem, leaders: list[int], touching: list[int], forces: np.ndarray, coordinates: np.ndarray) -> bool:
+def _obeys(
+    problem: StepProblem, leaders: list[int], touching: list[int], forces: np.ndarray, coordinates: np.ndarray
+) -> bool:
     """Whether nothing pulls and nothing penetrates."""
     if np.min(forces[touching], initial=0.0) < -problem.tolerance.force:
         return False
@@ -158,8 +177,9 @@ def _no_equilibrium(problem: StepProblem, leaders: list[int]) -> ContactNotConve
     play = float(problem.gap[leaders].sum())
     if len(leaders) == 2 and play < 0.0 and not _independent(problem.jacobian[leaders]):
         reason = (
-            f"no equilibrium: rigid teeth are wedged between drive and coast flanks, by {-1e3 * play:.4g} um more than there is backlash: "
-            "raise gears.centre_distance, lower the flank deviations, or make teeth or bearings elastic ([gears.material], [bearings])"
+            f"no equilibrium: rigid teeth are wedged between drive and coast flanks, by {-1e3 * play:.4g} um more than"
+            " there is backlash: raise gears.centre_distance, lower the flank deviations, or make teeth or bearings"
+            " elastic ([gears.material], [bearings])"
         )
     history, sets = np.zeros((1, 5)), np.full((1, len(problem.gap)), OPEN, dtype=np.int8)
     return NoStaticEquilibrium([("rigid flanks", "no solution", history, sets)], reason)

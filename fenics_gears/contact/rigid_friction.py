@@ -1,7 +1,9 @@
-"""Rigid flanks with friction, by common practice: tooth pairs that touch share the force evenly, and slide as in the nominal motion.
+"""Rigid flanks with friction, by common practice: tooth pairs that touch share the force evenly, and slide as in the
+nominal motion.
 
-Rigid flanks determine neither how pairs share a force nor, at the pitch point, which way they slide. Each pair's friction is mu times its
-share of the force, against the sliding of the nominal motion; motion of bearings and shafts does not change its sign.
+Rigid flanks determine neither how pairs share a force nor, at the pitch point, which way they slide. Each pair's
+friction is mu times its share of the force, against the sliding of the nominal motion; motion of bearings and shafts
+does not change its sign.
 """
 
 from __future__ import annotations
@@ -26,7 +28,8 @@ class RigidFrictionCycle(RigidCycle):
         return [[], *([leader] for leader in leaders)]
 
     def _unit_forces(self, operator: ContactOperator, problem: StepProblem, touching: list[int]) -> np.ndarray:
-        """Forces (2 n, t) per unit mesh force: even shares on the nearest node of each pair that touches with a leader, and their friction."""
+        """Forces (2 n, t) per unit mesh force: even shares on the nearest node of each pair that touches with a leader,
+        and their friction."""
         count, sliding = len(problem.gap), np.sign(self._sliding(operator))
         unit = np.zeros((2 * count, len(touching)))
         for column, leader in enumerate(touching):

@@ -1,8 +1,9 @@
 """Gaps of eccentric gears: their base circles are carried around their axes.
 
-A gear whose base circle is displaced by c stays an involute gear: to first order in c its flanks move by c along their normal, the
-direction of the line of action on which they touch. Coast flanks have their own line of action: they
-lose what drive flanks gain only where both directions are opposite. The change of the pressure angle is of second order and left out.
+A gear whose base circle is displaced by c stays an involute gear: to first order in c its flanks move by c along their
+normal, the direction of the line of action on which they touch. Coast flanks have their own line of action: they
+lose what drive flanks gain only where both directions are opposite. The change of the pressure angle is of second order
+and left out.
 """
 
 from __future__ import annotations
@@ -51,7 +52,8 @@ class RunOut:
 
 
 def displacement(offset: Offset, sense: float, turned: float) -> tuple[float, float]:
-    """Centre of a base circle from its axis (x along the line of action, y across it), mm, when the gear has turned by `turned` (rad)."""
+    """Centre of a base circle from its axis (x along the line of action, y across it), mm, when the gear has turned by
+    `turned` (rad)."""
     angle = sense * (turned + offset.phase)
     return offset.distance * cos(angle), offset.distance * sin(angle)
 

@@ -1,9 +1,10 @@
 """The mesh as springs along the line of action: stiffness tables, stiffness by a standard.
 
-A mesh spring that stiffens with its load, piecewise linear, is a row of linear springs side by side, each with a gap of its own:
-``F(u) = sum k_i (u - g_i)_+``. Each is a contact node, so that the march through time needs nothing new, and the energy is exactly
-``sum p_i^2/(2 k_i)``. The springs of a tooth pair stand where its flanks meet on the line of action, with the lever arms that friction has
-there; across that line they yield as much as along it.
+A mesh spring that stiffens with its load, piecewise linear, is a row of linear springs side by side, each with a gap of
+its own:
+``F(u) = sum k_i (u - g_i)_+``. Each is a contact node, so that the march through time needs nothing new, and the energy
+is exactly ``sum p_i^2/(2 k_i)``. The springs of a tooth pair stand where its flanks meet on the line of action, with
+the lever arms that friction has there; across that line they yield as much as along it.
 """
 
 from __future__ import annotations
@@ -25,7 +26,8 @@ APART = 1e-9
 
 @dataclass(frozen=True)
 class PairSprings:
-    """Springs of a tooth pair: its `index`, `flank` DRIVE or COAST, `level` (m,) numbers, `gap` (m,), mm, `stiffness` (m,), N/mm."""
+    """Springs of a tooth pair: its `index`, `flank` DRIVE or COAST, `level` (m,) numbers, `gap` (m,), mm, `stiffness`
+    (m,), N/mm."""
 
     index: int
     flank: int
@@ -46,12 +48,20 @@ class SpringNodes(PairNodes):
 
 
 class SpringCycle(Cycle):
-    """A mesh of springs. `levels`: at most so many of a pair; `coordinates`: which centre coordinates are unknowns; `tangential`: friction."""
+    """A mesh of springs. `levels`: at most so many of a pair; `coordinates`: which centre coordinates are unknowns;
+    `tangential`: friction."""
 
     traits = CycleTraits(divisible=True, nodes_on_flanks=False, has_pressure=False)
 
     def __init__(
-        self, pair: GearPair, springs: Springs, levels: int, steps: int, coordinates: list[int], tangential: bool, coast_flanks: bool
+        self,
+        pair: GearPair,
+        springs: Springs,
+        levels: int,
+        steps: int,
+        coordinates: list[int],
+        tangential: bool,
+        coast_flanks: bool,
     ):
         super().__init__(pair, ContactGrid(APART * max(levels - 1, 1), max(levels, 2)), steps, coast_flanks)
         self._springs, self._coordinates, self._tangential = springs, coordinates, tangential

@@ -24,7 +24,8 @@ from fenics_gears.contact.newton import (
 
 NEWTON = "newton"
 NEWTON_AND_FALLBACKS = (
-    NEWTON, "slip through stick", "r x 10", "r x 0.1", "friction from zero", "one change at a time", "Tresca fixed point",
+    NEWTON, "slip through stick", "r x 10", "r x 0.1", "friction from zero", "one change at a time",
+    "Tresca fixed point",
 )  # fmt: skip
 PUBLISHED = "Newton with line search"
 # The march itself divides the step in two where all of these end without a solution.
@@ -37,8 +38,8 @@ HOMOTOPY_STEPS = 8
 class StepProblem:
     """The mixed form at one position and time: arrays as in `contact.newton.newton`.
 
-    `slip_before` is empty without friction; `free_motion` (k,): how the load moves the drivetrain where that alone cannot hold
-    it, else empty; `free_words`: the same for an error's message, "the wheel turns freely under ...".
+    `slip_before` is empty without friction; `free_motion` (k,): how the load moves the drivetrain where that alone
+    cannot hold it, else empty; `free_words`: the same for an error's message, "the wheel turns freely under ...".
     """
 
     stiffness: np.ndarray
@@ -52,7 +53,9 @@ class StepProblem:
     tolerance: Tolerance
     free_words: str = ""
 
-    def residual(self, status: np.ndarray, forces: np.ndarray, coordinates: np.ndarray, displacement: np.ndarray) -> np.ndarray:
+    def residual(
+        self, status: np.ndarray, forces: np.ndarray, coordinates: np.ndarray, displacement: np.ndarray
+    ) -> np.ndarray:
         """By how much (5,) a solution with these sets violates the laws and equilibrium, as `newton.measure` has it."""
         row = np.zeros(len(RESIDUAL_NAMES))
         measure(
@@ -86,7 +89,9 @@ def cold_start(gap: np.ndarray, node_pair: np.ndarray) -> np.ndarray:
     return status
 
 
-def solve_step(problem: StepProblem, status: np.ndarray, max_iterations: int = MOST_ITERATIONS, before: tuple = ()) -> StepSolution:
+def solve_step(
+    problem: StepProblem, status: np.ndarray, max_iterations: int = MOST_ITERATIONS, before: tuple = ()
+) -> StepSolution:
     """Solve one step from the sets `status` (n,) int8; `before`: attempts of other methods that failed.
 
     Raises ContactNotConverged, of the kind that says why, with the history of every method when none converges.
@@ -119,7 +124,10 @@ def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> I
         # Imported where it is needed, which is rare.
         from fenics_gears.contact.tresca import tresca
 
-        yield fixed_point, lambda: tresca(problem, status, lambda sets: run_newton(problem, sets, max_iterations, rule=THROUGH_STICK))
+        yield (
+            fixed_point,
+            lambda: tresca(problem, status, lambda sets: run_newton(problem, sets, max_iterations, rule=THROUGH_STICK)),
+        )
 
 
 def run_newton(

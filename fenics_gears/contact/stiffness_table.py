@@ -1,7 +1,9 @@
-"""A table of the mesh stiffness: how far the mesh yields under some loads at each phase, and how its tooth pairs share them.
+"""A table of the mesh stiffness: how far the mesh yields under some loads at each phase, and how its tooth pairs share
+them.
 
-It is taken from one quasi-static, frictionless mesh cycle of the full contact; between loads and phases it is linear. This is the
-time-varying non-linear mesh spring of common practice: it depends neither on speed nor on friction, and on rotations of the gears alone.
+It is taken from one quasi-static, frictionless mesh cycle of the full contact; between loads and phases it is linear.
+This is the time-varying non-linear mesh spring of common practice: it depends neither on speed nor on friction, and on
+rotations of the gears alone.
 """
 
 from __future__ import annotations
@@ -19,13 +21,15 @@ from fenics_gears.contact.tooth_pair import COAST, DRIVE
 
 # In parts of the scene's load; above the last the curve goes on straight.
 LOADS = (0.0, 0.25, 0.5, 0.7, 0.85, 1.0, 1.15, 1.3, 1.6, 2.5)
-# A spring that adds less than this part to the stiffness is left out: it is round-off of a curve that is straight there.
+# A spring that adds less than this part to the stiffness is left out: it is round-off of a curve that is straight
+# there.
 NEGLIGIBLE = 1e-9
 
 
 @dataclass(frozen=True)
 class StiffnessTable:
-    """`loads` (l,), N, from zero; `approach` by flank (phases + 1, l), mm; `share` by (flank, index) (phases + 1, l), N, of each pair.
+    """`loads` (l,), N, from zero; `approach` by flank (phases + 1, l), mm; `share` by (flank, index) (phases + 1, l),
+    N, of each pair.
 
     Phases are even over a mesh cycle, its end included.
     """
@@ -43,7 +47,8 @@ class StiffnessTable:
         indices = [index for side, index in self.share if side == flank]
         shares = np.array([_at(self.share[flank, index], phase) for index in indices])
         slopes = np.maximum.accumulate(np.diff(self.loads) / np.diff(approach))
-        # Where a pair comes into contact the slopes of the others fall a little, since they share the gear body; the sum includes that.
+        # Where a pair comes into contact the slopes of the others fall a little, since they share the gear body; the
+        # sum includes that.
         gained = np.maximum(np.diff(np.diff(shares, axis=1) / np.diff(approach), axis=1, prepend=0.0), 0.0)
         stiffness = np.diff(slopes, prepend=0.0) * gained / np.maximum(gained.sum(axis=0), np.finfo(float).tiny)
         found = []
@@ -65,7 +70,8 @@ def _at(values: np.ndarray, phase: float) -> np.ndarray:
 def stiffness_table(cycle: Cycle, rotation: int, load: float, loads: tuple[float, ...] = LOADS) -> StiffnessTable:
     """Tabulate a cycle without friction at its own steps.
 
-    `rotation`: column of the wheel's rotation among the operators' coordinates. `load`: the force (N) that the `loads` are parts of.
+    `rotation`: column of the wheel's rotation among the operators' coordinates. `load`: the force (N) that the `loads`
+        are parts of.
     """
     levels = load * np.asarray(loads)
     flanks = (DRIVE, COAST) if cycle.coast_flanks else (DRIVE,)
@@ -84,7 +90,9 @@ def stiffness_table(cycle: Cycle, rotation: int, load: float, loads: tuple[float
     return StiffnessTable(levels, approach, {key: rows for key, rows in share.items() if rows.any()})
 
 
-def _curve(operator: ContactOperator, nodes: np.ndarray, rotation: int, levels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _curve(
+    operator: ContactOperator, nodes: np.ndarray, rotation: int, levels: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Approach (l,), mm, along the line of action, and forces (l, n), N, of the nodes under each load."""
     # Coast flanks are approached by turning the other way.
     along = np.abs(operator.jacobian[nodes, rotation])

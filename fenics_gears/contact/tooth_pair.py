@@ -38,7 +38,8 @@ SENSES = (-1.0, 1.0)  # of offsets: towards the pinion's centre, away from the w
 
 @dataclass(frozen=True)
 class Line:
-    """A line of action: its distances `lever_arms` (mm) from both centres, and `length` (mm) between the feet of the centres on it."""
+    """A line of action: its distances `lever_arms` (mm) from both centres, and `length` (mm) between the feet of the
+    centres on it."""
 
     lever_arms: tuple[float, float]
     length: float
@@ -46,12 +47,13 @@ class Line:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a pair of flanks stands: `index` of the pinion's tooth, `flank` DRIVE or COAST, `contact_rolls` (rad) of either gear.
+    """Where a pair of flanks stands: `index` of the pinion's tooth, `flank` DRIVE or COAST, `contact_rolls` (rad) of
+    either gear.
 
-    Coast flanks are seen in the mirror, the line of centres being the mirror's line: `axes` (2, 2) are the line of action's
-    direction and the one across it in space, `turn` the sign of rotations. `line`: another line than the
-    theoretical line of action, of a tip edge (`contact.corner`); its direction is in `axes`, and `contact_rolls` are measured from it.
-    `slice`, `height` (mm): of the face, and where its middle is along the axes; both 0 in the plane.
+    Coast flanks are seen in the mirror, the line of centres being the mirror's line: `axes` (2, 2) are the line of
+    action's direction and the one across it in space, `turn` the sign of rotations. `line`: another line than the
+    theoretical line of action, of a tip edge (`contact.corner`); its direction is in `axes`, and `contact_rolls` are
+    measured from it. `slice`, `height` (mm): of the face, and where its middle is along the axes; both 0 in the plane.
     """
 
     index: int
@@ -73,7 +75,8 @@ class Place:
         return self.index, self.index - self.flank
 
     def ahead(self, gear: int) -> int:
-        """Pitches by which the pinion's (0) or the wheel's (1) tooth stands counter-clockwise of that of drive pair 0."""
+        """Pitches by which the pinion's (0) or the wheel's (1) tooth stands counter-clockwise of that of drive pair
+        0."""
         # A later pair index means a tooth ahead on the pinion, and behind on the wheel.
         return self.teeth[gear] if gear == 0 else -self.teeth[gear]
 
@@ -84,7 +87,8 @@ def drive_place(pair: GearPair, index: int, xi: float) -> Place:
 
 
 def coast_place(pair: GearPair, index: int, xi: float) -> Place:
-    """The coast flank of the pinion's tooth in pair `index`, whose drive flank touches at `xi` (mm), and the one that faces it."""
+    """The coast flank of the pinion's tooth in pair `index`, whose drive flank touches at `xi` (mm), and the one that
+    faces it."""
     cosine, sine = np.cos(2.0 * pair.operating_pressure_angle), np.sin(2.0 * pair.operating_pressure_angle)
     return Place(index, COAST, coast_roll_angles(pair, xi), ((-cosine, -sine), (-sine, cosine)), -1.0)
 
@@ -94,8 +98,8 @@ class PairNodes:
     """Contact nodes (n,) of the flanks at `place`.
 
     `offsets` (mm, from the line of action), `lengths` (mm of flank a node stands for), `gap` [9] (mm, positive when
-    open), `pinion_lever_arm` and `wheel_lever_arm` (mm, of friction: distance of the point of contact from T1 and T2 along the line of
-    action), `pinion_roll` (rad).
+    open), `pinion_lever_arm` and `wheel_lever_arm` (mm, of friction: distance of the point of contact from T1 and T2
+    along the line of action), `pinion_roll` (rad).
     """
 
     place: Place
@@ -114,8 +118,11 @@ class ToothPair(PairNodes):
     interpolation: tuple[FlankInterpolation, FlankInterpolation]
 
 
-def flank_points(pair: GearPair, place: Place, offsets: np.ndarray) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
-    """Roll angles (rad) and x (mm, of `flank_at_height`), of pinion and wheel, at offsets (mm, any shape) from the line of a place."""
+def flank_points(
+    pair: GearPair, place: Place, offsets: np.ndarray
+) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
+    """Roll angles (rad) and x (mm, of `flank_at_height`), of pinion and wheel, at offsets (mm, any shape) from the line
+    of a place."""
     (roll_1, roll_2), (arm_1, arm_2) = place.contact_rolls, place.line_in(pair).lever_arms
     rolls_1, x_1 = flank_at_height(pair.pinion.base_radius, roll_1, arm_1 - offsets)
     rolls_2, x_2 = flank_at_height(pair.wheel.base_radius, roll_2, arm_2 + offsets)
@@ -154,16 +161,22 @@ def seen_gap(view: Averages | Points, offsets: np.ndarray, gap: np.ndarray) -> n
 
 
 def nodes_on_flanks(
-    flanks: Flanks, grid: ContactGrid, place: Place, offsets: np.ndarray, distances: tuple[np.ndarray, np.ndarray], gap: np.ndarray
+    flanks: Flanks,
+    grid: ContactGrid,
+    place: Place,
+    offsets: np.ndarray,
+    distances: tuple[np.ndarray, np.ndarray],
+    gap: np.ndarray,
 ) -> ToothPair:
     """Contact nodes at `offsets` (n,), mm, that see the flanks by the grid's interpolation.
 
-    `distances`: of pinion's and wheel's surface from their foot on the place's line, mm, and `gap`, mm, where the interpolation wants them.
+    `distances`: of pinion's and wheel's surface from their foot on the place's line, mm, and `gap`, mm, where the
+        interpolation wants them.
     """
     view, line = INTERPOLATIONS[grid.interpolation], place.line_in(flanks.pair)
     rolls = flank_points(flanks.pair, place, offsets)[0]
-    # Flanks that deform to touch meet midway between where they stand undeformed. Friction acts there on both, so that action and
-    # reaction leave no torque.
+    # Flanks that deform to touch meet midway between where they stand undeformed. Friction acts there on both, so that
+    # action and reaction leave no torque.
     meeting = 0.5 * (view.seen(offsets, distances[0] - distances[1]) + line.length)
     interpolation = interpolations(flanks, grid, place, offsets, rolls)
     return ToothPair(
@@ -181,8 +194,13 @@ def nodes_on_flanks(
 def interpolations(
     flanks: Flanks, grid: ContactGrid, place: Place, offsets: np.ndarray, rolls: tuple[np.ndarray, np.ndarray]
 ) -> tuple[FlankInterpolation, FlankInterpolation]:
-    """How contact nodes at `offsets` (n,), mm, see the nodes of either flank; `rolls` (rad): their roll angles on pinion and wheel."""
-    view, line, gears = INTERPOLATIONS[grid.interpolation], place.line_in(flanks.pair), (flanks.pair.pinion, flanks.pair.wheel)
+    """How contact nodes at `offsets` (n,), mm, see the nodes of either flank; `rolls` (rad): their roll angles on
+    pinion and wheel."""
+    view, line, gears = (
+        INTERPOLATIONS[grid.interpolation],
+        place.line_in(flanks.pair),
+        (flanks.pair.pinion, flanks.pair.wheel),
+    )
     first, second = (
         view.of_flank(
             # Offsets from the line at the gear's own base radius.

@@ -1,7 +1,8 @@
 """Which tooth pairs can touch over a mesh cycle, found once from where a pair begins and ends to touch.
 
-A pair touches without a break from the first to the last of its positions, and every pair does so at the same positions of its own way through the
-mesh. Positions are counted in steps along this way: pair `index` stands at `step + index * steps` at a step of the cycle.
+A pair touches without a break from the first to the last of its positions, and every pair does so at the same positions
+of its own way through the mesh. Positions are counted in steps along this way: pair `index` stands at `step + index *
+steps` at a step of the cycle.
 """
 
 from __future__ import annotations
@@ -26,7 +27,8 @@ LOOKED_AT = 16
 
 @dataclass(frozen=True)
 class Touching:
-    """First and last position at which drive flanks touch, and coast flanks (None where they cannot), at `steps` a mesh cycle."""
+    """First and last position at which drive flanks touch, and coast flanks (None where they cannot), at `steps` a mesh
+    cycle."""
 
     steps: int
     drive: tuple[int, int]
@@ -40,7 +42,8 @@ class Touching:
             return Reach(same, None)
         least = -((self.coast[1] - self.drive[0] + 1) // self.steps)
         most = (self.drive[1] - self.coast[0] + 1) // self.steps
-        # Between a drive and a coast flank: on the pinion, and on the wheel, whose tooth of a coast pair stands one beside.
+        # Between a drive and a coast flank: on the pinion, and on the wheel, whose tooth of a coast pair stands one
+        # beside.
         return Reach(same, (min(least, -most - 1), max(most, -least - 1)))
 
     @property
@@ -50,17 +53,23 @@ class Touching:
 
     @property
     def slots(self) -> int:
-        """Largest number of consecutive tooth pairs that can touch at a step; drive and coast flank of a pair count once."""
+        """Largest number of consecutive tooth pairs that can touch at a step; drive and coast flank of a pair count
+        once."""
         ways = [self.drive, self.coast or self.drive]
         # Pairs come and go only at these steps.
         changes = {(end + later) % self.steps for way in ways for end in way for later in (0, 1)}
         return max(
-            max((last - step) // self.steps for _, last in ways) - min(-((step - first) // self.steps) for first, _ in ways) + 1 for step in changes
+            max((last - step) // self.steps for _, last in ways)
+            - min(-((step - first) // self.steps) for first, _ in ways)
+            + 1
+            for step in changes
         )
 
 
 @lru_cache(maxsize=64)
-def touching(pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None) -> Touching:
+def touching(
+    pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None
+) -> Touching:
     """Where the pairs of a mesh cycle touch."""
     return touching_at(lambda step: pair_places(pair, grid, step / steps, coast_flanks, corner), steps, coast_flanks)
 
@@ -77,7 +86,9 @@ def touching_at(places_at: Callable[[int], Iterable[Place]], steps: int, coast_f
         found = [step + place.index * steps for step in looked_at for place in places_at(step) if place.flank == flank]
         if not found:
             return None
-        return _end(lambda position: touches(position, flank), min(found), -1, steps), _end(lambda position: touches(position, flank), max(found), 1, steps)
+        return _end(lambda position: touches(position, flank), min(found), -1, steps), _end(
+            lambda position: touches(position, flank), max(found), 1, steps
+        )
 
     return Touching(steps, ends(DRIVE), ends(COAST) if coast_flanks else None)
 

@@ -1,13 +1,14 @@
-"""Tresca's fixed point: a convex quadratic programme for the forces with friction bounds frozen at s = mu p_n, then new bounds.
+"""Tresca's fixed point: a convex quadratic programme for the forces with friction bounds frozen at s = mu p_n, then new
+bounds.
 
 With frozen bounds the step is the minimum of the energy (model.md section 4): over p and z, with K = L L^T,
 
     1/2 p^T C p + 1/2 z^T z + gap . p_n - w_old . p_t   subject to   L z + G^T p = F,  p_n >= 0,  |p_t| <= s
 
-whose multipliers of the equality are the centre coordinates q, also where K is singular and only contact holds the load. The sets
-that the programme settles on start Newton, so that the solution is as exact as by any other method. Without friction there are no
-bounds, and one programme is enough; it also solves contact nodes so close that elasticity hardly tells them apart, where Newton's sets
-alternate for ever.
+whose multipliers of the equality are the centre coordinates q, also where K is singular and only contact holds the
+load. The sets that the programme settles on start Newton, so that the solution is as exact as by any other method.
+Without friction there are no bounds, and one programme is enough; it also solves contact nodes so close that elasticity
+hardly tells them apart, where Newton's sets alternate for ever.
 """
 
 from __future__ import annotations
@@ -38,7 +39,8 @@ class Frozen:
 def tresca(problem, status: np.ndarray, polish: Callable):
     """The fixed point from no friction at all; `polish(sets)` solves from given sets, as `step_solver.run_newton` does.
 
-    Returns what `step_solver.run_newton` returns, `polish`'s where it converges; iterations count programmes and Newton's together.
+    Returns what `step_solver.run_newton` returns, `polish`'s where it converges; iterations count programmes and
+    Newton's together.
     """
     n, spent, relaxation = len(problem.gap), 0, 1.0
     history, sets, tried = [], [], set()
@@ -112,7 +114,8 @@ def frozen_friction(problem, bounds: np.ndarray) -> Frozen | None:
 
 
 def _sets(problem, forces: np.ndarray, coordinates: np.ndarray, rubbing: np.ndarray, active: np.ndarray) -> np.ndarray:
-    """What each node does; `active`: bounds that hold it, lower normals, then upper and lower tangents of the nodes `rubbing`."""
+    """What each node does; `active`: bounds that hold it, lower normals, then upper and lower tangents of the nodes
+    `rubbing`."""
     n, tangents = len(problem.gap), len(rubbing)
     sets = np.full(n, SLIP_FORWARD, dtype=np.int8)
     if len(problem.slip_before):

@@ -1,13 +1,15 @@
-"""Whether a frictional solution is the only one with its slip directions: a certificate from the flexibility of the closed nodes.
+"""Whether a frictional solution is the only one with its slip directions: a certificate from the flexibility of the
+closed nodes.
 
-With normal forces p at the closed nodes and friction sigma mu p the gaps respond by M p, M = W_nn + W_nt diag(sigma mu),
-W = C + G K^-1 G^T. Two solutions would differ by d with d_j (M d)_j <= 0 at every node. That is impossible where sym(D M) is positive
-definite for some positive diagonal D; D = 1 is the certificate of the hard cases.
+With normal forces p at the closed nodes and friction sigma mu p the gaps respond by M p, M = W_nn + W_nt diag(sigma
+mu), W = C + G K^-1 G^T. Two solutions would differ by d with d_j (M d)_j <= 0 at every node. That is impossible where
+sym(D M) is positive definite for some positive diagonal D; D = 1 is the certificate of the hard cases.
 
-Where contact alone holds the load, K is singular along a motion f, a = G_n f, b = a + diag(sigma mu) G_t f. Forces then differ
-by d with b . d = 0, and gaps may also shift by any multiple of a. With D = diag(b/a) the shift does no work, (D a) . d = 0: what
-remains is sym(D M) positive definite on b . d = 0, with the regular part of K in M. b/a > 0 means that nothing locks. The same D
-serves where inertia makes K regular but little: its part of D M is then b b^T/lambda, which is positive too.
+Where contact alone holds the load, K is singular along a motion f, a = G_n f, b = a + diag(sigma mu) G_t f. Forces then
+differ by d with b . d = 0, and gaps may also shift by any multiple of a. With D = diag(b/a) the shift does no work, (D
+a) . d = 0: what remains is sym(D M) positive definite on b . d = 0, with the regular part of K in M. b/a > 0 means that
+nothing locks. The same D serves where inertia makes K regular but little: its part of D M is then b b^T/lambda, which
+is positive too.
 """
 
 from __future__ import annotations
@@ -32,9 +34,15 @@ def flexibility(stiffness: np.ndarray, compliance: np.ndarray, jacobian: np.ndar
 
 
 def is_only_solution(
-    stiffness: np.ndarray, compliance: np.ndarray, jacobian: np.ndarray, friction: float, closed: np.ndarray, sigma: np.ndarray
+    stiffness: np.ndarray,
+    compliance: np.ndarray,
+    jacobian: np.ndarray,
+    friction: float,
+    closed: np.ndarray,
+    sigma: np.ndarray,
 ) -> bool:
-    """Whether no second solution slips in the same directions; `closed` (n,) bool, `sigma` (n,): friction p_t/(mu p_n) of a node."""
+    """Whether no second solution slips in the same directions; `closed` (n,) bool, `sigma` (n,): friction p_t/(mu p_n)
+    of a node."""
     nodes = np.flatnonzero(closed)
     if not len(nodes):
         return True
@@ -79,12 +87,14 @@ def uncertified(stiffness: np.ndarray, friction: float, solved: Iterable) -> int
     return sum(
         times[key]
         for (key, (operator, closed, sigma)), certified in zip(sets.items(), plain)
-        if not certified and not is_only_solution(stiffness, operator.compliance, operator.jacobian, friction, closed, sigma)
+        if not certified
+        and not is_only_solution(stiffness, operator.compliance, operator.jacobian, friction, closed, sigma)
     )
 
 
 def _plainly_only(stiffness: np.ndarray, friction: float, sets: list[tuple]) -> list[bool]:
-    """Whether D = 1 is a certificate, of many `sets` (operator, closed, sigma) at once: those with as many closed nodes m together."""
+    """Whether D = 1 is a certificate, of many `sets` (operator, closed, sigma) at once: those with as many closed nodes
+    m together."""
     values, vectors, held = _motions(stiffness.tobytes(), len(stiffness))
     found, of_size = [False] * len(sets), defaultdict(list)
     if not held.all():
@@ -92,15 +102,27 @@ def _plainly_only(stiffness: np.ndarray, friction: float, sets: list[tuple]) -> 
     for place, (_, closed, _) in enumerate(sets):
         of_size[np.count_nonzero(closed)].append(place)
     for m, places in of_size.items():
-        compliance, moved, share = np.empty((len(places), m, 2 * m)), np.empty((len(places), 2 * m, len(values))), np.empty((len(places), m))
+        compliance, moved, share = (
+            np.empty((len(places), m, 2 * m)),
+            np.empty((len(places), 2 * m, len(values))),
+            np.empty((len(places), m)),
+        )
         for i, place in enumerate(places):
             operator, closed, sigma = sets[place]
             nodes = np.flatnonzero(closed)
             both = np.concatenate((nodes, len(closed) + nodes))
-            compliance[i], moved[i], share[i] = operator.compliance[nodes[:, None], both], operator.jacobian[both], friction * sigma[nodes]
+            compliance[i], moved[i], share[i] = (
+                operator.compliance[nodes[:, None], both],
+                operator.jacobian[both],
+                friction * sigma[nodes],
+            )
         moved = moved @ vectors
         sliding = moved[:, :m] + share[:, :, None] * moved[:, m:]
-        matrices = compliance[:, :, :m] + compliance[:, :, m:] * share[:, None, :] + (moved[:, :m] / values) @ sliding.transpose(0, 2, 1)
+        matrices = (
+            compliance[:, :, :m]
+            + compliance[:, :, m:] * share[:, None, :]
+            + (moved[:, :m] / values) @ sliding.transpose(0, 2, 1)
+        )
         together = _positive(matrices)
         for place, matrix in zip(places, matrices):
             found[place] = together or _positive(matrix)
@@ -109,7 +131,8 @@ def _plainly_only(stiffness: np.ndarray, friction: float, sets: list[tuple]) -> 
 
 @lru_cache(maxsize=4)
 def _motions(stiffness: bytes, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Eigenvalues, eigenvectors as columns, and which of them a stiffness holds; a march asks for those of one stiffness hundreds of times."""
+    """Eigenvalues, eigenvectors as columns, and which of them a stiffness holds; a march asks for those of one
+    stiffness hundreds of times."""
     values, vectors = np.linalg.eigh(np.frombuffer(stiffness).reshape(size, size))
     return values, vectors, values > SINGULAR * max(values[-1], 0.0)
 

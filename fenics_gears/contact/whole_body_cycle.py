@@ -1,7 +1,7 @@
 """Mesh cycles of a pair whose teeth are not all alike: contact operators depend on the teeth in mesh.
 
-Cycles whose teeth in mesh respond alike share their operators; the others have their own: with one cracked tooth, the few cycles in
-which it can be in mesh.
+Cycles whose teeth in mesh respond alike share their operators; the others have their own: with one cracked tooth, the
+few cycles in which it can be in mesh.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from fenics_gears.contact.tooth_pair import Flanks, PairNodes
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 
-# Teeth respond alike where their compliances agree to this part of the largest, a fifth of the error of a default mesh. The effect of a
-# crack on the next teeth falls by about half from tooth to tooth.
+# Teeth respond alike where their compliances agree to this part of the largest, a fifth of the error of a default mesh.
+# The effect of a crack on the next teeth falls by about half from tooth to tooth.
 ALIKE = 1e-4
 SAME_ROLL = 1e-9
 GEARS = (0, 1)
@@ -26,7 +26,8 @@ GEARS = (0, 1)
 
 @dataclass(frozen=True)
 class TeethInMesh:
-    """A body as a mesh cycle sees it: teeth counted counter-clockwise from `first`, the body's tooth in drive pair 0."""
+    """A body as a mesh cycle sees it: teeth counted counter-clockwise from `first`, the body's tooth in drive pair
+    0."""
 
     body: WholeBodyCompliance
     first: int
@@ -55,10 +56,11 @@ class TeethInMesh:
 
 
 class WholeBodyCycle(Cycle):
-    """The mesh cycles of a run; each is a `MeshCycle` of its own where its teeth are, and shared where they respond alike.
+    """The mesh cycles of a run; each is a `MeshCycle` of its own where its teeth are, and shared where they respond
+    alike.
 
-    Tooth 0 of either body is that of pair 0 at the start of the run. Arguments as of `MeshCycle`; at least one gear has a
-    `WholeBodyCompliance`.
+    Tooth 0 of either body is that of pair 0 at the start of the run. Arguments as of `MeshCycle`; at least one gear has
+    a `WholeBodyCompliance`.
     """
 
     traits = MeshCycle.traits
@@ -123,8 +125,13 @@ class WholeBodyCycle(Cycle):
 
     @cached_property
     def _teeth(self) -> tuple[range, range]:
-        """Teeth of either gear that can be in mesh during a cycle or a step before it, counter-clockwise of that in pair 0."""
-        places = [place for step in range(self.steps) for place in pair_places(self.pair, self.grid, step / self.steps, corner=self.corner)]
+        """Teeth of either gear that can be in mesh during a cycle or a step before it, counter-clockwise of that in
+        pair 0."""
+        places = [
+            place
+            for step in range(self.steps)
+            for place in pair_places(self.pair, self.grid, step / self.steps, corner=self.corner)
+        ]
         found = []
         for gear in GEARS:
             ahead = [place.ahead(gear) for place in places]
@@ -141,15 +148,20 @@ class WholeBodyCycle(Cycle):
         pairing = CompliancePairing(flanks, kept=self._blocks)
         made = MeshCycle(flanks, self.grid, self.steps, self._coordinates, self._tangential, self.corner, pairing)
         made.kept = self.kept
-        same_nodes = next((each for each in self._cycles.values() if self._same_nodes(each.flanks.compliance, compliance)), None)
+        same_nodes = next(
+            (each for each in self._cycles.values() if self._same_nodes(each.flanks.compliance, compliance)), None
+        )
         if same_nodes is not None:
             made.share_pairs(same_nodes)
         return made
 
     def _same_nodes(self, one: tuple[FlankCompliance, ...], other: tuple[FlankCompliance, ...]) -> bool:
-        """Whether the flank nodes of all teeth in mesh stand at the same roll angles, so that contact nodes see them alike."""
+        """Whether the flank nodes of all teeth in mesh stand at the same roll angles, so that contact nodes see them
+        alike."""
         return all(
-            same_rolls(one[gear].rolls_of(tooth), other[gear].rolls_of(tooth)) for gear in GEARS for tooth in self._teeth[gear]
+            same_rolls(one[gear].rolls_of(tooth), other[gear].rolls_of(tooth))
+            for gear in GEARS
+            for tooth in self._teeth[gear]
         )
 
 
@@ -159,8 +171,10 @@ def same_rolls(one: np.ndarray, other: np.ndarray) -> bool:
 
 
 def first_tooth(gear: int, cycle: int) -> int:
-    """Tooth of the pinion (0) or the wheel (1), counted counter-clockwise, that reaches the start of contact with a mesh cycle.
+    """Tooth of the pinion (0) or the wheel (1), counted counter-clockwise, that reaches the start of contact with a
+    mesh cycle.
 
-    The pinion turns counter-clockwise, so that its teeth come into mesh clockwise, one after the other; the wheel's the other way.
+    The pinion turns counter-clockwise, so that its teeth come into mesh clockwise, one after the other; the wheel's the
+    other way.
     """
     return -cycle if gear == 0 else cycle

@@ -2,7 +2,8 @@
 
 A contact node sits at an offset `y` from the line of action, positive towards the pinion's centre. The grid follows
 the moving contact point. Where a tip or a form circle cuts the window, a node sits exactly on that edge and moves with
-it: nodes then leave one by one at the far end of the window, which is open, and nothing jumps where the load is. Nodes stand closer beside
+it: nodes then leave one by one at the far end of the window, which is open, and nothing jumps where the load is. Nodes
+    stand closer beside
 a tip, towards whose edge the contact pressure rises steeply.
 """
 
@@ -17,17 +18,21 @@ import numpy as np
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.geometry.pair import GearPair
 
-# Sizes of the cells beside an edge, in spacings: whole spacings together, so that the other nodes do not jump where an edge enters the window.
+# Sizes of the cells beside an edge, in spacings: whole spacings together, so that the other nodes do not jump where an
+# edge enters the window.
 EDGE_CELLS, NO_CELLS = np.array([0.25, 0.25, 0.5]), np.empty(0)
-# Offsets (mm) where the flanks end below the line of action (pinion's tip, wheel's form circle), and above it (pinion's form circle, wheel's tip).
+# Offsets (mm) where the flanks end below the line of action (pinion's tip, wheel's form circle), and above it (pinion's
+# form circle, wheel's tip).
 Ends = tuple[tuple[float, float], tuple[float, float]]
 
 
 @dataclass(frozen=True)
 class ContactGrid:
-    """Length of the contact window in mm, contact nodes in a whole window, and the name of their interpolation of the flanks.
+    """Length of the contact window in mm, contact nodes in a whole window, and the name of their interpolation of the
+    flanks.
 
-    `closer_at_edges`: nodes stand closer beside a tip that cuts the window. `inner_length` (mm): where no edge is near, nodes further than half of it from
+    `closer_at_edges`: nodes stand closer beside a tip that cuts the window. `inner_length` (mm): where no edge is near,
+        nodes further than half of it from
     the line of action are left out, since flanks touch far from the line at edges alone; None: none are.
     """
 
@@ -70,11 +75,12 @@ def contact_roll_angles(pair: GearPair, xi: float) -> tuple[float, float]:
 
 
 def coast_roll_angles(pair: GearPair, xi: float) -> tuple[float, float]:
-    """The same for the coast flank of the pinion's tooth that touches at `xi`, and the wheel's coast flank that faces it.
+    """The same for the coast flank of the pinion's tooth that touches at `xi`, and the wheel's coast flank that faces
+    it.
 
-    Mirrored at the line of centres coast flanks are drive flanks: a tooth whose drive flank stands at roll angle v has its coast
-    flank at 2 alpha_w + 2 psi_b - v there, psi_b being half its angle at the base circle. The flank that faces it is that of the
-    wheel's tooth one base pitch behind. The two do not touch: rb1 v1 + rb2 v2 = L - backlash.
+    Mirrored at the line of centres coast flanks are drive flanks: a tooth whose drive flank stands at roll angle v has
+    its coast flank at 2 alpha_w + 2 psi_b - v there, psi_b being half its angle at the base circle. The flank that
+    faces it is that of the wheel's tooth one base pitch behind. The two do not touch: rb1 v1 + rb2 v2 = L - backlash.
     """
     drive = contact_roll_angles(pair, xi)[0], contact_roll_angles(pair, xi - pair.base_pitch)[1]
     return tuple(
@@ -142,7 +148,8 @@ def _in_window(inside: tuple[float, float], ends: Ends, grid: ContactGrid) -> np
         if even < 0 or not len(cells):
             cells = np.ones(max(1, round(length / grid.spacing)))
         return start + length / cells.sum() * np.concatenate([[0.0], np.cumsum(cells)])
-    # As far as the window reaches, one cell at least; the tolerance keeps the node count of an uncut window whole in spite of round-off.
+    # As far as the window reaches, one cell at least; the tolerance keeps the node count of an uncut window whole in
+    # spite of round-off.
     distances = grid.beside_an_edge if cut_low and len(below) or cut_high and len(above) else grid.evenly
     distances = distances[: np.searchsorted(distances, length * (1.0 + 1e-12), "right")]
     if len(distances) == 1:

@@ -1,6 +1,8 @@
-"""Gaps of gears whose teeth wobble: the axis of the teeth is tilted against the axis of rotation and is carried around it.
+"""Gaps of gears whose teeth wobble: the axis of the teeth is tilted against the axis of rotation and is carried around
+it.
 
-To first order a flank moves with its gear's tilt, which turns with the gear; the gap opens by less than the contact operator's own rows of tilts close it.
+To first order a flank moves with its gear's tilt, which turns with the gear; the gap opens by less than the contact
+operator's own rows of tilts close it.
 """
 
 from __future__ import annotations
@@ -19,14 +21,21 @@ TILTS = [[COORDINATES.index(f"tilt_{direction}{gear}") for direction in "xy"] fo
 
 
 class WobblingRunOut(RunOut):
-    """Gaps (n,), mm along the line of action, that eccentricity and wobble add at a step and its position over a face; `steps` of a mesh cycle."""
+    """Gaps (n,), mm along the line of action, that eccentricity and wobble add at a step and its position over a face;
+    `steps` of a mesh cycle."""
 
     def __init__(self, pair: GearPair, eccentricity: Eccentricity, steps: int):
         super().__init__(pair, eccentricity, steps)
         gears = ((eccentricity.pinion, 1.0, pair.pinion, 0), (eccentricity.wheel, -1.0, pair.wheel, 1))
         self._wobbles = [
             # As an arc length, like the coordinate.
-            (offset.wobble / pair.face_widths[number] * gear.base_radius, offset.wobble_phase, sense, gear.teeth, TILTS[number])
+            (
+                offset.wobble / pair.face_widths[number] * gear.base_radius,
+                offset.wobble_phase,
+                sense,
+                gear.teeth,
+                TILTS[number],
+            )
             for offset, sense, gear, number in gears
             if offset is not None and offset.wobble
         ]
@@ -37,7 +46,8 @@ class WobblingRunOut(RunOut):
         gap, rows = super().__call__(step, position), self._rows(step % self._steps, position)
         for size, phase, sense, teeth, columns in self._wobbles:
             angle = sense * (2.0 * pi * step / (self._steps * teeth) + phase)
-            # The axis leans by (cos, sin) of the angle in x and y towards the right end: it is tilted about (-sin, cos).
+            # The axis leans by (cos, sin) of the angle in x and y towards the right end: it is tilted about (-sin,
+            # cos).
             gap = gap - size * (rows[:, columns[1]] * cos(angle) - rows[:, columns[0]] * sin(angle))
         return gap
 
@@ -46,7 +56,9 @@ class WobblingRunOut(RunOut):
         if index in self._tilts:
             return self._tilts[index]
         operator = position.operator
-        along_normal = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, False, face=operator.face)
+        along_normal = displacement_jacobian(
+            operator.pairs, operator.base_radii, operator.normal_lever_arms, False, face=operator.face
+        )
         found = along_normal / operator.face.cosine
         if index == int(index):
             self._tilts[index] = found

@@ -57,9 +57,7 @@ class AverageAcceleration:
             return State(position, state.velocity, state.acceleration)
         change = 2.0 / self.step * (position - state.position)
         return State(
-            position,
-            change - state.velocity,
-            2.0 / self.step * (change - 2.0 * state.velocity) - state.acceleration,
+            position, change - state.velocity, 2.0 / self.step * (change - 2.0 * state.velocity) - state.acceleration
         )
 
 

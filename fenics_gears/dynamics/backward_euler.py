@@ -1,7 +1,7 @@
 """Backward Euler: the method for steps too long to hold any vibration of the drivetrain.
 
-Average acceleration neither damps nor follows a vibration whose period is shorter than two steps: it turns its sign at every step, and
-every kink of the static solution adds to it. Backward Euler forgets it within a step. With
+Average acceleration neither damps nor follows a vibration whose period is shorter than two steps: it turns its sign at
+every step, and every kink of the static solution adds to it. Backward Euler forgets it within a step. With
 
     x'_1 = (x_1 - x_0)/dt,   x''_1 = (x'_1 - x'_0)/dt
 
@@ -9,8 +9,8 @@ the equation of motion at the end of the step reads
 
     (M/dt^2 + D/dt + K) x_1 + G^T p = F + M (x_0/dt^2 + x'_0/dt) + D x_0/dt.
 
-First order in the terms of inertia and damping, which are small there; the static part is exact. E. Hairer and G. Wanner, Solving
-Ordinary Differential Equations II, 1996, section IV.3: L-stable.
+First order in the terms of inertia and damping, which are small there; the static part is exact. E. Hairer and G.
+Wanner, Solving Ordinary Differential Equations II, 1996, section IV.3: L-stable.
 """
 
 from __future__ import annotations

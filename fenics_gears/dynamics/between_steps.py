@@ -10,14 +10,16 @@ from fenics_gears.dynamics.march import thread_pools
 from fenics_gears.dynamics.stepping import EquationsOfMotion, Stepper
 from fenics_gears.dynamics.steps import Record
 
-# The first attempt begins so many mesh cycles before the place: flanks that turn back at the pitch point slip again after some per cent of one.
+# The first attempt begins so many mesh cycles before the place: flanks that turn back at the pitch point slip again
+# after some per cent of one.
 FIRST_REACH = 0.1
 
 
 class BetweenSteps(Stepper):
     """Solves the static motion between two steps without the march; the `cycle` is divisible.
 
-    `marched`: whether a record is that of the march at its step. With friction the step before is solved on the way from a start some steps
+    `marched`: whether a record is that of the march at its step. With friction the step before is solved on the way
+        from a start some steps
     earlier: from further back, at most a mesh cycle, until it is what was marched.
     """
 
@@ -28,7 +30,8 @@ class BetweenSteps(Stepper):
         self._solved: dict[float, Record | None] = {}
 
     def at(self, step: float) -> Record | None:
-        """The motion at a place after step 0, counted in steps; None where the step before it is not found again. Raises ContactNotConverged."""
+        """The motion at a place after step 0, counted in steps; None where the step before it is not found again.
+        Raises ContactNotConverged."""
         if step not in self._solved:
             with thread_pools().limit(limits=1):
                 self._solved[step] = self._after(ceil(step) - 1, step)

@@ -11,7 +11,8 @@ from fenics_gears.dynamics.clock import Clock
 
 @dataclass(frozen=True)
 class ContactLoss:
-    """One loss: the steps without contact from `first` to `last`, and the widest `opening` (mm) between the drive flanks."""
+    """One loss: the steps without contact from `first` to `last`, and the widest `opening` (mm) between the drive
+    flanks."""
 
     first: int
     last: int
@@ -28,7 +29,8 @@ class ContactLoss:
 
 
 def contact_losses(separations: Sequence[tuple[int, float]]) -> list[ContactLoss]:
-    """The losses among (step, smallest opening in mm) of all steps without contact: steps that follow each other are one."""
+    """The losses among (step, smallest opening in mm) of all steps without contact: steps that follow each other are
+    one."""
     losses = []
     for _, run in groupby(enumerate(separations), lambda each: each[1][0] - each[0]):
         steps = [separation for _, separation in run]
@@ -37,8 +39,8 @@ def contact_losses(separations: Sequence[tuple[int, float]]) -> list[ContactLoss
 
 
 def loss_attributes(separations: Sequence[tuple[int, float]], first: int, last: int, clock: Clock) -> dict[str, float]:
-    """Attributes of a result on lost contact between two steps: how often; time of the first and length of the longest loss (s), share of
-    the time, widest opening (mm).
+    """Attributes of a result on lost contact between two steps: how often; time of the first and length of the longest
+    loss (s), share of the time, widest opening (mm).
 
     The last four only where contact was lost.
     """

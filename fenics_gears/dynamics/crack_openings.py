@@ -1,4 +1,5 @@
-"""Openings of cracks under the contact forces of a run, and a warning where their faces would pass through each other."""
+"""Openings of cracks under the contact forces of a run, and a warning where their faces would pass through each
+other."""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ LEAST_OVERLAP = 1e-6
 
 
 def openings_of(cycle, gear: int, record: Record) -> np.ndarray:
-    """Distances (k,), mm, of facing points of the cracks of the pinion (0) or the wheel (1); negative where they would overlap.
+    """Distances (k,), mm, of facing points of the cracks of the pinion (0) or the wheel (1); negative where they would
+    overlap.
 
     From forces on teeth within the reach of the body's compliance; others hardly move a crack.
     """
@@ -34,11 +36,14 @@ def openings_of(cycle, gear: int, record: Record) -> np.ndarray:
 
 
 def crack_openings(cycle, records: Sequence[Record]) -> dict[str, np.ndarray]:
-    """Smallest and largest opening at each record, (records,), mm, by the gear's name; only of gears that have cracks."""
+    """Smallest and largest opening at each record, (records,), mm, by the gear's name; only of gears that have
+    cracks."""
     found = {}
     for gear in GEARS:
         if not cycle.bodies[gear].alike and cycle.bodies[gear].openings:
-            ends = np.array([(each.min(), each.max()) for each in (openings_of(cycle, gear, record) for record in records)])
+            ends = np.array(
+                [(each.min(), each.max()) for each in (openings_of(cycle, gear, record) for record in records)]
+            )
             found[f"least opening, {NAMES[gear]}"], found[f"largest opening, {NAMES[gear]}"] = ends.T
     return found
 
@@ -51,8 +56,8 @@ def closed_cracks(watched: Mapping[str, np.ndarray]) -> list[str]:
         overlaps = int((least < -LEAST_OVERLAP).sum())
         if overlaps:
             found.append(
-                f"the faces of a crack in the {name} would pass through each other in {overlaps} of {len(least)} steps, by up to "
-                f"{-1e3 * least.min():.3g} um (it opens by up to {1e3 * max(largest.max(), 0.0):.3g} um): a real crack closes there and carries load, "
-                "so that the gear is stiffer than computed"
+                f"the faces of a crack in the {name} would pass through each other in {overlaps} of {len(least)} steps,"
+                f" by up to {-1e3 * least.min():.3g} um (it opens by up to {1e3 * max(largest.max(), 0.0):.3g} um): a"
+                " real crack closes there and carries load, so that the gear is stiffer than computed"
             )
     return found

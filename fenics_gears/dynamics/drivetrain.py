@@ -24,13 +24,29 @@ if TYPE_CHECKING:
 MOST_OF_WHEEL = 1e10
 FREE = {"rotation_1": "the pinion", "rotation_2": "the wheel"}
 # Each centre's translations: of which gear, in which direction.
-TRANSLATIONS = {"centre_x1": ("pinion", "x"), "centre_y1": ("pinion", "y"), "centre_x2": ("wheel", "x"), "centre_y2": ("wheel", "y")}
+TRANSLATIONS = {
+    "centre_x1": ("pinion", "x"),
+    "centre_y1": ("pinion", "y"),
+    "centre_x2": ("wheel", "x"),
+    "centre_y2": ("wheel", "y"),
+}
 # Each coordinate's gear, with the shaft and the bearings that are on its side of the mesh.
-SIDE = {name: gear for name, (gear, _) in TRANSLATIONS.items()} | {"rotation_1": "pinion", "rotation_2": "wheel", "shaft_twist": "wheel"}
+SIDE = {name: gear for name, (gear, _) in TRANSLATIONS.items()} | {
+    "rotation_1": "pinion",
+    "rotation_2": "wheel",
+    "shaft_twist": "wheel",
+}
 SIDE |= {name: "pinion" if name.endswith("1") else "wheel" for name in FACE_COORDINATES}
-# Coordinates that the bearings' springs act on, and what of a gear is moved, by the first word of the coordinate's name.
+# Coordinates that the bearings' springs act on, and what of a gear is moved, by the first word of the coordinate's
+# name.
 ON_BEARINGS = {*TRANSLATIONS, *FACE_COORDINATES}
-MOVED = {"centre": "mass", "axial": "mass", "rotation": "moment_of_inertia", "shaft": "moment_of_inertia", "tilt": "tilting_inertia"}
+MOVED = {
+    "centre": "mass",
+    "axial": "mass",
+    "rotation": "moment_of_inertia",
+    "shaft": "moment_of_inertia",
+    "tilt": "tilting_inertia",
+}
 
 
 @dataclass(frozen=True)
@@ -38,8 +54,8 @@ class Drivetrain:
     """Equations of motion [26]-[28] without the contact forces, over k of the centre coordinates.
 
     `coordinates`: their names; `radii` (k,): mm per rad of a rotation, 1 for a translation; `stiffness` (k, k), N/mm;
-    `load` (k,), N; `mass` (k, k), N s^2/mm, and `damping` (k, k), N s/mm, or None where the scene has none. `mesh`: how the coordinates move flanks
-    that have a width; None in the plane.
+    `load` (k,), N; `mass` (k, k), N s^2/mm, and `damping` (k, k), N s/mm, or None where the scene has none. `mesh`: how
+    the coordinates move flanks that have a width; None in the plane.
     """
 
     coordinates: tuple[str, ...]
@@ -62,7 +78,8 @@ class Drivetrain:
 
     @property
     def free_motion(self) -> np.ndarray:
-        """How the load moves the drivetrain (k,) where, without mass, only contact holds it; empty where its stiffness does."""
+        """How the load moves the drivetrain (k,) where, without mass, only contact holds it; empty where its stiffness
+        does."""
         values, vectors = np.linalg.eigh(self.stiffness)
         if values[0] > 1e-14 * max(values[-1], 0.0) and values[-1] > 0.0:
             return np.empty(0)
@@ -78,10 +95,13 @@ class Drivetrain:
             return ""
         turning = int(np.argmax(np.abs(motion)))
         torque = 1e-3 * self.load[turning] * self.radii[turning]
-        return f"{FREE.get(self.coordinates[turning], 'the drivetrain')} turns freely under its torque of {torque:.4g} N m"
+        return (
+            f"{FREE.get(self.coordinates[turning], 'the drivetrain')} turns freely under its torque of {torque:.4g} N m"
+        )
 
     def value(self, states: np.ndarray, name: str) -> np.ndarray:
-        """Coordinate `name`, or "shaft_end" (phi3), of states (..., k), in mm or rad; zero where the scene holds it fixed."""
+        """Coordinate `name`, or "shaft_end" (phi3), of states (..., k), in mm or rad; zero where the scene holds it
+        fixed."""
         if name == "shaft_end":
             return self.value(states, "rotation_2") + self.value(states, "shaft_twist")
         if name not in self.coordinates:
@@ -92,7 +112,8 @@ class Drivetrain:
 
 @dataclass(frozen=True)
 class Supports:
-    """Shafts, bearings, masses and damping of a drivetrain, None where a scene has none; `gears`: "pinion" and "wheel" as lumped masses."""
+    """Shafts, bearings, masses and damping of a drivetrain, None where a scene has none; `gears`: "pinion" and "wheel"
+    as lumped masses."""
 
     shafts: Shafts | None = None
     bearings: Bearings | None = None
@@ -104,8 +125,8 @@ class Supports:
 def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stiffness: float) -> Drivetrain:
     """The drivetrain of a pair under a torque (N mm) on the wheel's shaft; coordinates that cannot move do not appear.
 
-    `mesh_stiffness`, N/mm: of one tooth pair, roughly; damping ratios are of the modes with it. Raises SceneError for a load beside
-    which the wheel's own moment of inertia is lost in round-off.
+    `mesh_stiffness`, N/mm: of one tooth pair, roughly; damping ratios are of the modes with it. Raises SceneError for a
+    load beside which the wheel's own moment of inertia is lost in round-off.
     """
     names = _moving_coordinates(supports)
     radii = np.array([1.0 if MOVED[_kind(name)] == "mass" else getattr(pair, SIDE[name]).base_radius for name in names])
@@ -185,8 +206,9 @@ def _check_load(end: float, wheel: float) -> None:
     """Raise SceneError for a load (N mm s^2) beside which the wheel's own moment of inertia is round-off."""
     if end > MOST_OF_WHEEL * wheel:
         raise SceneError(
-            f"inertia.load: a moment of inertia of {end / wheel:.3g} times the wheel's; allowed are up to {MOST_OF_WHEEL:g} times, beyond which the far end "
-            "of the output shaft stands still all the same. Lower inertia.load.moment_of_inertia, or raise that of [inertia.wheel]"
+            f"inertia.load: a moment of inertia of {end / wheel:.3g} times the wheel's; allowed are up to"
+            f" {MOST_OF_WHEEL:g} times, beyond which the far end of the output shaft stands still all the same. Lower"
+            " inertia.load.moment_of_inertia, or raise that of [inertia.wheel]"
         )
 
 

@@ -9,7 +9,8 @@ LUMPED = ("mass", "moment_of_inertia")
 
 @dataclass(frozen=True)
 class GearInertia:
-    """Mass, N s^2/mm, and moment of inertia, N mm s^2, of a gear; where one is None, it is that of its body of `density`, N s^2/mm^4.
+    """Mass, N s^2/mm, and moment of inertia, N mm s^2, of a gear; where one is None, it is that of its body of
+    `density`, N s^2/mm^4.
 
     `tilting_moment_of_inertia`, N mm s^2: about a diameter; None: as of a disc.
     """
@@ -22,7 +23,8 @@ class GearInertia:
 
 @dataclass(frozen=True)
 class Inertia(GearInertia):
-    """Inertia of both gears, of `pinion` and `wheel` where they have their own, and moment of inertia of the `load` (None: as of both gears)."""
+    """Inertia of both gears, of `pinion` and `wheel` where they have their own, and moment of inertia of the `load`
+    (None: as of both gears)."""
 
     pinion: GearInertia | None = None
     wheel: GearInertia | None = None
@@ -69,7 +71,8 @@ class Shafts:
 
 @dataclass(frozen=True)
 class Support:
-    """Translational stiffness of one shaft's support, N/mm: in every direction across the axis, along and off the line of action, and along the
+    """Translational stiffness of one shaft's support, N/mm: in every direction across the axis, along and off the line
+    of action, and along the
     axis; None: as of both shafts."""
 
     stiffness: float | None = None
@@ -85,7 +88,8 @@ class Support:
 
 @dataclass(frozen=True)
 class BearingPlaces:
-    """Places (mm) of the two bearings of the pinion's and of the wheel's shaft, along the axis from the gear's mid-width; a gear without does not tilt."""
+    """Places (mm) of the two bearings of the pinion's and of the wheel's shaft, along the axis from the gear's
+    mid-width; a gear without does not tilt."""
 
     pinion: tuple[float, ...] | None = None
     wheel: tuple[float, ...] | None = None
@@ -95,7 +99,8 @@ class BearingPlaces:
 class Bearings(Support):
     """Support of both shafts, and of `pinion` and `wheel` where they have their own.
 
-    `places`: of the bearings, each of which has half of the stiffness across the axis; without them gears neither tilt nor move axially.
+    `places`: of the bearings, each of which has half of the stiffness across the axis; without them gears neither tilt
+        nor move axially.
     """
 
     pinion: Support | None = None
@@ -114,7 +119,8 @@ class Bearings(Support):
         return self.axial_stiffness if own is None else own
 
     def places_of(self, gear: str) -> tuple[float, ...] | None:
-        """Places (2,), mm, of the bearings of the "pinion"'s or the "wheel"'s shaft; None where that gear does not tilt."""
+        """Places (2,), mm, of the bearings of the "pinion"'s or the "wheel"'s shaft; None where that gear does not
+        tilt."""
         return getattr(self.places, gear, None)
 
 
@@ -131,7 +137,8 @@ class Rayleigh:
 
 @dataclass(frozen=True)
 class Damping(Rayleigh):
-    """Rayleigh damping of both shafts, and of `pinion` and `wheel`, each with its shaft, where they have their own; or `ratios` alone.
+    """Rayleigh damping of both shafts, and of `pinion` and `wheel`, each with its shaft, where they have their own; or
+    `ratios` alone.
 
     `ratios`: of the critical damping, by mode from the lowest frequency on; the last holds for all that follow.
     """

@@ -4,16 +4,18 @@ Average acceleration gives the drivetrain's part exactly: over a step, with the 
 
     change of (kinetic + springs) = F dx - dx D dx/dt - dx (G0^T p0 + G1^T p1)/2.
 
-With u = G x - C p at both ends, the contact's part splits, without remainder, into the change of the teeth's energy 1/2 p C p; the
-friction loss p1 slip1, as of backward Euler; the work of the prescribed rotation, by the changing geometry (G, C, gaps, rigid slip);
-and the algorithm's own term at changes of contact, 1/2 sum(p0 gap1 - p1 gap0), and the same for friction. A node that only one end
-of the step has is given the compliance and the lever arms of that end at the other.
+With u = G x - C p at both ends, the contact's part splits, without remainder, into the change of the teeth's energy 1/2
+p C p; the friction loss p1 slip1, as of backward Euler; the work of the prescribed rotation, by the changing geometry
+(G, C, gaps, rigid slip); and the algorithm's own term at changes of contact, 1/2 sum(p0 gap1 - p1 gap0), and the same
+for friction. A node that only one end of the step has is given the compliance and the lever arms of that end at the
+other.
 
-F is the mean of the loads at both ends of the step, where they vary. Backward Euler, which is used where no vibration is sampled and
+F is the mean of the loads at both ends of the step, where they vary. Backward Euler, which is used where no vibration
+is sampled and
 for rigid flanks, has another balance: its dissipation is in the defect.
 
-The account is in the frame of the nominal motion. The power that the nominal motion carries through the mesh, load times nominal
-speed, is added to input and output alike.
+The account is in the frame of the nominal motion. The power that the nominal motion carries through the mesh, load
+times nominal speed, is added to input and output alike.
 """
 
 from __future__ import annotations
@@ -42,15 +44,20 @@ class Account:
     defect: np.ndarray
 
 
-def account(drivetrain: Drivetrain, clock: Clock, steps: Steps, energy: np.ndarray, loads: Sequence[VaryingLoad] = ()) -> Account:
-    """The account of consecutive steps, whose elastic and kinetic `energy` (steps,) is in N mm; `loads` as the march had them."""
+def account(
+    drivetrain: Drivetrain, clock: Clock, steps: Steps, energy: np.ndarray, loads: Sequence[VaryingLoad] = ()
+) -> Account:
+    """The account of consecutive steps, whose elastic and kinetic `energy` (steps,) is in N mm; `loads` as the march
+    had them."""
     # A step that was divided is accounted for part by part.
     passed, whole = steps.with_parts()
     contact = contact_work(passed)
     moved = np.diff(passed.states[:, 0], axis=0)
     damping = np.zeros(len(moved))
     if drivetrain.damping is not None:
-        damping = quadratic(moved, drivetrain.damping) / np.array([clock.duration(*ends) for ends in zip(passed.numbers[:-1], passed.numbers[1:])])
+        damping = quadratic(moved, drivetrain.damping) / np.array(
+            [clock.duration(*ends) for ends in zip(passed.numbers[:-1], passed.numbers[1:])]
+        )
     parts = {
         "rotation": _summed(contact.rotation),
         "load": _summed(np.sum(moved * mean_load(drivetrain, loads, passed.numbers), axis=1)),

@@ -1,4 +1,5 @@
-"""Natural frequencies of the drivetrain with the mesh as a spring along the line of action, and their errors by a time step."""
+"""Natural frequencies of the drivetrain with the mesh as a spring along the line of action, and their errors by a time
+step."""
 
 from __future__ import annotations
 
@@ -10,10 +11,12 @@ from scipy.linalg import eigh, null_space
 
 from fenics_gears.dynamics.drivetrain import SIDE, Drivetrain
 
-# Relative normal displacement of the flanks per coordinate; see contact.operator.displacement_jacobian. Friction also acts across.
+# Relative normal displacement of the flanks per coordinate; see contact.operator.displacement_jacobian. Friction also
+# acts across.
 MESH_DIRECTION = {"centre_x1": 1.0, "rotation_1": 1.0, "centre_x2": -1.0, "rotation_2": 1.0}
 ACROSS_DIRECTION = {"centre_y1": 1.0, "centre_y2": -1.0}
-# Below this part of the highest frequency a motion is rigid; a shape that moves the flanks by less than this part is not excited.
+# Below this part of the highest frequency a motion is rigid; a shape that moves the flanks by less than this part is
+# not excited.
 RIGID, STILL = 1e-6, 1e-6
 # Average acceleration lengthens a period by (omega dt)^2/12 of it: 1 % where omega dt = 0.346, 18.1 steps a period.
 PERIOD_ERROR = 0.01
@@ -22,7 +25,8 @@ STEPS_OF_A_RESOLVED_PERIOD = 2.0 * pi / sqrt(12.0 * PERIOD_ERROR)
 
 @dataclass(frozen=True)
 class Vibration:
-    """One elastic mode: `frequency` (Hz), `damping_ratio` of the critical damping, `excited`: whether contact forces excite it.
+    """One elastic mode: `frequency` (Hz), `damping_ratio` of the critical damping, `excited`: whether contact forces
+    excite it.
 
     `motion`: in words, where tilting or axial motion of one gear has most of the kinetic energy; else empty.
     """
@@ -63,7 +67,12 @@ def vibrations(drivetrain: Drivetrain, mesh_stiffness: float, friction: bool = F
     damping = np.zeros_like(drivetrain.stiffness) if drivetrain.damping is None else drivetrain.damping
     damped, words = np.einsum("ci,cd,di->i", shapes, damping, shapes), _motions(drivetrain, shapes)
     return [
-        Vibration(float(frequency), float(0.5 * taken / (2.0 * pi * frequency)), bool(motion > STILL * np.linalg.norm(shape)), said)
+        Vibration(
+            float(frequency),
+            float(0.5 * taken / (2.0 * pi * frequency)),
+            bool(motion > STILL * np.linalg.norm(shape)),
+            said,
+        )
         for frequency, taken, motion, shape, said in zip(frequencies, damped, moved, shapes.T, words)
         if frequency > RIGID * frequencies[-1]
     ]
@@ -80,7 +89,8 @@ def modes(drivetrain: Drivetrain, mesh_stiffness: float) -> tuple[np.ndarray, np
 
 
 def _along(drivetrain: Drivetrain) -> np.ndarray:
-    """Displacement (r, k) of the flanks along their normal per coordinate: as a whole, or of either half of their width."""
+    """Displacement (r, k) of the flanks along their normal per coordinate: as a whole, or of either half of their
+    width."""
     return _plane(drivetrain, MESH_DIRECTION) if drivetrain.mesh is None else drivetrain.mesh.normals
 
 
@@ -94,15 +104,22 @@ def _plane(drivetrain: Drivetrain, direction: dict[str, float]) -> np.ndarray:
 
 
 def _motions(drivetrain: Drivetrain, shapes: np.ndarray) -> list[str]:
-    """What gears do beside the plane motion in each mode, in words; empty where that has less than half of the kinetic energy."""
+    """What gears do beside the plane motion in each mode, in words; empty where that has less than half of the kinetic
+    energy."""
     if drivetrain.mesh is None:
         return [""] * shapes.shape[1]
     # Of modes of modal mass 1 these are shares.
     energy, said = shapes * (drivetrain.mass @ shapes), [""] * shapes.shape[1]
     for kind, words in (("tilt", "{} tilts"), ("axial", "{} moves along its axis")):
         for gear in ("pinion", "wheel"):
-            rows = [place for place, name in enumerate(drivetrain.coordinates) if name.startswith(kind) and SIDE[name] == gear]
-            said = [words.format(gear) if share > 0.5 else before for share, before in zip(energy[rows].sum(axis=0), said)]
+            rows = [
+                place
+                for place, name in enumerate(drivetrain.coordinates)
+                if name.startswith(kind) and SIDE[name] == gear
+            ]
+            said = [
+                words.format(gear) if share > 0.5 else before for share, before in zip(energy[rows].sum(axis=0), said)
+            ]
     return said
 
 

@@ -17,7 +17,8 @@ GEARS = ("pinion", "wheel")
 
 @dataclass(frozen=True)
 class LumpedGear:
-    """`mass`, N s^2/mm, and `moment_of_inertia`, N mm s^2, at a gear's centre; `width`, mm, of its face; `given_tilting`: about a diameter, where given."""
+    """`mass`, N s^2/mm, and `moment_of_inertia`, N mm s^2, at a gear's centre; `width`, mm, of its face;
+    `given_tilting`: about a diameter, where given."""
 
     mass: float
     moment_of_inertia: float
@@ -28,7 +29,8 @@ class LumpedGear:
     def tilting_inertia(self) -> float:
         """Moment of inertia, N mm s^2, about a diameter at mid-width: as given, or J/2 + m b^2/12.
 
-        That is a disc's; exact for any body whose sections along the width are alike, on the average over a turn, and with three teeth or more at any time.
+        That is a disc's; exact for any body whose sections along the width are alike, on the average over a turn, and
+        with three teeth or more at any time.
         """
         if self.given_tilting is not None:
             return self.given_tilting
@@ -36,7 +38,8 @@ class LumpedGear:
 
 
 def lumped(inertia: Inertia, pair: GearPair, section: Callable[[str], CrossSection]) -> dict[str, LumpedGear]:
-    """Lumped masses of "pinion" and "wheel"; `section`: a gear's cross-section, called only where a density is given."""
+    """Lumped masses of "pinion" and "wheel"; `section`: a gear's cross-section, called only where a density is
+    given."""
     return {name: _lumped(inertia, name, pair.face_widths[number], section) for number, name in enumerate(GEARS)}
 
 

@@ -19,7 +19,14 @@ from fenics_gears.contact.mesh_cycle import SHARE_OF_A_BLOCK, Cycle
 from fenics_gears.contact.step_solver import METHODS, NEWTON
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
-from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, BACKWARD_EULER, NO_SETS, STATIC, Motion, solve_steps
+from fenics_gears.dynamics.compiled_march import (
+    AVERAGE_ACCELERATION,
+    BACKWARD_EULER,
+    NO_SETS,
+    STATIC,
+    Motion,
+    solve_steps,
+)
 from fenics_gears.dynamics.stepping import EquationsOfMotion, Stepper
 from fenics_gears.dynamics.steps import Record, Steps, drive_flanks_touch, smallest_openings
 
@@ -32,10 +39,13 @@ LONGEST_BLOCK, LONGEST_BLOCK_OF_OWN_SOLVER = 512, 32
 class March:
     """A march so far.
 
-    `kept`: the last steps; `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of `METHODS` solved;
-    `separations`: step and smallest opening (mm) of every step without contact of drive flanks; `locked`: steps at which friction
-    locks a closed node (`contact.existence`); `uncertified`: how many of the `judged` last steps may have more than one solution
-    (`contact.uniqueness`); `interrupted`: stopped by the user. `friction` and `stiffness`, the effective one (k, k), N/mm: of every step.
+    `kept`: the last steps; `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of
+        `METHODS` solved;
+    `separations`: step and smallest opening (mm) of every step without contact of drive flanks; `locked`: steps at
+        which friction
+    locks a closed node (`contact.existence`); `uncertified`: how many of the `judged` last steps may have more than one
+    solution (`contact.uniqueness`); `interrupted`: stopped by the user. `friction` and `stiffness`, the effective one
+    (k, k), N/mm: of every step.
     """
 
     friction: float
@@ -59,7 +69,10 @@ class March:
         while sum(map(len, self._last[1:])) >= self.kept:
             del self._last[0]
         moved = solved.numbers > 0
-        self.steps, self.newton_iterations = int(solved.numbers[-1]), self.newton_iterations + int(solved.iterations[moved].sum())
+        self.steps, self.newton_iterations = (
+            int(solved.numbers[-1]),
+            self.newton_iterations + int(solved.iterations[moved].sum()),
+        )
         for method, count in Counter(compress(solved.methods, moved)).items():
             self.steps_by_method[method] += count
         apart = np.flatnonzero(~drive_flanks_touch(solved) & moved)
@@ -80,16 +93,21 @@ def thread_pools() -> ThreadpoolController:
 
 
 class Marcher(Stepper):
-    """Steps the equations of motion with the contact of a `cycle` through time; `plain`: every step by itself, in Python."""
+    """Steps the equations of motion with the contact of a `cycle` through time; `plain`: every step by itself, in
+    Python."""
 
     def __init__(self, cycle: Cycle, equations: EquationsOfMotion, plain: bool = False):
         super().__init__(cycle, equations)
         self.plain = plain
-        # Friction's lever arm is longest at the wheel's tip; with a smaller coefficient it never outweighs the normal force there.
+        # Friction's lever arm is longest at the wheel's tip; with a smaller coefficient it never outweighs the normal
+        # force there.
         self._may_lock = self.friction > 0.0 and self.friction * cycle.pair.wheel.tip_roll_angle >= 1.0
         method = AVERAGE_ACCELERATION if isinstance(self.dynamic, AverageAcceleration) else BACKWARD_EULER
-        self._motion = Motion.of(self.drivetrain, method if self.dynamic.inert else STATIC, self.friction, self.tolerance)
-        # Steps in a call of compiled code, which lasts until the next report as soon as it is known how long a step takes.
+        self._motion = Motion.of(
+            self.drivetrain, method if self.dynamic.inert else STATIC, self.friction, self.tolerance
+        )
+        # Steps in a call of compiled code, which lasts until the next report as soon as it is known how long a step
+        # takes.
         self._at_once, self._reported = 1, 0.0
 
     def run(
@@ -100,8 +118,8 @@ class Marcher(Stepper):
         observe: Callable[[Steps, March], None] | None = None,
         judged: int = 0,
     ) -> March:
-        """March `steps` steps from step 0 and keep the last `kept` records, wherever the march ends; `observe` is called with
-        blocks of steps and the march so far.
+        """March `steps` steps from step 0 and keep the last `kept` records, wherever the march ends; `observe` is
+        called with blocks of steps and the march so far.
 
         `judged`: of so many last steps it is judged whether friction leaves more than one solution.
 
@@ -109,17 +127,31 @@ class Marcher(Stepper):
         """
         with thread_pools().limit(limits=1):
             # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
-            return self._run(steps, kept, report or (lambda step, steps: None), observe or (lambda solved, march: None), judged)
+            return self._run(
+                steps, kept, report or (lambda step, steps: None), observe or (lambda solved, march: None), judged
+            )
 
-    def _run(self, steps: int, kept: int, report: Callable[[int, int], None], observe: Callable[[Steps, March], None], judged: int) -> March:
+    def _run(
+        self,
+        steps: int,
+        kept: int,
+        report: Callable[[int, int], None],
+        observe: Callable[[Steps, March], None],
+        judged: int,
+    ) -> March:
         march, begun = March(self.friction, self.dynamic.stiffness, kept), time.perf_counter()
 
         def take(solved: Steps) -> None:
             march.take(solved)
             if self._may_lock:
-                march.locked += [int(record.step) for record in solved.records if record.step > 0 and self._locks(record)]
+                march.locked += [
+                    int(record.step) for record in solved.records if record.step > 0 and self._locks(record)
+                ]
             if self.friction and solved.numbers[-1] > steps - judged:
-                self._judge(march, solved.between(int(np.searchsorted(solved.numbers, steps - judged, side="right")), len(solved)))
+                self._judge(
+                    march,
+                    solved.between(int(np.searchsorted(solved.numbers, steps - judged, side="right")), len(solved)),
+                )
             observe(solved, march)
 
         try:
@@ -138,7 +170,8 @@ class Marcher(Stepper):
         return march
 
     def _blocks(self, steps: int) -> Iterator[tuple[int, int]]:
-        """Numbers of the first step of each block and of the one after its last: whole mesh cycles, or equal parts of one, but at the end."""
+        """Numbers of the first step of each block and of the one after its last: whole mesh cycles, or equal parts of
+        one, but at the end."""
         cycle = self.cycle.steps
         # Positions of a block are held together, also those that are not kept.
         most = LONGEST_BLOCK_OF_OWN_SOLVER if self.cycle.traits.own_solver else LONGEST_BLOCK
@@ -154,8 +187,11 @@ class Marcher(Stepper):
             yield first, end
             first = end
 
-    def _plain_block(self, last: Record, numbers: range, take: Callable[[Steps], None], report: Callable[[int], None]) -> Record:
-        """Solve the steps `numbers` from the record `last` one by one; `take` gets them, also those before a failure or Ctrl-C."""
+    def _plain_block(
+        self, last: Record, numbers: range, take: Callable[[Steps], None], report: Callable[[int], None]
+    ) -> Record:
+        """Solve the steps `numbers` from the record `last` one by one; `take` gets them, also those before a failure or
+        Ctrl-C."""
         records: list[Record] = []
         try:
             for step in numbers:
@@ -167,8 +203,11 @@ class Marcher(Stepper):
                 take(Steps.of(records))
         return last
 
-    def _compiled_block(self, last: Record, numbers: range, take: Callable[[Steps], None], report: Callable[[int], None]) -> Record:
-        """As `_plain_block`, many steps in each call of compiled code; steps that Newton's method does not solve at once are plain ones."""
+    def _compiled_block(
+        self, last: Record, numbers: range, take: Callable[[Steps], None], report: Callable[[int], None]
+    ) -> Record:
+        """As `_plain_block`, many steps in each call of compiled code; steps that Newton's method does not solve at
+        once are plain ones."""
         positions = [last.position, *(self.cycle.position(step) for step in numbers)]
         steps = Steps.to_solve([last.step, *numbers], positions, len(self.drivetrain.coordinates), NEWTON)
         steps.put(0, last)
@@ -176,7 +215,11 @@ class Marcher(Stepper):
         if self._motion.method != STATIC:
             durations[1:] = [self.clock.duration(step - 1, step) for step in numbers]
         cycle_before = self._cycle_before(steps) if self.cycle.face is not None else NO_SETS
-        loads = np.array([self.load(step) for step in (numbers[0], *numbers)]) if self.loads else np.tile(self.drivetrain.load, (len(steps), 1))
+        loads = (
+            np.array([self.load(step) for step in (numbers[0], *numbers)])
+            if self.loads
+            else np.tile(self.drivetrain.load, (len(steps), 1))
+        )
         done = 1
         try:
             while done < len(steps):

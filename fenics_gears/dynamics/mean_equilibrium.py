@@ -1,11 +1,13 @@
-"""The mean position of gears whose teeth pass faster than the drivetrain can follow: forces balance on the average of a mesh cycle.
+"""The mean position of gears whose teeth pass faster than the drivetrain can follow: forces balance on the average of a
+mesh cycle.
 
 Held at centre coordinates q, the contact at each position of the cycle gives forces p_i(q). The mean position solves
 
     K q + mean(G_i^T p_i(q)) = F
 
-by Newton's method, with G^T C^-1 G over the closed nodes as the contact's stiffness. The unbalanced force at each position
-accelerates the gears; its integral over the cycle, less the mean, is the velocity of the steady motion at that position.
+by Newton's method, with G^T C^-1 G over the closed nodes as the contact's stiffness. The unbalanced force at each
+position accelerates the gears; its integral over the cycle, less the mean, is the velocity of the steady motion at that
+position.
 """
 
 from __future__ import annotations
@@ -29,7 +31,8 @@ Held = Callable[[Position, np.ndarray], StepSolution]
 
 @dataclass(frozen=True)
 class MeanEquilibrium:
-    """Mean centre coordinates (k,), mm, the velocity (k,), mm/s, of the steady motion at step 0, and the contact there."""
+    """Mean centre coordinates (k,), mm, the velocity (k,), mm/s, of the steady motion at step 0, and the contact
+    there."""
 
     position: np.ndarray
     velocity: np.ndarray
@@ -37,10 +40,12 @@ class MeanEquilibrium:
 
 
 def mean_equilibrium(
-    cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, tolerance: Tolerance, first: np.ndarray, slid: float,
+    cycle: Cycle, drivetrain: Drivetrain, time_step: float, friction: float, tolerance: Tolerance, first: np.ndarray,
+    slid: float,
     load: Callable[[float], np.ndarray],
 ) -> MeanEquilibrium:  # fmt: skip
-    """Mean equilibrium of a drivetrain with inertia, sought from coordinates `first` (k,); `slid`: steps of sliding before each position;
+    """Mean equilibrium of a drivetrain with inertia, sought from coordinates `first` (k,); `slid`: steps of sliding
+    before each position;
     `load`: forces (k,), N, at a step.
 
     Raises ContactNotConverged.
@@ -71,17 +76,32 @@ def _holder(cycle: Cycle, friction: float, tolerance: Tolerance, slid: float) ->
         slip_before = nothing if operator.rigid_slip is None else slid * operator.rigid_slip + moved[nodes:]
         gap = operator.gap - moved[:nodes]
         problem = StepProblem(
-            unit, np.zeros(1), operator.compliance, np.zeros((len(operator.jacobian), 1)), gap, slip_before, friction, nothing, tolerance
+            unit,
+            np.zeros(1),
+            operator.compliance,
+            np.zeros((len(operator.jacobian), 1)),
+            gap,
+            slip_before,
+            friction,
+            nothing,
+            tolerance,
         )
         solution = cycle.solve(position, problem, cold_start(gap, operator.node_pair), None)
         return StepSolution(
-            solution.forces, coordinates, solution.displacement + moved, solution.status, solution.iterations, solution.method
+            solution.forces,
+            coordinates,
+            solution.displacement + moved,
+            solution.status,
+            solution.iterations,
+            solution.method,
         )
 
     return held
 
 
-def _balance(drivetrain: Drivetrain, load: np.ndarray, position: Position, solution: StepSolution, coordinates: np.ndarray) -> np.ndarray:
+def _balance(
+    drivetrain: Drivetrain, load: np.ndarray, position: Position, solution: StepSolution, coordinates: np.ndarray
+) -> np.ndarray:
     """Unbalanced force (k,), N, of load, springs and contact."""
     return load - drivetrain.stiffness @ coordinates - position.operator.jacobian.T @ solution.forces
 
@@ -94,7 +114,8 @@ def _contact_stiffness(position: Position, solution: StepSolution) -> np.ndarray
 
 
 def _velocity(drivetrain: Drivetrain, left: np.ndarray, time_step: float) -> np.ndarray:
-    """Velocity (k,), mm/s, at the first of the positions whose unbalanced forces (n, k), N, are `left`; its mean over the cycle is zero."""
+    """Velocity (k,), mm/s, at the first of the positions whose unbalanced forces (n, k), N, are `left`; its mean over
+    the cycle is zero."""
     acceleration = np.linalg.solve(drivetrain.mass, (left - left.mean(axis=0)).T).T
     gained = np.cumsum(0.5 * time_step * (acceleration + np.roll(acceleration, -1, axis=0)), axis=0)
     return -gained.mean(axis=0)

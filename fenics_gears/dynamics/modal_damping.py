@@ -1,8 +1,8 @@
 """Damping by the drivetrain's modes: D = M Phi diag(2 zeta omega) Phi^T M with Phi of modal mass 1.
 
-The modes are those with one tooth pair in mesh as a spring along the line of action: without it the wheel's side would turn freely, and
-motion against the mesh would not be damped. Each mode has its ratio zeta exactly; a rigid motion, whose omega is zero, is not damped.
-R. W. Clough and J. Penzien, Dynamics of Structures, 2nd ed., 1993, section 12-5.
+The modes are those with one tooth pair in mesh as a spring along the line of action: without it the wheel's side would
+turn freely, and motion against the mesh would not be damped. Each mode has its ratio zeta exactly; a rigid motion,
+whose omega is zero, is not damped. R. W. Clough and J. Penzien, Dynamics of Structures, 2nd ed., 1993, section 12-5.
 """
 
 from __future__ import annotations

@@ -1,10 +1,11 @@
 """A mesh frequency that changes linearly in time: the time of each step, and the inertia forces of the nominal motion.
 
-Steps stand at equal phases n = step / steps_per_mesh_cycle. With f' constant, n = (f^2 - f_0^2)/(2 f'): the square of the frequency
-is linear in the phase, and the time from one phase to another is 2 (n_1 - n_0)/(f_0 + f_1).
+Steps stand at equal phases n = step / steps_per_mesh_cycle. With f' constant, n = (f^2 - f_0^2)/(2 f'): the square of
+the frequency is linear in the phase, and the time from one phase to another is 2 (n_1 - n_0)/(f_0 + f_1).
 
-The frame of the nominal motion turns with the gears. Where it accelerates, inertia forces -M X'' of the nominal motion X act in it: on
-arcs rb phi, X'' = p_b f' for the pinion, -p_b f' for the wheel, which turns the other way, and nothing for the twist of a shaft.
+The frame of the nominal motion turns with the gears. Where it accelerates, inertia forces -M X'' of the nominal motion
+X act in it: on arcs rb phi, X'' = p_b f' for the pinion, -p_b f' for the wheel, which turns the other way, and nothing
+    for the twist of a shaft.
 Damping is that of the motion relative to the nominal one, as at a steady speed.
 """
 
@@ -21,7 +22,8 @@ from fenics_gears.dynamics.drivetrain import Drivetrain
 
 @dataclass(frozen=True)
 class RampClock:
-    """Mesh frequency `start` (Hz) up to step `held`, then linear in time to `end` at step `last`; steady before and after."""
+    """Mesh frequency `start` (Hz) up to step `held`, then linear in time to `end` at step `last`; steady before and
+    after."""
 
     start: float
     end: float
@@ -49,7 +51,11 @@ class RampClock:
         ends = [first, *(end for end in (self.held, self.last) if first < end < last), last]
         passed = 0.0
         for begin, end in zip(ends[:-1], ends[1:]):
-            passed += 2.0 * (end - begin) / (self.steps_per_mesh_cycle * (self.mesh_frequency(begin) + self.mesh_frequency(end)))
+            passed += (
+                2.0
+                * (end - begin)
+                / (self.steps_per_mesh_cycle * (self.mesh_frequency(begin) + self.mesh_frequency(end)))
+            )
         return passed
 
     def acceleration_at(self, step: float) -> float:
@@ -66,7 +72,9 @@ class RampClock:
 def inertia_forces(clock: RampClock, drivetrain: Drivetrain, wheel_teeth: int) -> Callable[[float], np.ndarray]:
     """Forces (k,), N, of the accelerating nominal motion at a step."""
     base_pitch = 2.0 * pi * drivetrain.radii[drivetrain.coordinates.index("rotation_2")] / wheel_teeth
-    nominal = np.array([{"rotation_1": base_pitch, "rotation_2": -base_pitch}.get(name, 0.0) for name in drivetrain.coordinates])
+    nominal = np.array(
+        [{"rotation_1": base_pitch, "rotation_2": -base_pitch}.get(name, 0.0) for name in drivetrain.coordinates]
+    )
     unit = -drivetrain.mass @ nominal
 
     def load(step: float) -> np.ndarray:

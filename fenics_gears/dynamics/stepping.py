@@ -1,4 +1,5 @@
-"""One step of the motion in time, from static equilibrium at the start: what `compiled_march` does for many steps, written to be read."""
+"""One step of the motion in time, from static equilibrium at the start: what `compiled_march` does for many steps,
+written to be read."""
 
 from __future__ import annotations
 
@@ -33,9 +34,11 @@ MOST_HALVINGS = 6
 
 @dataclass(frozen=True)
 class EquationsOfMotion:
-    """The motion that a march solves for: a drivetrain in steps of `time_step` (s), the longest; `friction` 0 where the scene has none.
+    """The motion that a march solves for: a drivetrain in steps of `time_step` (s), the longest; `friction` 0 where the
+    scene has none.
 
-    `time_scales`: how mesh and step compare with the drivetrain's vibrations; they decide on the method in time and on the start.
+    `time_scales`: how mesh and step compare with the drivetrain's vibrations; they decide on the method in time and on
+        the start.
     `clock`: when a step is, every `time_step` unless given; `loads`: forces that vary, besides the drivetrain's own.
     """
 
@@ -85,10 +88,12 @@ class Stepper:
         return sum((load(step) for load in self.loads), self.drivetrain.load)
 
     def start(self) -> Record:
-        """Static equilibrium at step 0; velocity from the static solutions on either side; acceleration from the equations of motion.
+        """Static equilibrium at step 0; velocity from the static solutions on either side; acceleration from the
+        equations of motion.
 
-        With a mesh frequency above the lowest of the drivetrain the gears cannot follow: they start at rest in the frame of the nominal
-        motion, so as not to part at once. Above the highest they start where the forces of a whole cycle balance.
+        With a mesh frequency above the lowest of the drivetrain the gears cannot follow: they start at rest in the
+        frame of the nominal motion, so as not to part at once. Above the highest they start where the forces of a whole
+        cycle balance.
         """
         self._sets.clear()
         neighbours = [self._static_start(-1)]
@@ -113,7 +118,8 @@ class Stepper:
         from fenics_gears.dynamics.mean_equilibrium import mean_equilibrium
 
         mean = mean_equilibrium(
-            self.cycle, self.drivetrain, self.clock.duration(0, 1), self.friction, self.tolerance, static.state.position,
+            self.cycle, self.drivetrain, self.clock.duration(0, 1), self.friction, self.tolerance,
+            static.state.position,
             STEPS_SLID_BEFORE_START, self.load,
         )  # fmt: skip
         drivetrain, jacobian = self.drivetrain, static.position.operator.jacobian
@@ -132,7 +138,8 @@ class Stepper:
     def remember(self, step: int, status: np.ndarray) -> None:
         """Keep the sets (n,) of a step for the next mesh cycle to begin with, over a face.
 
-        There they are nearly those of the same position a mesh cycle before. In a plane, with a tenth of the nodes, a step before is as near.
+        There they are nearly those of the same position a mesh cycle before. In a plane, with a tenth of the nodes, a
+        step before is as near.
         """
         if self.cycle.face is not None:
             self._sets[step] = status
@@ -159,7 +166,8 @@ class Stepper:
                 raise failure from last_failure
 
     def _divided(self, scheme: AverageAcceleration, last: Record, step: float, failure, halvings: int) -> Record:
-        """From `last` to `step` in two halves, either divided again where it fails; raises the `failure` of the shortest."""
+        """From `last` to `step` in two halves, either divided again where it fails; raises the `failure` of the
+        shortest."""
         if halvings > MOST_HALVINGS:
             raise failure
         record, parts = last, ()
@@ -180,9 +188,13 @@ class Stepper:
         slip_before = NO_SLIP
         if operator.rigid_slip is not None:
             columns = np.ascontiguousarray(operator.previous_compliance.T)
-            slip_before = slip_at_start(operator.rigid_slip, operator.previous_jacobian, columns, last.state.position, last.solution.forces)
+            slip_before = slip_at_start(
+                operator.rigid_slip, operator.previous_jacobian, columns, last.state.position, last.solution.forces
+            )
         status = np.empty(operator.nodes, dtype=np.int8)
-        begin(status, last.solution.status, position.carried_from, self.cycle_before(step), self.cycle_before(last.step))
+        begin(
+            status, last.solution.status, position.carried_from, self.cycle_before(step), self.cycle_before(last.step)
+        )
         solution = self._solve(scheme, last.state, position, slip_before, status, step, last.solution)
         return Record(step, scheme.advance(last.state, solution.coordinates), position, solution)
 
@@ -195,8 +207,11 @@ class Stepper:
         solution = self._solve(self.static, State(rest, rest, rest), position, slip_before, status, step)
         return Record(step, State(solution.coordinates, rest, rest), position, solution)
 
-    def _solve(self, scheme, state: State, position: Position, slip_before, status, step: float, last=None) -> StepSolution:
-        """The step of `scheme` from `state`, solved from the sets `status` (n,); `last`: the solution before, if there is one."""
+    def _solve(
+        self, scheme, state: State, position: Position, slip_before, status, step: float, last=None
+    ) -> StepSolution:
+        """The step of `scheme` from `state`, solved from the sets `status` (n,); `last`: the solution before, if there
+        is one."""
         operator, load = position.operator, scheme.load(state, self.load(step))
         problem = StepProblem(
             scheme.stiffness, load, operator.compliance, operator.jacobian, operator.gap, slip_before,

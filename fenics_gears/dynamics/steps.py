@@ -1,4 +1,5 @@
-"""Consecutive steps of a march as arrays: their contact nodes stand one step's after the other's, so that all are treated at once."""
+"""Consecutive steps of a march as arrays: their contact nodes stand one step's after the other's, so that all are
+treated at once."""
 
 from __future__ import annotations
 
@@ -24,7 +25,8 @@ ARRAYS = ("numbers", "states", "forces", "displacement", "status", "iterations")
 class Record:
     """One step: its number, the state and the contact solution.
 
-    `parts`: where the step was divided, all of its parts in order; their numbers lie between whole ones, the last is the step itself.
+    `parts`: where the step was divided, all of its parts in order; their numbers lie between whole ones, the last is
+        the step itself.
     """
 
     step: float
@@ -36,11 +38,12 @@ class Record:
 
 @dataclass
 class Steps:
-    """Steps (s,) of a march: their `numbers`, `positions` and the `methods` that solved them; n contact nodes at each, N at all.
+    """Steps (s,) of a march: their `numbers`, `positions` and the `methods` that solved them; n contact nodes at each,
+    N at all.
 
-    `states` (s, 3, k): centre coordinates, mm, velocities and accelerations; `forces` and `displacement` (N,) or, with friction, (2 N,): a
-    step's as in StepSolution, then the next step's; `status` (N,); `iterations` (s,) of Newton's method. `parts`: by place, those of steps
-    that were divided.
+    `states` (s, 3, k): centre coordinates, mm, velocities and accelerations; `forces` and `displacement` (N,) or, with
+    friction, (2 N,): a step's as in StepSolution, then the next step's; `status` (N,); `iterations` (s,) of Newton's
+    method. `parts`: by place, those of steps that were divided.
     """
 
     numbers: np.ndarray
@@ -59,7 +62,8 @@ class Steps:
         count, nodes = len(positions), sum(int(position.in_memory[0][NODES]) for position in positions)
         forces = nodes * (1 if not count or positions[0].operator.rigid_slip is None else 2)
         return cls(
-            np.array(numbers, dtype=float), positions, np.zeros((count, 3, coordinates)), np.zeros(forces), np.zeros(forces),
+            np.array(numbers, dtype=float), positions, np.zeros((count, 3, coordinates)), np.zeros(forces),
+            np.zeros(forces),
             np.zeros(nodes, dtype=np.int8), np.zeros(count, dtype=np.int64), [method] * count,
         )  # fmt: skip
 
@@ -67,7 +71,9 @@ class Steps:
     def of(cls, records: Sequence[Record]) -> Steps:
         """The steps of some records."""
         coordinates = len(records[0].state.position) if records else 0
-        steps = cls.to_solve([record.step for record in records], [record.position for record in records], coordinates, "")
+        steps = cls.to_solve(
+            [record.step for record in records], [record.position for record in records], coordinates, ""
+        )
         for place, record in enumerate(records):
             steps.put(place, record)
         return steps
@@ -80,7 +86,11 @@ class Steps:
             self.__dict__.pop("table", None)
         self.methods[place] = solution.method
         self.states[place] = state.position, state.velocity, state.acceleration
-        self.forces[forces], self.displacement[forces], self.status[nodes] = solution.forces, solution.displacement, solution.status
+        self.forces[forces], self.displacement[forces], self.status[nodes] = (
+            solution.forces,
+            solution.displacement,
+            solution.status,
+        )
         self.iterations[place] = solution.iterations
         if record.parts:
             self.parts[place] = record.parts
@@ -89,11 +99,20 @@ class Steps:
         """One step by itself; its arrays are parts of these."""
         nodes, forces = self._slices(place)
         solution = StepSolution(
-            self.forces[forces], self.states[place, 0], self.displacement[forces], self.status[nodes], int(self.iterations[place]), self.methods[place]
+            self.forces[forces],
+            self.states[place, 0],
+            self.displacement[forces],
+            self.status[nodes],
+            int(self.iterations[place]),
+            self.methods[place],
         )
         number = float(self.numbers[place])
         return Record(
-            int(number) if number.is_integer() else number, State(*self.states[place]), self.positions[place], solution, self.parts.get(place, ())
+            int(number) if number.is_integer() else number,
+            State(*self.states[place]),
+            self.positions[place],
+            solution,
+            self.parts.get(place, ()),
         )
 
     def __len__(self) -> int:
@@ -101,10 +120,14 @@ class Steps:
 
     def between(self, first: int, end: int) -> Steps:
         """The steps from place `first` to before `end`; arrays are parts of these."""
-        nodes, forces = slice(self.starts[first], self.starts[end]), slice(self.kinds * self.starts[first], self.kinds * self.starts[end])
+        nodes, forces = (
+            slice(self.starts[first], self.starts[end]),
+            slice(self.kinds * self.starts[first], self.kinds * self.starts[end]),
+        )
         parts = {place - first: parts for place, parts in self.parts.items() if first <= place < end}
         steps = Steps(
-            self.numbers[first:end], self.positions[first:end], self.states[first:end], self.forces[forces], self.displacement[forces],
+            self.numbers[first:end], self.positions[first:end], self.states[first:end], self.forces[forces],
+            self.displacement[forces],
             self.status[nodes], self.iterations[first:end], self.methods[first:end], parts,
         )  # fmt: skip
         steps.__dict__["table"] = self.table[first:end]
@@ -114,7 +137,9 @@ class Steps:
         """These steps and others after them."""
         parts = self.parts | {len(self) + place: parts for place, parts in other.parts.items()}
         arrays = {name: np.concatenate([getattr(self, name), getattr(other, name)]) for name in ARRAYS}
-        steps = Steps(**arrays, positions=self.positions + other.positions, methods=self.methods + other.methods, parts=parts)
+        steps = Steps(
+            **arrays, positions=self.positions + other.positions, methods=self.methods + other.methods, parts=parts
+        )
         steps.__dict__["table"] = np.concatenate([self.table, other.table])
         return steps
 
@@ -163,9 +188,14 @@ class Steps:
 
     @cached_property
     def table(self) -> np.ndarray:
-        """What compiled code needs of each step's contact operator (s, 10), by the names of `contact.addresses`: sizes and addresses."""
+        """What compiled code needs of each step's contact operator (s, 10), by the names of `contact.addresses`: sizes
+        and addresses."""
         rows = [position.in_memory[0] for position in self.positions]
-        return np.concatenate(rows).reshape(len(rows), -1) if rows else np.empty((0, PREVIOUS_COMPLIANCE + 1), dtype=np.int64)
+        return (
+            np.concatenate(rows).reshape(len(rows), -1)
+            if rows
+            else np.empty((0, PREVIOUS_COMPLIANCE + 1), dtype=np.int64)
+        )
 
     def _slices(self, place: int) -> tuple[slice, slice]:
         first, end = int(self.starts[place]), int(self.starts[place + 1])
@@ -173,7 +203,8 @@ class Steps:
 
 
 def smallest_openings(steps: Steps) -> np.ndarray:
-    """Distance (s, 2), mm, of the drive and of the coast flanks at the contact node nearest to contact; infinite where there is no such node."""
+    """Distance (s, 2), mm, of the drive and of the coast flanks at the contact node nearest to contact; infinite where
+    there is no such node."""
     return _openings(steps.table, steps.starts, steps.kinds, steps.displacement)
 
 

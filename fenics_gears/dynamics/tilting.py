@@ -1,8 +1,10 @@
 """Gears that tilt and move axially: a rigid shaft on two bearings, and how it moves flanks that have a width.
 
-Gears move about their mid-width. A tilt theta (rad, about x along and y off the line of action) displaces the shaft at the height z by
-theta_y z in x and by -theta_x z in y, so that bearings that do not stand at equal distances couple x with theta_y and y with theta_x.
-Gyroscopic moments are left out: they shift a tilting frequency by half of J/J_t times the speed of rotation (1/s), J_t being the moment of inertia
+Gears move about their mid-width. A tilt theta (rad, about x along and y off the line of action) displaces the shaft at
+the height z by theta_y z in x and by -theta_x z in y, so that bearings that do not stand at equal distances couple x
+with theta_y and y with theta_x.
+Gyroscopic moments are left out: they shift a tilting frequency by half of J/J_t times the speed of rotation (1/s), J_t
+    being the moment of inertia
 about a diameter. J is 2 J_t at most, a flat disc's.
 """
 
@@ -30,9 +32,11 @@ TILTS = {"x": ("tilt_y", 1.0), "y": ("tilt_x", -1.0)}
 
 @dataclass(frozen=True)
 class MeshOverFace:
-    """Displacement of the flanks' contact per coordinate: along the contact normal at two heights, `normals` (2, k), and off the line of action, `across` (1, k).
+    """Displacement of the flanks' contact per coordinate: along the contact normal at two heights, `normals` (2, k),
+    and off the line of action, `across` (1, k).
 
-    The heights are those of two springs that together act as a mesh stiffness spread evenly over the face, in force and in moment.
+    The heights are those of two springs that together act as a mesh stiffness spread evenly over the face, in force and
+    in moment.
     """
 
     normals: np.ndarray
@@ -40,14 +44,20 @@ class MeshOverFace:
 
 
 def gyroscopic_warnings(vibrations: Iterable[Vibration], speeds: Mapping[str, float]) -> list[str]:
-    """A sentence where gyroscopic moments could matter to modes in which a gear tilts; `speeds` (1/s): of "pinion" and "wheel"."""
-    tilting = [(speed / each.frequency, each, gear) for each in vibrations for gear, speed in speeds.items() if each.motion == f"{gear} tilts"]
+    """A sentence where gyroscopic moments could matter to modes in which a gear tilts; `speeds` (1/s): of "pinion" and
+    "wheel"."""
+    tilting = [
+        (speed / each.frequency, each, gear)
+        for each in vibrations
+        for gear, speed in speeds.items()
+        if each.motion == f"{gear} tilts"
+    ]
     share, mode, gear = max(tilting, key=lambda found: found[0], default=(0.0, None, ""))
     if share < GYROSCOPIC:
         return []
     return [
-        f"gyroscopic moments are left out: at {60.0 * speeds[gear]:.4g} rpm they shift the natural frequency of about {mode.frequency:.4g} Hz, at which the {gear} "
-        f"tilts, by up to {share:.0%}"
+        f"gyroscopic moments are left out: at {60.0 * speeds[gear]:.4g} rpm they shift the natural frequency of about"
+        f" {mode.frequency:.4g} Hz, at which the {gear} tilts, by up to {share:.0%}"
     ]
 
 
@@ -71,26 +81,39 @@ def add_bearings(stiffness: np.ndarray, names: tuple[str, ...], bearings: Bearin
 
 
 def mesh_over_face(pair: GearPair, names: tuple[str, ...]) -> MeshOverFace:
-    """How coordinates move the contact of flanks that touch at the pitch point in the middle of the common face; coordinates as arc lengths (mm)."""
+    """How coordinates move the contact of flanks that touch at the pitch point in the middle of the common face;
+    coordinates as arc lengths (mm)."""
     # Gauss points: two springs at +- b/(2 sqrt 3) have the second moment of an even one over b.
     heights = np.array([-1.0, 1.0]) * pair.face_width / (2.0 * sqrt(3.0))
     normal = pair.cosine * np.array([1.0, 0.0, -pair.slope])
     normals = [moved(pair, names, (pair.pitch_point + pair.slope * height, height), normal) for height in heights]
-    return MeshOverFace(np.array(normals), moved(pair, names, (pair.pitch_point, 0.0), np.array([0.0, 1.0, 0.0]))[None, :])
+    return MeshOverFace(
+        np.array(normals), moved(pair, names, (pair.pitch_point, 0.0), np.array([0.0, 1.0, 0.0]))[None, :]
+    )
 
 
 def moved(pair: GearPair, names: tuple[str, ...], place: tuple[float, float], direction: np.ndarray) -> np.ndarray:
-    """Relative displacement (k,) along a direction (3,), per coordinate, of flanks that touch at a place (mm): on the path of contact, and the height.
+    """Relative displacement (k,) along a direction (3,), per coordinate, of flanks that touch at a place (mm): on the
+    path of contact, and the height.
 
-    The pinion approaches along the direction, the wheel against it. A rotation theta moves the point at r by theta x r, along n by theta . (r x n).
+    The pinion approaches along the direction, the wheel against it. A rotation theta moves the point at r by theta x r,
+    along n by theta . (r x n).
     """
     (along, height), (middle_1, middle_2), by_name = place, pair.gear_middles, {}
     gears = (
         ("1", 1.0, pair.pinion.base_radius, (along, -pair.pinion.base_radius, height - middle_1)),
-        ("2", -1.0, pair.wheel.base_radius, (along - pair.line_of_action_length, pair.wheel.base_radius, height - middle_2)),
+        (
+            "2",
+            -1.0,
+            pair.wheel.base_radius,
+            (along - pair.line_of_action_length, pair.wheel.base_radius, height - middle_2),
+        ),
     )
     for number, sense, radius, point in gears:
         turned = sense * np.cross(point, direction) / radius
-        by_name |= {f"{name}{number}": sense * component for name, component in zip(("centre_x", "centre_y", "axial_"), direction)}
+        by_name |= {
+            f"{name}{number}": sense * component
+            for name, component in zip(("centre_x", "centre_y", "axial_"), direction)
+        }
         by_name |= {f"{name}{number}": component for name, component in zip(("tilt_x", "tilt_y", "rotation_"), turned)}
     return np.array([by_name.get(name, 0.0) for name in names])

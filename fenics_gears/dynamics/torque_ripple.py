@@ -1,6 +1,7 @@
 """A torque on the wheel's shaft that varies with the angle that the shaft has turned.
 
-The angle is that of the nominal motion: deviations of the shaft's end from it are small beside the period of any harmonic.
+The angle is that of the nominal motion: deviations of the shaft's end from it are small beside the period of any
+    harmonic.
 """
 
 from __future__ import annotations
@@ -16,7 +17,9 @@ from fenics_gears.dynamics.torque_ripple_data import TorqueRipple
 def torque(ripple: TorqueRipple, angles: Sequence[float]) -> np.ndarray:
     """The varying part of the torque (n,), N mm, at angles (n,), rad, of the wheel's shaft."""
     turned = np.asarray(angles)
-    return sum((each.amplitude * np.cos(each.order * turned + each.phase) for each in ripple.harmonics), np.zeros(len(turned)))
+    return sum(
+        (each.amplitude * np.cos(each.order * turned + each.phase) for each in ripple.harmonics), np.zeros(len(turned))
+    )
 
 
 def varying_load(ripple: TorqueRipple, drivetrain: Drivetrain, shaft_step: float) -> Callable[[float], np.ndarray]:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Harmonic:
-    """amplitude cos(order theta + phase), N mm and rad, with theta the angle that the wheel's shaft has turned since the start."""
+    """amplitude cos(order theta + phase), N mm and rad, with theta the angle that the wheel's shaft has turned since
+    the start."""
 
     order: float
     amplitude: float

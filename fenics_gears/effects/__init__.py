@@ -1,7 +1,8 @@
 """The one list of effects; a scene switches an effect on by naming its section.
 
-An effect whose section is absent is not constructed: none of its unknowns, terms or result variables exist, and its physics is not
-imported. The scene's sections, the output of ``gears check``, the result's variables and the documentation's table follow from this list.
+An effect whose section is absent is not constructed: none of its unknowns, terms or result variables exist, and its
+physics is not imported. The scene's sections, the output of ``gears check``, the result's variables and the
+documentation's table follow from this list.
 """
 
 from __future__ import annotations
@@ -62,33 +63,78 @@ COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("pair_normal_force", "N", "contact force of the tooth pair along the line of action", dims=OF_PAIRS),
     ResultVariable("reaction_x", "N", "force of the gear on its shaft along the line of action", dims=("time", "gear")),
     ResultVariable("reaction_y", "N", "force of the gear on its shaft off the line of action", dims=("time", "gear")),
-    ResultVariable("reaction_couple", "N mm", "torque of the gear on its shaft, positive in the pinion's sense of rotation", dims=("time", "gear")),
+    ResultVariable(
+        "reaction_couple",
+        "N mm",
+        "torque of the gear on its shaft, positive in the pinion's sense of rotation",
+        dims=("time", "gear"),
+    ),
     ResultVariable("newton_iterations", "1", "Newton iterations of the step"),
     ResultVariable("closed_nodes", "1", "number of closed contact nodes"),
     ResultVariable("energy", "N mm", "elastic and kinetic energy"),
     ResultVariable("work_input", "N mm", "work done on the input shaft by the drive; negative where the wheel drives"),
     ResultVariable("work_output", "N mm", "work done on the load by the output shaft; negative where the wheel drives"),
-    ResultVariable("work_contact_changes", "N mm", "energy added by the time stepping where nodes come into contact or separate"),
+    ResultVariable(
+        "work_contact_changes", "N mm", "energy added by the time stepping where nodes come into contact or separate"
+    ),
     ResultVariable("energy_defect", "N mm", "defect of the energy balance"),
-    ResultVariable("path_point_position", "mm", "distance of the point from T1 along the line of action", dims=OF_POINTS),
-    ResultVariable("path_point_diameter", "mm", "diameter at the point of the path of contact", dims=(*OF_POINTS, "gear")),
-    ResultVariable("sliding_speed", "mm/s", "sliding speed of the pinion's flank over the wheel's, positive towards the pinion's tip", dims=OF_POINTS),
-    ResultVariable("specific_sliding", "1", "specific sliding: sliding speed divided by the speed of the contact point along the gear's own flank; negative in the dedendum", dims=(*OF_POINTS, "gear")),
-    ResultVariable("load_share", "1", "share of a tooth pair in the mesh force at the point of the path of contact", dims=OF_POINTS),
+    ResultVariable(
+        "path_point_position", "mm", "distance of the point from T1 along the line of action", dims=OF_POINTS
+    ),
+    ResultVariable(
+        "path_point_diameter", "mm", "diameter at the point of the path of contact", dims=(*OF_POINTS, "gear")
+    ),
+    ResultVariable(
+        "sliding_speed",
+        "mm/s",
+        "sliding speed of the pinion's flank over the wheel's, positive towards the pinion's tip",
+        dims=OF_POINTS,
+    ),
+    ResultVariable(
+        "specific_sliding",
+        "1",
+        "specific sliding: sliding speed divided by the speed of the contact point along the gear's own flank; negative"
+        " in the dedendum",
+        dims=(*OF_POINTS, "gear"),
+    ),
+    ResultVariable(
+        "load_share", "1", "share of a tooth pair in the mesh force at the point of the path of contact", dims=OF_POINTS
+    ),
 )
 
 # What a run has besides where the flanks are resolved over the face. Moments are about the gears' mid-widths.
 FACE_VARIABLES: tuple[ResultVariable, ...] = (
-    ResultVariable("line_load", "N/mm", "contact force of the tooth pair along the contact normal, per length of the face", dims=OF_SLICES),
+    ResultVariable(
+        "line_load",
+        "N/mm",
+        "contact force of the tooth pair along the contact normal, per length of the face",
+        dims=OF_SLICES,
+    ),
     ResultVariable("reaction_z", "N", "axial force of the gear on its shaft", dims=("time", "gear")),
-    ResultVariable("reaction_moment_x", "N mm", "moment of the gear on its shaft about the line of action, at mid-width", dims=("time", "gear")),
-    ResultVariable("reaction_moment_y", "N mm", "moment of the gear on its shaft off the line of action, at mid-width", dims=("time", "gear")),
+    ResultVariable(
+        "reaction_moment_x",
+        "N mm",
+        "moment of the gear on its shaft about the line of action, at mid-width",
+        dims=("time", "gear"),
+    ),
+    ResultVariable(
+        "reaction_moment_y",
+        "N mm",
+        "moment of the gear on its shaft off the line of action, at mid-width",
+        dims=("time", "gear"),
+    ),
 )
 
 # What only contact that is spread over nodes has.
 OVER_CONTACT_NODES = tuple(
     f"{side}contact_{name}" for side in ("", "coast_") for name in ("pressure", "traction", "offset", "roll_angle")
-) + ("largest_contact_pressure", "largest_contact_pressure_pair", "largest_contact_pressure_roll_angle", "largest_edge_pressure", "largest_kink_pressure")
+) + (
+    "largest_contact_pressure",
+    "largest_contact_pressure_pair",
+    "largest_contact_pressure_roll_angle",
+    "largest_edge_pressure",
+    "largest_kink_pressure",
+)
 
 
 def effect_named(section: str) -> Effect:
@@ -102,7 +148,8 @@ def effects_on(scene) -> tuple[Effect, ...]:
 
 
 def from_effects(scene, hook: str, *arguments) -> list[Any]:
-    """What the scene's effects answer: their hooks of that name, called with the effect's own data and the arguments."""
+    """What the scene's effects answer: their hooks of that name, called with the effect's own data and the
+    arguments."""
     hooks = ((each, getattr(each, hook)) for each in effects_on(scene))
     return [call(getattr(scene, each.section), *arguments) for each, call in hooks if call is not None]
 
@@ -116,13 +163,23 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
     """Every variable that the result of a scene has."""
     on = effects_on(scene)
     named = {each.section for each in on}
-    there = [(found, getattr(scene, each.section)) for each in on for found in each.variables if not found.needs or found.needs in named]
+    there = [
+        (found, getattr(scene, each.section))
+        for each in on
+        for found in each.variables
+        if not found.needs or found.needs in named
+    ]
     found = COMMON_VARIABLES + tuple(
-        found for found, data in there
-        if (not found.field or getattr(data, found.field) is not None) and (scene.three_dimensional or not found.over_face)
-    )  # fmt: skip
+        found
+        for found, data in there
+        if (not found.field or getattr(data, found.field) is not None)
+        and (scene.three_dimensional or not found.over_face)
+    )
     if scene.three_dimensional:
-        found = tuple(replace(each, dims=(*OF_SLICES, "contact_node")) if each.dims == OF_NODES else each for each in (*found, *FACE_VARIABLES))
+        found = tuple(
+            replace(each, dims=(*OF_SLICES, "contact_node")) if each.dims == OF_NODES else each
+            for each in (*found, *FACE_VARIABLES)
+        )
     left_out = () if scene.resolves_contact else OVER_CONTACT_NODES
     if not scene.motion.speed_given:
         left_out = (*left_out, "sliding_speed")
@@ -131,7 +188,8 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
 
 
 def common_period(scene) -> float:
-    """Mesh cycles after which all that the scene's effects do repeats: the common multiple of their periods; infinite where one never does."""
+    """Mesh cycles after which all that the scene's effects do repeats: the common multiple of their periods; infinite
+    where one never does."""
     periods = from_effects(scene, "period", scene)
     return inf if inf in periods else lcm(*periods)
 
@@ -157,4 +215,6 @@ def missing_needs(sections: Collection[str]) -> list[tuple[Effect, str]]:
 
 def conflicts(sections: Collection[str]) -> list[tuple[Effect, str]]:
     """Pairs of an effect among the named sections and a section beside it that it excludes."""
-    return [(each, other) for each in EFFECTS if each.section in sections for other in each.excludes if other in sections]
+    return [
+        (each, other) for each in EFFECTS if each.section in sections for other in each.excludes if other in sections
+    ]

@@ -22,31 +22,45 @@ def _stiffness(meaning: str, otherwise: str):
 
 
 def _places(gear: str):
-    meaning = f"where the {gear}'s two bearings are, from its mid-width, positive towards the right end, from which a driving pinion is seen to turn counter-clockwise"
-    return quantities("-10 m", "10 m", "-40 mm", "60 mm", meaning=meaning, otherwise=f"the {gear} does not tilt", count=2)
+    meaning = (
+        f"where the {gear}'s two bearings are, from its mid-width, positive towards the right end, from which a driving"
+        " pinion is seen to turn counter-clockwise"
+    )
+    return quantities(
+        "-10 m", "10 m", "-40 mm", "60 mm", meaning=meaning, otherwise=f"the {gear} does not tilt", count=2
+    )
 
 
 class SupportText(Section):
-    """``[bearings.pinion]`` and ``[bearings.wheel]``; fields that are left out are those of ``[bearings]``, and the defaults hold if that
+    """``[bearings.pinion]`` and ``[bearings.wheel]``; fields that are left out are those of ``[bearings]``, and the
+    defaults hold if that
     section leaves them out too."""
 
-    stiffness: Optional[float] = _stiffness("stiffness in all directions across the axis", "from `stiffness_x` and `stiffness_y`")
+    stiffness: Optional[float] = _stiffness(
+        "stiffness in all directions across the axis", "from `stiffness_x` and `stiffness_y`"
+    )
     stiffness_x: Optional[float] = _stiffness("stiffness along the line of action", "`stiffness`")
     stiffness_y: Optional[float] = _stiffness("stiffness off the line of action", "`stiffness`")
-    axial_stiffness: Optional[float] = _stiffness("stiffness of the whole shaft along its axis, only of a gear whose bearings have `places`", "the shaft is held axially")
+    axial_stiffness: Optional[float] = _stiffness(
+        "stiffness of the whole shaft along its axis, only of a gear whose bearings have `places`",
+        "the shaft is held axially",
+    )
 
 
 class BearingPlacesText(Section):
-    """``[bearings.places]``: where the bearings stand along the shafts, each of them with half of the stiffness. The shafts are rigid, and the gears tilt on them."""
+    """``[bearings.places]``: where the bearings stand along the shafts, each of them with half of the stiffness. The
+    shafts are rigid, and the gears tilt on them."""
 
     pinion: Optional[tuple[float, ...]] = _places("pinion")
     wheel: Optional[tuple[float, ...]] = _places("wheel")
 
 
 class BearingsText(SupportText):
-    """``[bearings]``: stiffness of the support of each gear, the same in all directions or separate along (x) and off (y) the line of action.
+    """``[bearings]``: stiffness of the support of each gear, the same in all directions or separate along (x) and off
+    (y) the line of action.
 
-    Without ``places`` a gear does not tilt and stays where it is along its axis. With them its two bearings have half of that stiffness each.
+    Without ``places`` a gear does not tilt and stays where it is along its axis. With them its two bearings have half
+    of that stiffness each.
     """
 
     pinion: Optional[SupportText] = None
@@ -59,15 +73,26 @@ def supports_are_complete(tree: Tree) -> Iterator[Problem]:
     both = table(tree, "bearings")
     if both is None:
         return
-    missing = [(gear, direction) for gear in GEARS for direction in DIRECTIONS if not given_for(both, gear) & {"stiffness", f"stiffness_{direction}"}]
+    missing = [
+        (gear, direction)
+        for gear in GEARS
+        for direction in DIRECTIONS
+        if not given_for(both, gear) & {"stiffness", f"stiffness_{direction}"}
+    ]
     example = 'Allowed: such as "0.155e6 N/mm"'
     if len(missing) == 4:
-        yield Problem(("bearings", "stiffness"), None, f"is missing. {example}, or stiffness_x and stiffness_y, along and off the line of action.")
+        yield Problem(
+            ("bearings", "stiffness"),
+            None,
+            f"is missing. {example}, or stiffness_x and stiffness_y, along and off the line of action.",
+        )
     elif missing:
         gears = {gear for gear, _ in missing}
         for direction in sorted({direction for _, direction in missing}):
             path = ("bearings",) if len(gears) == 2 else ("bearings", *gears)
-            yield Problem((*path, f"stiffness_{direction}"), None, f"is missing. {example}, or stiffness for both directions.")
+            yield Problem(
+                (*path, f"stiffness_{direction}"), None, f"is missing. {example}, or stiffness for both directions."
+            )
     yield from _bearings_stand_apart(tree, both)
     yield from _axial_stiffness_has_places(both)
 
@@ -78,13 +103,20 @@ def _bearings_stand_apart(tree: Tree, both: Tree) -> Iterator[Problem]:
     if places is None:
         return
     if not places:
-        yield Problem(("bearings", "places"), "", 'is empty. Allowed: the places of the bearings of either shaft, such as pinion = ["-40 mm", "60 mm"].')
+        yield Problem(
+            ("bearings", "places"),
+            "",
+            'is empty. Allowed: the places of the bearings of either shaft, such as pinion = ["-40 mm", "60 mm"].',
+        )
     module = quantity_at(tree, "gears", "module") or 0.0
     for gear in GEARS:
         written = places.get(gear)
         found = [quantity_in(value) for value in written] if isinstance(written, list) else []
         if len(found) == 2 and None not in found and abs(found[1] - found[0]) < LEAST_SPAN * module:
-            message = f"has both bearings on one spot, where nothing holds the shaft's tilt. Allowed: places at least {LEAST_SPAN * module:g} mm apart, a tenth of the module."
+            message = (
+                "has both bearings on one spot, where nothing holds the shaft's tilt. Allowed: places at least"
+                f" {LEAST_SPAN * module:g} mm apart, a tenth of the module."
+            )
             yield Problem(("bearings", "places", gear), as_written(written), message)
 
 
@@ -94,7 +126,9 @@ def _axial_stiffness_has_places(both: Tree) -> Iterator[Problem]:
     for path, section, gears in [((), both, GEARS), *(((gear,), table(both, gear) or {}, (gear,)) for gear in GEARS)]:
         if "axial_stiffness" in section and not any(gear in places for gear in gears):
             names = " or ".join(f"bearings.places.{gear}" for gear in gears)
-            message = f"has no effect: a shaft whose bearings have no places is held axially. Leave it out, or give {names}."
+            message = (
+                f"has no effect: a shaft whose bearings have no places is held axially. Leave it out, or give {names}."
+            )
             yield Problem(("bearings", *path, "axial_stiffness"), as_written(section["axial_stiffness"]), message)
 
 
@@ -137,11 +171,14 @@ EFFECT = Effect(
     variables=(
         ResultVariable("centre_x", "mm", "displacement of the centre along the line of action", dims=("time", "gear")),
         ResultVariable("centre_y", "mm", "displacement of the centre off the line of action", dims=("time", "gear")),
-        *(ResultVariable(name, units, words, dims=("time", "gear"), field="places") for name, units, words in (
-            ("axial_position", "mm", "displacement of the gear along its axis"),
-            ("tilt_x", "rad", "tilt of the gear about the line of action"),
-            ("tilt_y", "rad", "tilt of the gear about the direction off the line of action"),
-        )),
+        *(
+            ResultVariable(name, units, words, dims=("time", "gear"), field="places")
+            for name, units, words in (
+                ("axial_position", "mm", "displacement of the gear along its axis"),
+                ("tilt_x", "rad", "tilt of the gear about the line of action"),
+                ("tilt_y", "rad", "tilt of the gear about the direction off the line of action"),
+            )
+        ),
         ResultVariable("energy_bearings", "N mm", "elastic energy of the bearings"),
     ),
     rules=supports_are_complete,

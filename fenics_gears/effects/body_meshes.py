@@ -85,15 +85,27 @@ def meshes_are_given_and_used(tree: Tree) -> Iterator[Problem]:
     if section is None:
         return
     if not section:
-        yield Problem(("body_meshes",), "", 'names no file. Add pinion = "gear.msh" or wheel = "gear.msh", or leave the section out.')
+        yield Problem(
+            ("body_meshes",),
+            "",
+            'names no file. Add pinion = "gear.msh" or wheel = "gear.msh", or leave the section out.',
+        )
     for gear in GEARS:
         if gear in section and value_at(tree, "gears", gear, "web") is not None:
-            yield Problem(("gears", gear, "web"), "", f"cannot stand beside body_meshes.{gear}, which says where the body is. Leave one of the two out.")
+            yield Problem(
+                ("gears", gear, "web"),
+                "",
+                f"cannot stand beside body_meshes.{gear}, which says where the body is. Leave one of the two out.",
+            )
     accuracy = table(tree, "accuracy") or {}
     for name, allowed in (("model", "elastic"), ("condensation", "once")):
         written = accuracy.get(name, allowed)
         if written != allowed and isinstance(written, str):
-            yield Problem(("accuracy", name), as_written(written), f'cannot stand beside [body_meshes]. Take "{allowed}", or leave one of the two out.')
+            yield Problem(
+                ("accuracy", name),
+                as_written(written),
+                f'cannot stand beside [body_meshes]. Take "{allowed}", or leave one of the two out.',
+            )
     if "elastic_teeth" in accuracy:
         message = "cannot stand beside [body_meshes], where all teeth feel each other. Leave one of the two out."
         yield Problem(("accuracy", "elastic_teeth"), as_written(accuracy["elastic_teeth"]), message)
@@ -118,8 +130,9 @@ def warnings(meshes: BodyMeshes, model) -> list[str]:
         size = _body(meshes, name, model.pair, model.resolution.element).coarsest_flank
         if size > COARSE * wanted:
             found.append(
-                f"body_meshes.{name}: elements along its flanks are up to {size:.3g} mm long, the contact asks for {wanted:.3g} mm "
-                "(accuracy.flank_element_size): pressures and deflections of the contact are not resolved"
+                f"body_meshes.{name}: elements along its flanks are up to {size:.3g} mm long, the contact asks for"
+                f" {wanted:.3g} mm (accuracy.flank_element_size): pressures and deflections of the contact are not"
+                " resolved"
             )
     return found
 
@@ -134,7 +147,12 @@ def elasticity(meshes: BodyMeshes, model, name: str, reach, cache):
     body = _body(meshes, name, model.pair, resolution.element)
     # Forces one tooth beyond those that interact still open or close a crack.
     return whole_body_compliance(
-        body.mesh, gear, model.scene.gears.material_of(name), element=resolution.element, tooth_offsets=reach.same + 1, cache=cache
+        body.mesh,
+        gear,
+        model.scene.gears.material_of(name),
+        element=resolution.element,
+        tooth_offsets=reach.same + 1,
+        cache=cache,
     )
 
 
@@ -177,7 +195,9 @@ def _body(meshes: BodyMeshes, name: str, pair, element: str):
     from fenics_gears.elasticity.whole_body.given import given_body
 
     file = getattr(meshes, name)
-    return given_body(file.path, file.digest, getattr(pair, name), element, f"body_meshes.{name} = {as_written(file.path)}")
+    return given_body(
+        file.path, file.digest, getattr(pair, name), element, f"body_meshes.{name} = {as_written(file.path)}"
+    )
 
 
 EFFECT = Effect(

@@ -26,7 +26,10 @@ def flanks_are_there(tree: Tree) -> Iterator[Problem]:
     load = load_in(tree)
     if load is not None and load[1] < 0.0 and "coast_flanks" not in tree:
         unit = "kW" if load[0][-1] == "power" else "N m"
-        message = f"is negative: it drives the pair from the wheel, on its coast flanks. Allowed: with the section [coast_flanks] any sign, without it 0 {unit} and above."
+        message = (
+            "is negative: it drives the pair from the wheel, on its coast flanks. Allowed: with the section"
+            f" [coast_flanks] any sign, without it 0 {unit} and above."
+        )
         yield Problem(load[0], as_written(value_at(tree, *load[0])), message)
     if value_at(tree, "accuracy", "condensation") == "every step" and "coast_flanks" in tree:
         message = 'has no contact on the coast flanks. Take "once", or leave the section [coast_flanks] out.'
@@ -44,10 +47,27 @@ EFFECT = Effect(
     variables=(
         ResultVariable("coast_normal_force", "N", "contact force of the coast flanks along their line of action"),
         ResultVariable("coast_friction_force", "N", "friction force of the coast flanks", "friction"),
-        ResultVariable("pair_coast_normal_force", "N", "contact force of the coast flank of the pair's pinion tooth", dims=OF_PAIRS),
-        ResultVariable("coast_line_load", "N/mm", "contact force of the coast flank of the pair's pinion tooth along the contact normal, per length of the face", dims=OF_SLICES, over_face=True),
-        ResultVariable("coast_contact_pressure", "MPa", "contact pressure on the coast flanks", "tooth_elasticity", OF_NODES),
-        ResultVariable("coast_contact_roll_angle", "rad", "roll angle of the contact node on the pinion's coast flank", "tooth_elasticity", OF_NODES),
+        ResultVariable(
+            "pair_coast_normal_force", "N", "contact force of the coast flank of the pair's pinion tooth", dims=OF_PAIRS
+        ),
+        ResultVariable(
+            "coast_line_load",
+            "N/mm",
+            "contact force of the coast flank of the pair's pinion tooth along the contact normal, per length of the"
+            " face",
+            dims=OF_SLICES,
+            over_face=True,
+        ),
+        ResultVariable(
+            "coast_contact_pressure", "MPa", "contact pressure on the coast flanks", "tooth_elasticity", OF_NODES
+        ),
+        ResultVariable(
+            "coast_contact_roll_angle",
+            "rad",
+            "roll angle of the contact node on the pinion's coast flank",
+            "tooth_elasticity",
+            OF_NODES,
+        ),
         ResultVariable("coast_contact_traction", "MPa", "friction traction on the coast flanks", "friction", OF_NODES),
         ResultVariable("drive_flank_opening", "mm", "smallest gap between the drive flanks"),
         ResultVariable("coast_flank_opening", "mm", "smallest gap between the coast flanks"),

@@ -21,10 +21,15 @@ class CornerContact:
 
 
 class EdgeText(Section):
-    """``[corner_contact.pinion]`` and ``[corner_contact.wheel]``: an edge radius of the gear's own, in place of that in ``[corner_contact]``."""
+    """``[corner_contact.pinion]`` and ``[corner_contact.wheel]``: an edge radius of the gear's own, in place of that in
+    ``[corner_contact]``."""
 
     edge_radius: Optional[float] = quantity(
-        "0 mm", "1 m", "0.1 mm", meaning="radius of the edge between flank and tip circle", otherwise="0 mm, a sharp edge"
+        "0 mm",
+        "1 m",
+        "0.1 mm",
+        meaning="radius of the edge between flank and tip circle",
+        otherwise="0 mm, a sharp edge",
     )
 
 
@@ -37,18 +42,25 @@ class CornerContactText(EdgeText):
 
 def read(text: CornerContactText) -> CornerContact:
     """Each gear's own radius before that of both."""
-    return CornerContact(tuple(float(own_or_shared(own, text, "edge_radius") or 0.0) for own in (text.pinion, text.wheel)))
+    return CornerContact(
+        tuple(float(own_or_shared(own, text, "edge_radius") or 0.0) for own in (text.pinion, text.wheel))
+    )
 
 
 def write(corner: CornerContact) -> dict:
     """The section, with a radius for each gear."""
-    return {name: {"edge_radius": field_of(EdgeText, "edge_radius", radius)} for name, radius in zip(GEARS, corner.edge_radii)}
+    return {
+        name: {"edge_radius": field_of(EdgeText, "edge_radius", radius)}
+        for name, radius in zip(GEARS, corner.edge_radii)
+    }
 
 
 def route_has_corners(tree: Tree) -> Iterator[Problem]:
     """Remeshing at every step has no nodes beside the path of contact."""
     if "corner_contact" in tree and value_at(tree, "accuracy", "condensation") == "every step":
-        message = 'has no contact of tips off the line of action. Take "once", or leave the section [corner_contact] out.'
+        message = (
+            'has no contact of tips off the line of action. Take "once", or leave the section [corner_contact] out.'
+        )
         yield Problem(("accuracy", "condensation"), '"every step"', message)
 
 

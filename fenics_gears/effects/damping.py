@@ -1,4 +1,5 @@
-"""``[damping]``: Rayleigh damping of each shaft (``dynamics.drivetrain``), or damping ratios of the modes (``dynamics.modal_damping``)."""
+"""``[damping]``: Rayleigh damping of each shaft (``dynamics.drivetrain``), or damping ratios of the modes
+(``dynamics.modal_damping``)."""
 
 from __future__ import annotations
 
@@ -14,11 +15,23 @@ from fenics_gears.inputs.written import as_written
 
 
 def _stiffness_proportional(otherwise: str):
-    return quantity("0 s", "1e3 s", "0.4e-3 s", meaning="factor alpha of the stiffness matrix K in the damping matrix alpha K + beta M", otherwise=otherwise)
+    return quantity(
+        "0 s",
+        "1e3 s",
+        "0.4e-3 s",
+        meaning="factor alpha of the stiffness matrix K in the damping matrix alpha K + beta M",
+        otherwise=otherwise,
+    )
 
 
 def _mass_proportional(otherwise: str):
-    return quantity("0 1/s", "1e9 1/s", "0.5e-3 1/s", meaning="factor beta of the mass matrix M in the damping matrix alpha K + beta M", otherwise=otherwise)
+    return quantity(
+        "0 1/s",
+        "1e9 1/s",
+        "0.5e-3 1/s",
+        meaning="factor beta of the mass matrix M in the damping matrix alpha K + beta M",
+        otherwise=otherwise,
+    )
 
 
 class RayleighText(Section):
@@ -31,13 +44,23 @@ class RayleighText(Section):
 class DampingText(Section):
     """``[damping]``: either Rayleigh damping, for both gears or for each, or damping ratios of the modes."""
 
-    stiffness_proportional: Optional[float] = _stiffness_proportional("each gear has its own, or the damping is given by ratios")
+    stiffness_proportional: Optional[float] = _stiffness_proportional(
+        "each gear has its own, or the damping is given by ratios"
+    )
     mass_proportional: Optional[float] = _mass_proportional("each gear has its own, or the damping is given by ratios")
     ratio: Optional[float] = number(
-        0.05, meaning="damping ratio (part of the critical damping) of all modes of the drivetrain with one tooth pair in mesh", above=0, below=1, otherwise="damping is given by `ratios` or is Rayleigh damping"
+        0.05,
+        meaning=(
+            "damping ratio (part of the critical damping) of all modes of the drivetrain with one tooth pair in mesh"
+        ),
+        above=0,
+        below=1,
+        otherwise="damping is given by `ratios` or is Rayleigh damping",
     )
     ratios: Optional[tuple[float, ...]] = numbers(
-        0.0, 0.999, 0.05, meaning="damping ratios of the modes in the order of their frequencies; the last one holds for all further modes",
+        0.0, 0.999, 0.05,
+        meaning="damping ratios of the modes in the order of their frequencies; the last one holds for all further "
+            "modes",
         otherwise="damping is given by `ratio` or is Rayleigh damping",
     )  # fmt: skip
     pinion: Optional[RayleighText] = None
@@ -63,9 +86,16 @@ def damping_acts(tree: Tree) -> Iterator[Problem]:
             yield Problem(("damping", name), as_written(damping[name]) or "", message)
         ratios = damping.get("ratios")
         if isinstance(ratios, list) and ratios and not any(ratios):
-            yield Problem(("damping", "ratios"), as_written(ratios), "damps nothing: all are zero. For an undamped pair, leave the section [damping] out.")
+            yield Problem(
+                ("damping", "ratios"),
+                as_written(ratios),
+                "damps nothing: all are zero. For an undamped pair, leave the section [damping] out.",
+            )
         if not (material_sections(tree) or {"shafts", "bearings"} & set(tree)):
-            message = "damps nothing: between rigid flanks nothing vibrates without [shafts] or [bearings]. Add one of them, or [gears.material]."
+            message = (
+                "damps nothing: between rigid flanks nothing vibrates without [shafts] or [bearings]. Add one of them,"
+                " or [gears.material]."
+            )
             yield Problem(("damping", modal[0]), as_written(damping[modal[0]]), message)
         return
     yield from _rayleigh_is_complete(damping)
@@ -86,15 +116,25 @@ def _rayleigh_is_complete(damping: Tree) -> Iterator[Problem]:
 
 def _rayleigh_acts(tree: Tree) -> Iterator[Problem]:
     sections = with_gears(tree, "damping")
-    values = {name: {path: quantity_in(section[name]) for path, section in sections.items() if name in section} for name in RAYLEIGH}
+    values = {
+        name: {path: quantity_in(section[name]) for path, section in sections.items() if name in section}
+        for name in RAYLEIGH
+    }
     of_stiffness, of_mass = (values[name] for name in RAYLEIGH)
     # A value that cannot be read is reported with its own field.
     if any(value != 0 for value in of_mass.values()) or not of_stiffness or None in of_stiffness.values():
         return
     if not any(of_stiffness.values()):
-        yield Problem(("damping",), "", "damps nothing: both values are zero. For an undamped pair, leave the section [damping] out.")
+        yield Problem(
+            ("damping",),
+            "",
+            "damps nothing: both values are zero. For an undamped pair, leave the section [damping] out.",
+        )
     elif "shafts" not in tree and "bearings" not in tree:
-        message = "damps nothing: there is no stiffness without [shafts] or [bearings]. Add one of them, or allow a mass_proportional value above 0."
+        message = (
+            "damps nothing: there is no stiffness without [shafts] or [bearings]. Add one of them, or allow a"
+            " mass_proportional value above 0."
+        )
         path = next(path for path, value in of_stiffness.items() if value)
         section = sections[path]
         yield Problem((*path, "stiffness_proportional"), as_written(section["stiffness_proportional"]), message)

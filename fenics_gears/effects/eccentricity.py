@@ -10,17 +10,31 @@ from fenics_gears.effects.effect import Effect
 from fenics_gears.geometry.eccentricity_data import Eccentricity
 from fenics_gears.inputs.fields import Section, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import GEARS, NOT_IN_THE_PLANE, Tree, over_the_face, table, too_large_for_the_module, value_at
+from fenics_gears.inputs.tree import (
+    GEARS,
+    NOT_IN_THE_PLANE,
+    Tree,
+    over_the_face,
+    table,
+    too_large_for_the_module,
+    value_at,
+)
 from fenics_gears.inputs.written import as_written
 
 
 def _angle(of: str, field: str):
-    meaning = f"{of} at the start of the first mesh cycle: angle from the line of action (pinion to wheel), in the gear's sense of rotation"
-    return quantity("-360 deg", "360 deg", "90 deg", meaning=meaning, otherwise=f"0 deg; has no meaning without {field}")
+    meaning = (
+        f"{of} at the start of the first mesh cycle: angle from the line of action (pinion to wheel), in the gear's"
+        " sense of rotation"
+    )
+    return quantity(
+        "-360 deg", "360 deg", "90 deg", meaning=meaning, otherwise=f"0 deg; has no meaning without {field}"
+    )
 
 
 class OffsetText(Section):
-    """``[eccentricity.pinion]`` and ``[eccentricity.wheel]``: a distance, or in three-dimensional scenes a wobble, or both."""
+    """``[eccentricity.pinion]`` and ``[eccentricity.wheel]``: a distance, or in three-dimensional scenes a wobble, or
+    both."""
 
     distance: Optional[float] = quantity(
         "1e-6 um",
@@ -39,7 +53,9 @@ class OffsetText(Section):
         otherwise="no wobble; not allowed in a plane scene",
         below="For teeth that do not wobble, leave it out.",
     )
-    wobble_phase: Optional[float] = _angle("direction in which the axis of the teeth leans towards the right end", "`wobble`")
+    wobble_phase: Optional[float] = _angle(
+        "direction in which the axis of the teeth leans towards the right end", "`wobble`"
+    )
 
 
 class EccentricityText(Section):
@@ -53,12 +69,19 @@ def run_out_is_small_and_of_some_gear(tree: Tree) -> Iterator[Problem]:
     """A section names a gear, what it does not run true by, and that is small against the tooth."""
     section = table(tree, "eccentricity")
     if section is not None and not section:
-        message = "says of neither gear that it runs out. Add [eccentricity.pinion] or [eccentricity.wheel], or leave the section out."
+        message = (
+            "says of neither gear that it runs out. Add [eccentricity.pinion] or [eccentricity.wheel], or leave the"
+            " section out."
+        )
         yield Problem(("eccentricity",), "", message)
     for gear in GEARS:
         own = table(section or {}, gear)
         if own is not None and not {"distance", "wobble"} & set(own):
-            yield Problem(("eccentricity", gear, "distance"), None, 'is missing. Allowed: such as "10 um"; or a wobble in a three-dimensional scene.')
+            yield Problem(
+                ("eccentricity", gear, "distance"),
+                None,
+                'is missing. Allowed: such as "10 um"; or a wobble in a three-dimensional scene.',
+            )
         for name in ("distance", "wobble"):
             path = ("eccentricity", gear, name)
             yield from too_large_for_the_module(tree, path, value_at(tree, *path))

@@ -1,8 +1,9 @@
 """What an effect is: the section that switches it on, and the hooks by which it enters the model.
 
-An effect is one module of this package and one entry in the list of ``fenics_gears.effects``. A module holds the section as it is
-written (``text``), its data in program units, its description, and hooks. A hook is called only when the scene names the effect; it
-imports the effect's physics inside the function, so that a scene without the effect does not load it.
+An effect is one module of this package and one entry in the list of ``fenics_gears.effects``. A module holds the
+section as it is written (``text``), its data in program units, its description, and hooks. A hook is called only when
+the scene names the effect; it imports the effect's physics inside the function, so that a scene without the effect does
+not load it.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ from fenics_gears.inputs.fields import Section
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.spelling import section_tree
 
-# Over the tooth pairs that can touch at once, and over the contact nodes of each at the steps whose contact fields are stored.
+# Over the tooth pairs that can touch at once, and over the contact nodes of each at the steps whose contact fields are
+# stored.
 OF_PAIRS, OF_NODES, OF_POINTS = ("time", "slot"), ("contact_time", "slot", "contact_node"), ("path_point",)
 # The same over the slices of a face.
 OF_SLICES = ("contact_time", "slot", "face_position")
@@ -25,7 +27,8 @@ OF_SLICES = ("contact_time", "slot", "face_position")
 
 @dataclass(frozen=True)
 class ResultVariable:
-    """One variable of the result: its name, its units and its long name for labels; ``needs``: another effect without which it is not there;
+    """One variable of the result: its name, its units and its long name for labels; ``needs``: another effect without
+    which it is not there;
     ``dims``: its dimensions; ``field``: the field of the effect's own section without which it is not there;
     ``over_face``: whether it is there in three-dimensional scenes only."""
 
@@ -42,27 +45,29 @@ class ResultVariable:
 class Effect:
     """One effect: the section that switches it on, what it adds, and the sections it needs or excludes.
 
-    ``needs`` and ``excludes`` are section names; ``absent`` says what the model is without the effect; ``unknowns``, ``terms`` and
-    ``variables`` say what it adds. ``text`` is the section as a scene file has it and ``data`` the frozen dataclass of its values;
-    ``read`` makes the data of the section where the names do not do so by themselves, ``write`` a section (a dictionary) of the data; ``rules`` finds
-    what is wrong between fields.
-    ``within``: the section's path where a scene does not have it at the top; the scene's attribute is ``section`` all the same.
+    ``needs`` and ``excludes`` are section names; ``absent`` says what the model is without the effect; ``unknowns``,
+    ``terms`` and ``variables`` say what it adds. ``text`` is the section as a scene file has it and ``data`` the frozen
+    dataclass of its values; ``read`` makes the data of the section where the names do not do so by themselves,
+    ``write`` a section (a dictionary) of the data; ``rules`` finds what is wrong between fields.
+    ``within``: the section's path where a scene does not have it at the top; the scene's attribute is ``section`` all
+        the same.
 
     Hooks, each with the effect's data first:
 
-    ``removal(data, pair)``: material removed from pinion and wheel, two functions of the roll angle (rad) giving mm, or None.
-    ``gaps(data, model)``: a function of a step and its position giving what the effect adds to the gaps of the contact nodes (n,), mm.
-    ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N, besides the constant load.
-    ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
-    ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach of teeth; None for that of equal teeth.
-    ``located(data, directory)``: the data with the files that it names found from a directory on, the scene file's.
-    ``files(data)``: the names of these files, each with a hash of what was read from it.
-    ``check(data, scene, pair)``: raises SceneError where those files are wrong, or the effect is not for this load and speed.
-    ``warnings(data, model)``: sentences that a user should read before the run.
-    ``watched(data, cycle, steps)``: values of consecutive steps (``dynamics.steps.Steps``) that the effect's findings need, name to values (steps,).
-    ``findings(data, watched)``: sentences on where a run violates what the effect assumes, from the watched values of all steps.
-    ``results(data, scene, cycle, steps)``: the effect's own variables at steps (time,), name to (dimensions, values).
-    ``period(data, scene)``: mesh cycles after which what the effect does repeats; infinite where it never does. 1 unless given.
+    ``removal(data, pair)``: material removed from pinion and wheel, two functions of the roll angle (rad) giving mm, or
+    None. ``gaps(data, model)``: a function of a step and its position giving what the effect adds to the gaps of the
+    contact nodes (n,), mm. ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N,
+    besides the constant load. ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as
+    long. ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach
+    of teeth; None for that of equal teeth. ``located(data, directory)``: the data with the files that it names found
+    from a directory on, the scene file's. ``files(data)``: the names of these files, each with a hash of what was read
+    from it. ``check(data, scene, pair)``: raises SceneError where those files are wrong, or the effect is not for this
+    load and speed. ``warnings(data, model)``: sentences that a user should read before the run.
+    ``watched(data, cycle, steps)``: values of consecutive steps (``dynamics.steps.Steps``) that the effect's findings
+    need, name to values (steps,). ``findings(data, watched)``: sentences on where a run violates what the effect
+    assumes, from the watched values of all steps. ``results(data, scene, cycle, steps)``: the effect's own variables at
+    steps (time,), name to (dimensions, values). ``period(data, scene)``: mesh cycles after which what the effect does
+    repeats; infinite where it never does. 1 unless given.
     """
 
     section: str
@@ -115,9 +120,11 @@ _hints = cache(get_type_hints)
 
 
 def same_names(kind: type, section: Section, leaving: Collection[str] = (), **others: Any) -> Any:
-    """The dataclass ``kind`` with the section's values, which have the same names; a section within it becomes the dataclass of that field.
+    """The dataclass ``kind`` with the section's values, which have the same names; a section within it becomes the
+    dataclass of that field.
 
-    What the scene leaves out keeps the dataclass's own default. ``leaving``: fields of the section that the dataclass does not have;
+    What the scene leaves out keeps the dataclass's own default. ``leaving``: fields of the section that the dataclass
+    does not have;
     ``others``: values that are not the section's own.
     """
     hints = _hints(kind)
@@ -125,13 +132,16 @@ def same_names(kind: type, section: Section, leaving: Collection[str] = (), **ot
         if value is None or name in leaving or name in others:
             continue
         if isinstance(value, Section):
-            value = same_names(next(each for each in (hints[name], *get_args(hints[name])) if is_dataclass(each)), value)
+            value = same_names(
+                next(each for each in (hints[name], *get_args(hints[name])) if is_dataclass(each)), value
+            )
         # A bare number leaves its spelling behind.
         others[name] = float(value) if isinstance(value, float) else value
     return kind(**others)
 
 
 def own_or_shared(own: Section | None, shared: Section | None, name: str) -> Any:
-    """A field of one gear: what its own section has, else what the section of both gears has; None where neither does."""
+    """A field of one gear: what its own section has, else what the section of both gears has; None where neither
+    does."""
     value = getattr(own, name, None)
     return getattr(shared, name, None) if value is None else value

@@ -1,8 +1,11 @@
-"""``[flank_errors]``: pitch, profile, helix and waviness deviations of single teeth (``geometry.flank_deviations``, ``contact.flank_gaps``).
+"""``[flank_errors]``: pitch, profile, helix and waviness deviations of single teeth (``geometry.flank_deviations``,
+``contact.flank_gaps``).
 
-Signs are those of ISO 1328-1. A pitch deviation is positive where the pitch is too long; a profile slope where the flank has material
-in excess towards the tip; a profile form, which the standard gives no sign, where the middle of the flank stands out. Those of the helix are the like along the face, positive towards the right end, whatever the hand. Teeth are counted
-in the order in which they mesh, from the tooth of either gear that meshes first; a pitch is that from the tooth before.
+Signs are those of ISO 1328-1. A pitch deviation is positive where the pitch is too long; a profile slope where the
+flank has material in excess towards the tip; a profile form, which the standard gives no sign, where the middle of the
+flank stands out. Those of the helix are the like along the face, positive towards the right end, whatever the hand.
+Teeth are counted in the order in which they mesh, from the tooth of either gear that meshes first; a pitch is that from
+the tooth before.
 """
 
 from __future__ import annotations
@@ -41,7 +44,9 @@ def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
     from fenics_gears.geometry.flank_deviations import flank_deviations, slope_and_form
 
     values = {}
-    for gear, found in zip(GEARS, flank_deviations(errors, cycle.pair, None if cycle.face is None else cycle.face.middles)):
+    for gear, found in zip(
+        GEARS, flank_deviations(errors, cycle.pair, None if cycle.face is None else cycle.face.middles)
+    ):
         dimension = (f"{gear}_tooth",)
         values[f"{gear}_index_deviation"] = dimension, found.index
         slope, form = slope_and_form(found)
@@ -56,26 +61,43 @@ def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
 
 def period(errors: FlankErrors, scene) -> int:
     """Mesh cycles of whole turns of the gears whose teeth differ."""
-    names, drawn = LISTS if scene.three_dimensional else [name for name in LISTS if name not in HELIX], errors.tolerance_class is not None
+    names, drawn = (
+        LISTS if scene.three_dimensional else [name for name in LISTS if name not in HELIX],
+        errors.tolerance_class is not None,
+    )
     return lcm(*(getattr(scene.gears, gear).teeth for gear in GEARS if _differ(getattr(errors, gear), names, drawn)))
 
 
 def _differ(own: GearErrors, names: Sequence[str], drawn: bool) -> bool:
-    """Whether a gear's teeth are not all alike in deviations of some names; what is not given is `drawn`, or there is none of it."""
+    """Whether a gear's teeth are not all alike in deviations of some names; what is not given is `drawn`, or there is
+    none of it."""
     given = [getattr(own, name) for name in names]
     measured = own.profile_curves is not None or own.helix_curves is not None
-    return own.waviness is not None or measured or any(drawn if values is None else len(set(values)) > 1 for values in given)
+    return (
+        own.waviness is not None
+        or measured
+        or any(drawn if values is None else len(set(values)) > 1 for values in given)
+    )
 
 
 EFFECT = Effect(
     section="flank_errors",
-    description="pitch, profile and helix deviations and waviness of the teeth, given for each tooth or random within a flank tolerance class",
+    description=(
+        "pitch, profile and helix deviations and waviness of the teeth, given for each tooth or random within a flank"
+        " tolerance class"
+    ),
     absent="all teeth are alike and at their nominal places",
     text=FlankErrorsText,
     data=FlankErrors,
     terms=("gaps that differ from tooth to tooth, over a hunting tooth period",),
     variables=tuple(
-        ResultVariable(f"{gear}_{name}", "mm", f"{words} of each tooth of the {gear}", dims=(f"{gear}_tooth",), over_face=name in HELIX)
+        ResultVariable(
+            f"{gear}_{name}",
+            "mm",
+            f"{words} of each tooth of the {gear}",
+            dims=(f"{gear}_tooth",),
+            over_face=name in HELIX,
+        )
         for gear in GEARS
         for name, words in (
             ("index_deviation", "cumulative pitch deviation"),

@@ -1,4 +1,5 @@
-"""Deviations of a gear's teeth from tables (CSV), as a measuring machine or a spreadsheet writes them. Not an effect by itself."""
+"""Deviations of a gear's teeth from tables (CSV), as a measuring machine or a spreadsheet writes them. Not an effect by
+itself."""
 
 from __future__ import annotations
 
@@ -28,7 +29,8 @@ _LARGEST = 100.0
 
 
 class FileProblem(ValueError):
-    """What is wrong with a table: where, what, and what is allowed, in sentences that follow the field that names the file."""
+    """What is wrong with a table: where, what, and what is allowed, in sentences that follow the field that names the
+    file."""
 
 
 @dataclass(frozen=True)
@@ -41,9 +43,11 @@ class _Row:
 
 
 def deviations_in(path: Path, names: Sequence[str]) -> dict[str, tuple[float, ...]]:
-    """Each column's deviations, mm, in the order of the teeth, which are numbered from 1; by the column's name, one of `names`.
+    """Each column's deviations, mm, in the order of the teeth, which are numbered from 1; by the column's name, one of
+    `names`.
 
-    The first line names the columns: `tooth`, and deviations with their unit in brackets, or with a unit in every cell. Columns are parted by
+    The first line names the columns: `tooth`, and deviations with their unit in brackets, or with a unit in every cell.
+        Columns are parted by
     commas, semicolons or tabs; empty lines and those that begin with # are passed over. Raises FileProblem.
     """
     columns, rows = _table(path, dict.fromkeys(names, LENGTH), "tooth, pitch (um), profile_slope (um)")
@@ -54,12 +58,16 @@ def deviations_in(path: Path, names: Sequence[str]) -> dict[str, tuple[float, ..
         found[row.tooth] = tuple(_deviation(row.place, name, value) for name, value in zip(columns, row.values))
     missing = sorted(set(range(1, len(found) + 1)) - set(found))
     if missing:
-        raise FileProblem(f"{path}: has {len(found)} teeth, but none of number {missing[0]}. Allowed: each tooth once, counted from 1.")
+        raise FileProblem(
+            f"{path}: has {len(found)} teeth, but none of number {missing[0]}. Allowed: each tooth once, counted"
+            " from 1."
+        )
     return dict(zip(columns, zip(*(found[tooth] for tooth in sorted(found)))))
 
 
 def curves_in(path: Path, along: Mapping[str, str]) -> MeasuredCurves:
-    """Measured curves: a line for each point, with `tooth`, `deviation` and where the point lies, one of `along` (name to kind of quantity).
+    """Measured curves: a line for each point, with `tooth`, `deviation` and where the point lies, one of `along` (name
+    to kind of quantity).
 
     Points of a tooth may come in any order. Raises FileProblem.
     """
@@ -68,26 +76,42 @@ def curves_in(path: Path, along: Mapping[str, str]) -> MeasuredCurves:
     columns, rows = _table(path, {**along, DEVIATION: LENGTH}, example)
     places = [name for name in columns if name in along]
     if len(columns) != 2 or len(places) != 1:
-        lacking = f"no column {DEVIATION}" if DEVIATION not in columns else "no column that says where a point lies" if not places else "more than one such column"
-        raise FileProblem(f"{path}: has {lacking}. Allowed: a first line such as `{example}`, with one of {', '.join(along)}.")
+        lacking = (
+            f"no column {DEVIATION}"
+            if DEVIATION not in columns
+            else "no column that says where a point lies"
+            if not places
+            else "more than one such column"
+        )
+        raise FileProblem(
+            f"{path}: has {lacking}. Allowed: a first line such as `{example}`, with one of {', '.join(along)}."
+        )
     place, height = columns.index(places[0]), columns.index(DEVIATION)
     points: dict[int, dict[float, float]] = {}
     for row in rows:
         own = points.setdefault(row.tooth, {})
         if row.values[place] in own:
-            raise FileProblem(f"{row.place}: has a second point of tooth {row.tooth} at the same {places[0]}. Allowed: each place once for a tooth.")
+            raise FileProblem(
+                f"{row.place}: has a second point of tooth {row.tooth} at the same {places[0]}. Allowed: each place"
+                " once for a tooth."
+            )
         own[row.values[place]] = _deviation(row.place, DEVIATION, row.values[height])
     for tooth, own in points.items():
         if len(own) < FEWEST_POINTS:
             raise FileProblem(f"{path}: has {len(own)} points of tooth {tooth}. Allowed: at least {FEWEST_POINTS}.")
-    return MeasuredCurves(places[0], tuple(MeasuredCurve(tooth, *zip(*sorted(points[tooth].items()))) for tooth in sorted(points)))
+    return MeasuredCurves(
+        places[0], tuple(MeasuredCurve(tooth, *zip(*sorted(points[tooth].items()))) for tooth in sorted(points))
+    )
 
 
 def _table(path: Path, kinds: Mapping[str, str], example: str) -> tuple[list[str], list[_Row]]:
     """Names of the columns but `tooth`, and all rows; `kinds`: what each column may be and the kind of its quantity."""
     lines = _lines(path)
     if len(lines) < 2:
-        raise FileProblem(f"{path}: has no teeth. Allowed: a first line such as `{example}` and a line for each {'tooth' if DEVIATION not in kinds else 'point'}.")
+        raise FileProblem(
+            f"{path}: has no teeth. Allowed: a first line such as `{example}` and a line for each"
+            f" {'tooth' if DEVIATION not in kinds else 'point'}."
+        )
     number, heading = lines[0]
     separator = next((each for each in ";\t" if each in heading), ",")
     columns = _columns(f"{path}:{number}", _cells(f"{path}:{number}", heading, separator), kinds, example)
@@ -97,7 +121,9 @@ def _table(path: Path, kinds: Mapping[str, str], example: str) -> tuple[list[str
         cells = _cells(place, line, separator)
         if len(cells) != len(columns):
             hint = " The decimal sign is a point." if separator == "," and re.search(r"\d,\d", line) else ""
-            raise FileProblem(f"{place}: has {len(cells)} columns, the first line {len(columns)}.{hint} Allowed: as many.")
+            raise FileProblem(
+                f"{place}: has {len(cells)} columns, the first line {len(columns)}.{hint} Allowed: as many."
+            )
         given = dict(zip((name for name, _ in columns), cells))
         values = tuple(_number(place, name, unit, given[name], kinds[name]) for name, unit in columns if name != TOOTH)
         rows.append(_Row(place, _tooth(place, given[TOOTH]), values))
@@ -112,7 +138,11 @@ def _lines(path: Path) -> list[tuple[int, str]]:
         raise FileProblem(f"{path}: {problem}. It is looked for from the scene file's folder on.") from None
     except user_file.Unreadable as problem:
         raise FileProblem(f"{path}: {problem}. Allowed: a table of text (CSV), not a workbook.") from None
-    return [(number, line) for number, line in enumerate(text.splitlines(), 1) if line.strip() and not line.lstrip().startswith("#")]
+    return [
+        (number, line)
+        for number, line in enumerate(text.splitlines(), 1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
 
 
 def _cells(place: str, line: str, separator: str) -> list[str]:
@@ -133,12 +163,18 @@ def _columns(place: str, headings: Sequence[str], kinds: Mapping[str, str], exam
         if name not in known:
             synonym = meant(("flank_errors", "pinion"), name, tuple(kinds))
             hint = f' Did you mean "{synonym}"?' if synonym else did_you_mean(name, known)
-            raise FileProblem(f"{place}: has the column {as_written(name)}, which is none of a gear's deviations.{hint} Allowed: {', '.join(known)}.")
+            raise FileProblem(
+                f"{place}: has the column {as_written(name)}, which is none of a gear's deviations.{hint} Allowed:"
+                f" {', '.join(known)}."
+            )
         if name in (each for each, _ in columns):
             raise FileProblem(f"{place}: has the column {name} twice. Allowed: each once.")
         if unit and _kind(f"1 {unit}") != kinds.get(name):
             wanted = kinds[name] if name in kinds else "a count, which has none"
-            raise FileProblem(f'{place}: has the column {name} in "{unit}", which is no unit of {wanted.removeprefix("a ").removeprefix("an ")}. Allowed: such as {name} ({_UNITS.get(wanted, "")}).')
+            raise FileProblem(
+                f'{place}: has the column {name} in "{unit}", which is no unit of'
+                f" {wanted.removeprefix('a ').removeprefix('an ')}. Allowed: such as {name} ({_UNITS.get(wanted, '')})."
+            )
         columns.append((name, unit))
     given = [name for name, _ in columns]
     if TOOTH not in given or len(given) < 2:
@@ -150,7 +186,10 @@ def _columns(place: str, headings: Sequence[str], kinds: Mapping[str, str], exam
 def _tooth(place: str, cell: str) -> int:
     text = cell.strip()
     if not (text.isascii() and text.isdigit()) or not 0 < int(text[:6]) <= 1000:
-        raise FileProblem(f"{place}: has the tooth {as_written(text)}. Allowed: a whole number from 1 on, in the order in which teeth mesh.")
+        raise FileProblem(
+            f"{place}: has the tooth {as_written(text)}. Allowed: a whole number from 1 on, in the order in which teeth"
+            " mesh."
+        )
     return int(text)
 
 
@@ -162,7 +201,10 @@ def _number(place: str, name: str, unit: str, cell: str, wanted: str) -> float:
     except units.QuantityError as error:
         raise FileProblem(f"{place}: {name} = {as_written(text)} {error} Allowed: a number, such as 3.5.") from None
     if kind != wanted:
-        message = f"is {kind}, not {wanted}. Allowed: a unit in the first line, such as {name} ({_UNITS[wanted]}), and bare numbers below it; or a unit in each cell."
+        message = (
+            f"is {kind}, not {wanted}. Allowed: a unit in the first line, such as {name} ({_UNITS[wanted]}), and bare"
+            " numbers below it; or a unit in each cell."
+        )
         raise FileProblem(f"{place}: {name} = {as_written(text)} {message}")
     if not isfinite(number):
         raise FileProblem(f"{place}: {name} = {as_written(text)} is no number. Allowed: a number, such as 3.5.")
@@ -172,7 +214,10 @@ def _number(place: str, name: str, unit: str, cell: str, wanted: str) -> float:
 def _deviation(place: str, name: str, value: float) -> float:
     """A deviation in mm."""
     if abs(value) > _LARGEST:
-        raise FileProblem(f"{place}: {name} = {value:g} mm is no deviation of a tooth. Allowed: from -{_LARGEST:g} mm to {_LARGEST:g} mm.")
+        raise FileProblem(
+            f"{place}: {name} = {value:g} mm is no deviation of a tooth. Allowed: from -{_LARGEST:g} mm to"
+            f" {_LARGEST:g} mm."
+        )
     return value
 
 

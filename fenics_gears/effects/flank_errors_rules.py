@@ -27,7 +27,8 @@ DIAMETERS, MODULES, WIDTHS = (5.0, 15e3), (0.5, 70.0), (4.0, 1200.0)
 
 
 def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
-    """There are errors; lists have a value for each tooth; pitches close over a turn; the tolerance class is for gears of this size."""
+    """There are errors; lists have a value for each tooth; pitches close over a turn; the tolerance class is for gears
+    of this size."""
     errors = table(tree, "flank_errors")
     if errors is None:
         return
@@ -37,7 +38,10 @@ def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
     if "tolerance_class" in errors:
         yield from _class_is_for_the_gears(tree, errors)
     elif not any(table(errors, gear) for gear in GEARS):
-        message = "has no errors. Add a tolerance_class, or [flank_errors.pinion] with a list or a file. For true flanks, leave the section out."
+        message = (
+            "has no errors. Add a tolerance_class, or [flank_errors.pinion] with a list or a file. For true flanks,"
+            " leave the section out."
+        )
         yield Problem(("flank_errors",), "", message)
     for gear in GEARS:
         own = table(errors, gear) or {}
@@ -48,7 +52,11 @@ def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
             yield Problem(("flank_errors", gear, "anchor"), as_written(own["anchor"]), message)
         if not over_the_face(tree):
             in_space = (*HELIX, "helix_curves")
-            yield from (Problem(("flank_errors", gear, name), as_written(own[name]), NOT_IN_THE_PLANE) for name in in_space if name in own)
+            yield from (
+                Problem(("flank_errors", gear, name), as_written(own[name]), NOT_IN_THE_PLANE)
+                for name in in_space
+                if name in own
+            )
 
 
 def _errors_are_small(tree: Tree, errors: Tree, gear: str) -> Iterator[Problem]:
@@ -83,7 +91,10 @@ def _pitches_close(values: list, path: tuple[str, ...]) -> Iterator[Problem]:
 
 
 def not_closed(total: float) -> str:
-    return f"sums to {1e3 * total:.4g} um over the whole turn. Allowed: pitch deviations that sum to zero, rounding to 0.1 um apart."
+    return (
+        f"sums to {1e3 * total:.4g} um over the whole turn. Allowed: pitch deviations that sum to zero, rounding to 0.1"
+        " um apart."
+    )
 
 
 def _class_is_for_the_gears(tree: Tree, errors: Tree) -> Iterator[Problem]:
@@ -92,14 +103,23 @@ def _class_is_for_the_gears(tree: Tree, errors: Tree) -> Iterator[Problem]:
     if module is None:
         return
     if not MODULES[0] <= module <= MODULES[1]:
-        message = f"is for modules from {MODULES[0]:g} to {MODULES[1]:g} mm (ISO 1328-1), not {module:g} mm. Allowed: lists of errors instead."
+        message = (
+            f"is for modules from {MODULES[0]:g} to {MODULES[1]:g} mm (ISO 1328-1), not {module:g} mm. Allowed: lists"
+            " of errors instead."
+        )
         yield Problem(path, written, message)
     for gear in GEARS:
         width = quantity_at(tree, "gears", gear, "face_width") or quantity_at(tree, "gears", "face_width")
         if over_the_face(tree) and width is not None and not WIDTHS[0] <= width <= WIDTHS[1]:
-            message = f"is for face widths from {WIDTHS[0]:g} mm to {WIDTHS[1]:g} mm (ISO 1328-1), not {width:g} mm. Allowed: lists of errors instead."
+            message = (
+                f"is for face widths from {WIDTHS[0]:g} mm to {WIDTHS[1]:g} mm (ISO 1328-1), not {width:g} mm. Allowed:"
+                " lists of errors instead."
+            )
             yield Problem(path, written, message)
         diameter = module * (teeth_in(tree, gear) or 100)
         if not DIAMETERS[0] <= diameter <= DIAMETERS[1]:
-            message = f"is for reference diameters from 5 mm to 15 m (ISO 1328-1), not {diameter:g} mm. Allowed: lists of errors instead."
+            message = (
+                f"is for reference diameters from 5 mm to 15 m (ISO 1328-1), not {diameter:g} mm. Allowed: lists of"
+                " errors instead."
+            )
             yield Problem(path, written, message)

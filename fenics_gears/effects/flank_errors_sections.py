@@ -31,48 +31,82 @@ class WavinessText(Section):
 
 
 class GearErrorsText(Section):
-    """``[flank_errors.pinion]`` and ``[flank_errors.wheel]``: deviations of each tooth, as lists or as a table in a file."""
+    """``[flank_errors.pinion]`` and ``[flank_errors.wheel]``: deviations of each tooth, as lists or as a table in a
+    file."""
 
     file: Optional[str] = file_name(
         ".csv",
         "pinion.csv",
-        meaning="table with a line for each tooth: the column `tooth`, counted from 1, and any of the columns `pitch (um)`, `profile_slope (um)`, "
-        "`profile_form (um)`, `helix_slope (um)` and `helix_form (um)`; relative to the folder of the scene file",
+        meaning=(
+            "table with a line for each tooth: the column `tooth`, counted from 1, and any of the columns `pitch (um)`,"
+            " `profile_slope (um)`, `profile_form (um)`, `helix_slope (um)` and `helix_form (um)`; relative to the"
+            " folder of the scene file"
+        ),
         otherwise="no table",
     )
 
     pitch: Optional[tuple[float, ...]] = quantities(
-        "-100 mm", "100 mm", "3.5 um", meaning="single pitch deviations, positive where the pitch is too long; their sum must be zero", otherwise=DRAWN
+        "-100 mm",
+        "100 mm",
+        "3.5 um",
+        meaning="single pitch deviations, positive where the pitch is too long; their sum must be zero",
+        otherwise=DRAWN,
     )
     profile_slope: Optional[tuple[float, ...]] = quantities(
-        "-100 mm", "100 mm", "4 um", meaning="profile slope deviations, positive with material in excess towards the tip", otherwise=DRAWN
+        "-100 mm",
+        "100 mm",
+        "4 um",
+        meaning="profile slope deviations, positive with material in excess towards the tip",
+        otherwise=DRAWN,
     )
     profile_form: Optional[tuple[float, ...]] = quantities(
-        "-100 mm", "100 mm", "3 um", meaning="profile form deviations, positive with material in excess in the middle of the flank", otherwise=DRAWN
+        "-100 mm",
+        "100 mm",
+        "3 um",
+        meaning="profile form deviations, positive with material in excess in the middle of the flank",
+        otherwise=DRAWN,
     )
     helix_slope: Optional[tuple[float, ...]] = quantities(
-        "-100 mm", "100 mm", "5 um", meaning="helix slope deviations over the face width, positive with material in excess towards the right end", otherwise=DRAWN_OVER_FACE
+        "-100 mm",
+        "100 mm",
+        "5 um",
+        meaning="helix slope deviations over the face width, positive with material in excess towards the right end",
+        otherwise=DRAWN_OVER_FACE,
     )
     helix_form: Optional[tuple[float, ...]] = quantities(
-        "-100 mm", "100 mm", "3 um", meaning="helix form deviations, positive with material in excess in the middle of the face", otherwise=DRAWN_OVER_FACE
+        "-100 mm",
+        "100 mm",
+        "3 um",
+        meaning="helix form deviations, positive with material in excess in the middle of the face",
+        otherwise=DRAWN_OVER_FACE,
     )
     profile_curves: Optional[str] = file_name(
         ".csv",
         "pinion_profile.csv",
-        meaning="measured profiles: a table with a line for each point, the columns `tooth`, `deviation (um)`, positive with material in excess, and `roll_length (mm)`, "
-        "`roll_angle (deg)` or `diameter (mm)`; a tooth without a curve has the mean of the curves; in place of `profile_slope` and `profile_form`",
+        meaning=(
+            "measured profiles: a table with a line for each point, the columns `tooth`, `deviation (um)`, positive"
+            " with material in excess, and `roll_length (mm)`, `roll_angle (deg)` or `diameter (mm)`; a tooth without a"
+            " curve has the mean of the curves; in place of `profile_slope` and `profile_form`"
+        ),
         otherwise="no curves",
     )
     helix_curves: Optional[str] = file_name(
         ".csv",
         "pinion_helix.csv",
-        meaning="measured helices: the same with `face_position (mm)` from mid-width to the right; in place of `helix_slope` and `helix_form`",
+        meaning=(
+            "measured helices: the same with `face_position (mm)` from mid-width to the right; in place of"
+            " `helix_slope` and `helix_form`"
+        ),
         otherwise="no curves; not allowed in a plane scene",
     )
     anchor: Optional[Literal["reference point", "mean"]] = choice(
-        REFERENCE_POINT, MEAN,
-        meaning="where measured curves are zero: at the V point of a profile, on the cylinder of diameter d + 2 x m (ISO 21771), and at mid-width of a helix, each within the active profile and the face; "
-        "or in the mean over them",
+        REFERENCE_POINT,
+        MEAN,
+        meaning=(
+            "where measured curves are zero: at the V point of a profile, on the cylinder of diameter d + 2 x m (ISO"
+            " 21771), and at mid-width of a helix, each within the active profile and the face; or in the mean over"
+            " them"
+        ),
         otherwise=f'"{REFERENCE_POINT}"',
     )
     waviness: Optional[WavinessText] = None
@@ -82,7 +116,11 @@ class FlankErrorsText(Section):
     """``[flank_errors]``: deviations that are not given are random values within a tolerance class."""
 
     tolerance_class: Optional[int] = whole_number(
-        1, 11, 6, meaning="flank tolerance class of ISO 1328-1 that limits the random deviations", otherwise="no random deviations"
+        1,
+        11,
+        6,
+        meaning="flank tolerance class of ISO 1328-1 that limits the random deviations",
+        otherwise="no random deviations",
     )
     seed: Optional[int] = whole_number(0, 2**31 - 1, 1, meaning="seed of the random numbers", otherwise="1")
     pinion: Optional[GearErrorsText] = None

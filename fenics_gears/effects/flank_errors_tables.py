@@ -57,7 +57,11 @@ def files(errors: FlankErrors) -> dict[str, str]:
     for own in (errors.pinion, errors.wheel):
         said = {"file": {name: getattr(own, name) for name in own.columns}}
         said |= {name: repr(getattr(own, measured)) for name, (measured, _) in CURVES.items()}
-        found |= {getattr(own, name): sha256(repr(said[name]).encode()).hexdigest() for name in TABLES if getattr(own, name) is not None}
+        found |= {
+            getattr(own, name): sha256(repr(said[name]).encode()).hexdigest()
+            for name in TABLES
+            if getattr(own, name) is not None
+        }
     return found
 
 
@@ -67,10 +71,16 @@ def check(errors: FlankErrors, scene, pair) -> None:
         own = getattr(errors, gear)
         name, problem = own.problem or _problem_of_tables(own, scene, pair, gear)
         if problem:
-            raise SceneError(f"flank_errors.{gear}.{name} = {as_written(getattr(own, name))}: {problem}\nNothing was computed or written.")
+            raise SceneError(
+                f"flank_errors.{gear}.{name} = {as_written(getattr(own, name))}: {problem}\nNothing was computed or"
+                " written."
+            )
         in_table = [name for name in HELIX if own.file is not None and getattr(own, name) is not None]
         if in_table and not scene.three_dimensional:
-            raise SceneError(f"flank_errors.{gear}.file = {as_written(own.file)}: the column {in_table[0]} {NOT_IN_THE_PLANE}\nNothing was computed or written.")
+            raise SceneError(
+                f"flank_errors.{gear}.file = {as_written(own.file)}: the column {in_table[0]}"
+                f" {NOT_IN_THE_PLANE}\nNothing was computed or written."
+            )
 
 
 def _problem_of_tables(errors: GearErrors, scene, pair, gear: str) -> tuple[str, str]:
@@ -90,15 +100,31 @@ def _problem_of_tables(errors: GearErrors, scene, pair, gear: str) -> tuple[str,
                 return name, f"stands beside {replaced}, which the curves replace. Leave one of the two out."
         for curve in curves.curves:
             if curve.tooth > teeth:
-                return name, f"has a curve of tooth {curve.tooth}, but the {gear} has {teeth} teeth. Allowed: teeth from 1 to {teeth}, counted as they mesh."
+                return (
+                    name,
+                    (
+                        f"has a curve of tooth {curve.tooth}, but the {gear} has {teeth} teeth. Allowed: teeth from 1"
+                        f" to {teeth}, counted as they mesh."
+                    ),
+                )
             worst = max(abs(each) for each in curve.deviations)
             if worst > LARGEST_ERROR * module:
-                return name, f"has a deviation of {worst:.4g} mm on tooth {curve.tooth}, too large for a module of {module:g} mm. Allowed: up to {LARGEST_ERROR * module:g} mm."
+                return (
+                    name,
+                    (
+                        f"has a deviation of {worst:.4g} mm on tooth {curve.tooth}, too large for a module of"
+                        f" {module:g} mm. Allowed: up to {LARGEST_ERROR * module:g} mm."
+                    ),
+                )
             share = measured_share(curve, curves.along, pair, gear)
             if share < LEAST_MEASURED:
                 whole = "active profile" if measured == "measured_profile" else "face"
-                return name, (
-                    f"measures {100.0 * share:.0f} % of the {whole} of tooth {curve.tooth}. Allowed: at least {100.0 * LEAST_MEASURED:.0f} %; beyond its ends a curve is continued level."
+                return (
+                    name,
+                    (
+                        f"measures {100.0 * share:.0f} % of the {whole} of tooth {curve.tooth}. Allowed: at least"
+                        f" {100.0 * LEAST_MEASURED:.0f} %; beyond its ends a curve is continued level."
+                    ),
                 )
     return "", ""
 
@@ -114,8 +140,8 @@ def _problem_of_table(errors: GearErrors, teeth: int, module: float, gear: str) 
         worst = max(range(teeth), key=lambda tooth: abs(values[tooth]))
         if abs(values[worst]) > LARGEST_ERROR * module:
             return (
-                f"{name} of tooth {worst + 1} is {values[worst]:.4g} mm, too large an error of manufacture for a module of {module:g} mm. "
-                f"Allowed: up to {LARGEST_ERROR * module:g} mm."
+                f"{name} of tooth {worst + 1} is {values[worst]:.4g} mm, too large an error of manufacture for a module"
+                f" of {module:g} mm. Allowed: up to {LARGEST_ERROR * module:g} mm."
             )
         if name == "pitch" and not abs(sum(values)) <= PITCH_ROUNDING * teeth:
             return f"pitch {not_closed(sum(values))} The table has single pitch deviations, not cumulative ones."

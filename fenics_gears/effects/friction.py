@@ -1,4 +1,5 @@
-"""``[friction]``: Coulomb friction between the flanks (``contact``), with a coefficient that is given or follows from a formula."""
+"""``[friction]``: Coulomb friction between the flanks (``contact``), with a coefficient that is given or follows from a
+formula."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ OF_A_FORMULA = ("viscosity", "roughness")
 
 @dataclass(frozen=True)
 class Friction:
-    """Coulomb friction on the flanks: its coefficient, or the formula of ``geometry.friction_formulas`` with viscosity (N s/mm^2) and roughness Ra (mm)."""
+    """Coulomb friction on the flanks: its coefficient, or the formula of ``geometry.friction_formulas`` with viscosity
+    (N s/mm^2) and roughness Ra (mm)."""
 
     coefficient: float | None = None
     formula: str | None = None
@@ -27,7 +29,8 @@ class Friction:
 
 
 class FrictionText(Section):
-    """``[friction]``: one coefficient on all flanks, given, or computed once from the mean load and the speed of the scene."""
+    """``[friction]``: one coefficient on all flanks, given, or computed once from the mean load and the speed of the
+    scene."""
 
     coefficient: Optional[float] = number(
         0.1,
@@ -40,12 +43,28 @@ class FrictionText(Section):
     formula: Optional[Literal["Schlenk", "Benedict and Kelley"]] = choice(
         "Schlenk",
         "Benedict and Kelley",
-        meaning="formula of the mean coefficient of oiled steel flanks: Schlenk's at the pitch point (ISO/TR 14179-2, mineral oil), for pitch line speeds from 1 m/s, those above 50 m/s counted as 50, and line loads below 150 N/mm as 150; "
-        "or that of Benedict and Kelley (1961), averaged over the path of contact, for mixed lubrication",
+        meaning=(
+            "formula of the mean coefficient of oiled steel flanks: Schlenk's at the pitch point (ISO/TR 14179-2,"
+            " mineral oil), for pitch line speeds from 1 m/s, those above 50 m/s counted as 50, and line loads below"
+            " 150 N/mm as 150; or that of Benedict and Kelley (1961), averaged over the path of contact, for mixed"
+            " lubrication"
+        ),
         otherwise="`coefficient`",
     )
-    viscosity: Optional[float] = quantity("0.1 mPa s", "100 Pa s", "13 mPa s", meaning="dynamic viscosity of the oil at its temperature in the mesh, for `formula`", otherwise="required with `formula`")
-    roughness: Optional[float] = quantity("0.01 um", "20 um", "0.4 um", meaning="arithmetic mean roughness Ra of both flanks, for `formula`", otherwise="required with `formula`")
+    viscosity: Optional[float] = quantity(
+        "0.1 mPa s",
+        "100 Pa s",
+        "13 mPa s",
+        meaning="dynamic viscosity of the oil at its temperature in the mesh, for `formula`",
+        otherwise="required with `formula`",
+    )
+    roughness: Optional[float] = quantity(
+        "0.01 um",
+        "20 um",
+        "0.4 um",
+        meaning="arithmetic mean roughness Ra of both flanks, for `formula`",
+        otherwise="required with `formula`",
+    )
 
 
 def coefficient_or_formula(tree: Tree) -> Iterator[Problem]:
@@ -55,24 +74,43 @@ def coefficient_or_formula(tree: Tree) -> Iterator[Problem]:
         return
     formula = friction.get("formula")
     if "coefficient" in friction and formula is not None:
-        yield Problem(("friction", "formula"), as_written(formula), "stands beside coefficient. Allowed is one of the two. Leave one out.")
+        yield Problem(
+            ("friction", "formula"),
+            as_written(formula),
+            "stands beside coefficient. Allowed is one of the two. Leave one out.",
+        )
     if "coefficient" not in friction and formula is None:
         allowed = allowed_in(FrictionText, "coefficient").description
-        yield Problem(("friction", "coefficient"), None, f'is missing. Allowed: {allowed}; or formula = "Schlenk" with viscosity and roughness.')
+        yield Problem(
+            ("friction", "coefficient"),
+            None,
+            f'is missing. Allowed: {allowed}; or formula = "Schlenk" with viscosity and roughness.',
+        )
     for name in OF_A_FORMULA:
         if formula is None and name in friction:
-            yield Problem(("friction", name), as_written(friction[name]), "is for a formula. Add formula, or leave it out.")
+            yield Problem(
+                ("friction", name), as_written(friction[name]), "is for a formula. Add formula, or leave it out."
+            )
         if formula is not None and name not in friction:
             yield Problem(("friction", name), None, "is missing; friction.formula needs it.")
     if formula is not None and 0.0 in (quantity_at(tree, "load", name) for name in ("wheel_torque", "pinion_torque")):
-        yield Problem(("friction", "formula"), as_written(formula), "has no meaning without a load. Give a torque, or a coefficient.")
+        yield Problem(
+            ("friction", "formula"),
+            as_written(formula),
+            "has no meaning without a load. Give a torque, or a coefficient.",
+        )
     motion = table(tree, "motion") or {}
     if formula is not None and not {"mesh_frequency", "pinion_speed"} & set(motion):
-        yield Problem(("friction", "formula"), as_written(formula), 'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or motion.mesh_frequency.')
+        yield Problem(
+            ("friction", "formula"),
+            as_written(formula),
+            'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or motion.mesh_frequency.',
+        )
 
 
 def coefficient_of(friction: Friction | None, scene, pair) -> float:
-    """The coefficient of a scene's friction; 0 without friction. Raises SceneError for a formula that is not for the scene's load and speed."""
+    """The coefficient of a scene's friction; 0 without friction. Raises SceneError for a formula that is not for the
+    scene's load and speed."""
     if friction is None:
         return 0.0
     if friction.formula is None:
@@ -84,7 +122,9 @@ def coefficient_of(friction: Friction | None, scene, pair) -> float:
     try:
         return FORMULAS[friction.formula](pair, force, speed, friction.viscosity * 1e9, friction.roughness * 1e3)
     except OutOfRange as error:
-        raise SceneError(f"friction.formula = {as_written(friction.formula)}: {error}\nNothing was computed or written.") from None
+        raise SceneError(
+            f"friction.formula = {as_written(friction.formula)}: {error}\nNothing was computed or written."
+        ) from None
 
 
 EFFECT = Effect(

@@ -1,4 +1,5 @@
-"""``[inertia]``: mass and moment of inertia of each gear and of what the output shaft drives; the march in time becomes dynamic (``dynamics``)."""
+"""``[inertia]``: mass and moment of inertia of each gear and of what the output shaft drives; the march in time becomes
+dynamic (``dynamics``)."""
 
 from __future__ import annotations
 
@@ -23,39 +24,57 @@ def _moment_of_inertia(meaning: str, otherwise: str = ""):
 
 
 def _density(otherwise: str):
-    meaning = "density of the gear; mass and moment of inertia follow from its outline, bore and face width, without the shaft"
+    meaning = (
+        "density of the gear; mass and moment of inertia follow from its outline, bore and face width, without the"
+        " shaft"
+    )
     return quantity("1e-6 g/cm^3", "1e6 g/cm^3", "7.85 g/cm^3", meaning=meaning, otherwise=otherwise)
 
 
 def _tilting(otherwise: str):
-    meaning = "moment of inertia about a diameter at mid-width, with the shaft, of a gear that tilts, whose bearings have `places`"
+    meaning = (
+        "moment of inertia about a diameter at mid-width, with the shaft, of a gear that tilts, whose bearings have"
+        " `places`"
+    )
     return quantity("1e-15 kg m^2", "1e15 kg m^2", "13e-3 kg m^2", meaning=meaning, otherwise=otherwise)
 
 
 class GearInertiaText(Section):
-    """``[inertia.pinion]`` and ``[inertia.wheel]``; values that are left out follow from the gear's own density, otherwise from ``[inertia]``."""
+    """``[inertia.pinion]`` and ``[inertia.wheel]``; values that are left out follow from the gear's own density,
+    otherwise from ``[inertia]``."""
 
-    mass: Optional[float] = _mass("mass of this gear, with its shaft", "from the gear's own `density`, otherwise from `[inertia]`")
-    moment_of_inertia: Optional[float] = _moment_of_inertia("moment of inertia of this gear", "from the gear's own `density`, otherwise from `[inertia]`")
-    density: Optional[float] = _density("that of `[inertia]`, where the gear has no mass and moment of inertia of its own")
+    mass: Optional[float] = _mass(
+        "mass of this gear, with its shaft", "from the gear's own `density`, otherwise from `[inertia]`"
+    )
+    moment_of_inertia: Optional[float] = _moment_of_inertia(
+        "moment of inertia of this gear", "from the gear's own `density`, otherwise from `[inertia]`"
+    )
+    density: Optional[float] = _density(
+        "that of `[inertia]`, where the gear has no mass and moment of inertia of its own"
+    )
     tilting_moment_of_inertia: Optional[float] = _tilting("that of `[inertia]`")
 
 
 class LoadInertiaText(Section):
-    """``[inertia.load]``: the driven machine on the end of the output shaft; without ``[shafts]`` it turns with the wheel."""
+    """``[inertia.load]``: the driven machine on the end of the output shaft; without ``[shafts]`` it turns with the
+    wheel."""
 
     moment_of_inertia: float = _moment_of_inertia("moment of inertia of the load")
 
 
 class InertiaText(Section):
-    """``[inertia]``: masses and moments of inertia, lumped at the gear centres. The far end of the input shaft needs none: its rotation is prescribed."""
+    """``[inertia]``: masses and moments of inertia, lumped at the gear centres. The far end of the input shaft needs
+    none: its rotation is prescribed."""
 
     mass: Optional[float] = _mass("mass of each gear, with its shaft", "from `density`, or each gear has its own")
     moment_of_inertia: Optional[float] = _moment_of_inertia(
-        "moment of inertia of each gear, and of the load if there is no `[inertia.load]`", "from `density`, or each gear has its own"
+        "moment of inertia of each gear, and of the load if there is no `[inertia.load]`",
+        "from `density`, or each gear has its own",
     )
     density: Optional[float] = _density("mass and moment of inertia must be given")
-    tilting_moment_of_inertia: Optional[float] = _tilting("that of a disc: half of the moment of inertia, and mass times face width squared over 12")
+    tilting_moment_of_inertia: Optional[float] = _tilting(
+        "that of a disc: half of the moment of inertia, and mass times face width squared over 12"
+    )
     pinion: Optional[GearInertiaText] = None
     wheel: Optional[GearInertiaText] = None
     load: Optional[LoadInertiaText] = None
@@ -69,18 +88,24 @@ def read(text: InertiaText) -> Inertia:
 def write(inertia: Inertia) -> dict:
     """The section, in which the load's moment of inertia is a section."""
     found = section_tree(inertia, InertiaText, ("load",))
-    return found if inertia.load is None else found | {"load": {"moment_of_inertia": field_of(LoadInertiaText, "moment_of_inertia", inertia.load)}}
+    return (
+        found
+        if inertia.load is None
+        else found | {"load": {"moment_of_inertia": field_of(LoadInertiaText, "moment_of_inertia", inertia.load)}}
+    )
 
 
 def inertia_is_complete(tree: Tree) -> Iterator[Problem]:
-    """Either gear has mass and moment of inertia, in one way; the far end of an output shaft has a moment of inertia."""
+    """Either gear has mass and moment of inertia, in one way; the far end of an output shaft has a moment of
+    inertia."""
     both = table(tree, "inertia")
     if both is None:
         return
     if "motor" in both:
         message = (
-            "has no effect: the far end of the input shaft turns as prescribed, as behind a motor of any inertia whose speed is held. "
-            "Leave it out; what turns with the pinion belongs to [inertia.pinion], and a soft [shafts.input] lets the pinion's side swing."
+            "has no effect: the far end of the input shaft turns as prescribed, as behind a motor of any inertia whose"
+            " speed is held. Leave it out; what turns with the pinion belongs to [inertia.pinion], and a soft"
+            " [shafts.input] lets the pinion's side swing."
         )
         yield Problem(("inertia", "motor"), "", message)
     yield from _density_stands_alone(tree)
@@ -89,18 +114,24 @@ def inertia_is_complete(tree: Tree) -> Iterator[Problem]:
     for name, gears in missing.items():
         if gears:
             path = ("inertia", name) if len(gears) == 2 else ("inertia", *gears, name)
-            yield Problem(path, None, _MISSING[name].format(place="" if len(gears) == 2 else ", here or in [inertia] for both gears"))
+            yield Problem(
+                path,
+                None,
+                _MISSING[name].format(place="" if len(gears) == 2 else ", here or in [inertia] for both gears"),
+            )
     if "shafts" in tree and not missing["moment_of_inertia"] and not {"moment_of_inertia", "load"} & set(both):
         message = (
-            "is missing: the far end of the output shaft turns by itself and needs a moment of inertia of its own, which no gear's tells. "
-            'Allowed: such as "24.5e-3 kg m^2", or leave [shafts] out.'
+            "is missing: the far end of the output shaft turns by itself and needs a moment of inertia of its own,"
+            ' which no gear\'s tells. Allowed: such as "24.5e-3 kg m^2", or leave [shafts] out.'
         )
         yield Problem(("inertia", "load", "moment_of_inertia"), None, message)
 
 
 _MISSING = {
     "mass": 'is missing. Allowed: such as "4.9 kg"{place}; or density = "7.85 g/cm^3", from which it is computed.',
-    "moment_of_inertia": 'is missing. Allowed: such as "24.5e-3 kg m^2"{place}; or density = "7.85 g/cm^3", from which it is computed.',
+    "moment_of_inertia": (
+        'is missing. Allowed: such as "24.5e-3 kg m^2"{place}; or density = "7.85 g/cm^3", from which it is computed.'
+    ),
 }
 
 
@@ -109,7 +140,10 @@ def _density_stands_alone(tree: Tree) -> Iterator[Problem]:
     for path, section in with_gears(tree, "inertia").items():
         beside = [name for name in LUMPED if name in section]
         if "density" in section and beside:
-            message = f"stands beside {' and '.join(beside)}, which follow from it. Leave density out, or {' and '.join(beside)}."
+            message = (
+                f"stands beside {' and '.join(beside)}, which follow from it. Leave density out, or"
+                f" {' and '.join(beside)}."
+            )
             yield Problem((*path, "density"), as_written(section["density"]), message)
 
 
@@ -118,10 +152,14 @@ def _what_tilts_has_places(tree: Tree) -> Iterator[Problem]:
     places = value_at(tree, "bearings", "places")
     for path, section in with_gears(tree, "inertia").items():
         gears = path[1:] or GEARS
-        if "tilting_moment_of_inertia" in section and not (isinstance(places, Mapping) and any(gear in places for gear in gears)):
+        if "tilting_moment_of_inertia" in section and not (
+            isinstance(places, Mapping) and any(gear in places for gear in gears)
+        ):
             names = " or ".join(f"bearings.places.{gear}" for gear in gears)
             message = f"has no effect: gears tilt where their bearings have places only. Leave it out, or give {names}."
-            yield Problem((*path, "tilting_moment_of_inertia"), as_written(section["tilting_moment_of_inertia"]), message)
+            yield Problem(
+                (*path, "tilting_moment_of_inertia"), as_written(section["tilting_moment_of_inertia"]), message
+            )
 
 
 EFFECT = Effect(

@@ -17,17 +17,22 @@ def _deviation(example: str, meaning: str):
 
 
 class MisalignmentText(Section):
-    """``[misalignment]``: departure of the wheel's axis from parallel, as lengths over the common face width: it turns about the pitch point in the middle of the
-    common face, so that half an amount opens one end and half closes the other. ISO/TR 10064-3 has such deviations in the plane
-    of both axes and perpendicular to it; these are in the plane of action and perpendicular to it. The right end is the one from which the pinion is seen to
+    """``[misalignment]``: departure of the wheel's axis from parallel, as lengths over the common face width: it turns
+    about the pitch point in the middle of the common face, so that half an amount opens one end and half closes the
+    other. ISO/TR 10064-3 has such deviations in the plane of both axes and perpendicular to it; these are in the plane
+    of action and perpendicular to it. The right end is the one from which the pinion is seen to
     turn counter-clockwise."""
 
     in_plane: Optional[float] = _deviation(
-        "12 um", "in the plane of action: positive where the right end of the wheel's axis moves away from the pinion along the line of action"
+        "12 um",
+        "in the plane of action: positive where the right end of the wheel's axis moves away from the pinion along the"
+        " line of action",
     )
     out_of_plane: Optional[float] = _deviation(
-        "0 um", "perpendicular to the plane of action: positive where the right end of the wheel's axis moves towards the side of the pinion's axis; opens nothing between drive flanks, "
-        "whose contact points it moves in the plane of the flanks, but something between coast flanks"
+        "0 um",
+        "perpendicular to the plane of action: positive where the right end of the wheel's axis moves towards the side"
+        " of the pinion's axis; opens nothing between drive flanks, whose contact points it moves in the plane of the"
+        " flanks, but something between coast flanks",
     )
 
 
@@ -37,7 +42,11 @@ def misalignment_is_small_and_given(tree: Tree) -> Iterator[Problem]:
     if section is None:
         return
     if not section:
-        yield Problem(("misalignment",), "", 'names no deviation. Add in_plane or out_of_plane, such as "12 um", or leave the section out.')
+        yield Problem(
+            ("misalignment",),
+            "",
+            'names no deviation. Add in_plane or out_of_plane, such as "12 um", or leave the section out.',
+        )
     for name in MisalignmentText.model_fields:
         yield from too_large_for_the_module(tree, ("misalignment", name), section.get(name))
 

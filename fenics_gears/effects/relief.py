@@ -15,7 +15,10 @@ from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, with_gears
 from fenics_gears.inputs.written import as_written
 
 AT_KINK = ResultVariable(
-    "largest_kink_pressure", "MPa", "largest pressure within a Hertz half-width of the kink where a linear relief starts; it does not converge as the mesh is refined"
+    "largest_kink_pressure",
+    "MPa",
+    "largest pressure within a Hertz half-width of the kink where a linear relief starts; it does not converge as the"
+    " mesh is refined",
 )
 
 
@@ -25,45 +28,66 @@ def start_field(word: str, word_meaning: str) -> Any:
         ("1e-3 deg", "360 deg", "29.61 deg"),
         ("0.1 mm", "100 m", "80.1 mm"),
         words={word: None},
-        meaning=f"start of the relief: a roll angle, the {word_meaning}, or a diameter, which is accepted for one gear only",
+        meaning=(
+            f"start of the relief: a roll angle, the {word_meaning}, or a diameter, which is accepted for one gear only"
+        ),
         otherwise="follows from a length; start or length is required where there is a depth",
     )
 
 
 def length_field(measured: str) -> Any:
     """The field for the length of a relief, in place of its start."""
-    return quantity("1e-3 um", "100 m", "3 mm", meaning=f"length of the relief {measured}, from its start to its end", otherwise="follows from `start`")
+    return quantity(
+        "1e-3 um",
+        "100 m",
+        "3 mm",
+        meaning=f"length of the relief {measured}, from its start to its end",
+        otherwise="follows from `start`",
+    )
 
 
 class TipReliefOfGearText(Section):
-    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; fields that are left out are those of ``[tip_relief]``, and the defaults hold
+    """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; fields that are left out are those of ``[tip_relief]``, and
+    the defaults hold
     if that section leaves them out too."""
 
     depth: Optional[float] = quantity(
         "1e-6 um",
         "100 mm",
         "31 um",
-        meaning="depth at the end of the relief, normal to the flank in the transverse section, which is along the line of action there",
+        meaning=(
+            "depth at the end of the relief, normal to the flank in the transverse section, which is along the line of"
+            " action there"
+        ),
         otherwise="no relief",
         below="For a gear without relief, leave its depth out.",
     )
     start: Optional[Measured] = start_field("HPSTC", "highest point of single tooth contact")
-    length_on_path: Optional[float] = length_field("on the path of contact (length of roll: base radius times roll angle)")
+    length_on_path: Optional[float] = length_field(
+        "on the path of contact (length of roll: base radius times roll angle)"
+    )
     length_on_flank: Optional[float] = length_field("along the flank (arc of the involute)")
     shape: Optional[Literal["linear", "parabolic"]] = choice(
         LINEAR,
         PARABOLIC,
-        meaning="growth of the relief with the roll angle: `linear` starts with a kink, at which the pressure does not converge as the mesh is refined; "
-        "`parabolic` starts without a kink",
+        meaning=(
+            "growth of the relief with the roll angle: `linear` starts with a kink, at which the pressure does not"
+            " converge as the mesh is refined; `parabolic` starts without a kink"
+        ),
         otherwise="`linear`",
     )
     exponent: Optional[float] = number(
-        1.5, lowest=1.0, highest=10.0, meaning="growth with this power of the roll angle, in place of `shape`: 1 is linear, 2 parabolic", otherwise="that of `shape`"
+        1.5,
+        lowest=1.0,
+        highest=10.0,
+        meaning="growth with this power of the roll angle, in place of `shape`: 1 is linear, 2 parabolic",
+        otherwise="that of `shape`",
     )
 
 
 class RootReliefOfGearText(TipReliefOfGearText):
-    """``[root_relief.pinion]`` and ``[root_relief.wheel]``; fields that are left out are those of ``[root_relief]``, and the defaults hold
+    """``[root_relief.pinion]`` and ``[root_relief.wheel]``; fields that are left out are those of ``[root_relief]``,
+    and the defaults hold
     if that section leaves them out too."""
 
     start: Optional[Measured] = start_field("LPSTC", "lowest point of single tooth contact")
@@ -82,7 +106,15 @@ def of_gear(both: Section, own: Section | None) -> Relief | None:
     at = {starting.start.kind: starting.start.number} if starting.start is not None else {}
     exponent = own_or_shared(own, both, "exponent")
     shape = LINEAR if exponent is not None else own_or_shared(own, both, "shape") or LINEAR
-    return Relief(depth, at.get("an angle"), shape, at.get("a length"), starting.length_on_path, starting.length_on_flank, exponent)
+    return Relief(
+        depth,
+        at.get("an angle"),
+        shape,
+        at.get("a length"),
+        starting.length_on_path,
+        starting.length_on_flank,
+        exponent,
+    )
 
 
 def write(text: type[Section], usual: str, reliefs: Any) -> dict[str, Any]:
@@ -112,14 +144,25 @@ def rules(section: str, word: str, tree: Tree) -> Iterator[Problem]:
     for path, given in with_gears(tree, section).items():
         named = [name for name in STARTS if name in given]
         for name in named[1:]:
-            yield Problem((*path, name), as_written(given[name]), f"stands beside {named[0]}, and each says where the relief starts. Leave one out.")
+            yield Problem(
+                (*path, name),
+                as_written(given[name]),
+                f"stands beside {named[0]}, and each says where the relief starts. Leave one out.",
+            )
         if {"shape", "exponent"} <= set(given):
-            yield Problem((*path, "exponent"), as_written(given["exponent"]), "stands beside shape, and both say how the relief grows. Leave one out.")
-    takers = [gear for gear in GEARS if "depth" in given_for(both, gear) and not {*STARTS}.intersection(own.get(gear, {}))]
+            yield Problem(
+                (*path, "exponent"),
+                as_written(given["exponent"]),
+                "stands beside shape, and both say how the relief grows. Leave one out.",
+            )
+    takers = [
+        gear for gear in GEARS if "depth" in given_for(both, gear) and not {*STARTS}.intersection(own.get(gear, {}))
+    ]
     if _is_diameter(both.get("start")) and len(takers) > 1 and not _alike(tree):
         message = (
             "is a diameter, which is another place of either gear's flank. Allowed here: a roll angle, "
-            f'"{word}", or length_on_path or length_on_flank instead; a diameter in [{section}.pinion] and [{section}.wheel].'
+            f'"{word}", or length_on_path or length_on_flank instead; a diameter in [{section}.pinion] and'
+            f" [{section}.wheel]."
         )
         yield Problem((section, "start"), as_written(both["start"]), message)
 
@@ -132,7 +175,10 @@ def _incomplete(both: Tree, own: dict[str, Tree], section: str, word: str) -> It
         if "depth" not in names:
             yield Problem((*path, "depth"), None, 'is missing. Allowed: such as "31 um".')
         if not names.intersection(STARTS):
-            message = f'is missing. Allowed: such as "{word}" or "29.61 deg", or length_on_path or length_on_flank, such as "3 mm", instead.'
+            message = (
+                f'is missing. Allowed: such as "{word}" or "29.61 deg", or length_on_path or length_on_flank, such as'
+                ' "3 mm", instead.'
+            )
             yield Problem((*path, "start"), None, message)
 
 

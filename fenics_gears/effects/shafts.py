@@ -19,7 +19,8 @@ def _stiffness(meaning: str, otherwise: str = ""):
 
 
 class ShaftText(Section):
-    """``[shafts.input]`` and ``[shafts.output]``: the shaft between the prescribed rotation and the pinion, and that between wheel and load."""
+    """``[shafts.input]`` and ``[shafts.output]``: the shaft between the prescribed rotation and the pinion, and that
+    between wheel and load."""
 
     torsional_stiffness: float = _stiffness("torsional stiffness of this shaft")
 
@@ -27,7 +28,9 @@ class ShaftText(Section):
 class ShaftsText(Section):
     """``[shafts]``."""
 
-    torsional_stiffness: Optional[float] = _stiffness("torsional stiffness of each of the two shafts", "each shaft has its own")
+    torsional_stiffness: Optional[float] = _stiffness(
+        "torsional stiffness of each of the two shafts", "each shaft has its own"
+    )
     input: Optional[ShaftText] = None
     output: Optional[ShaftText] = None
 
@@ -39,10 +42,19 @@ def shafts_are_complete(tree: Tree) -> Iterator[Problem]:
         return
     missing, example = [name for name in SHAFTS if name not in both], 'Allowed: such as "0.203e9 N mm/rad"'
     if len(missing) == 2:
-        yield Problem(("shafts", "torsional_stiffness"), None, f"is missing. {example}, or one each in [shafts.input] and [shafts.output].")
+        yield Problem(
+            ("shafts", "torsional_stiffness"),
+            None,
+            f"is missing. {example}, or one each in [shafts.input] and [shafts.output].",
+        )
     elif missing:
         path = ("shafts", *missing, "torsional_stiffness")
-        yield Problem(path, None, f"is missing: only the other shaft has a stiffness. {example}, or torsional_stiffness of [shafts] for both.")
+        yield Problem(
+            path,
+            None,
+            f"is missing: only the other shaft has a stiffness. {example}, or torsional_stiffness of [shafts] for"
+            " both.",
+        )
 
 
 EFFECT = Effect(

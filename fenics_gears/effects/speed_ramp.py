@@ -16,7 +16,8 @@ from fenics_gears.inputs.written import as_written
 
 @dataclass(frozen=True)
 class SpeedRamp:
-    """Mesh frequency (Hz) at the end of the run, reached linearly in time after `hold_cycles` mesh cycles at that of the motion."""
+    """Mesh frequency (Hz) at the end of the run, reached linearly in time after `hold_cycles` mesh cycles at that of
+    the motion."""
 
     end_frequency: float
     hold_cycles: int = 0
@@ -38,11 +39,16 @@ def speed_changes(tree: Tree) -> Iterator[Problem]:
         return
     start, end = quantity_in(motion.get("mesh_frequency")), quantity_in(ramp.get("end_frequency"))
     if start is not None and start == end:
-        message = "is the frequency at the start, motion.mesh_frequency. For a steady speed, leave the section [speed_ramp] out. Allowed: any other."
+        message = (
+            "is the frequency at the start, motion.mesh_frequency. For a steady speed, leave the section [speed_ramp]"
+            " out. Allowed: any other."
+        )
         yield Problem(("speed_ramp", "end_frequency"), as_written(ramp["end_frequency"]), message)
     held, run = ramp.get("hold_cycles"), motion.get("mesh_cycles")
     if type(held) is int and type(run) is int and held >= run > 0:
-        message = f"leaves no cycle of motion.mesh_cycles = {as_written(run)} for the ramp. Allowed: fewer than are run."
+        message = (
+            f"leaves no cycle of motion.mesh_cycles = {as_written(run)} for the ramp. Allowed: fewer than are run."
+        )
         yield Problem(("speed_ramp", "hold_cycles"), as_written(held), message)
 
 

@@ -1,4 +1,5 @@
-"""``[gears.material]``: teeth and gear bodies that give way (``elasticity``); without it the flanks are rigid (``contact.rigid_cycle``)."""
+"""``[gears.material]``: teeth and gear bodies that give way (``elasticity``); without it the flanks are rigid
+(``contact.rigid_cycle``)."""
 
 from __future__ import annotations
 
@@ -25,18 +26,30 @@ def _poissons_ratio(otherwise: str):
 
 def _name(otherwise: str):
     listed = "; ".join(
-        f"{name} {each.youngs_modulus / 1e3:g} GPa, {each.poissons_ratio:g}" + (f", yield strength {each.yield_strength:g} MPa" if each.yield_strength else "")
+        f"{name} {each.youngs_modulus / 1e3:g} GPa, {each.poissons_ratio:g}"
+        + (f", yield strength {each.yield_strength:g} MPa" if each.yield_strength else "")
         for name, (each, _) in MATERIALS.items()
     )
-    return choice(*MATERIALS, meaning=f"material by name, also written `material = \"steel\"` in the section above: {listed}", otherwise=otherwise)
+    return choice(
+        *MATERIALS,
+        meaning=f'material by name, also written `material = "steel"` in the section above: {listed}',
+        otherwise=otherwise,
+    )
 
 
 def _yield_strength(otherwise: str):
-    return quantity("1 kPa", "1e3 GPa", "650 MPa", meaning="yield strength, above which a stress is remarked; nothing else follows from it", otherwise=otherwise)
+    return quantity(
+        "1 kPa",
+        "1e3 GPa",
+        "650 MPa",
+        meaning="yield strength, above which a stress is remarked; nothing else follows from it",
+        otherwise=otherwise,
+    )
 
 
 class MaterialText(Section):
-    """``[gears.material]``: material of both gears, by `name` or by both constants. Without this section the flanks are rigid."""
+    """``[gears.material]``: material of both gears, by `name` or by both constants. Without this section the flanks are
+    rigid."""
 
     name: Optional[Literal[tuple(MATERIALS)]] = _name("both constants are required")
     youngs_modulus: Optional[float] = _youngs_modulus("that of the `name`")
@@ -45,12 +58,15 @@ class MaterialText(Section):
 
 
 class OwnMaterialText(Section):
-    """``[gears.pinion.material]`` and ``[gears.wheel.material]``; fields that are left out are those of ``[gears.material]``."""
+    """``[gears.pinion.material]`` and ``[gears.wheel.material]``; fields that are left out are those of
+    ``[gears.material]``."""
 
     name: Optional[Literal[tuple(MATERIALS)]] = _name("from `[gears.material]`")
     youngs_modulus: Optional[float] = _youngs_modulus("that of the `name`, or from `[gears.material]`")
     poissons_ratio: Optional[float] = _poissons_ratio("that of the `name`, or from `[gears.material]`")
-    yield_strength: Optional[float] = _yield_strength("that of the `name`, if it has one; from `[gears.material]` where this section names no other material")
+    yield_strength: Optional[float] = _yield_strength(
+        "that of the `name`, if it has one; from `[gears.material]` where this section names no other material"
+    )
 
 
 def material_of(*texts: MaterialText | OwnMaterialText | None) -> Material | None:
@@ -59,7 +75,10 @@ def material_of(*texts: MaterialText | OwnMaterialText | None) -> Material | Non
         return None
     there = [text for text in texts if text is not None]
     stated = [each for text in there for each in (text, MATERIALS[text.name][0] if text.name is not None else text)]
-    modulus, ratio = (next(float(value) for each in stated if (value := getattr(each, constant)) is not None) for constant in CONSTANTS)
+    modulus, ratio = (
+        next(float(value) for each in stated if (value := getattr(each, constant)) is not None)
+        for constant in CONSTANTS
+    )
     return Material(modulus, ratio, _yield_strength_of(there))
 
 
@@ -79,13 +98,21 @@ def materials_are_complete(tree: Tree) -> Iterator[Problem]:
     shared = table(gears, "material")
     for name in CONSTANTS if shared is not None and "name" not in shared else ():
         if name not in shared:
-            yield Problem(("gears", "material", name), None, f'is missing. Allowed: {allowed_in(MaterialText, name).description}; or a material by name, such as name = "steel".')
+            yield Problem(
+                ("gears", "material", name),
+                None,
+                f"is missing. Allowed: {allowed_in(MaterialText, name).description}; or a material by name, such as"
+                ' name = "steel".',
+            )
     if "material" in gears or not material_sections(tree):
         return
     for gear in GEARS:
         own = table(gears, gear)
         if own is None or not any(path[1] == gear for path in material_sections(tree)):
-            message = "is missing: the other gear has a material, and both give way or none. Add it, or [gears.material] for both gears."
+            message = (
+                "is missing: the other gear has a material, and both give way or none. Add it, or [gears.material] for"
+                " both gears."
+            )
             yield Problem(("gears", gear, "material"), None, message)
             continue
         written = table(own, "material")
@@ -99,7 +126,10 @@ EFFECT = Effect(
     section="tooth_elasticity",
     within=("gears", "material"),
     description="elastic teeth and gear bodies",
-    absent="rigid flanks: kinematic transmission error, no pressures; forces of tooth pairs only where a single pair touches",
+    absent=(
+        "rigid flanks: kinematic transmission error, no pressures; forces of tooth pairs only where a single pair"
+        " touches"
+    ),
     text=MaterialText,
     data=Material,
     read=material_of,
@@ -108,15 +138,44 @@ EFFECT = Effect(
     variables=(
         ResultVariable("energy_teeth", "N mm", "elastic energy of the gears"),
         ResultVariable("mesh_stiffness", "N/mm", "mesh stiffness: mesh force divided by the deflection of the flanks"),
-        ResultVariable("mesh_stiffness_tangent", "N/mm", "tangent mesh stiffness: change of the mesh force divided by the change of the deflection"),
+        ResultVariable(
+            "mesh_stiffness_tangent",
+            "N/mm",
+            "tangent mesh stiffness: change of the mesh force divided by the change of the deflection",
+        ),
         ResultVariable("loaded_pairs", "1", "number of loaded tooth pairs"),
-        ResultVariable("largest_contact_pressure", "MPa", "largest contact pressure, averaged over five contact nodes, without what is at edges and kinks"),
-        ResultVariable("largest_contact_pressure_pair", "1", "number of the tooth pair with the largest contact pressure; 0 if none is in contact"),
-        ResultVariable("largest_contact_pressure_roll_angle", "rad", "roll angle on the pinion's flank at the largest contact pressure"),
-        ResultVariable("largest_edge_pressure", "MPa", "largest pressure at edges of tips and of undercut flanks: within two Hertz half-widths of one, of pairs that press with one, or in three dimensions near the ends of the face; it does not converge as the mesh is refined"),
+        ResultVariable(
+            "largest_contact_pressure",
+            "MPa",
+            "largest contact pressure, averaged over five contact nodes, without what is at edges and kinks",
+        ),
+        ResultVariable(
+            "largest_contact_pressure_pair",
+            "1",
+            "number of the tooth pair with the largest contact pressure; 0 if none is in contact",
+        ),
+        ResultVariable(
+            "largest_contact_pressure_roll_angle",
+            "rad",
+            "roll angle on the pinion's flank at the largest contact pressure",
+        ),
+        ResultVariable(
+            "largest_edge_pressure",
+            "MPa",
+            "largest pressure at edges of tips and of undercut flanks: within two Hertz half-widths of one, of pairs"
+            " that press with one, or in three dimensions near the ends of the face; it does not converge as the mesh"
+            " is refined",
+        ),
         ResultVariable("contact_pressure", "MPa", "contact pressure at the node, not averaged", dims=OF_NODES),
-        ResultVariable("contact_offset", "mm", "offset of the contact node from the line of action, towards the pinion", dims=OF_NODES),
-        ResultVariable("contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank", dims=OF_NODES),
+        ResultVariable(
+            "contact_offset",
+            "mm",
+            "offset of the contact node from the line of action, towards the pinion",
+            dims=OF_NODES,
+        ),
+        ResultVariable(
+            "contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank", dims=OF_NODES
+        ),
     ),
     rules=materials_are_complete,
 )

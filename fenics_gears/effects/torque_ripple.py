@@ -39,17 +39,25 @@ class AllowedHarmonics(Allowed):
         if not isinstance(value, list):
             raise refused("is not a list.")
         if not 0 < len(value) <= MOST_HARMONICS:
-            raise refused(f"has {len(value)} entries." if value else "is empty. For a steady torque, leave the section [torque_ripple] out.")
+            raise refused(
+                f"has {len(value)} entries."
+                if value
+                else "is empty. For a steady torque, leave the section [torque_ripple] out."
+            )
         return tuple(_harmonic(place, entry) for place, entry in enumerate(value, 1))
 
 
 def _harmonic(place: int, entry: Any) -> Harmonic:
     """One harmonic; raises PydanticCustomError that names its `place` in the list."""
     if not isinstance(entry, Mapping):
-        raise refused(f"has the entry {as_written(entry)} at place {place}, which is no table of order, amplitude and phase.")
+        raise refused(
+            f"has the entry {as_written(entry)} at place {place}, which is no table of order, amplitude and phase."
+        )
     for name in entry:
         if name not in ("order", *QUANTITIES):
-            raise refused(f'has "{name}" at place {place}, which no harmonic has.{did_you_mean(name, ("order", *QUANTITIES))}')
+            raise refused(
+                f'has "{name}" at place {place}, which no harmonic has.{did_you_mean(name, ("order", *QUANTITIES))}'
+            )
     for name in ("order", "amplitude"):
         if name not in entry:
             raise refused(f"has no {name} at place {place}.")
@@ -63,7 +71,10 @@ def _harmonic(place: int, entry: Any) -> Harmonic:
 def _order(place: int, value: Any) -> float:
     number = value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
     if number is None or not isfinite(number) or not 0 < number <= HIGHEST_ORDER:
-        raise refused(f"has order = {as_written(value)} at place {place}, which is not a number above 0 and up to {HIGHEST_ORDER:g}.")
+        raise refused(
+            f"has order = {as_written(value)} at place {place}, which is not a number above 0 and up to"
+            f" {HIGHEST_ORDER:g}."
+        )
     return float(number)
 
 
@@ -76,7 +87,9 @@ def _quantity(place: int, name: str, value: Any) -> float:
     except PydanticCustomError as error:
         reason = error.context["reason"]
     if reason:
-        raise refused(f"has {name} = {as_written(value)} at place {place}, which {reason} From {lowest} to {highest} are allowed.")
+        raise refused(
+            f"has {name} = {as_written(value)} at place {place}, which {reason} From {lowest} to {highest} are allowed."
+        )
     return converted
 
 
@@ -97,7 +110,11 @@ def write(ripple: TorqueRipple) -> dict:
     """The section, with a table for each harmonic."""
 
     def harmonic(each: Harmonic) -> dict:
-        written = {name: quantity_text(getattr(each, name), *_KINDS[name]) for name in QUANTITIES if name != "phase" or each.phase}
+        written = {
+            name: quantity_text(getattr(each, name), *_KINDS[name])
+            for name in QUANTITIES
+            if name != "phase" or each.phase
+        }
         return {"order": float(each.order), **written}
 
     return {"harmonics": [harmonic(each) for each in ripple.harmonics]}
@@ -114,8 +131,9 @@ def torque_keeps_its_sign(tree: Tree) -> Iterator[Problem]:
     total = sum(amplitude for amplitude in amplitudes if amplitude is not None)
     if isfinite(total) and total > abs(torque):
         message = (
-            f"has amplitudes of {total * 1e-3:.6g} N m together, more than {dotted(mean[0])}{of_wheel}: the torque can change its sign and drive the pair "
-            f"from the wheel. Allowed: up to {abs(torque) * 1e-3:.6g} N m, or any with the section [coast_flanks]."
+            f"has amplitudes of {total * 1e-3:.6g} N m together, more than {dotted(mean[0])}{of_wheel}: the torque can"
+            f" change its sign and drive the pair from the wheel. Allowed: up to {abs(torque) * 1e-3:.6g} N m, or any"
+            " with the section [coast_flanks]."
         )
         yield Problem(("torque_ripple", "harmonics"), as_written(written), message)
 
@@ -138,7 +156,9 @@ def results(ripple: TorqueRipple, scene, cycle, steps) -> dict:
 def period(ripple: TorqueRipple, scene) -> int:
     """Mesh cycles after which the torque repeats: the least common multiple of z2 / order over all harmonics."""
     teeth = scene.gears.wheel.teeth
-    return lcm(*((teeth / Fraction(each.order).limit_denominator(FINEST_PART_OF_ORDER)).numerator for each in ripple.harmonics))
+    return lcm(
+        *((teeth / Fraction(each.order).limit_denominator(FINEST_PART_OF_ORDER)).numerator for each in ripple.harmonics)
+    )
 
 
 def shaft_step(scene, steps_per_mesh_cycle: int) -> float:
@@ -153,7 +173,11 @@ EFFECT = Effect(
     text=TorqueRippleText,
     data=TorqueRipple,
     terms=("varying load torque",),
-    variables=(ResultVariable("wheel_couple", "N mm", "load torque on the wheel's shaft, positive where it resists the rotation"),),
+    variables=(
+        ResultVariable(
+            "wheel_couple", "N mm", "load torque on the wheel's shaft, positive where it resists the rotation"
+        ),
+    ),
     rules=torque_keeps_its_sign,
     load=load,
     write=write,

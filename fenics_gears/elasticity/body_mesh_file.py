@@ -19,7 +19,8 @@ PLANE = 1e-6
 
 
 def read_body_mesh(path) -> BodyMesh:
-    """Body from a gmsh file, mm, of first-order triangles or quadrilaterals (not both); its physical curves become the named edges.
+    """Body from a gmsh file, mm, of first-order triangles or quadrilaterals (not both); its physical curves become the
+    named edges.
 
     Raises SceneError for a file that cannot be read, is not plane, has other cells or cells turned inside out.
     """
@@ -47,7 +48,8 @@ def read_body_mesh(path) -> BodyMesh:
 
 
 def write_body_mesh(mesh: BodyMesh, path) -> None:
-    """Write a body, mm, as a gmsh file of format 4.1; named edges become physical curves, the body the physical surface "gear".
+    """Write a body, mm, as a gmsh file of format 4.1; named edges become physical curves, the body the physical surface
+    "gear".
 
     Raises SceneError where the file cannot be written.
     """
@@ -78,18 +80,22 @@ def _kinds(names: Sequence[str]) -> str:
 def _check_plane(points: np.ndarray, path) -> None:
     size = np.ptp(points, axis=0)
     if size[2] > PLANE * size.max():
-        raise SceneError(f"body mesh {path}: is not plane: its points lie between z = {points[:, 2].min():.6g} and {points[:, 2].max():.6g}")
+        raise SceneError(
+            f"body mesh {path}: is not plane: its points lie between z = {points[:, 2].min():.6g} and"
+            f" {points[:, 2].max():.6g}"
+        )
 
 
 def _facing_one_way(points: np.ndarray, cells: np.ndarray, path) -> np.ndarray:
-    """Cells turned counter-clockwise; raises SceneError where not all faced the same way, as the mesh then folds over itself."""
+    """Cells turned counter-clockwise; raises SceneError where not all faced the same way, as the mesh then folds over
+    itself."""
     clockwise = corner_areas(points, cells).sum(axis=1) < 0.0
     if 0 < clockwise.sum() < len(cells):
         fewer = np.flatnonzero(clockwise == (clockwise.sum() < 0.5 * len(cells)))
         where = points[cells[fewer[0]]].mean(axis=0)
         raise SceneError(
-            f"body mesh {path}: {len(fewer)} of {len(cells)} cells are inverted, the first near x = {where[0]:.4g}, y = {where[1]:.4g}: "
-            "the mesh folds over itself there"
+            f"body mesh {path}: {len(fewer)} of {len(cells)} cells are inverted, the first near x = {where[0]:.4g}, y ="
+            f" {where[1]:.4g}: the mesh folds over itself there"
         )
     try:
         return oriented(points, cells)

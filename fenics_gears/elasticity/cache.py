@@ -1,7 +1,8 @@
-"""Results kept on disk under the hash of all their inputs; beyond a limit of size the entries go first that were unused for longest.
+"""Results kept on disk under the hash of all their inputs; beyond a limit of size the entries go first that were unused
+for longest.
 
-An entry is one immutable file, made and removed by a single call of the file system. That is safe on the file systems of clusters too,
-where the locks of a database, as in the library `diskcache`, do not hold.
+An entry is one immutable file, made and removed by a single call of the file system. That is safe on the file systems
+of clusters too, where the locks of a database, as in the library `diskcache`, do not hold.
 """
 
 from __future__ import annotations
@@ -38,7 +39,8 @@ def content_key(inputs: dict) -> str:
 
 
 def user_cache() -> Cache:
-    """The cache in the directory named by FENICS_GEARS_CACHE, else in the user's cache directory; at most FENICS_GEARS_CACHE_SIZE of it.
+    """The cache in the directory named by FENICS_GEARS_CACHE, else in the user's cache directory; at most
+    FENICS_GEARS_CACHE_SIZE of it.
 
     Raises SceneError for a size that cannot be read.
     """
@@ -47,15 +49,25 @@ def user_cache() -> Cache:
         from platformdirs import user_cache_dir
 
         directory = user_cache_dir("fenics_gears")
-    return Cache(Path(directory), size_in_bytes(os.environ.get(SIZE_VARIABLE) or DEFAULT_SIZE, SIZE_VARIABLE, DEFAULT_SIZE))
+    return Cache(
+        Path(directory), size_in_bytes(os.environ.get(SIZE_VARIABLE) or DEFAULT_SIZE, SIZE_VARIABLE, DEFAULT_SIZE)
+    )
 
 
-def kept(cache: Cache | None, inputs: dict, compute: Callable[[], tuple[dict, dict]]) -> tuple[dict[str, np.ndarray], dict]:
-    """Arrays that follow from inputs, and the times (s) that they took: read from the cache, else by ``compute()`` and then stored in it."""
+def kept(
+    cache: Cache | None, inputs: dict, compute: Callable[[], tuple[dict, dict]]
+) -> tuple[dict[str, np.ndarray], dict]:
+    """Arrays that follow from inputs, and the times (s) that they took: read from the cache, else by ``compute()`` and
+    then stored in it."""
     clock = perf_counter()
     arrays = None if cache is None else cache.load(key := content_key(inputs))
     if arrays is not None:
-        return arrays, {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0, "time_condense": perf_counter() - clock}
+        return arrays, {
+            "from_cache": True,
+            "time_mesh": 0.0,
+            "time_compile": 0.0,
+            "time_condense": perf_counter() - clock,
+        }
     arrays, timings = compute()
     if cache is not None:
         cache.store(key, arrays)

@@ -14,7 +14,8 @@ from fenics_gears.errors import ComputationError
 class Reach:
     """Distances, in pitches, between teeth whose flanks interact.
 
-    same: the largest between two drive flanks, or two coast flanks. across: least and largest between a drive flank and a coast flank,
+    same: the largest between two drive flanks, or two coast flanks. across: least and largest between a drive flank and
+        a coast flank,
     positive where the tooth of the drive flank stands counter-clockwise; None where coast flanks are not loaded.
     """
 
@@ -39,7 +40,8 @@ class FlankCompliance:
         interleaved x0, y0, x1, y1, ...; components are those of each tooth's own canonical frame.
         blocks[0] is symmetric positive definite.
     alike: all teeth are alike (`WholeBodyCompliance`: they differ).
-    flanks: 1, or 2 where the coast flank is known too: its 2n dofs then follow the drive flank's 2n, in the tooth's frame
+    flanks: 1, or 2 where the coast flank is known too: its 2n dofs then follow the drive flank's 2n, in the tooth's
+        frame
         mirrored at its centreline, in which the coast flank has the drive flank's place.
     timings: time_mesh, time_compile, time_condense (s), unknowns, from_cache and the like.
     """
@@ -83,7 +85,8 @@ class FlankCompliance:
         return self.roll_angle
 
     def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
-        """Compliance (2n, 2n) of one tooth's flank under forces on another's; teeth are counted counter-clockwise from any one.
+        """Compliance (2n, 2n) of one tooth's flank under forces on another's; teeth are counted counter-clockwise from
+        any one.
 
         sides: which flank of either tooth, 0 the drive flank, 1 the coast flank where it is known.
         """
@@ -98,12 +101,15 @@ class FlankCompliance:
 
 @dataclass(frozen=True)
 class BothFlanksCompliance(FlankCompliance):
-    """Compliance of drive and coast flanks; by symmetry about the tooth's centreline half of the blocks give the others.
+    """Compliance of drive and coast flanks; by symmetry about the tooth's centreline half of the blocks give the
+    others.
 
     In the mirror a coast flank is a drive flank, and a tooth ahead is one behind.
 
-    blocks: (offsets + 1, 2n, 2n): of the drive flanks alone; those of the coast flanks are their transposes. across: (k, 2n, 2n),
-    each symmetric: across[m - first_across] is the displacement of the drive flank m pitches ahead of a loaded coast flank.
+    blocks: (offsets + 1, 2n, 2n): of the drive flanks alone; those of the coast flanks are their transposes. across:
+        (k, 2n, 2n),
+    each symmetric: across[m - first_across] is the displacement of the drive flank m pitches ahead of a loaded coast
+        flank.
     """
 
     across: np.ndarray = field(kw_only=True)

@@ -10,15 +10,23 @@ import numpy as np
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.mumps import schur_complement
-from fenics_gears.elasticity.stiffness import compile_ahead, displacement_space, nodes_at, nodes_in_cells, stiffness_matrix
+from fenics_gears.elasticity.stiffness import (
+    compile_ahead,
+    displacement_space,
+    nodes_at,
+    nodes_in_cells,
+    stiffness_matrix,
+)
 
 
 @dataclass(frozen=True)
 class CondensedBody:
     """Stiffness of a body on named groups of boundary nodes, Young's modulus 1 MPa, unit thickness.
 
-    points: coordinates (k, 2) of each group's nodes, mm; (k, 3) of a body in three dimensions. stiffness: (2 K, 2 K), N/mm per mm, over the
-    groups in the order of ``points``, dofs interleaved x, y, in the mesh's own frame; (3 K, 3 K), N/mm, interleaved x, y, z, in three
+    points: coordinates (k, 2) of each group's nodes, mm; (k, 3) of a body in three dimensions. stiffness: (2 K, 2 K),
+        N/mm per mm, over the
+    groups in the order of ``points``, dofs interleaved x, y, in the mesh's own frame; (3 K, 3 K), N/mm, interleaved x,
+    y, z, in three
     dimensions. timings: seconds and unknowns.
     """
 
@@ -46,7 +54,8 @@ def condense(
 ) -> CondensedBody:
     """Schur complement of a body's stiffness onto groups of nodes, disjoint and given by coordinates (mm).
 
-    cells_of: for groups with several nodes in one place, as on the faces of a crack, the centre (k, 2) of a cell of each node.
+    cells_of: for groups with several nodes in one place, as on the faces of a crack, the centre (k, 2) of a cell of
+        each node.
     """
     clock = perf_counter()
     compile_ahead(element)
@@ -68,11 +77,16 @@ def condense(
 
 
 def _nodes(space, points: dict[str, np.ndarray], cells_of: dict[str, np.ndarray]) -> np.ndarray:
-    """Numbers (K,) of all groups' nodes; one search for those of unique places, as it takes the time of a search tree over all nodes."""
+    """Numbers (K,) of all groups' nodes; one search for those of unique places, as it takes the time of a search tree
+    over all nodes."""
     places = {name: group for name, group in points.items() if name not in cells_of}
-    found = np.split(nodes_at(space, np.vstack([*places.values()])), np.cumsum([len(group) for group in places.values()])[:-1])
+    found = np.split(
+        nodes_at(space, np.vstack([*places.values()])), np.cumsum([len(group) for group in places.values()])[:-1]
+    )
     nodes = dict(zip(places, found))
-    return np.concatenate([nodes[name] if name in nodes else nodes_in_cells(space, points[name], cells_of[name]) for name in points])
+    return np.concatenate(
+        [nodes[name] if name in nodes else nodes_in_cells(space, points[name], cells_of[name]) for name in points]
+    )
 
 
 def dofs_of(nodes: np.ndarray, components: int = 2) -> np.ndarray:

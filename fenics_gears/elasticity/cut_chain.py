@@ -1,9 +1,12 @@
-"""How the cuts of a ring of equal sectors move under forces on one of them, by joining runs of sectors: for gears with many teeth.
+"""How the cuts of a ring of equal sectors move under forces on one of them, by joining runs of sectors: for gears with
+many teeth.
 
-A run of n sectors is twice as long as two of n/2 with the cut between them eliminated, so that the cost grows with the logarithm of the
-number of teeth. The Fourier transform (`elasticity.ring`) takes one dense inverse for every other tooth.
+A run of n sectors is twice as long as two of n/2 with the cut between them eliminated, so that the cost grows with the
+logarithm of the number of teeth. The Fourier transform (`elasticity.ring`) takes one dense inverse for every other
+tooth.
 
-A run is its stiffness (2 c, 2 c) over its clockwise and its counter-clockwise cut, each cut's dofs (c) in its own sector's frame.
+A run is its stiffness (2 c, 2 c) over its clockwise and its counter-clockwise cut, each cut's dofs (c) in its own
+sector's frame.
 """
 
 from __future__ import annotations
@@ -58,15 +61,19 @@ def chain_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
 
 
 def closed_ring(parts: Sequence[np.ndarray], cut: int) -> np.ndarray:
-    """Stiffness of two or more parts that go once around the gear: over the lower cut of each part, then over their other dofs.
+    """Stiffness of two or more parts that go once around the gear: over the lower cut of each part, then over their
+    other dofs.
 
-    parts: counter-clockwise, each over its lower cut (`cut` dofs), its upper cut in the frame of the part ahead, and other dofs, if any.
+    parts: counter-clockwise, each over its lower cut (`cut` dofs), its upper cut in the frame of the part ahead, and
+        other dofs, if any.
     """
     inner = np.cumsum([cut * len(parts)] + [len(part) - 2 * cut for part in parts])
     total = np.zeros((inner[-1],) * 2)
     for number, part in enumerate(parts):
         ahead = (number + 1) % len(parts)
-        dofs = np.r_[number * cut : (number + 1) * cut, ahead * cut : (ahead + 1) * cut, inner[number] : inner[number + 1]]
+        dofs = np.r_[
+            number * cut : (number + 1) * cut, ahead * cut : (ahead + 1) * cut, inner[number] : inner[number + 1]
+        ]
         total[np.ix_(dofs, dofs)] += part
     return total
 
@@ -86,4 +93,6 @@ def _solved(stiffness: np.ndarray, loads: np.ndarray) -> np.ndarray:
     try:
         return cho_solve(cho_factor(stiffness), loads)
     except np.linalg.LinAlgError as error:
-        raise ComputationError("joining sectors: the stiffness of a cut is not positive definite; is the hub held?") from error
+        raise ComputationError(
+            "joining sectors: the stiffness of a cut is not positive definite; is the hub held?"
+        ) from error

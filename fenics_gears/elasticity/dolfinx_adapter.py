@@ -57,9 +57,7 @@ def create_mesh(points, cells):
     element_name = "domain" if "domain" in parameters else "e"  # 0.5 : 0.7 and later
     ordered = np.ascontiguousarray(cells[:, _CORNER_ORDER[corners]], dtype=np.int64)
     coordinates = np.ascontiguousarray(points, dtype=np.float64)
-    return dolfinx.mesh.create_mesh(
-        MPI.COMM_SELF, cells=ordered, x=coordinates, **{element_name: domain}
-    )
+    return dolfinx.mesh.create_mesh(MPI.COMM_SELF, cells=ordered, x=coordinates, **{element_name: domain})
 
 
 def _coordinate_element(cell_name):
@@ -71,14 +69,16 @@ def _coordinate_element(cell_name):
 
 
 def vector_space(mesh, order: int, components: int = 2):
-    """Continuous Lagrange space of displacements in a plane mesh, in its plane (two components) or also out of it (three)."""
+    """Continuous Lagrange space of displacements in a plane mesh, in its plane (two components) or also out of it
+    (three)."""
     if _HAS_FUNCTIONSPACE:
         return fem.functionspace(mesh, ("Lagrange", order, (components,)))
     return fem.VectorFunctionSpace(mesh, ("Lagrange", order), dim=components)
 
 
 def cell_space(mesh, order: int, components: int):
-    """Discontinuous space of quadrilaterals: values of a cell (order 0) or of its corners (order 1), the cells' one after the other."""
+    """Discontinuous space of quadrilaterals: values of a cell (order 0) or of its corners (order 1), the cells' one
+    after the other."""
     if _HAS_FUNCTIONSPACE:
         return fem.functionspace(mesh, ("DG", order) if components == 1 else ("DG", order, (components,)))
     family = "DG" if order == 0 else "DQ"
@@ -96,7 +96,8 @@ def cell_nodes(space) -> np.ndarray:
 
 
 def node_coordinates(space) -> np.ndarray:
-    """Coordinates of the space's nodes, (nodes, 2); node i carries its components one after the other: of two, dofs 2 i and 2 i + 1."""
+    """Coordinates of the space's nodes, (nodes, 2); node i carries its components one after the other: of two, dofs 2 i
+    and 2 i + 1."""
     return space.tabulate_dof_coordinates()[:, :2]
 
 
@@ -119,7 +120,8 @@ def quiet_compiler():
 def with_compiled(build):
     """Call ``build()``, which compiles; where a compile was once killed halfway, remove what it left and call it again.
 
-    The form compiler believes that a killed compile is still under way; it waits 10 s and names the source file in its error.
+    The form compiler believes that a killed compile is still under way; it waits 10 s and names the source file in its
+    error.
     """
     try:
         return build()

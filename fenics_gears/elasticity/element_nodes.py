@@ -23,9 +23,11 @@ SUBCELLS = {
 
 @dataclass(frozen=True)
 class ElementNodes:
-    """Nodes of a body's elements: the mesh's points, then, of second order, the middles of its sides and of quadrilaterals.
+    """Nodes of a body's elements: the mesh's points, then, of second order, the middles of its sides and of
+    quadrilaterals.
 
-    points: (n, 2), the mesh's unit of length. cells: (m, k) node indices: corners counter-clockwise, middles of the sides in the
+    points: (n, 2), the mesh's unit of length. cells: (m, k) node indices: corners counter-clockwise, middles of the
+        sides in the
     same order, the middle of a quadrilateral.
     """
 

@@ -24,7 +24,8 @@ class ElementSizes:
     and fillets. coast: along the coast flank and the tip. body: largest size in the tooth and the rim
     below it; further inside elements go on growing. growth: increase of size per distance.
     both_flanks: the coast flank is a working flank too, meshed as the drive flank's mirror image.
-    hub_angle: largest angle (rad) of an edge along the bore. mate_tip: roll angles (rad) between which the mate's tip edge may press
+    hub_angle: largest angle (rad) of an edge along the bore. mate_tip: roll angles (rad) between which the mate's tip
+        edge may press
     on the flank. There, and beside the flank's own tip, its elements are finer; None: none are.
     """
 
@@ -39,13 +40,15 @@ class ElementSizes:
     mate_tip: tuple[float, float] | None = None
 
     def refined(self, factor: float) -> ElementSizes:
-        """All sizes but the flank's times `factor`: meshes of several factors are one family, whose error falls with an order.
+        """All sizes but the flank's times `factor`: meshes of several factors are one family, whose error falls with an
+        order.
 
         Growth inwards is limited, so that elements do not become slivers; edges along the bore are never made larger.
         """
         return replace(
             self, fillet=factor * self.fillet, coast=factor * self.coast, body=factor * self.body,
-            growth=min(factor * self.growth, max(self.growth, FASTEST_GROWTH)), hub_angle=min(factor, 1.0) * self.hub_angle,
+            growth=min(factor * self.growth, max(self.growth, FASTEST_GROWTH)),
+            hub_angle=min(factor, 1.0) * self.hub_angle,
         )  # fmt: skip
 
     def in_modules_of(self, gear: Gear) -> ElementSizes:
@@ -54,8 +57,9 @@ class ElementSizes:
         return replace(self, flank=flank, fillet=fillet, coast=coast, body=body)
 
 
-# By element order, in modules (the flank's size is always given). Against a mesh several times finer everywhere, the mean compliance
-# under 1 mm of uniform pressure at tip, middle and form circle is then within 0.05 % (P2, Q2) and 0.3 % (P1, Q1) with 0.06 mm on the flank.
+# By element order, in modules (the flank's size is always given). Against a mesh several times finer everywhere, the
+# mean compliance under 1 mm of uniform pressure at tip, middle and form circle is then within 0.05 % (P2, Q2) and 0.3 %
+# (P1, Q1) with 0.06 mm on the flank.
 DEFAULT_SIZES = {
     1: ElementSizes(flank=np.nan, fillet=0.01, coast=0.02, body=0.08, depth=4.0, growth=0.1),
     2: ElementSizes(flank=np.nan, fillet=0.04, coast=0.08, body=0.3, depth=2.5, growth=0.35),
@@ -66,9 +70,10 @@ DEFAULT_SIZES = {
 class Discretisation:
     """How a gear's body is divided into finite elements.
 
-    element: a name of ELEMENTS. flank_element_size, body_element_size: mm, along the working flank and the largest in tooth and rim
-    (None: from the module). elastic_teeth: teeth this many pitches apart and further do not feel each other (1: each feels itself
-    alone); None: all do. mate_tip: roll angles (rad), see ElementSizes.
+    element: a name of ELEMENTS. flank_element_size, body_element_size: mm, along the working flank and the largest in
+        tooth and rim
+    (None: from the module). elastic_teeth: teeth this many pitches apart and further do not feel each other (1: each
+    feels itself alone); None: all do. mate_tip: roll angles (rad), see ElementSizes.
     """
 
     element: str

@@ -23,7 +23,10 @@ class Element:
 
     def __post_init__(self):
         if self.order not in (1, 2):
-            raise ValueError(f"element {self.name}: order = {self.order}: a mesh has nodes at corners and middles of sides only. Allowed: 1 or 2.")
+            raise ValueError(
+                f"element {self.name}: order = {self.order}: a mesh has nodes at corners and middles of sides only."
+                " Allowed: 1 or 2."
+            )
 
     @property
     def quadrilateral(self) -> bool:

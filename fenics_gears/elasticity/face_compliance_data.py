@@ -1,4 +1,5 @@
-"""The flank compliance of a gear over its face: all that contact and dynamics need to know of its body in three dimensions."""
+"""The flank compliance of a gear over its face: all that contact and dynamics need to know of its body in three
+dimensions."""
 
 from __future__ import annotations
 
@@ -13,9 +14,12 @@ from fenics_gears.elasticity.compliance import FlankCompliance
 class FaceCompliance:
     """Displacement of drive-flank nodes per unit force on drive-flank nodes over a gear's face, hub held.
 
-    roll_angle: (n,), rad, increasing, of the flank nodes of a section. element_order: of the displacement along a flank element, and along the face.
-    heights: (h,), mm from the gear's mid-width, increasing: of the nodes of the layers, with second order also between the layers' ends.
-    blocks: (offsets + 1, 3 n h, 3 n h), mm/N. blocks[m] is the displacement of the flank m pitches ahead (counter-clockwise) of the loaded one. Dofs by
+    roll_angle: (n,), rad, increasing, of the flank nodes of a section. element_order: of the displacement along a flank
+        element, and along the face.
+    heights: (h,), mm from the gear's mid-width, increasing: of the nodes of the layers, with second order also between
+        the layers' ends.
+    blocks: (offsets + 1, 3 n h, 3 n h), mm/N. blocks[m] is the displacement of the flank m pitches ahead
+        (counter-clockwise) of the loaded one. Dofs by
         height, then flank node, then component (x, y, z) in the tooth's own frame at that height.
     plane: the plane-strain compliance of the section's mesh.
     """

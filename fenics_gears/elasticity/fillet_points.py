@@ -15,7 +15,8 @@ from fenics_gears.elasticity.sector_interior import SectorInterior
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import ToothOutline, tooth_outline
 
-# Points of one fillet, without the one where the tangent stands at 30 degrees to the tooth's centreline, in the section normal to the tooth.
+# Points of one fillet, without the one where the tangent stands at 30 degrees to the tooth's centreline, in the section
+# normal to the tooth.
 POINTS = 24
 # The same where flanks are resolved over the face, on sections with fewer elements.
 POINTS_OVER_FACE = 12
@@ -27,8 +28,10 @@ CURVE_SAMPLES = 2001
 class FilletCurve:
     """The points of the drive side's fillet at which stress is evaluated; the coast side's are their mirror images.
 
-    samples: (k, 2), the root finely sampled from the middle of the tooth space. length: (p,), along it. tangents: (p, 2).
-    tangent_angle: (p,), rad, between tangent and the tooth's centreline. The first points go from the root circle to the form circle, the
+    samples: (k, 2), the root finely sampled from the middle of the tooth space. length: (p,), along it. tangents: (p,
+        2).
+    tangent_angle: (p,), rad, between tangent and the tooth's centreline. The first points go from the root circle to
+        the form circle, the
     last is the one at `section_angle`, not a number where the fillet has no such tangent.
     """
 
@@ -52,16 +55,20 @@ def fillet_curve(gear: Gear, points: int = POINTS) -> FilletCurve:
     length = np.append(length, section)
     tangents = np.column_stack([np.interp(length, along, part) for part in _tangents(samples).T])
     tangents /= np.linalg.norm(tangents, axis=1)[:, None]
-    return FilletCurve(outline, samples, length, tangents, np.append(np.interp(length[:-1], along, angles), section_angle(gear)))
+    return FilletCurve(
+        outline, samples, length, tangents, np.append(np.interp(length[:-1], along, angles), section_angle(gear))
+    )
 
 
 def section_angle(gear: Gear) -> float:
-    """Angle (rad) in the transverse section of the tangent at SECTION_ANGLE in the normal one: what is across the tooth is wider there by 1/cos(helix angle)."""
+    """Angle (rad) in the transverse section of the tangent at SECTION_ANGLE in the normal one: what is across the tooth
+    is wider there by 1/cos(helix angle)."""
     return float(np.arctan(np.tan(SECTION_ANGLE) * gear.rack_stretch)) if gear.helix_angle else SECTION_ANGLE
 
 
 def fillet_rows(curve: FilletCurve, interior: SectorInterior, stress: NodalStress) -> np.ndarray:
-    """Stress along the surface (2 p, 2 n), MPa per displacement in the mesh's unit, E = 1 MPa: drive side, then coast side."""
+    """Stress along the surface (2 p, 2 n), MPa per displacement in the mesh's unit, E = 1 MPa: drive side, then coast
+    side."""
     parts, held = [], np.concatenate([interior.lower, interior.upper, interior.hub])
     for side in (0, 1):
         nodes, interpolation, tangents = fillet_weights(curve, interior.nodes, held, side)
@@ -71,17 +78,25 @@ def fillet_rows(curve: FilletCurve, interior: SectorInterior, stress: NodalStres
     return np.vstack(parts)
 
 
-def fillet_weights(curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Nodes (k,) along the root on the drive (0) or coast side (1), their weights (p, k) at the fillet's points, and the tangents (p, 2) there.
+def fillet_weights(
+    curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Nodes (k,) along the root on the drive (0) or coast side (1), their weights (p, k) at the fillet's points, and
+    the tangents (p, 2) there.
 
     `held`: nodes of the sector's cuts and hub. Not a number where the fillet has no such point.
     """
     root, place = _root_nodes(curve, nodes, held, side)
-    return root, _interpolation(place, curve.length), curve.tangents if side == 0 else curve.outline.coast(curve.tangents)
+    return (
+        root,
+        _interpolation(place, curve.length),
+        curve.tangents if side == 0 else curve.outline.coast(curve.tangents),
+    )
 
 
 def _root_nodes(curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side: int) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes (k,) along the root on one side without those on the cut, and their lengths (k,) along the curve, ascending."""
+    """Nodes (k,) along the root on one side without those on the cut, and their lengths (k,) along the curve,
+    ascending."""
     gear = curve.outline.gear
     free = np.setdiff1d(np.unique(nodes.boundary_sides), held)
     radius = np.linalg.norm(nodes.points[free], axis=1)
@@ -96,7 +111,8 @@ def _root_nodes(curve: FilletCurve, nodes: ElementNodes, held: np.ndarray, side:
 
 
 def _interpolation(nodes: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """Weights (p, k) of linear interpolation between ascending places (k,), constant beyond them; `wanted` may hold nan."""
+    """Weights (p, k) of linear interpolation between ascending places (k,), constant beyond them; `wanted` may hold
+    nan."""
     ahead = np.clip(np.searchsorted(nodes, np.nan_to_num(wanted)), 1, len(nodes) - 1)
     part = np.clip((wanted - nodes[ahead - 1]) / (nodes[ahead] - nodes[ahead - 1]), 0.0, 1.0)
     weights = np.zeros((len(wanted), len(nodes)))
@@ -111,7 +127,8 @@ def _tangents(points: np.ndarray) -> np.ndarray:
 
 
 def _angles(outline: ToothOutline, points: np.ndarray) -> np.ndarray:
-    """Angle (rad) between the curve's tangent and the tooth's centreline, falling from the root on; negative where the tooth widens outwards."""
+    """Angle (rad) between the curve's tangent and the tooth's centreline, falling from the root on; negative where the
+    tooth widens outwards."""
     axis = np.array([np.cos(outline.centreline_angle), np.sin(outline.centreline_angle)])
     tangents = _tangents(points)
     angles = np.arctan2(tangents[:, 0] * axis[1] - tangents[:, 1] * axis[0], tangents @ axis)

@@ -24,10 +24,11 @@ def flank_compliance(
 ) -> FlankCompliance:
     """Flank compliance of a gear in plane strain, from the cache or by meshing and condensing one tooth sector.
 
-    In plane strain similar gears have the same displacement per line force: the gear of module one stands for all of them, and
-    they share an entry of the cache.
+    In plane strain similar gears have the same displacement per line force: the gear of module one stands for all of
+    them, and they share an entry of the cache.
 
-    reach: of the teeth whose interaction is wanted, and whether the coast flanks' is. Raises SceneError for an unknown element or an
+    reach: of the teeth whose interaction is wanted, and whether the coast flanks' is. Raises SceneError for an unknown
+        element or an
     impossible size, ComputationError when a stage fails.
     """
     chosen = element_named(discretisation.element)
@@ -52,7 +53,9 @@ def flank_compliance(
     found: FlankCompliance
     if sizes.both_flanks:
         first = int(arrays.pop("first_across"))
-        found = BothFlanksCompliance(element_order=chosen.order, timings={**counts, **timings}, first_across=first, **arrays)
+        found = BothFlanksCompliance(
+            element_order=chosen.order, timings={**counts, **timings}, first_across=first, **arrays
+        )
     else:
         found = FlankCompliance(element_order=chosen.order, timings={**counts, **timings}, **arrays)
     return found if coupled == reach else _with_uncoupled_teeth(found, reach.farthest)
@@ -81,8 +84,8 @@ def _with_uncoupled_teeth(body: FlankCompliance, offsets: int) -> FlankComplianc
             np.linalg.cholesky(whole)
         except np.linalg.LinAlgError:
             raise SceneError(
-                f"accuracy.elastic_teeth = {known + 1}: the gear's body couples its teeth too strongly to leave out the farther ones alone; "
-                f"choose 1, or at least {offsets + 1}, or leave it out"
+                f"accuracy.elastic_teeth = {known + 1}: the gear's body couples its teeth too strongly to leave out the"
+                f" farther ones alone; choose 1, or at least {offsets + 1}, or leave it out"
             ) from None
     return padded
 
@@ -97,7 +100,9 @@ def check_inputs(gear: Gear, material: Material, reach: Reach) -> None:
         raise SceneError(f"youngs_modulus is {material.youngs_modulus} MPa, must be positive and finite")
 
 
-def _computed(gear: Gear, element: Element, sizes: ElementSizes, poissons_ratio: float, reach: Reach) -> tuple[dict, dict]:
+def _computed(
+    gear: Gear, element: Element, sizes: ElementSizes, poissons_ratio: float, reach: Reach
+) -> tuple[dict, dict]:
     """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.condensation import by_radius

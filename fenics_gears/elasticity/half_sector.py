@@ -18,7 +18,8 @@ IMAGES = {"flank": "coast", "upper cut": "lower cut", "hub": "hub"}
 def drive_half(
     boundary: SectorBoundary, field: SizeField, fill: Callable[[SectorBoundary, SizeField, tuple[str, ...]], BodyMesh]
 ) -> BodyMesh:
-    """Mesh of a sector's half with the drive flank, from the sector's boundary; its edge "centreline" is the line of symmetry.
+    """Mesh of a sector's half with the drive flank, from the sector's boundary; its edge "centreline" is the line of
+    symmetry.
 
     fill: meshes the inside of a closed boundary by a size field; the mesh has edges for the named parts.
     """
@@ -48,12 +49,15 @@ def with_image(half: BodyMesh) -> BodyMesh:
     points = np.vstack([half.points, image[own]])
     edges = {name: half.edges[name] for name in IMAGES}
     mirrored = {other: index[half.edges[name]] for name, other in IMAGES.items()}
-    edges = {name: np.vstack([part[name] for part in (edges, mirrored) if name in part]) for name in {**edges, **mirrored}}
+    edges = {
+        name: np.vstack([part[name] for part in (edges, mirrored) if name in part]) for name in {**edges, **mirrored}
+    }
     return BodyMesh(points, oriented(points, np.vstack([half.cells, index[half.cells]])), edges, half.web)
 
 
 def _half(boundary: SectorBoundary, field: SizeField) -> SectorBoundary:
-    """The drive flank's side: from the bore up the cut, root, flank and half the tip, down the centreline, half the bore back."""
+    """The drive flank's side: from the bore up the cut, root, flank and half the tip, down the centreline, half the
+    bore back."""
     (tip_first, tip_last), (hub_first, hub_last) = boundary.parts["tip"], boundary.parts["hub"]
     top, bottom = (tip_first + tip_last) // 2, (hub_first + hub_last) // 2
     line = np.linspace(boundary.points[top], boundary.points[bottom], CENTRELINE_SAMPLES)

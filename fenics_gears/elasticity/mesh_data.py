@@ -16,7 +16,8 @@ from fenics_gears.geometry.gear_data import Web
 class BodyMesh:
     """Straight-sided mesh of a gear body or of a sector of it.
 
-    points: (n, 2), mm (modules where a sector was meshed in them), in the canonical frame of the tooth it belongs to (of tooth 0
+    points: (n, 2), mm (modules where a sector was meshed in them), in the canonical frame of the tooth it belongs to
+        (of tooth 0
         for a whole gear).
     cells: (m, 3) triangles or (m, 4) quadrilaterals, corners counter-clockwise.
     edges: named parts of the boundary, each (k, 2) point indices. A sector has "flank", "hub",
@@ -77,7 +78,8 @@ def sides_of(cells: np.ndarray) -> np.ndarray:
 
 
 def distinct(sides: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Sides (k, 2) each once, ascending, the smaller point first; and the number of each given side (j, 2) among them (j,)."""
+    """Sides (k, 2) each once, ascending, the smaller point first; and the number of each given side (j, 2) among them
+    (j,)."""
     # By one number for each side: numpy takes ten times as long to sort rows.
     size = sides.max(initial=0) + 1
     numbers, places = np.unique(np.sort(sides, axis=1) @ [size, 1], return_inverse=True)
@@ -116,13 +118,11 @@ def split_to_quadrilaterals(
     count = len(points) + len(middle)
     for cells in polygons:
         corners = cells.shape[1]
-        ahead = len(points) + side_of[used:used + cells.size].reshape(cells.shape)
+        ahead = len(points) + side_of[used : used + cells.size].reshape(cells.shape)
         used += cells.size
         centre = count + np.arange(len(cells))
         count += len(cells)
         all_points.append(points[cells].mean(axis=1))
         for corner in range(corners):
-            quadrilaterals.append(
-                np.stack([cells[:, corner], ahead[:, corner], centre, ahead[:, corner - 1]], axis=1)
-            )
+            quadrilaterals.append(np.stack([cells[:, corner], ahead[:, corner], centre, ahead[:, corner - 1]], axis=1))
     return np.vstack(all_points), np.vstack(quadrilaterals), middle_index

@@ -1,9 +1,12 @@
-"""A gear of symmetric tooth sectors, both of whose flanks are loaded: half a sector condensed, the other half by symmetry.
+"""A gear of symmetric tooth sectors, both of whose flanks are loaded: half a sector condensed, the other half by
+symmetry.
 
-Every motion of a symmetric sector is the sum of a symmetric and an antisymmetric one. The two are uncoupled, and each has a stiffness
+Every motion of a symmetric sector is the sum of a symmetric and an antisymmetric one. The two are uncoupled, and each
+has a stiffness
 of half the size: on the centreline the symmetric one does not move across it, the antisymmetric one not along it.
-With v the drive half's motion and v' the coast half's in the mirrored frame, the sector's energy is ``s^T S_s s + a^T S_a a`` where
-``s = (v + v') / 2`` and ``a = (v - v') / 2``; any response is ``(R_s + R_a) / 2`` within a half and ``(R_s - R_a) / 2`` across.
+With v the drive half's motion and v' the coast half's in the mirrored frame, the sector's energy is ``s^T S_s s + a^T
+S_a a`` where ``s = (v + v') / 2`` and ``a = (v - v') / 2``; any response is ``(R_s + R_a) / 2`` within a half and
+``(R_s - R_a) / 2`` across.
 """
 
 from __future__ import annotations
@@ -18,7 +21,8 @@ from fenics_gears.elasticity.ring import cut_response, definite_inverse, sector_
 
 
 def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float) -> CondensedBody:
-    """The sector's half (`sector_mesh.half_sector_mesh`) condensed onto "flank", "cut", "centreline" (both without hub nodes) and "hub"."""
+    """The sector's half (`sector_mesh.half_sector_mesh`) condensed onto "flank", "cut", "centreline" (both without hub
+    nodes) and "hub"."""
     hub = mesh.edge_nodes("hub", element.order)
     points = {
         "flank": by_radius(mesh.edge_nodes("flank", element.order)),
@@ -29,19 +33,26 @@ def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float) -> C
     return condense(mesh, element, poissons_ratio, points)
 
 
-def both_flanks_compliance(half: CondensedBody, axis: np.ndarray, teeth: int, reach: Reach) -> tuple[np.ndarray, np.ndarray]:
+def both_flanks_compliance(
+    half: CondensedBody, axis: np.ndarray, teeth: int, reach: Reach
+) -> tuple[np.ndarray, np.ndarray]:
     """Compliance of the ring, hub held, Young's modulus 1 MPa: `blocks` and `across` of `BothFlanksCompliance`.
 
     axis: (2,), unit vector along the centreline. The formula is that of `ring.ring_compliance`.
     """
     along = np.asarray(axis)
-    parts = [flank_free(_constrained(half, direction), len(half.dofs("flank"))) for direction in (along, np.array([-along[1], along[0]]))]
+    parts = [
+        flank_free(_constrained(half, direction), len(half.dofs("flank")))
+        for direction in (along, np.array([-along[1], along[0]]))
+    ]
     (held, to_cut, cut), (held_cross, to_cut_cross, cut_cross) = (
         tuple(0.5 * (same + sign * opposite) for same, opposite in zip(*parts)) for sign in (1.0, -1.0)
     )
     nodes = len(half.points["cut"])
     turn, mirror = turned_nodes(teeth, nodes), np.kron(np.eye(nodes), 2.0 * np.outer(along, along) - np.eye(2))
-    link = np.block([[mirror @ cut @ mirror, mirror @ cut_cross @ turn], [turn.T @ cut_cross.T @ mirror, turn.T @ cut @ turn]])
+    link = np.block(
+        [[mirror @ cut @ mirror, mirror @ cut_cross @ turn], [turn.T @ cut_cross.T @ mirror, turn.T @ cut @ turn]]
+    )
     joint = cut_response(link, teeth, reach.farthest + 1)
     # From forces on either flank to the lower and the upper cut, both in the frame of a lower cut.
     drive, coast = np.hstack([to_cut_cross @ mirror, to_cut @ turn]), np.hstack([to_cut @ mirror, to_cut_cross @ turn])
@@ -59,18 +70,22 @@ def both_flanks_compliance(half: CondensedBody, axis: np.ndarray, teeth: int, re
 
 
 def _constrained(half: CondensedBody, direction: np.ndarray) -> np.ndarray:
-    """Stiffness (F + C, F + C) over flank and cut where the centreline moves along a direction (2,) only, free of force, and the hub is held."""
+    """Stiffness (F + C, F + C) over flank and cut where the centreline moves along a direction (2,) only, free of
+    force, and the hub is held."""
     # Flank and cut come first.
     kept = slice(0, len(half.dofs("flank")) + len(half.dofs("cut")))
     line = half.dofs("centreline").reshape(-1, 2)
     stiffness = half.stiffness
     coupling = sum(direction[i] * stiffness[line[:, i], kept] for i in range(2))
-    own = sum(direction[i] * direction[j] * stiffness[np.ix_(line[:, i], line[:, j])] for i in range(2) for j in range(2))
+    own = sum(
+        direction[i] * direction[j] * stiffness[np.ix_(line[:, i], line[:, j])] for i in range(2) for j in range(2)
+    )
     return stiffness[kept, kept] - coupling.T @ np.linalg.solve(own, coupling)
 
 
 def flank_free(stiffness: np.ndarray, flank: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Compliance of the flank (its `flank` dofs come first), its response to motions of the cut, stiffness of the cut: the flank free."""
+    """Compliance of the flank (its `flank` dofs come first), its response to motions of the cut, stiffness of the cut:
+    the flank free."""
     compliance, coupling = definite_inverse(stiffness[:flank, :flank], "a flank"), stiffness[:flank, flank:]
     response = compliance @ coupling
     return compliance, response, stiffness[flank:, flank:] - coupling.T @ response

@@ -1,6 +1,7 @@
 """MUMPS through PETSc: the Cholesky factor of a sparse matrix, solved for any load, and MUMPS's own Schur complement.
 
-petsc4py (3.18 to 3.25) does not bind ``MatFactorSetSchurIS``; ctypes reaches it in the library that petsc4py has loaded.
+petsc4py (3.18 to 3.25) does not bind ``MatFactorSetSchurIS``; ctypes reaches it in the library that petsc4py has
+loaded.
 """
 
 from __future__ import annotations
@@ -21,16 +22,19 @@ COLUMNS_AT_ONCE = 64
 class Factor:
     """Cholesky factor of a symmetric matrix (scipy's, or PETSc's), positive definite on all dofs but `schur_dofs` (k,).
 
-    Of a matrix over several processes (`distributed`) only the Schur complement is there for the taking: all of them make the factor and call `schur`.
+    Of a matrix over several processes (`distributed`) only the Schur complement is there for the taking: all of them
+    make the factor and call `schur`.
 
-    `what`: the matrix's name in messages. Raises ComputationError when the factorisation fails. Release the memory by `close`.
+    `what`: the matrix's name in messages. Raises ComputationError when the factorisation fails. Release the memory by
+        `close`.
     """
 
     def __init__(self, matrix: sparse.csr_matrix | PETSc.Mat, what: str, schur_dofs: np.ndarray | None = None):
         self._schur_size = 0 if schur_dofs is None else len(schur_dofs)
         if sparse.issparse(matrix):
             matrix = _petsc_matrix(matrix)
-        # Of a matrix declared definite, MUMPS over several processes gives back the diagonal of the Schur complement alone.
+        # Of a matrix declared definite, MUMPS over several processes gives back the diagonal of the Schur complement
+        # alone.
         self._rank, alone = matrix.comm.rank, matrix.comm.size == 1
         matrix.setOption(PETSc.Mat.Option.SPD if alone else PETSc.Mat.Option.SYMMETRIC, True)
         self._preconditioner = PETSc.PC().create(matrix.comm)
@@ -50,8 +54,8 @@ class Factor:
             status = self._factor.getMumpsInfog(1)
             if status < 0:
                 raise ComputationError(
-                    f"MUMPS could not factorise {what} (INFOG(1) = {status}, INFOG(2) = {self._factor.getMumpsInfog(2)}); "
-                    "memory may be short, or the mesh has a part that nothing holds"
+                    f"MUMPS could not factorise {what} (INFOG(1) = {status}, INFOG(2) ="
+                    f" {self._factor.getMumpsInfog(2)}); memory may be short, or the mesh has a part that nothing holds"
                 )
         except PETSc.Error as error:
             self.close()
@@ -66,7 +70,9 @@ class Factor:
         for first in range(0, loads.shape[1], COLUMNS_AT_ONCE):
             part = slice(first, first + COLUMNS_AT_ONCE)
             solution, right = np.zeros_like(loads[:, part], order="F"), np.asfortranarray(loads[:, part])
-            left, dense = (PETSc.Mat().createDense(each.shape, array=each, comm=PETSc.COMM_SELF) for each in (solution, right))
+            left, dense = (
+                PETSc.Mat().createDense(each.shape, array=each, comm=PETSc.COMM_SELF) for each in (solution, right)
+            )
             left.assemble()
             dense.assemble()
             self._factor.matSolve(dense, left)
@@ -76,14 +82,17 @@ class Factor:
         return result
 
     def schur(self) -> np.ndarray | None:
-        """Dense stiffness (k, k) on the Schur dofs with all others in equilibrium without load; symmetrised. None on all ranks but 0."""
+        """Dense stiffness (k, k) on the Schur dofs with all others in equilibrium without load; symmetrised. None on
+        all ranks but 0."""
         schur, entries = ctypes.c_void_p(), ctypes.c_void_p()
         _call("MatFactorCreateSchurComplement", _handle(self._factor), ctypes.byref(schur), None)
         if self._rank > 0:
             _call("MatDestroy", ctypes.byref(schur))
             return None
         _call("MatDenseGetArray", schur, ctypes.byref(entries))
-        values = np.ctypeslib.as_array((ctypes.c_double * self._schur_size**2).from_address(entries.value)).reshape((self._schur_size,) * 2)
+        values = np.ctypeslib.as_array((ctypes.c_double * self._schur_size**2).from_address(entries.value)).reshape(
+            (self._schur_size,) * 2
+        )
         symmetric = 0.5 * (values + values.T)
         _call("MatDenseRestoreArray", schur, ctypes.byref(entries))
         _call("MatDestroy", ctypes.byref(schur))

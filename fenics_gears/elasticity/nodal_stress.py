@@ -1,7 +1,9 @@
-"""Stress at the nodes of a body from its displacement: taken in each element where it is most accurate, averaged where elements meet.
+"""Stress at the nodes of a body from its displacement: taken in each element where it is most accurate, averaged where
+elements meet.
 
 The points of an element where the error of its stress is one order smaller (Barlow, International Journal for Numerical
-Methods in Engineering 10, 1976) are the middle of first-order cells and the 2 x 2 Gauss points of Q2; that of P2 is linear and taken at the nodes.
+Methods in Engineering 10, 1976) are the middle of first-order cells and the 2 x 2 Gauss points of Q2; that of P2 is
+linear and taken at the nodes.
 """
 
 from __future__ import annotations
@@ -25,8 +27,10 @@ SQUARE_POWERS = {order: [(i, j) for i in range(order + 1) for j in range(order +
 class NodalStress:
     """Averaged stress as a sparse operator, for Young's modulus 1 MPa and displacements in the mesh's unit of length.
 
-    weighted: (3 n, 2 n): displacement (2 n,) to sums over elements of area times stress, xx, yy, xy at each node; weight: (n,), the
-    sums of areas. A node on a cut has part of its elements in the neighbouring sector, whose sums are added before dividing.
+    weighted: (3 n, 2 n): displacement (2 n,) to sums over elements of area times stress, xx, yy, xy at each node;
+        weight: (n,), the
+    sums of areas. A node on a cut has part of its elements in the neighbouring sector, whose sums are added before
+    dividing.
     """
 
     weighted: sparse.csr_matrix
@@ -47,21 +51,29 @@ def nodal_stress(nodes: ElementNodes, poissons_ratio: float) -> NodalStress:
     shear = 0.5 / (1.0 + poissons_ratio)
     lame = poissons_ratio / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))
     d_x, d_y = gradients[..., 0], gradients[..., 1]
-    stress = np.array([
-        [(lame + 2.0 * shear) * d_x, lame * d_y],
-        [lame * d_x, (lame + 2.0 * shear) * d_y],
-        [shear * d_y, shear * d_x],
-    ]) * areas[:, None, None]  # (3, 2, cells, nodes, nodes)
+    stress = (
+        np.array(
+            [
+                [(lame + 2.0 * shear) * d_x, lame * d_y],
+                [lame * d_x, (lame + 2.0 * shear) * d_y],
+                [shear * d_y, shear * d_x],
+            ]
+        )
+        * areas[:, None, None]
+    )  # (3, 2, cells, nodes, nodes)
     component, direction = np.arange(3)[:, None, None, None, None], np.arange(2)[None, :, None, None, None]
     rows = np.broadcast_to(3 * cells[None, None, :, :, None] + component, stress.shape)
     columns = np.broadcast_to(2 * cells[None, None, :, None, :] + direction, stress.shape)
-    weighted = sparse.coo_matrix((stress.ravel(), (rows.ravel(), columns.ravel())), shape=(3 * count, 2 * count)).tocsr()
+    weighted = sparse.coo_matrix(
+        (stress.ravel(), (rows.ravel(), columns.ravel())), shape=(3 * count, 2 * count)
+    ).tocsr()
     weight = np.bincount(cells.ravel(), np.repeat(areas, per_cell), count)
     return NodalStress(weighted, weight)
 
 
 def gradients_at_nodes(nodes: ElementNodes) -> tuple[np.ndarray, np.ndarray]:
-    """Gradients (cells, nodes, nodes, 2) of the shape functions (third index) that count at each node (second), and areas (cells,)."""
+    """Gradients (cells, nodes, nodes, 2) of the shape functions (third index) that count at each node (second), and
+    areas (cells,)."""
     square = nodes.corners == 4
     reference = (SQUARE_NODES if square else TRIANGLE_NODES)[: nodes.cells.shape[1]]
     powers = (SQUARE_POWERS if square else TRIANGLE_POWERS)[nodes.order]

@@ -1,8 +1,8 @@
 """A gear meshed anew so that its flanks have nodes at given places, condensed onto those nodes and the centre.
 
-Only the sectors of loaded teeth change from position to position. They are meshed and condensed one by one; all others are the
-same sector, condensed once. The cuts between sectors are congruent, so that the result equals that of meshing and condensing the whole
-gear each time, to round-off (a test does both).
+Only the sectors of loaded teeth change from position to position. They are meshed and condensed one by one; all others
+are the same sector, condensed once. The cuts between sectors are congruent, so that the result equals that of meshing
+and condensing the whole gear each time, to round-off (a test does both).
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ NO_NODES = np.empty((0, 2))
 
 @dataclass(frozen=True)
 class LoadedTooth:
-    """A tooth turned counter-clockwise from its own frame by `angle` (rad), with wanted flank vertices at `rolls` (k,), rad.
+    """A tooth turned counter-clockwise from its own frame by `angle` (rad), with wanted flank vertices at `rolls` (k,),
+    rad.
 
     The vertices are neighbours: no other lies between two of them.
     """
@@ -50,7 +51,8 @@ class RemeshedGear:
     def stiffness(self, teeth: tuple[LoadedTooth, ...]) -> np.ndarray:
         """Stiffness (2 K + 3, 2 K + 3), N/mm per mm of face width, over all teeth's nodes and the centre (dx, dy, phi).
 
-        teeth: by rising angle, whole pitches apart. A tooth's nodes come in the order of its `rolls`, for second-order elements
+        teeth: by rising angle, whole pitches apart. A tooth's nodes come in the order of its `rolls`, for second-order
+            elements
         with the node between each two of them; dofs x, y interleaved, in the frame in which the angles are counted.
         Raises ComputationError when a stage fails.
         """
@@ -58,7 +60,9 @@ class RemeshedGear:
         between = [round((end - tooth.angle) / self.gear.angular_pitch) - 1 for tooth, end in zip(teeth, ends)]
         sectors = [self._loaded(tooth) for tooth in teeth]
         clock = perf_counter()
-        parts = [part for sector, count in zip(sectors, between) for part in (sector, self._run(count)) if part is not None]
+        parts = [
+            part for sector, count in zip(sectors, between) for part in (sector, self._run(count)) if part is not None
+        ]
         ring = closed_ring(parts, self._cut)
         held = eliminated(ring, np.arange(len(parts) * self._cut, len(ring)), np.arange(len(parts) * self._cut))
         points = [self.contact_points(tooth.rolls) @ rotation(tooth.angle).T for tooth in teeth]
@@ -70,7 +74,8 @@ class RemeshedGear:
         return result
 
     def contact_points(self, rolls: np.ndarray) -> np.ndarray:
-        """Nodes (k, 2), or (2 k - 1, 2) of a second-order element, mm, in the tooth's own frame, of vertices at `rolls` (k,), rad."""
+        """Nodes (k, 2), or (2 k - 1, 2) of a second-order element, mm, in the tooth's own frame, of vertices at `rolls`
+        (k,), rad."""
         vertices = canonical_point(self.gear.base_radius, rolls)
         if self.element.order == 1:
             return vertices
@@ -91,7 +96,8 @@ class RemeshedGear:
         return self._runs.get(count)
 
     def _sector(self, rolls: np.ndarray | None, points: np.ndarray) -> np.ndarray:
-        """Stiffness of a sector, its hub held, over its lower cut, its upper cut in the frame of the next sector, and flank nodes at points."""
+        """Stiffness of a sector, its hub held, over its lower cut, its upper cut in the frame of the next sector, and
+        flank nodes at points."""
         clock = perf_counter()
         mesh = sector_mesh(self.gear, self.sizes, self.element.quadrilateral, rolls)
         meshed = perf_counter()

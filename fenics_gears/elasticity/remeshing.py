@@ -36,17 +36,20 @@ def remeshed_stiffness(
 ) -> RemeshedStiffness:
     """Stiffness of a gear at all positions: meshed and condensed, or from the cache.
 
-    positions: for each the loaded teeth, tuples of remeshed_gear.LoadedTooth. job: whose ranks share the positions out. report: called with
+    positions: for each the loaded teeth, tuples of remeshed_gear.LoadedTooth. job: whose ranks share the positions out.
+        report: called with
     positions done and in all, of this process. Raises ComputationError when a position fails.
     """
-    key = content_key({
-        "remeshed": NUMBERS_VERSION,
-        "gear": asdict(gear),
-        "poissons_ratio": material.poissons_ratio,
-        "element": discretisation.element,
-        "sizes": asdict(discretisation.sizes(gear)),
-        "positions": [[[tooth.angle, tooth.rolls.tolist()] for tooth in teeth] for teeth in positions],
-    })
+    key = content_key(
+        {
+            "remeshed": NUMBERS_VERSION,
+            "gear": asdict(gear),
+            "poissons_ratio": material.poissons_ratio,
+            "element": discretisation.element,
+            "sizes": asdict(discretisation.sizes(gear)),
+            "positions": [[[tooth.angle, tooth.rolls.tolist()] for tooth in teeth] for teeth in positions],
+        }
+    )
     clock = perf_counter()
     cached = None if cache is None else cache.load(key)
     if cached is not None:
@@ -74,4 +77,3 @@ def _computed(gear, material, discretisation, positions, comm, report=None) -> t
         if report is not None:
             report(done, len(mine))
     return found, body.timings
-

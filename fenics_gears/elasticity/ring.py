@@ -1,9 +1,9 @@
 """A gear as a ring of equal tooth sectors, joined exactly.
 
 Sector s + 1 stands one pitch counter-clockwise of sector s; in the sectors' own frames its lower cut moves as
-``u_upper[s] = R u_lower[s + 1]`` with ``R`` the rotation by one pitch. A discrete Fourier transform over the sectors, ``u[s] = U_k
-exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1. In gears with many teeth runs of sectors are
-joined instead, which is quicker (`elasticity.cut_chain`).
+``u_upper[s] = R u_lower[s + 1]`` with ``R`` the rotation by one pitch. A discrete Fourier transform over the sectors,
+``u[s] = U_k exp(i k s pitch)``, decouples the ring into one small system for each k = 0 ... teeth - 1. In gears with
+many teeth runs of sectors are joined instead, which is quicker (`elasticity.cut_chain`).
 """
 
 from __future__ import annotations
@@ -37,21 +37,27 @@ def condensed_sector(
 
 
 def check_congruent(lower: np.ndarray, upper: np.ndarray, teeth: int) -> None:
-    """Raise ComputationError unless the upper cut's nodes (k, 2) or (k, 3) are the lower cut's turned by one pitch, node for node."""
+    """Raise ComputationError unless the upper cut's nodes (k, 2) or (k, 3) are the lower cut's turned by one pitch,
+    node for node."""
     scale = np.abs(lower).max()
-    if lower.shape != upper.shape or np.abs(lower @ rotation(2.0 * np.pi / teeth, lower.shape[1]).T - upper).max() > 1e-9 * scale:
+    if (
+        lower.shape != upper.shape
+        or np.abs(lower @ rotation(2.0 * np.pi / teeth, lower.shape[1]).T - upper).max() > 1e-9 * scale
+    ):
         raise ComputationError("ring of sectors: the two radial cuts of the sector do not match node for node")
 
 
 def ring_compliance(sector: CondensedBody, teeth: int, offsets: int) -> np.ndarray:
     """Flank compliance blocks (offsets + 1, 2n, 2n) of the ring, hub held, Young's modulus 1 MPa; see FlankCompliance.
 
-    Of sectors in three dimensions (offsets + 1, 3n, 3n): they may twist along z, as a pitch still turns one cut into the other.
+    Of sectors in three dimensions (offsets + 1, 3n, 3n): they may twist along z, as a pitch still turns one cut into
+    the other.
 
-    With ``F`` the flank's and ``L`` the lower cut's dofs, harmonic k has the stiffness ``[[S_FF, B_k], [B_k^H, D_k]]`` with
-    ``B_k = S_FL + S_FU R e^{ik}`` and ``D_k = S_LL + R^T S_UU R + S_LU R e^{ik} + R^T S_UL e^{-ik}``. Its inverse's flank block is
-    ``S_FF^-1 + X_k (D_k - B_k^H S_FF^-1 B_k)^-1 X_k^H`` with ``X_k = S_FF^-1 B_k`` (block inversion): one dense inverse of the flank,
-    and for each harmonic one of the size of a cut. Back from harmonics to teeth, each power of e^{ik} is a shift by one tooth.
+    With ``F`` the flank's and ``L`` the lower cut's dofs, harmonic k has the stiffness ``[[S_FF, B_k], [B_k^H, D_k]]``
+    with ``B_k = S_FL + S_FU R e^{ik}`` and ``D_k = S_LL + R^T S_UU R + S_LU R e^{ik} + R^T S_UL e^{-ik}``. Its
+    inverse's flank block is ``S_FF^-1 + X_k (D_k - B_k^H S_FF^-1 B_k)^-1 X_k^H`` with ``X_k = S_FF^-1 B_k`` (block
+    inversion): one dense inverse of the flank, and for each harmonic one of the size of a cut. Back from harmonics to
+    teeth, each power of e^{ik} is a shift by one tooth.
     """
     cuts, turn = sector_cuts(sector, teeth)
     coupling = sector.stiffness[np.ix_(sector.dofs("flank"), cuts)] @ turn
@@ -67,7 +73,8 @@ def ring_compliance(sector: CondensedBody, teeth: int, offsets: int) -> np.ndarr
 
 
 def sector_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarray]:
-    """Dofs (2 c,) of a sector's lower and upper cut, and what turns them (2 c, 2 c): the upper cut's are in the frame of the next sector.
+    """Dofs (2 c,) of a sector's lower and upper cut, and what turns them (2 c, 2 c): the upper cut's are in the frame
+    of the next sector.
 
     In three dimensions, where cuts have thousands of dofs, what turns them is sparse.
 
@@ -81,12 +88,14 @@ def sector_cuts(sector: CondensedBody, teeth: int) -> tuple[np.ndarray, np.ndarr
 
 
 def sector_response(joint: CutResponse, offset: int) -> np.ndarray:
-    """Response (2 c, 2 c) of the cuts of the sector `offset` pitches ahead to forces on those of a sector; frames as of `sector_cuts`."""
+    """Response (2 c, 2 c) of the cuts of the sector `offset` pitches ahead to forces on those of a sector; frames as of
+    `sector_cuts`."""
     return np.block([[joint(offset), joint(offset - 1)], [joint(offset + 1), joint(offset)]])
 
 
 def cyclic(link: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Of a ring of sectors between their cuts (2 c, 2 c): stiffness (c, c) of a cut, and force on it per motion of the cut ahead."""
+    """Of a ring of sectors between their cuts (2 c, 2 c): stiffness (c, c) of a cut, and force on it per motion of the
+    cut ahead."""
     cut = len(link) // 2
     return link[:cut, :cut] + link[cut:, cut:], link[:cut, cut:]
 
@@ -105,17 +114,19 @@ def cyclic_motion(same: np.ndarray, ahead: np.ndarray, loads: np.ndarray) -> np.
 
 
 def cut_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
-    """Response (c, c) of the cut m pitches ahead to forces on a cut, for abs(m) <= reach; `link`: one sector between its cuts."""
+    """Response (c, c) of the cut m pitches ahead to forces on a cut, for abs(m) <= reach; `link`: one sector between
+    its cuts."""
     return (chain_response if chain_is_quicker(teeth, reach) else fourier_response)(link, teeth, reach)
 
 
 def fourier_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
     """The same by the discrete Fourier transform.
 
-    The harmonics' stiffness is ``same + ahead e^{ik} + ahead^T e^{-ik}``, Hermitian and positive definite; k and teeth - k
-    are complex conjugates.
+    The harmonics' stiffness is ``same + ahead e^{ik} + ahead^T e^{-ik}``, Hermitian and positive definite; k and teeth
+    - k are complex conjugates.
     """
-    # D_k - B_k^H S_FF^-1 B_k of `ring_compliance`, by the powers 0 and 1 of e^{ik}; power -1 is the transpose of power 1.
+    # D_k - B_k^H S_FF^-1 B_k of `ring_compliance`, by the powers 0 and 1 of e^{ik}; power -1 is the transpose of power
+    # 1.
     same, ahead = cyclic(link)
     responses = np.zeros((reach + 1, *same.shape))
     for harmonic in range(teeth // 2 + 1):
@@ -130,7 +141,8 @@ def fourier_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
 
 
 def definite_inverse(matrix: np.ndarray, what: str) -> np.ndarray:
-    """Inverse of a symmetric or Hermitian positive definite matrix, by Cholesky: three eighths of a general inverse's operations.
+    """Inverse of a symmetric or Hermitian positive definite matrix, by Cholesky: three eighths of a general inverse's
+    operations.
 
     Raises ComputationError that says the stiffness of `what` is not positive definite.
     """
@@ -147,7 +159,8 @@ def definite_inverse(matrix: np.ndarray, what: str) -> np.ndarray:
 def centre_motion(points: np.ndarray, frame_angle: float = 0.0) -> np.ndarray:
     """Displacement (2n, 3) of points (n, 2) per unit rigid motion (dx, dy, phi) of the gear.
 
-    The points are given in a tooth frame that stands ``frame_angle`` (rad) counter-clockwise of the one (dx, dy) is given in.
+    The points are given in a tooth frame that stands ``frame_angle`` (rad) counter-clockwise of the one (dx, dy) is
+    given in.
     """
     motion = np.empty((len(points), 2, 3))
     motion[:, :, :2] = rotation(-frame_angle)

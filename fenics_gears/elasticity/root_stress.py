@@ -1,7 +1,8 @@
-"""Stress in a tooth's fillets per force on the flanks: a row for each fillet point, so that a time step's stress is one small product.
+"""Stress in a tooth's fillets per force on the flanks: a row for each fillet point, so that a time step's stress is one
+small product.
 
-The rows come by reciprocity (Betti): under the load that is dual to the stress at a fillet point, the displacement of the flanks is that
-stress per unit force on them. One solve for each fillet point serves all flank nodes of all teeth.
+The rows come by reciprocity (Betti): under the load that is dual to the stress at a fillet point, the displacement of
+the flanks is that stress per unit force on them. One solve for each fillet point serves all flank nodes of all teeth.
 """
 
 from __future__ import annotations
@@ -22,9 +23,12 @@ from fenics_gears.numbers_version import NUMBERS_VERSION
 class RootStressRows:
     """Stress along the surface at the fillet points of a tooth per line force on flank nodes, MPa per N/mm.
 
-    rows: (2 reach + 1, 2 p, d): rows[reach + m] are those of the tooth m pitches ahead (counter-clockwise) of the loaded one; the drive
-    side's p points, then the coast side's; d dofs of the loaded tooth's flank or flanks in its own frame, as the flank compliance has them
-    but not mirrored. tangent_angle: (p,), rad, between the fillet's tangent and the tooth's centreline; the last point is the one at 30 degrees.
+    rows: (2 reach + 1, 2 p, d): rows[reach + m] are those of the tooth m pitches ahead (counter-clockwise) of the
+        loaded one; the drive
+    side's p points, then the coast side's; d dofs of the loaded tooth's flank or flanks in its own frame, as the flank
+    compliance has them
+    but not mirrored. tangent_angle: (p,), rad, between the fillet's tangent and the tooth's centreline; the last point
+    is the one at 30 degrees.
     """
 
     rows: np.ndarray
@@ -37,9 +41,15 @@ class RootStressRows:
 
 
 def root_stress_rows(
-    gear: Gear, material: Material, discretisation: Discretisation, reach: int, coast_flank: bool = False, cache: Cache | None = None
+    gear: Gear,
+    material: Material,
+    discretisation: Discretisation,
+    reach: int,
+    coast_flank: bool = False,
+    cache: Cache | None = None,
 ) -> RootStressRows:
-    """The rows of a gear, from the cache or by solving; settings as in `flank_compliance`. Stress does not depend on Young's modulus."""
+    """The rows of a gear, from the cache or by solving; settings as in `flank_compliance`. Stress does not depend on
+    Young's modulus."""
     chosen = element_named(discretisation.element)
     sizes = discretisation.sizes(gear, both_flanks=coast_flank).in_modules_of(gear)
     similar = gear.of_module_one
@@ -70,7 +80,8 @@ def _computed(gear: Gear, material: Material, element, sizes, reach: int) -> dic
         wanted = fillet_rows(curve, recovery.interior, recovery.nodal_stress)
         sides = ("flank", "coast") if sizes.both_flanks else ("flank",)
         flank = np.concatenate([dofs_of(recovery.interior.flank_nodes(side)) for side in sides])
-        # A tooth m pitches ahead of the loaded one: the loaded one is m pitches behind the tooth whose stress is wanted.
+        # A tooth m pitches ahead of the loaded one: the loaded one is m pitches behind the tooth whose stress is
+        # wanted.
         responses = recovery.unit_displacement({0: np.nan_to_num(wanted).T}, [-m for m in range(-reach, reach + 1)])
     rows = np.stack([response[flank].T for response in responses])
     rows[:, ~np.isfinite(wanted).all(axis=1)] = np.nan

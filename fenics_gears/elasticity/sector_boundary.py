@@ -15,8 +15,8 @@ FILLET_SAMPLES = 201
 CURVE_SAMPLES = 400
 # Elements have at most the body's size to this depth (modules) below the tooth's surface, and grow beyond it.
 BODY_REACH = 2.0
-# Size of flank elements, in the flank's, at its own sharp edge and where the mate's edge presses; beyond, it grows by so much per distance. The pressure
-# rises towards an edge as the power -1/2 to -1/3 of the distance.
+# Size of flank elements, in the flank's, at its own sharp edge and where the mate's edge presses; beyond, it grows by
+# so much per distance. The pressure rises towards an edge as the power -1/2 to -1/3 of the distance.
 AT_TIP, AT_MATE_TIP, EDGE_GROWTH, EDGE_SAMPLES = 0.125, 0.25, 0.5, 20001
 # A prescribed vertex this near to an end of the flank (in element sizes) is that end.
 SNAP = 1e-6
@@ -49,18 +49,23 @@ def flank_roll_angles(gear: Gear, size: float, mate_tip: tuple[float, float] | N
     sizes = np.full(len(arcs), size) if mate_tip is None else _size_near_edges(gear, arcs, size, mate_tip)
     density = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(arcs) * (1.0 / sizes[1:] + 1.0 / sizes[:-1]))])
     elements = max(2 * int(np.ceil(0.5 * density[-1] - 1e-9)), 4)
-    return roll_angle_at_arc_length(gear.base_radius, np.interp(np.linspace(0.0, density[-1], elements + 1), density, arcs))
+    return roll_angle_at_arc_length(
+        gear.base_radius, np.interp(np.linspace(0.0, density[-1], elements + 1), density, arcs)
+    )
 
 
 def _size_near_edges(gear: Gear, arcs: np.ndarray, size: float, mate_tip: tuple[float, float]) -> np.ndarray:
     """Element sizes (n,), mm, at arc lengths (n,), mm, of the flank."""
     start, end = arc_length(gear.base_radius, np.array(mate_tip))
     outside = np.maximum(np.maximum(start - arcs, arcs - end), 0.0)
-    return np.minimum(size, np.minimum(AT_TIP * size + EDGE_GROWTH * (arcs[-1] - arcs), AT_MATE_TIP * size + EDGE_GROWTH * outside))
+    return np.minimum(
+        size, np.minimum(AT_TIP * size + EDGE_GROWTH * (arcs[-1] - arcs), AT_MATE_TIP * size + EDGE_GROWTH * outside)
+    )
 
 
 def flank_through(gear: Gear, size: float, prescribed: np.ndarray) -> np.ndarray:
-    """Ascending roll angles (rad) of flank vertices that hold all prescribed ones (k,), and beyond them others `size` (mm) apart.
+    """Ascending roll angles (rad) of flank vertices that hold all prescribed ones (k,), and beyond them others `size`
+    (mm) apart.
 
     The number of elements is even, unless the prescribed vertices span the whole flank.
     """
@@ -81,7 +86,8 @@ def sector_boundary(
 ) -> tuple[SectorBoundary, SizeField]:
     """Nodes along the boundary of a sector and the size field that its inside is to follow.
 
-    flank_rolls: roll angles (rad), ascending from form circle to tip, of the flank's vertices where they are prescribed.
+    flank_rolls: roll angles (rad), ascending from form circle to tip, of the flank's vertices where they are
+        prescribed.
     All else, the cuts above all, stays as without them.
     """
     outline = tooth_outline(gear, FILLET_SAMPLES)
@@ -97,7 +103,8 @@ def sector_boundary(
     def nodes(curve, fewest=2, multiple=2):
         return along(curve, divided(curve, field.at(curve), fewest, multiple))
 
-    # A sector with two working flanks is meshed by halves: tip and bore have a node on the centreline, itself at an even index.
+    # A sector with two working flanks is meshed by halves: tip and bore have a node on the centreline, itself at an
+    # even index.
     halved = 4 if sizes.both_flanks else 2
 
     radii = _cut_radii(gear, field, hub_angles)
@@ -152,7 +159,8 @@ def _size_field(gear, sizes, outline, flank, root, coast, hub) -> SizeField:
 
 
 def _near_edges(gear: Gear, side: np.ndarray, mate_tip: tuple[float, float]) -> tuple[np.ndarray, np.ndarray]:
-    """The points of a flank (n, 2) on which the mate's tip may press, its ends among them, and the flank's own tip (1, 2)."""
+    """The points of a flank (n, 2) on which the mate's tip may press, its ends among them, and the flank's own tip (1,
+    2)."""
     radii, (lowest, highest) = np.linalg.norm(side, axis=1), gear.base_radius * np.hypot(1.0, mate_tip)
     inside = np.flatnonzero((radii > lowest) & (radii < highest))
     return side[max(inside[0] - 1, 0) : inside[-1] + 2], side[[np.argmax(radii)]]
@@ -161,7 +169,7 @@ def _near_edges(gear: Gear, side: np.ndarray, mate_tip: tuple[float, float]) -> 
 def _cut_radii(gear: Gear, field: SizeField, hub_angles) -> np.ndarray:
     """Radii of the nodes of either cut, following the finer of the sizes wanted along the two."""
     radii = np.linspace(gear.bore_radius, gear.root_radius, CURVE_SAMPLES)
-    sides = [radii[:, None] * _directions(hub_angles[i:i + 1]) for i in (0, 1)]
+    sides = [radii[:, None] * _directions(hub_angles[i : i + 1]) for i in (0, 1)]
     size = np.minimum(*(field.at(side) for side in sides))
     return gear.bore_radius + (gear.root_radius - gear.bore_radius) * divided(sides[1], size, 4)
 

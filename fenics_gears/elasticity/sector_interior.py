@@ -1,4 +1,5 @@
-"""The inside of a tooth sector between its held cuts and hub: its stiffness factored once by PETSc, solved for any load."""
+"""The inside of a tooth sector between its held cuts and hub: its stiffness factored once by PETSc, solved for any
+load."""
 
 from __future__ import annotations
 
@@ -16,9 +17,11 @@ from fenics_gears.errors import ComputationError
 
 
 class SectorInterior:
-    """A meshed sector, Young's modulus 1 MPa, unit thickness; nodes are those of `nodes` (ElementNodes), dofs interleaved x, y.
+    """A meshed sector, Young's modulus 1 MPa, unit thickness; nodes are those of `nodes` (ElementNodes), dofs
+    interleaved x, y.
 
-    lower, upper: (c,) nodes of the cuts by radius, without those on the hub; hub: (h,). stiffness: (2 n, 2 n) sparse, of all nodes.
+    lower, upper: (c,) nodes of the cuts by radius, without those on the hub; hub: (h,). stiffness: (2 n, 2 n) sparse,
+        of all nodes.
     Release the factor by `close`.
     """
 
@@ -33,7 +36,9 @@ class SectorInterior:
         held = np.concatenate([self.lower, self.upper, self.hub])
         self.free = dofs_of(np.setdiff1d(np.arange(len(self.nodes.points)), held))
         self._factor = Factor(self.stiffness[self.free][:, self.free], "a tooth sector for its stresses")
-        self._to_lower, self._to_upper = (self.stiffness[self.free][:, dofs_of(cut)] for cut in (self.lower, self.upper))
+        self._to_lower, self._to_upper = (
+            self.stiffness[self.free][:, dofs_of(cut)] for cut in (self.lower, self.upper)
+        )
 
     def close(self) -> None:
         """Give the factor's memory back."""
@@ -44,7 +49,8 @@ class SectorInterior:
         return self._at(by_radius(self.mesh.edge_nodes(side, self.element.order)))
 
     def at_held_cuts(self, loads: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Loads (2 c, k) that reach the lower and the upper cut from loads (2 n, k) on any nodes while cuts and hub are held."""
+        """Loads (2 c, k) that reach the lower and the upper cut from loads (2 n, k) on any nodes while cuts and hub are
+        held."""
         inside = self._factor.solve(loads[self.free])
         return tuple(
             loads[dofs_of(cut)] - coupling.T @ inside
@@ -52,7 +58,8 @@ class SectorInterior:
         )
 
     def between_cuts(self, lower: np.ndarray, upper: np.ndarray, loads: np.ndarray) -> np.ndarray:
-        """Displacement (2 n, k) under loads (2 n, k) inside, where the cuts move by lower and upper (2 c, k), the hub held."""
+        """Displacement (2 n, k) under loads (2 n, k) inside, where the cuts move by lower and upper (2 c, k), the hub
+        held."""
         displacement = np.zeros_like(loads)
         displacement[dofs_of(self.lower)], displacement[dofs_of(self.upper)] = lower, upper
         displacement[self.free] = self._factor.solve(loads[self.free] - self._to_lower @ lower - self._to_upper @ upper)

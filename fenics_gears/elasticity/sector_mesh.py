@@ -15,8 +15,8 @@ from fenics_gears.geometry.gear import Gear
 
 NAMED_PARTS = ("flank", "coast", "hub", "lower cut", "upper cut")
 TRIANGLE, QUADRILATERAL = 2, 3  # gmsh's numbers of cell types
-# Outlines that differ in their last bit get different meshes from gmsh, and their compliances differ by up to 1 %. Outlines are rounded to so many
-# decimals (modules): far coarser than round-off, far finer than any element.
+# Outlines that differ in their last bit get different meshes from gmsh, and their compliances differ by up to 1 %.
+# Outlines are rounded to so many decimals (modules): far coarser than round-off, far finer than any element.
 DECIMALS = 9
 
 
@@ -27,9 +27,10 @@ def sector_mesh(
 
     With both flanks working it is symmetric about the tooth's centreline, so that both flanks are equally accurate.
     Flank vertices stand on the exact involute, even in arc length or at `flank_rolls` (rad, see sector_boundary).
-    Quadrilaterals come from a mesh of twice the size whose every cell is split, so that no triangle is left over in any version
-    of gmsh. gmsh works in modules: similar gears get similar meshes, in any unit of length. Raises ComputationError when gmsh fails,
-    a cell is folded, or quadrilaterals meet an odd number of flank elements.
+    Quadrilaterals come from a mesh of twice the size whose every cell is split, so that no triangle is left over in any
+    version
+    of gmsh. gmsh works in modules: similar gears get similar meshes, in any unit of length. Raises ComputationError
+    when gmsh fails, a cell is folded, or quadrilaterals meet an odd number of flank elements.
     """
     if sizes.both_flanks:
         return with_image(half_sector_mesh(gear, sizes, quadrilaterals, flank_rolls))
@@ -40,7 +41,8 @@ def sector_mesh(
 def half_sector_mesh(
     gear: Gear, sizes: ElementSizes, quadrilaterals: bool = False, flank_rolls: np.ndarray | None = None
 ) -> BodyMesh:
-    """The half with the drive flank of the symmetric `sector_mesh` of both working flanks: see `half_sector.drive_half`."""
+    """The half with the drive flank of the symmetric `sector_mesh` of both working flanks: see
+    `half_sector.drive_half`."""
     boundary, field = sector_boundary(gear.of_module_one, sizes.in_modules_of(gear), flank_rolls)
     return _scaled(drive_half(boundary, field, _filling(quadrilaterals)), gear)
 
@@ -61,7 +63,9 @@ def _filled_with_triangles(boundary: SectorBoundary, field: SizeField, parts: tu
 
 def _filled_with_quadrilaterals(boundary: SectorBoundary, field: SizeField, parts: tuple[str, ...]) -> BodyMesh:
     if len(boundary.part("flank")) % 2 == 0:
-        raise ComputationError("quadrilaterals need an even number of elements on the flank; choose other contact_nodes")
+        raise ComputationError(
+            "quadrilaterals need an even number of elements on the flank; choose other contact_nodes"
+        )
     coarse = boundary.points[::2]
     points, cells = filled(coarse, field, 2.0, recombine=True)
     exact = _odd_points(boundary)
@@ -73,13 +77,20 @@ def _filled_with_quadrilaterals(boundary: SectorBoundary, field: SizeField, part
 
 
 def filled(
-    boundary: np.ndarray, field: SizeField, scale: float, recombine: bool, slit: np.ndarray | None = None, mouth: int = 0
+    boundary: np.ndarray,
+    field: SizeField,
+    scale: float,
+    recombine: bool,
+    slit: np.ndarray | None = None,
+    mouth: int = 0,
 ) -> tuple[np.ndarray, list[np.ndarray]]:
-    """Mesh the inside of a closed polygon (n, 2), in modules, whose edges stay undivided; the same mesh for polygons that differ by round-off.
+    """Mesh the inside of a closed polygon (n, 2), in modules, whose edges stay undivided; the same mesh for polygons
+    that differ by round-off.
 
-    slit: (k, 2), points of a line that goes inwards from the boundary's point `mouth` and along which cells meet; its edges stay
-    undivided too. Returns points, the boundary's first and in its order, then the slit's, and the cells: triangles, then with
-    ``recombine`` quadrilaterals.
+    slit: (k, 2), points of a line that goes inwards from the boundary's point `mouth` and along which cells meet; its
+        edges stay
+    undivided too. Returns points, the boundary's first and in its order, then the slit's, and the cells: triangles,
+    then with ``recombine`` quadrilaterals.
     """
     with gmsh_model("gear sector") as gmsh:
         try:

@@ -8,7 +8,8 @@ GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
 
 
 def slice_averages(heights: np.ndarray, order: int, positions: np.ndarray, widths: np.ndarray) -> np.ndarray:
-    """Weights (S, h) of the layers' nodes at `heights` (h,), mm, in the averages over slices with middles and widths (S,), mm.
+    """Weights (S, h) of the layers' nodes at `heights` (h,), mm, in the averages over slices with middles and widths
+    (S,), mm.
 
     `order`: 1 or 2, of the shape functions along a layer. Raises ValueError for a slice that reaches beyond the layers.
     """
@@ -16,7 +17,9 @@ def slice_averages(heights: np.ndarray, order: int, positions: np.ndarray, width
     slack = 1e-9 * (ends[-1] - ends[0])
     low, high = positions - 0.5 * widths, positions + 0.5 * widths
     if low.min() < ends[0] - slack or high.max() > ends[-1] + slack:
-        raise ValueError(f"slices from {low.min():g} to {high.max():g} mm reach beyond the layers, {ends[0]:g} to {ends[-1]:g} mm")
+        raise ValueError(
+            f"slices from {low.min():g} to {high.max():g} mm reach beyond the layers, {ends[0]:g} to {ends[-1]:g} mm"
+        )
     weights = np.zeros((len(positions), len(heights)))
     for number, (start, end, width) in enumerate(zip(low, high, widths)):
         for layer in range(len(ends) - 1):
@@ -24,7 +27,10 @@ def slice_averages(heights: np.ndarray, order: int, positions: np.ndarray, width
             if top <= bottom:
                 continue
             points = 0.5 * (top + bottom) + 0.5 * (top - bottom) * GAUSS_POINTS
-            local, share = (points - ends[layer]) / (ends[layer + 1] - ends[layer]), 0.5 * (top - bottom) / width * GAUSS_WEIGHTS
+            local, share = (
+                (points - ends[layer]) / (ends[layer + 1] - ends[layer]),
+                0.5 * (top - bottom) / width * GAUSS_WEIGHTS,
+            )
             for node, values in enumerate(_shapes(local, order)):
                 weights[number, order * layer + node] += share @ values
     return weights
@@ -37,7 +43,8 @@ def _shapes(local: np.ndarray, order: int) -> tuple[np.ndarray, ...]:
 
 
 def on_slices(blocks: np.ndarray, weights: np.ndarray, flanks: int = 1) -> np.ndarray:
-    """Compliance (k, D, D) of teeth on the nodes of layers as that (2 k - 1, D', D') on slices, of every tooth from k - 1 behind to k - 1 ahead.
+    """Compliance (k, D, D) of teeth on the nodes of layers as that (2 k - 1, D', D') on slices, of every tooth from k -
+    1 behind to k - 1 ahead.
 
     `weights` (S, h) of `slice_averages`; dofs by flank, then height or slice, then the section's own.
     """

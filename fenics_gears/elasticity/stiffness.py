@@ -23,7 +23,8 @@ def stress(displacement, poissons_ratio):
 
 
 def stress_of_strain(strain, poissons_ratio):
-    """UFL stress sigma = lambda tr(eps) I + 2 mu eps, in plane strain (strain 2 by 2) or in three dimensions, Young's modulus 1."""
+    """UFL stress sigma = lambda tr(eps) I + 2 mu eps, in plane strain (strain 2 by 2) or in three dimensions, Young's
+    modulus 1."""
     shear_modulus = 1.0 / (2.0 * (1.0 + poissons_ratio))
     first_lame = poissons_ratio / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))
     return first_lame * ufl.tr(strain) * ufl.Identity(strain.ufl_shape[0]) + 2.0 * shear_modulus * strain
@@ -38,7 +39,9 @@ def stiffness_matrix(space, element: Element, poissons_ratio: float, web: Web | 
         from fenics_gears.elasticity.incompatible_modes import condensed_stiffness
 
         poisson = adapter.constant(space.mesh, poissons_ratio)
-        return condensed_stiffness(space, lambda strain: _of_width(web, space.mesh, stress_of_strain(strain, poisson)), _cells(element, web))
+        return condensed_stiffness(
+            space, lambda strain: _of_width(web, space.mesh, stress_of_strain(strain, poisson)), _cells(element, web)
+        )
     return adapter.assemble_matrix(stiffness_form(space, element, poissons_ratio, web))
 
 
@@ -46,7 +49,9 @@ def stiffness_form(space, element: Element, poissons_ratio: float, web: Web | No
     """Compiled bilinear form of the strain energy of a displacement alone, without modes within the cells."""
     trial, test = ufl.TrialFunction(space), ufl.TestFunction(space)
     poisson = adapter.constant(space.mesh, poissons_ratio)
-    return adapter.compile_form(ufl.inner(_of_width(web, space.mesh, stress(trial, poisson)), ufl.sym(ufl.grad(test))) * _cells(element, web))
+    return adapter.compile_form(
+        ufl.inner(_of_width(web, space.mesh, stress(trial, poisson)), ufl.sym(ufl.grad(test))) * _cells(element, web)
+    )
 
 
 def _of_width(web: Web | None, mesh, stress):
@@ -72,7 +77,8 @@ def displacement_space(mesh: BodyMesh, element: Element):
 
 @cache
 def compile_ahead(element: Element) -> None:
-    """Compile all that an element needs, on a body of one cell, so that what follows takes no compile time; once in a process."""
+    """Compile all that an element needs, on a body of one cell, so that what follows takes no compile time; once in a
+    process."""
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     cell = BodyMesh(square[: element.corners], np.arange(element.corners)[None], {})
     with adapter.quiet_compiler():
@@ -96,7 +102,8 @@ def nodes_at(space, coordinates: np.ndarray) -> np.ndarray:
 
 
 def nodes_in_cells(space, coordinates: np.ndarray, centres: np.ndarray) -> np.ndarray:
-    """Numbers (k,) of the space's nodes at coordinates (k, 2) in the cells with centres (k, 2), which distinguish nodes in one place.
+    """Numbers (k,) of the space's nodes at coordinates (k, 2) in the cells with centres (k, 2), which distinguish nodes
+    in one place.
 
     Raises ComputationError where there is no such cell or node.
     """

@@ -11,7 +11,8 @@ BOTH, LEFT, RIGHT = "both", "left", "right"
 
 @dataclass(frozen=True)
 class EndRelief:
-    """Relief towards the ends of a gear's face: `depth` at the end, `length` along the axis; `sides`: "both", "left" (-z) or "right" (+z); `shape`:
+    """Relief towards the ends of a gear's face: `depth` at the end, `length` along the axis; `sides`: "both", "left"
+    (-z) or "right" (+z); `shape`:
     "linear" or "parabolic" in the distance from its start."""
 
     depth: float
@@ -22,7 +23,8 @@ class EndRelief:
 
 @dataclass(frozen=True)
 class LeadModification:
-    """Modification of one gear over its own face width: crowning, helix slope (positive: removed towards the right end, +z) and end relief."""
+    """Modification of one gear over its own face width: crowning, helix slope (positive: removed towards the right end,
+    +z) and end relief."""
 
     crowning: float = 0.0
     helix_slope: float = 0.0
@@ -39,9 +41,11 @@ class LeadModifications:
 
 @dataclass(frozen=True)
 class Misalignment:
-    """How far the wheel's axis departs from parallel over the common face width, `in_plane` of action and `out_of_plane` of it.
+    """How far the wheel's axis departs from parallel over the common face width, `in_plane` of action and
+    `out_of_plane` of it.
 
-    `in_plane`: positive where the right end (+z) moves away from the pinion along the line of action, +x; `out_of_plane`: where it moves across it, +y.
+    `in_plane`: positive where the right end (+z) moves away from the pinion along the line of action, +x;
+        `out_of_plane`: where it moves across it, +y.
     """
 
     in_plane: float = 0.0

@@ -1,12 +1,14 @@
 """The fillet of a tooth: what the rounded tip of the rack cuts, in the tooth's body frame (see involute.py).
 
-The rounding of the rack's tip is an ellipse in the transverse section of a helical gear, of semi-axes k rho along the pitch line and rho in depth, with
-rho = rack_tip_radius and k = 1/cos(helix angle). Where its normal has the angle t from the depth direction and D = sqrt(1 + (k^2 - 1) sin(t)^2), its point
-is (k^2 sin(t), cos(t)) rho/D from its centre and its radius of curvature k^2 rho/D^3. A spur gear has k = D = 1, a circle.
+The rounding of the rack's tip is an ellipse in the transverse section of a helical gear, of semi-axes k rho along the
+pitch line and rho in depth, with rho = rack_tip_radius and k = 1/cos(helix angle). Where its normal has the angle t
+from the depth direction and D = sqrt(1 + (k^2 - 1) sin(t)^2), its point is (k^2 sin(t), cos(t)) rho/D from its centre
+and its radius of curvature k^2 rho/D^3. A spur gear has k = D = 1, a circle.
 
-Where the rack cuts deep, the fillet does not touch the involute but crosses it: what is below the crossing is cut away. So it is where the rounding protrudes
-beyond the rack's flank. From the rounding up, at the protuberance angle, a short straight flank then goes back; the fillet's parameter goes on along it, t beyond
-its value at the end of the rounding being length in modules.
+Where the rack cuts deep, the fillet does not touch the involute but crosses it: what is below the crossing is cut away.
+So it is where the rounding protrudes beyond the rack's flank. From the rounding up, at the protuberance angle, a short
+straight flank then goes back; the fillet's parameter goes on along it, t beyond its value at the end of the rounding
+being length in modules.
 """
 
 from __future__ import annotations
@@ -47,7 +49,9 @@ def fillet_speed(gear: Gear, parameter) -> np.ndarray:
     """Length (mm) of fillet per rad of its parameter: rolling on the rack's rounding plus sliding."""
     angle, along = _on_rack(gear, parameter)
     depth, excess, flattening = gear.rack_tip_centre[1], _excess(gear), _flattening(gear, angle)
-    turning = depth / (gear.reference_radius * np.cos(angle) ** 2) - excess * np.cos(angle) / (gear.reference_radius * flattening**3)
+    turning = depth / (gear.reference_radius * np.cos(angle) ** 2) - excess * np.cos(angle) / (
+        gear.reference_radius * flattening**3
+    )
     curvature_radius = gear.rack_stretch**2 * gear.rack_tip_radius / flattening**3
     speed = curvature_radius + _distance_from_pitch_point(gear, angle) * turning
     if not gear.protuberance:
@@ -58,7 +62,8 @@ def fillet_speed(gear: Gear, parameter) -> np.ndarray:
 
 
 def _on_rack(gear: Gear, parameter) -> tuple[np.ndarray, np.ndarray | float]:
-    """Angle (rad) of the rack's normal at a fillet parameter, and the length (mm) along the straight flank of a protuberance."""
+    """Angle (rad) of the rack's normal at a fillet parameter, and the length (mm) along the straight flank of a
+    protuberance."""
     angle = np.asarray(parameter, dtype=float)
     if not gear.protuberance:
         return angle, 0.0
@@ -106,9 +111,11 @@ def touching_end(gear: Gear) -> float:
 
 
 def crossing(gear: Gear) -> float:
-    """Fillet parameter (rad) where the fillet of an undercut gear comes out of its involute, by halving to the last digit.
+    """Fillet parameter (rad) where the fillet of an undercut gear comes out of its involute, by halving to the last
+    digit.
 
-    The fillet rises steadily. Where its rack's normal is that of the flank, or at the base circle, it is inside the tooth; it ends outside.
+    The fillet rises steadily. Where its rack's normal is that of the flank, or at the base circle, it is inside the
+    tooth; it ends outside.
     """
     touching, last = touching_end(gear), _last(gear)
     inside = touching if gear.protuberance and _radius(gear, touching) > gear.base_radius else _at_base_circle(gear)
@@ -116,14 +123,19 @@ def crossing(gear: Gear) -> float:
 
 
 def _last(gear: Gear) -> float:
-    """Parameter at the end of what cuts the fillet: of the rounding, or where the protuberance has gone back to the flank, if it still rises there."""
+    """Parameter at the end of what cuts the fillet: of the rounding, or where the protuberance has gone back to the
+    flank, if it still rises there."""
     if not gear.protuberance:
         return touching_end(gear)
     angle, flank = gear.transverse_protuberance_angle, gear.pressure_angle
     end, rounding = 0.5 * pi - angle, gear.rack_tip_radius
     flattening = float(_flattening(gear, end))
     across, depth = gear.rack_tip_centre
-    beyond = across + gear.rack_stretch**2 * rounding * cos(angle) / flattening - gear.rack_half_thickness(depth + rounding * sin(angle) / flattening)
+    beyond = (
+        across
+        + gear.rack_stretch**2 * rounding * cos(angle) / flattening
+        - gear.rack_half_thickness(depth + rounding * sin(angle) / flattening)
+    )
     length = beyond / (cos(angle) * tan(flank) - sin(angle)) / gear.module
     return end + length if length > 0.0 and fillet_speed(gear, end + 0.5 * length) > 0.0 else end
 
@@ -137,7 +149,8 @@ def _radius(gear: Gear, parameter: float) -> float:
 
 
 def _outside(gear: Gear, parameter: float) -> float:
-    """Angle (rad) from the drive flank's involute, out of the tooth, to a point of the fillet on or above the base circle."""
+    """Angle (rad) from the drive flank's involute, out of the tooth, to a point of the fillet on or above the base
+    circle."""
     x, y = fillet_point(gear, parameter)
     roll = np.sqrt(max((x**2 + y**2) / gear.base_radius**2 - 1.0, 0.0))
     return float(np.arctan2(x, -y) + involute_function(roll))

@@ -1,10 +1,11 @@
 """Deviations of every tooth of a gear: as a scene gives them, or drawn within a flank tolerance class.
 
-A pitch deviation belongs to the reference circle. Slope and form are deviations from the mean of the flank's used part, from the start of
-active profile to the tip, so that they do not displace the flank as a whole: slope rises by its value from one end to the
-other, form is one wave over that length, as wide as its value. Slope and form of the helix are the like along the face of the gear, and are only there
-where flanks have one. A measured curve stands in place of both. It is zero at the V point of the profile or at mid-width of the helix: there the measuring machine's
-own zero has no meaning, since the pitch deviation says where the flank stands. Curves may be given zero mean instead.
+A pitch deviation belongs to the reference circle. Slope and form are deviations from the mean of the flank's used part,
+from the start of active profile to the tip, so that they do not displace the flank as a whole: slope rises by its value
+from one end to the other, form is one wave over that length, as wide as its value. Slope and form of the helix are the
+like along the face of the gear, and are only there where flanks have one. A measured curve stands in place of both. It
+is zero at the V point of the profile or at mid-width of the helix: there the measuring machine's own zero has no
+meaning, since the pitch deviation says where the flank stands. Curves may be given zero mean instead.
 """
 
 from __future__ import annotations
@@ -14,13 +15,22 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.flank_error_data import MEAN, FlankErrors, GearErrors, MeasuredCurve, MeasuredCurves, Waviness
+from fenics_gears.geometry.flank_error_data import (
+    MEAN,
+    FlankErrors,
+    GearErrors,
+    MeasuredCurve,
+    MeasuredCurves,
+    Waviness,
+)
 from fenics_gears.geometry.flank_tolerance import FlankTolerance, flank_tolerance, helix_tolerance
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.written import as_written
 
-PITCH, SLOPE, FORM, HELIX_SLOPE, HELIX_FORM = range(5)  # each has random numbers of its own, so that giving one leaves the others as they are
+PITCH, SLOPE, FORM, HELIX_SLOPE, HELIX_FORM = range(
+    5
+)  # each has random numbers of its own, so that giving one leaves the others as they are
 
 # Evenly spaced points of a measured curve, from one end of the used part to the other.
 CURVE_POINTS = 201
@@ -30,8 +40,10 @@ CURVE_POINTS = 201
 class HelixDeviations:
     """Deviations along the face (z,), mm, over its ``width`` (mm) with mid-width at the height ``middle`` (mm).
 
-    ``slope``: excess of material at the right end over that at the left one. ``form``: excess in the middle over that at both ends.
-    ``curves`` (z, CURVE_POINTS): measured excess from the left end to the right one, in place of both; None without measured helices.
+    ``slope``: excess of material at the right end over that at the left one. ``form``: excess in the middle over that
+        at both ends.
+    ``curves`` (z, CURVE_POINTS): measured excess from the left end to the right one, in place of both; None without
+    measured helices.
     """
 
     slope: np.ndarray
@@ -45,9 +57,12 @@ class HelixDeviations:
 class FlankDeviations:
     """Deviations of a gear with z teeth, counted as they mesh: arrays (z,), mm, and the waviness that all share.
 
-    ``index``: cumulative pitch deviation, the arc on the reference circle by which a tooth comes late; zero for the last tooth. ``slope``: excess of material at the tip over that at the start of active profile. ``form``: excess in the middle over that at
-    both ends. ``active_profile``: roll angles (rad) of its start and its end. ``helix``: None in the plane. ``curves`` (z, CURVE_POINTS): measured excess over
-    the active profile, in place of slope and form; None without measured profiles.
+    ``index``: cumulative pitch deviation, the arc on the reference circle by which a tooth comes late; zero for the
+        last tooth. ``slope``: excess of material at the tip over that at the start of active profile. ``form``: excess
+        in the middle over that at
+    both ends. ``active_profile``: roll angles (rad) of its start and its end. ``helix``: None in the plane. ``curves``
+    (z, CURVE_POINTS): measured excess over the active profile, in place of slope and form; None without measured
+    profiles.
     """
 
     index: np.ndarray
@@ -64,11 +79,15 @@ class FlankDeviations:
         return np.diff(self.index, prepend=self.index[-1])
 
 
-def flank_deviations(errors: FlankErrors, pair: GearPair, middles: tuple[float, float] | None = None) -> tuple[FlankDeviations, FlankDeviations]:
+def flank_deviations(
+    errors: FlankErrors, pair: GearPair, middles: tuple[float, float] | None = None
+) -> tuple[FlankDeviations, FlankDeviations]:
     """Deviations of pinion and wheel; `middles` (mm): heights of their mid-widths, None in the plane."""
     gears = zip((pair.pinion, pair.wheel), (errors.pinion, errors.wheel), pair.sap_roll_angles)
     faces = (None, None) if middles is None else tuple(zip(pair.face_widths, middles))
-    return tuple(_of_gear(gear, own, errors, number, start, faces[number]) for number, (gear, own, start) in enumerate(gears))
+    return tuple(
+        _of_gear(gear, own, errors, number, start, faces[number]) for number, (gear, own, start) in enumerate(gears)
+    )
 
 
 def _of_gear(
@@ -76,7 +95,9 @@ def _of_gear(
 ) -> FlankDeviations:
     if own.problem:
         name, problem = own.problem
-        raise SceneError(f"flank_errors.{('pinion', 'wheel')[number]}.{name} = {as_written(getattr(own, name))}: {problem}")
+        raise SceneError(
+            f"flank_errors.{('pinion', 'wheel')[number]}.{name} = {as_written(getattr(own, name))}: {problem}"
+        )
     tolerance = None
     if errors.tolerance_class is not None:
         tolerance = flank_tolerance(2.0 * gear.reference_radius, gear.normal_module, errors.tolerance_class)
@@ -92,15 +113,29 @@ def _of_gear(
     def along_face(width: float, middle: float) -> HelixDeviations:
         if own.measured_helix is not None:
             level = np.zeros(gear.teeth)
-            return HelixDeviations(level, level, width, middle, _curves(own.measured_helix, gear, (-0.5 * width, 0.5 * width), None if own.anchor == MEAN else 0.0))
-        allowed = None if tolerance is None else helix_tolerance(2.0 * gear.reference_radius, width, errors.tolerance_class)
+            return HelixDeviations(
+                level,
+                level,
+                width,
+                middle,
+                _curves(own.measured_helix, gear, (-0.5 * width, 0.5 * width), None if own.anchor == MEAN else 0.0),
+            )
+        allowed = (
+            None if tolerance is None else helix_tolerance(2.0 * gear.reference_radius, width, errors.tolerance_class)
+        )
         slope = values(own.helix_slope, lambda limits: allowed.slope * draws(HELIX_SLOPE))
-        return HelixDeviations(slope, values(own.helix_form, lambda limits: allowed.form * draws(HELIX_FORM)), width, middle)
+        return HelixDeviations(
+            slope, values(own.helix_form, lambda limits: allowed.form * draws(HELIX_FORM)), width, middle
+        )
 
     pitch = values(own.pitch, lambda limits: drawn_pitch(limits, draws(PITCH)))
     # The mean, left by rounding of the values, is taken off, so that after a turn the first tooth stands where it was.
     index = np.cumsum(pitch - pitch.mean())
-    measured, active_profile, level = own.measured_profile is not None, (start, gear.tip_roll_angle), np.zeros(gear.teeth)
+    measured, active_profile, level = (
+        own.measured_profile is not None,
+        (start, gear.tip_roll_angle),
+        np.zeros(gear.teeth),
+    )
     return FlankDeviations(
         index=index - index[-1],
         slope=level if measured else values(own.profile_slope, lambda limits: limits.profile_slope * draws(SLOPE)),
@@ -108,32 +143,41 @@ def _of_gear(
         waviness=own.waviness,
         active_profile=active_profile,
         helix=None if face is None else along_face(*face),
-        curves=_curves(own.measured_profile, gear, active_profile, None if own.anchor == MEAN else v_roll_angle(gear)) if measured else None,
+        curves=_curves(own.measured_profile, gear, active_profile, None if own.anchor == MEAN else v_roll_angle(gear))
+        if measured
+        else None,
     )
 
 
 def v_roll_angle(gear: Gear) -> float:
-    """Roll angle (rad) of the V point, on the cylinder of diameter d + 2 x m (ISO 21771), a module below the tip of a tooth that is not shortened."""
+    """Roll angle (rad) of the V point, on the cylinder of diameter d + 2 x m (ISO 21771), a module below the tip of a
+    tooth that is not shortened."""
     radius = gear.reference_radius + gear.profile_shift * gear.module
     return float(np.sqrt(max((radius / gear.base_radius) ** 2 - 1.0, 0.0)))
 
 
 def _curves(measured: MeasuredCurves, gear: Gear, ends: tuple[float, float], zero: float | None) -> np.ndarray:
-    """Deviations (z, CURVE_POINTS), mm, at even steps between the ends (rad or mm); a tooth that was not measured has the mean curve.
+    """Deviations (z, CURVE_POINTS), mm, at even steps between the ends (rad or mm); a tooth that was not measured has
+    the mean curve.
 
     `zero`: where each curve is zero, or the end next to it; None: in its mean.
     """
     at = np.linspace(*ends, CURVE_POINTS)
-    found = {each.tooth: np.interp(at, _places(each, measured.along, gear), each.deviations) for each in measured.curves}
+    found = {
+        each.tooth: np.interp(at, _places(each, measured.along, gear), each.deviations) for each in measured.curves
+    }
     mean = np.mean(list(found.values()), axis=0)
     curves = np.array([found.get(tooth, mean) for tooth in range(1, gear.teeth + 1)])
     if zero is not None:
         return curves - np.array([np.interp(zero, at, curve) for curve in curves])[:, None]
-    return curves - (curves.mean(axis=1) * CURVE_POINTS - 0.5 * (curves[:, 0] + curves[:, -1]))[:, None] / (CURVE_POINTS - 1)
+    return curves - (curves.mean(axis=1) * CURVE_POINTS - 0.5 * (curves[:, 0] + curves[:, -1]))[:, None] / (
+        CURVE_POINTS - 1
+    )
 
 
 def _places(curve: MeasuredCurve, along: str, gear: Gear) -> np.ndarray:
-    """Where the points of a curve lie: roll angles (rad) of a profile, positions on the face (mm) of a helix. A point below the base circle is at roll angle 0."""
+    """Where the points of a curve lie: roll angles (rad) of a profile, positions on the face (mm) of a helix. A point
+    below the base circle is at roll angle 0."""
     places = np.array(curve.places)
     if along == "roll_length":
         return places / gear.base_radius
@@ -146,13 +190,16 @@ def measured_share(curve: MeasuredCurve, along: str, pair: GearPair, name: str) 
     """Share of the active profile, or of the face, of the gear `name` that a curve covers, from 0 to 1."""
     number = ("pinion", "wheel").index(name)
     gear, width = (pair.pinion, pair.wheel)[number], pair.face_widths[number]
-    start, end = (-0.5 * width, 0.5 * width) if along == "face_position" else (pair.sap_roll_angles[number], gear.tip_roll_angle)
+    start, end = (
+        (-0.5 * width, 0.5 * width) if along == "face_position" else (pair.sap_roll_angles[number], gear.tip_roll_angle)
+    )
     places = _places(curve, along, gear)
     return max(min(places[-1], end) - max(places[0], start), 0.0) / (end - start)
 
 
 def slope_and_form(deviations: FlankDeviations | HelixDeviations) -> tuple[np.ndarray, np.ndarray]:
-    """Slope and form deviations (z,), mm: as given, or those of measured curves by ISO 1328-1, the rise of the line of least squares and the range of
+    """Slope and form deviations (z,), mm: as given, or those of measured curves by ISO 1328-1, the rise of the line of
+    least squares and the range of
     what is left of it."""
     if deviations.curves is None:
         return deviations.slope, deviations.form
@@ -162,7 +209,8 @@ def slope_and_form(deviations: FlankDeviations | HelixDeviations) -> tuple[np.nd
 
 
 def drawn_pitch(limits: FlankTolerance, draws: np.ndarray) -> np.ndarray:
-    """Single pitch deviations (z,), mm, of a gear just within its class: the single or the cumulative one reaches its tolerance.
+    """Single pitch deviations (z,), mm, of a gear just within its class: the single or the cumulative one reaches its
+    tolerance.
 
     ``draws`` (z,): random numbers between -1 and 1.
     """

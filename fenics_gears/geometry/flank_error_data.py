@@ -19,7 +19,8 @@ class Waviness:
 
 @dataclass(frozen=True)
 class MeasuredCurve:
-    """Deviations (mm, material in excess positive) of one tooth, counted from 1, at rising places; ``places`` as ``MeasuredCurves.along`` says."""
+    """Deviations (mm, material in excess positive) of one tooth, counted from 1, at rising places; ``places`` as
+    ``MeasuredCurves.along`` says."""
 
     tooth: int
     places: tuple[float, ...]
@@ -30,7 +31,8 @@ class MeasuredCurve:
 class MeasuredCurves:
     """Measured profiles or helices of some teeth of a gear.
 
-    ``along``: what places are, "roll_length" (mm), "roll_angle" (rad) or "diameter" (mm) of a profile, "face_position" (mm, from mid-width to the
+    ``along``: what places are, "roll_length" (mm), "roll_angle" (rad) or "diameter" (mm) of a profile, "face_position"
+        (mm, from mid-width to the
     right) of a helix.
     """
 
@@ -40,10 +42,13 @@ class MeasuredCurves:
 
 @dataclass(frozen=True)
 class GearErrors:
-    """Errors of one gear, mm, a value for each tooth; None for what the scene does not give. Those of the helix are over the gear's face width.
+    """Errors of one gear, mm, a value for each tooth; None for what the scene does not give. Those of the helix are
+    over the gear's face width.
 
-    ``file``: the table that the values of its ``columns`` are from; ``profile_curves``, ``helix_curves``: the tables of measured curves, which are in ``measured_profile``
-    and ``measured_helix``, and ``anchor`` says where these are zero; ``problem``: the field that names a wrong table and what is wrong, in words, empty where nothing is.
+    ``file``: the table that the values of its ``columns`` are from; ``profile_curves``, ``helix_curves``: the tables of
+        measured curves, which are in ``measured_profile``
+    and ``measured_helix``, and ``anchor`` says where these are zero; ``problem``: the field that names a wrong table
+    and what is wrong, in words, empty where nothing is.
     """
 
     pitch: tuple[float, ...] | None = None
@@ -64,7 +69,8 @@ class GearErrors:
 
 @dataclass(frozen=True)
 class FlankErrors:
-    """Errors of both gears' drive flanks; what is not given is drawn within a flank tolerance class, zero without one."""
+    """Errors of both gears' drive flanks; what is not given is drawn within a flank tolerance class, zero without
+    one."""
 
     pinion: GearErrors = GearErrors()
     wheel: GearErrors = GearErrors()

@@ -1,8 +1,9 @@
 """Flank tolerances of ISO 1328-1:2013.
 
-Formulas (5) to (12) of the standard, taken from published programs that cite them by number, not from the standard itself; values are not
-rounded as it prints them. Check: the values that another such program is tested by (module 3 mm, 40 teeth, class 6: single pitch 8.94 um,
-total cumulative pitch 28.80 um).
+Formulas (5) to (12) of the standard, taken from published programs that cite them by number, not from the standard
+itself; values are not
+rounded as it prints them. Check: the values that another such program is tested by (module 3 mm, 40 teeth, class 6:
+single pitch 8.94 um, total cumulative pitch 28.80 um).
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ MICROMETRE = 1e-3
 
 @dataclass(frozen=True)
 class FlankTolerance:
-    """Tolerances of one gear, mm: single pitch f_p, total cumulative pitch F_p, profile slope f_Ha, profile form f_fa."""
+    """Tolerances of one gear, mm: single pitch f_p, total cumulative pitch F_p, profile slope f_Ha, profile form
+    f_fa."""
 
     single_pitch: float
     cumulative_pitch: float
@@ -42,22 +44,26 @@ class HelixTolerance:
 
 
 def helix_tolerance(reference_diameter: float, face_width: float, tolerance_class: int) -> HelixTolerance:
-    """Tolerances of a gear (diameter d and face width b in mm) in a class A from 1 to 11; d from 5 mm to 15 m, b from 4 mm to 1.2 m.
+    """Tolerances of a gear (diameter d and face width b in mm) in a class A from 1 to 11; d from 5 mm to 15 m, b from 4
+    mm to 1.2 m.
 
-    >>> round(1e3 * helix_tolerance(100.0, 25.0, 5).slope, 3), round(1e3 * helix_tolerance(100.0, 25.0, 5).form, 3)  # um
-    (6.25, 6.95)
+    >>> round(1e3 * helix_tolerance(100.0, 25.0, 5).slope, 3), round(1e3 * helix_tolerance(100.0, 25.0, 5).form, 3)  #
+    um (6.25, 6.95)
     """
     d, b, step = reference_diameter, face_width, MICROMETRE * sqrt(2.0) ** (tolerance_class - 5)
-    return HelixTolerance(step * (0.05 * sqrt(d) + 0.35 * sqrt(b) + 4.0), step * (0.07 * sqrt(d) + 0.45 * sqrt(b) + 4.0))
+    return HelixTolerance(
+        step * (0.05 * sqrt(d) + 0.35 * sqrt(b) + 4.0), step * (0.07 * sqrt(d) + 0.45 * sqrt(b) + 4.0)
+    )
 
 
 def flank_tolerance(reference_diameter: float, module: float, tolerance_class: int) -> FlankTolerance:
-    """Tolerances of a gear (diameter d and module m in mm) in a class A from 1 to 11; from class to class a factor sqrt(2).
+    """Tolerances of a gear (diameter d and module m in mm) in a class A from 1 to 11; from class to class a factor
+    sqrt(2).
 
     Class 5 of a gear of 100 mm and module 4 mm, and two classes on:
 
-    >>> round(1e3 * flank_tolerance(100.0, 4.0, 5).single_pitch, 3), round(1e3 * flank_tolerance(100.0, 4.0, 7).single_pitch, 3)  # um
-    (6.7, 13.4)
+    >>> round(1e3 * flank_tolerance(100.0, 4.0, 5).single_pitch, 3), round(1e3 * flank_tolerance(100.0, 4.0,
+    7).single_pitch, 3)  # um (6.7, 13.4)
     """
     d, m, step = reference_diameter, module, MICROMETRE * sqrt(2.0) ** (tolerance_class - 5)
     return FlankTolerance(

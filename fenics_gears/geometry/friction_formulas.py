@@ -1,4 +1,5 @@
-"""Coefficient of friction of lubricated flanks by published formulas, from load, speed, radii, oil and roughness at the pitch point or along the path."""
+"""Coefficient of friction of lubricated flanks by published formulas, from load, speed, radii, oil and roughness at the
+pitch point or along the path."""
 
 from __future__ import annotations
 
@@ -13,8 +14,8 @@ LEAST_LINE_LOAD = 150.0
 # Points along the path of contact, at which none is the pitch point, where Benedict and Kelley's formula has no value.
 POINTS = 400
 _MICROINCH = 0.0254
-# Pitch line speeds (m/s) of the gears that the law was fitted to (ISO/TR 13989-2, whose coefficient is the same law with other factors): below, friction is
-# higher, by an amount that it does not say; above, it counts as the largest.
+# Pitch line speeds (m/s) of the gears that the law was fitted to (ISO/TR 13989-2, whose coefficient is the same law
+# with other factors): below, friction is higher, by an amount that it does not say; above, it counts as the largest.
 PITCH_LINE_SPEEDS = (1.0, 50.0)
 
 
@@ -23,22 +24,30 @@ class OutOfRange(ValueError):
 
 
 def schlenk(pair: GearPair, normal_force: float, pinion_speed: float, viscosity: float, roughness: float) -> float:
-    """Mean coefficient of friction after Schlenk (ISO/TR 14179-2): 0.048 (F_bt/b / (v_sum rho))^0.2 eta^-0.05 Ra^0.25, of mineral oil (X_L = 1).
+    """Mean coefficient of friction after Schlenk (ISO/TR 14179-2): 0.048 (F_bt/b / (v_sum rho))^0.2 eta^-0.05 Ra^0.25,
+    of mineral oil (X_L = 1).
 
-    `normal_force`: N along the line of action; `pinion_speed`: 1/min; `viscosity`: dynamic, mPa s, at the oil's temperature; `roughness`: mean Ra of both flanks, um.
+    `normal_force`: N along the line of action; `pinion_speed`: 1/min; `viscosity`: dynamic, mPa s, at the oil's
+        temperature; `roughness`: mean Ra of both flanks, um.
     Raises OutOfRange below the slowest gears that it was fitted to.
     """
     pitch_radius = pair.pinion.base_radius / cos(pair.operating_pressure_angle)
     speed, (slowest, fastest) = 1e-3 * 2.0 * pi * pinion_speed / 60.0 * pitch_radius, PITCH_LINE_SPEEDS
     if speed < slowest:
         raise OutOfRange(
-            f"was fitted to gears from {slowest:g} to {fastest:g} m/s at the pitch line (ISO/TR 13989-2, of the same law); this pair has {speed:.3g} m/s, where friction is "
-            "higher than it says. Give a coefficient, such as 0.1."
+            f"was fitted to gears from {slowest:g} to {fastest:g} m/s at the pitch line (ISO/TR 13989-2, of the same"
+            f" law); this pair has {speed:.3g} m/s, where friction is higher than it says. Give a coefficient, such as"
+            " 0.1."
         )
     line_load = max(normal_force / pair.face_width, LEAST_LINE_LOAD)
     first, second = pair.pitch_point, pair.pitch_point_to_wheel_tangent
     radius = first * second / (first + second)
-    return 0.048 * (line_load / (_sum_of_speeds(pair, min(speed, fastest)) * radius)) ** 0.2 * viscosity**-0.05 * roughness**0.25
+    return (
+        0.048
+        * (line_load / (_sum_of_speeds(pair, min(speed, fastest)) * radius)) ** 0.2
+        * viscosity**-0.05
+        * roughness**0.25
+    )
 
 
 def _sum_of_speeds(pair: GearPair, pitch_line_speed: float) -> float:
@@ -46,11 +55,15 @@ def _sum_of_speeds(pair: GearPair, pitch_line_speed: float) -> float:
     return 2.0 * pitch_line_speed * sin(pair.operating_pressure_angle)
 
 
-def benedict_kelley(pair: GearPair, normal_force: float, pinion_speed: float, viscosity: float, roughness: float) -> float:
-    """Mean over the path of contact of the coefficient after Benedict and Kelley (1961): 0.0127 (50 / (50 - S)) log10(29.66e3 w / (eta v_s v_r^2)).
+def benedict_kelley(
+    pair: GearPair, normal_force: float, pinion_speed: float, viscosity: float, roughness: float
+) -> float:
+    """Mean over the path of contact of the coefficient after Benedict and Kelley (1961): 0.0127 (50 / (50 - S))
+    log10(29.66e3 w / (eta v_s v_r^2)).
 
-    Arguments as of `schlenk`; w in N/mm, sliding and rolling speed in m/s, S the roughness in microinches, of at most 30.
-    Raises OutOfRange where the logarithm is not positive: the discs of the tests ran between boundary and full lubrication, and friction falls to nothing beyond.
+    Arguments as of `schlenk`; w in N/mm, sliding and rolling speed in m/s, S the roughness in microinches, of at most
+    30. Raises OutOfRange where the logarithm is not positive: the discs of the tests ran between boundary and full
+      lubrication, and friction falls to nothing beyond.
     """
     path = pair.path_start + (np.arange(POINTS) + 0.5) / POINTS * (pair.path_end - pair.path_start)
     turning = 1e-3 * 2.0 * pi * pinion_speed / 60.0
@@ -60,9 +73,11 @@ def benedict_kelley(pair: GearPair, normal_force: float, pinion_speed: float, vi
     if not values.min() > 1.0:
         where = int(values.argmin())
         raise OutOfRange(
-            "is of discs in mixed lubrication (Benedict and Kelley, ASLE Transactions 4, 1961; AGMA 925): it has positive values where 29660 w/(eta v_s v_r^2) is more than 1. Here that is "
-            f"{values[where]:.3g}, with w = {normal_force / pair.face_width:.3g} N/mm, eta = {viscosity:.3g} mPa s, v_s = {abs(first - second)[where]:.3g} m/s and "
-            f"v_r = {(first + second)[where]:.3g} m/s: the oil film carries the load. Give a coefficient, such as 0.02."
+            "is of discs in mixed lubrication (Benedict and Kelley, ASLE Transactions 4, 1961; AGMA 925): it has"
+            f" positive values where 29660 w/(eta v_s v_r^2) is more than 1. Here that is {values[where]:.3g}, with w ="
+            f" {normal_force / pair.face_width:.3g} N/mm, eta = {viscosity:.3g} mPa s, v_s ="
+            f" {abs(first - second)[where]:.3g} m/s and v_r = {(first + second)[where]:.3g} m/s: the oil film carries"
+            " the load. Give a coefficient, such as 0.02."
         )
     return 0.0127 * 50.0 / (50.0 - rough) * float(np.mean([log10(each) for each in values]))
 

@@ -13,7 +13,8 @@ from fenics_gears.geometry.fillet import crossing, fillet_point, touching_end
 from fenics_gears.geometry.gear_data import GearData, Web
 from fenics_gears.geometry.involute import inverse_involute, involute_function
 
-# Lengths in modules are rounded to so many decimals: what is left of a unit or a scale factor is in the last two digits of a double.
+# Lengths in modules are rounded to so many decimals: what is left of a unit or a scale factor is in the last two digits
+# of a double.
 DECIMALS_IN_MODULES = 12
 
 
@@ -21,11 +22,14 @@ DECIMALS_IN_MODULES = 12
 class Gear:
     """A gear cut by a straight-sided rack with a rounded tip; lengths in mm, angles in rad.
 
-    Module, pressure angle and profile shift are those of the transverse section; `helix_angle` at the reference cylinder, without sign. The rack's
-    rounding has `rack_tip_radius` in its normal section; the transverse section sees it stretched along the pitch line by 1/cos(helix angle), as an
-    ellipse. The rack's addendum, which cuts the gear's dedendum, follows from root radius and profile shift.
-    `tip_chamfer`: radial height of the chamfer between flank and tip circle. `protuberance`: by which the rack's rounding stands out beyond
-    the flank that cuts the finished involute, normal to it, going back at `protuberance_angle`; both in its normal section.
+    Module, pressure angle and profile shift are those of the transverse section; `helix_angle` at the reference
+    cylinder, without sign. The rack's rounding has `rack_tip_radius` in its normal section; the transverse section sees
+    it stretched along the pitch line by 1/cos(helix angle), as an ellipse. The rack's addendum, which cuts the gear's
+    dedendum, follows from root radius and profile shift.
+    `tip_chamfer`: radial height of the chamfer between flank and tip circle. `protuberance`: by which the rack's
+        rounding stands out beyond
+    the flank that cuts the finished involute, normal to it, going back at `protuberance_angle`; both in its normal
+    section.
     """
 
     teeth: int
@@ -54,7 +58,8 @@ class Gear:
 
     @property
     def rack_stretch(self) -> float:
-        """Length along the pitch line in the transverse section over that in the rack's normal section: 1/cos(helix angle)."""
+        """Length along the pitch line in the transverse section over that in the rack's normal section: 1/cos(helix
+        angle)."""
         return 1.0 / cos(self.helix_angle)
 
     @property
@@ -84,7 +89,12 @@ class Gear:
         if web is not None:
             hub, rim = self.in_modules(web.hub_radius, web.rim_radius)
             web = replace(web, hub_radius=hub, rim_radius=rim)
-        return replace(self, module=1.0, web=web, **dict(zip(lengths, self.in_modules(*(getattr(self, length) for length in lengths)))))
+        return replace(
+            self,
+            module=1.0,
+            web=web,
+            **dict(zip(lengths, self.in_modules(*(getattr(self, length) for length in lengths)))),
+        )
 
     @property
     def angular_pitch(self) -> float:
@@ -113,14 +123,17 @@ class Gear:
         return self.reference_radius - self.root_radius
 
     def rack_half_thickness(self, depth: float) -> float:
-        """Half the thickness (mm) of the rack's tooth between its straight flanks at a depth (mm) below the rolling pitch line."""
+        """Half the thickness (mm) of the rack's tooth between its straight flanks at a depth (mm) below the rolling
+        pitch line."""
         half_tip_land = 0.25 * pi * self.module - self.dedendum * tan(self.pressure_angle)
         return half_tip_land + (self.rack_depth - depth) * tan(self.pressure_angle)
 
     @property
     def _rack_half_tip_land(self) -> float:
         """Half the thickness (mm) of the rack's tip where the flanks, moved out by the protuberance, meet it."""
-        return self.rack_half_thickness(self.rack_depth) + self.rack_stretch * self.protuberance / cos(self.normal_pressure_angle)
+        return self.rack_half_thickness(self.rack_depth) + self.rack_stretch * self.protuberance / cos(
+            self.normal_pressure_angle
+        )
 
     @property
     def transverse_protuberance_angle(self) -> float:
@@ -148,7 +161,8 @@ class Gear:
     def rack_form_roll_angle(self) -> float:
         """Roll angle (rad) that the end of the rack's straight flank cuts; negative means undercut.
 
-        This point, at depth c below the pitch line, cuts while it crosses the line of action, ``c/sin(alpha)`` before the pitch point.
+        This point, at depth c below the pitch line, cuts while it crosses the line of action, ``c/sin(alpha)`` before
+        the pitch point.
         """
         alpha = self.pressure_angle
         flank_end = self.rack_depth - self.rack_tip_radius * (1.0 - sin(self.normal_pressure_angle))
@@ -179,7 +193,8 @@ class Gear:
 
     @property
     def tip_form_radius(self) -> float:
-        """Radius (mm) where the involute ends: of the tip circle, or at the foot of the tip's chamfer (d_Fa = d_a - 2 h_K of ISO 21771)."""
+        """Radius (mm) where the involute ends: of the tip circle, or at the foot of the tip's chamfer (d_Fa = d_a - 2
+        h_K of ISO 21771)."""
         return self.tip_radius - self.tip_chamfer
 
     @cached_property
@@ -190,7 +205,11 @@ class Gear:
     @cached_property
     def chamfered_arc(self) -> float:
         """Arc (mm) of the tip circle that the chamfer takes off either side: as long as what it takes off the flank."""
-        return 0.5 * self.base_radius * float(self.roll_angle(self.tip_radius) ** 2 - self.tip_roll_angle**2) if self.tip_chamfer else 0.0
+        return (
+            0.5 * self.base_radius * float(self.roll_angle(self.tip_radius) ** 2 - self.tip_roll_angle**2)
+            if self.tip_chamfer
+            else 0.0
+        )
 
     @property
     def tip_thickness(self) -> float:
@@ -223,7 +242,8 @@ class Gear:
 
 
 def transverse_gear(gear: GearData, module: float, pressure_angle: float, helix_angle: float) -> Gear:
-    """The gear's transverse section. The tangent of the pressure angle stretches with the pitch line, as the module does (ISO 21771)."""
+    """The gear's transverse section. The tangent of the pressure angle stretches with the pitch line, as the module
+    does (ISO 21771)."""
     stretch = 1.0 / cos(helix_angle)
     return Gear(
         teeth=gear.teeth,

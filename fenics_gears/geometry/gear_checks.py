@@ -40,8 +40,12 @@ def refuse(name: str, message: str) -> NoReturn:
 
 
 def tip_radius_with_room(gear: Gear) -> float:
-    """Tip radius, in modules, that the rack's tip has room for: the full radius, rounded down so that both roundings fit; 0 where the rack ends in a point."""
-    return max(0.0, floor((gear.largest_rack_tip_radius / gear.normal_module - 1e-9) * STEPS_OF_TIP_RADIUS) / STEPS_OF_TIP_RADIUS)
+    """Tip radius, in modules, that the rack's tip has room for: the full radius, rounded down so that both roundings
+    fit; 0 where the rack ends in a point."""
+    return max(
+        0.0,
+        floor((gear.largest_rack_tip_radius / gear.normal_module - 1e-9) * STEPS_OF_TIP_RADIUS) / STEPS_OF_TIP_RADIUS,
+    )
 
 
 def _check_numbers(gear: Gear, name: str) -> None:
@@ -57,11 +61,17 @@ def _check_numbers(gear: Gear, name: str) -> None:
     if gear.teeth != int(gear.teeth) or gear.teeth < 3:
         refuse(name, f"{gear.teeth} teeth; at least 3 are needed: change gears.{name}.teeth")
     if not 0.0 < gear.pressure_angle < 0.25 * pi:
-        refuse(name, f"gears.pressure_angle = {in_degrees(gear.normal_pressure_angle)}; it must lie between 0 and 45 deg")
+        refuse(
+            name, f"gears.pressure_angle = {in_degrees(gear.normal_pressure_angle)}; it must lie between 0 and 45 deg"
+        )
     if not isfinite(gear.profile_shift):
         refuse(name, f"gears.{name}.profile_shift must be a finite number, not {gear.profile_shift}")
     if not (isfinite(gear.rack_tip_radius) and gear.rack_tip_radius >= 0.0):
-        refuse(name, f"gears.{name}.rack_tip_radius must be zero or a positive number, not {gear.rack_tip_radius / gear.normal_module:.4g}")
+        refuse(
+            name,
+            f"gears.{name}.rack_tip_radius must be zero or a positive number, not"
+            f" {gear.rack_tip_radius / gear.normal_module:.4g}",
+        )
 
 
 def _check_circles(gear: Gear, name: str) -> None:
@@ -84,23 +94,36 @@ def _check_circles(gear: Gear, name: str) -> None:
     if bore > largest_bore:
         refuse(
             name,
-            f"no rim: bore diameter {bore:.6g} mm, root diameter {root:.6g} mm; with a rim of {LEAST_RIM} modules the bore "
-            f"may be {largest_bore:.6g} mm: lower gears.{name}.bore_diameter",
+            f"no rim: bore diameter {bore:.6g} mm, root diameter {root:.6g} mm; with a rim of {LEAST_RIM} modules the"
+            f" bore may be {largest_bore:.6g} mm: lower gears.{name}.bore_diameter",
         )
 
 
 def _check_web(gear: Gear, name: str) -> None:
     if gear.web is None:
         return
-    bore, hub, rim, largest = (2.0 * radius for radius in (gear.bore_radius, gear.web.hub_radius, gear.web.rim_radius, gear.root_radius - LEAST_RIM * gear.normal_module))
+    bore, hub, rim, largest = (
+        2.0 * radius
+        for radius in (
+            gear.bore_radius,
+            gear.web.hub_radius,
+            gear.web.rim_radius,
+            gear.root_radius - LEAST_RIM * gear.normal_module,
+        )
+    )
     if not bore <= hub < rim <= largest:
         refuse(
             name,
-            f"no web: gears.{name}.web.hub_diameter = {hub:.6g} mm, rim_inner_diameter = {rim:.6g} mm; from the bore on, {bore:.6g} mm, they must rise, and with a rim of "
-            f"{LEAST_RIM} modules the rim may begin at {largest:.6g} mm: change hub_diameter or rim_inner_diameter",
+            f"no web: gears.{name}.web.hub_diameter = {hub:.6g} mm, rim_inner_diameter = {rim:.6g} mm; from the bore"
+            f" on, {bore:.6g} mm, they must rise, and with a rim of {LEAST_RIM} modules the rim may begin at"
+            f" {largest:.6g} mm: change hub_diameter or rim_inner_diameter",
         )
     if not 0.0 < gear.web.share <= 1.0:
-        refuse(name, f"gears.{name}.web.width is {gear.web.share:.4g} of the face width; it must be more than none and no more than all of it: lower it")
+        refuse(
+            name,
+            f"gears.{name}.web.width is {gear.web.share:.4g} of the face width; it must be more than none and no more"
+            " than all of it: lower it",
+        )
 
 
 def _check_rack(gear: Gear, name: str) -> None:
@@ -109,22 +132,24 @@ def _check_rack(gear: Gear, name: str) -> None:
         limit = min(shifted_pitch, 2.0 * gear.reference_radius)
         refuse(
             name,
-            f"no dedendum: root diameter {2.0 * gear.root_radius:.6g} mm, but {gear.teeth} teeth with profile shift "
-            f"{gear.profile_shift * gear.rack_stretch:.4g} need a root below {limit:.6g} mm: lower gears.{name}.root_diameter, or check "
-            f"gears.{name}.teeth, gears.{name}.profile_shift and gears.module",
+            f"no dedendum: root diameter {2.0 * gear.root_radius:.6g} mm, but {gear.teeth} teeth with profile shift"
+            f" {gear.profile_shift * gear.rack_stretch:.4g} need a root below {limit:.6g} mm: lower"
+            f" gears.{name}.root_diameter, or check gears.{name}.teeth, gears.{name}.profile_shift and gears.module",
         )
     if gear.largest_rack_tip_radius < 0.0:
         refuse(
             name,
-            f"dedendum too deep: {gear.dedendum / gear.normal_module:.4g} modules, but the rack's tooth ends in a point at "
-            f"{_deepest_dedendum(gear):.4g} modules: raise gears.{name}.root_diameter or lower gears.{name}.profile_shift",
+            f"dedendum too deep: {gear.dedendum / gear.normal_module:.4g} modules, but the rack's tooth ends in a point"
+            f" at {_deepest_dedendum(gear):.4g} modules: raise gears.{name}.root_diameter or lower"
+            f" gears.{name}.profile_shift",
         )
     if gear.rack_tip_centre[0] < -ROUNDING:
         refuse(
             name,
-            f"fillets of neighbouring teeth overlap: rack tip radius {gear.rack_tip_radius / gear.normal_module:.4g} modules, but "
-            f"the rack's tip has room for {tip_radius_with_room(gear):.4g} (full radius) at this dedendum of "
-            f"{gear.dedendum / gear.normal_module:.4g} modules: lower gears.{name}.rack_tip_radius or raise gears.{name}.root_diameter",
+            f"fillets of neighbouring teeth overlap: rack tip radius {gear.rack_tip_radius / gear.normal_module:.4g}"
+            f" modules, but the rack's tip has room for {tip_radius_with_room(gear):.4g} (full radius) at this dedendum"
+            f" of {gear.dedendum / gear.normal_module:.4g} modules: lower gears.{name}.rack_tip_radius or raise"
+            f" gears.{name}.root_diameter",
         )
 
 
@@ -132,8 +157,9 @@ def _check_undercut(gear: Gear, name: str) -> None:
     if gear.undercut and (neck := neck_thickness(gear)) < LEAST_NECK * gear.normal_module:
         refuse(
             name,
-            f"undercut: cut down to root diameter {2.0 * gear.root_radius:.6g} mm, the fillets leave a tooth {max(neck, 0.0):.4g} mm thick at its neck; "
-            f"it must have {LEAST_NECK} modules: raise gears.{name}.root_diameter together with gears.{name}.profile_shift, or gears.{name}.teeth",
+            f"undercut: cut down to root diameter {2.0 * gear.root_radius:.6g} mm, the fillets leave a tooth"
+            f" {max(neck, 0.0):.4g} mm thick at its neck; it must have {LEAST_NECK} modules: raise"
+            f" gears.{name}.root_diameter together with gears.{name}.profile_shift, or gears.{name}.teeth",
         )
 
 
@@ -147,27 +173,31 @@ def _check_tip(gear: Gear, name: str) -> None:
     if not 0.0 <= gear.tip_chamfer < gear.tip_radius - gear.form_radius and gear.tip_radius > gear.form_radius:
         refuse(
             name,
-            f"gears.{name}.tip_chamfer = {gear.tip_chamfer:.4g} mm; between the form circle and the tip circle are {gear.tip_radius - gear.form_radius:.4g} mm, and "
-            f"involute must be left: lower it to 0 mm or more, but less than that",
+            f"gears.{name}.tip_chamfer = {gear.tip_chamfer:.4g} mm; between the form circle and the tip circle are"
+            f" {gear.tip_radius - gear.form_radius:.4g} mm, and involute must be left: lower it to 0 mm or more, but"
+            " less than that",
         )
     if gear.tip_radius <= gear.form_radius:
         refuse(
             name,
-            f"no involute: tip diameter {2.0 * gear.tip_radius:.6g} mm, but the fillet{' cuts off the involute' if gear.undercut else ' reaches'} up to "
-            f"{2.0 * gear.form_radius:.6g} mm: raise gears.{name}.tip_diameter or {'raise' if gear.undercut else 'lower'} gears.{name}.root_diameter",
+            f"no involute: tip diameter {2.0 * gear.tip_radius:.6g} mm, but the"
+            f" fillet{' cuts off the involute' if gear.undercut else ' reaches'} up to {2.0 * gear.form_radius:.6g} mm:"
+            f" raise gears.{name}.tip_diameter or {'raise' if gear.undercut else 'lower'} gears.{name}.root_diameter",
         )
     if gear.tip_chamfer and gear.tip_thickness <= ROUNDING:
         refuse(
             name,
-            f"pointed tip: the chamfers of gears.{name}.tip_chamfer = {gear.tip_chamfer:.4g} mm take {gear.chamfered_arc:.4g} mm off either side of the tip circle, "
-            f"where the tooth is {gear.tip_thickness + 2.0 * gear.chamfered_arc:.4g} mm thick: lower gears.{name}.tip_chamfer or gears.{name}.tip_diameter",
+            f"pointed tip: the chamfers of gears.{name}.tip_chamfer = {gear.tip_chamfer:.4g} mm take"
+            f" {gear.chamfered_arc:.4g} mm off either side of the tip circle, where the tooth is"
+            f" {gear.tip_thickness + 2.0 * gear.chamfered_arc:.4g} mm thick: lower gears.{name}.tip_chamfer or"
+            f" gears.{name}.tip_diameter",
         )
     if gear.tip_thickness <= ROUNDING:
         refuse(
             name,
-            f"pointed tip: the flanks of a tooth meet at diameter {2.0 * gear.pointed_radius:.6g} mm, below the tip diameter "
-            f"{2.0 * gear.tip_radius:.6g} mm (tip thickness {gear.tip_thickness:.4g} mm, must be positive): lower "
-            f"gears.{name}.tip_diameter or gears.{name}.profile_shift",
+            f"pointed tip: the flanks of a tooth meet at diameter {2.0 * gear.pointed_radius:.6g} mm, below the tip"
+            f" diameter {2.0 * gear.tip_radius:.6g} mm (tip thickness {gear.tip_thickness:.4g} mm, must be positive):"
+            f" lower gears.{name}.tip_diameter or gears.{name}.profile_shift",
         )
 
 

@@ -4,13 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-# ISO 53:1998, Annex A, in modules: addendum, dedendum, tip radius of the rack. The same as types A to D of GOST 13755-2015; A is also the rack of DIN 867.
-RACKS = {"ISO 53 A": (1.0, 1.25, 0.38), "ISO 53 B": (1.0, 1.25, 0.3), "ISO 53 C": (1.0, 1.25, 0.25), "ISO 53 D": (1.0, 1.4, 0.39)}
+# ISO 53:1998, Annex A, in modules: addendum, dedendum, tip radius of the rack. The same as types A to D of GOST
+# 13755-2015; A is also the rack of DIN 867.
+RACKS = {
+    "ISO 53 A": (1.0, 1.25, 0.38),
+    "ISO 53 B": (1.0, 1.25, 0.3),
+    "ISO 53 C": (1.0, 1.25, 0.25),
+    "ISO 53 D": (1.0, 1.4, 0.39),
+}
 
 
 @dataclass(frozen=True)
 class Material:
-    """Isotropic linear elasticity; Young's modulus in MPa, and the yield strength (MPa) up to which it holds, None where that is not known."""
+    """Isotropic linear elasticity; Young's modulus in MPa, and the yield strength (MPa) up to which it holds, None
+    where that is not known."""
 
     youngs_modulus: float
     poissons_ratio: float
@@ -33,9 +40,11 @@ class Web:
 
 @dataclass(frozen=True)
 class GearData:
-    """One gear: diameters in mm, profile shift (that of the tooth thickness) and rack tip radius in modules; `face_width` (mm) and `material` are None where it has the pair's.
+    """One gear: diameters in mm, profile shift (that of the tooth thickness) and rack tip radius in modules;
+    `face_width` (mm) and `material` are None where it has the pair's.
 
-    `tip_chamfer`, mm: its radial height. `protuberance`, mm, of the rack beyond the finished flank, and its angle, rad. `nominal_profile_shift`: that of the
+    `tip_chamfer`, mm: its radial height. `protuberance`, mm, of the rack beyond the finished flank, and its angle, rad.
+        `nominal_profile_shift`: that of the
     drawing, None where the thickness has it.
     """
 
@@ -59,8 +68,10 @@ class GearPairData:
     """The pair: module and centre distance in mm, pressure angle in rad; rigid without a material.
 
     `face_width`, mm: over which both gears meet. `material`: of gears that have none of their own.
-    `helix_angle`, rad, at the reference cylinder, 0 for spur gears; module, pressure angle and what is given in modules are then those of the normal
-    section. `pinion_hand`: "right" or "left", the wheel has the other. `axial_offsets`, mm: of the mid-widths of pinion and wheel from a common place.
+    `helix_angle`, rad, at the reference cylinder, 0 for spur gears; module, pressure angle and what is given in modules
+    are then those of the normal
+    section. `pinion_hand`: "right" or "left", the wheel has the other. `axial_offsets`, mm: of the mid-widths of pinion
+    and wheel from a common place.
     """
 
     module: float

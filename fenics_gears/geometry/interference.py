@@ -16,7 +16,8 @@ FILLET_POINTS = 1001
 
 def fillet_clearance(gear: Gear, mate: Gear, centre_distance: float) -> float:
     """Least radial distance (mm) from the path of the mate's tip corner down to the gear's fillet; infinite where it
-    never comes over the fillet, negative where it would cut into it. Of an undercut gear see `_clearance_along_circles`.
+    never comes over the fillet, negative where it would cut into it. Of an undercut gear see
+    `_clearance_along_circles`.
 
     Drive flanks in contact. Along the fillet the radius is a smooth function of the polar angle, so
     that sampling it costs an error of second order only.
@@ -40,20 +41,28 @@ def _clearance_of_corner(gear: Gear, mate: Gear, centre_distance: float, corner:
 
 
 def _corners(gear: Gear) -> list[tuple[float, float]]:
-    """Radius (mm) of each corner of a tip's drive side, and the angle (rad) by which it lies behind the end of the involute: a chamfer has two."""
+    """Radius (mm) of each corner of a tip's drive side, and the angle (rad) by which it lies behind the end of the
+    involute: a chamfer has two."""
     if not gear.tip_chamfer:
         return [(gear.tip_radius, 0.0)]
-    behind = gear.tooth_half_angle_at_base - involute_function(gear.tip_roll_angle) - 0.5 * gear.tip_thickness / gear.tip_radius
+    behind = (
+        gear.tooth_half_angle_at_base
+        - involute_function(gear.tip_roll_angle)
+        - 0.5 * gear.tip_thickness / gear.tip_radius
+    )
     return [(gear.tip_form_radius, 0.0), (gear.tip_radius, float(behind))]
 
 
 def _clearance_along_circles(gear: Gear, mate: Gear, centre_distance: float, corner: tuple[float, float]) -> float:
-    """Least arc (mm) about the gear's centre from its fillet and involute to the path of the mate's tip corner, from where this comes below the gear's tip.
+    """Least arc (mm) about the gear's centre from its fillet and involute to the path of the mate's tip corner, from
+    where this comes below the gear's tip.
 
     An undercut fillet has up to two points at a polar angle, but one at a radius.
     """
     above = acos((centre_distance**2 + corner[0] ** 2 - gear.tip_radius**2) / (2.0 * centre_distance * corner[0]))
-    radius, angle = _tip_corner_path(gear, mate, centre_distance, np.linspace(above + corner[1], corner[1], PATH_POINTS), corner)
+    radius, angle = _tip_corner_path(
+        gear, mate, centre_distance, np.linspace(above + corner[1], corner[1], PATH_POINTS), corner
+    )
     fillet = fillet_point(gear, np.linspace(0.0, gear.fillet_end, FILLET_POINTS))
     involute = -involute_function(gear.roll_angle(np.maximum(radius, gear.form_radius)))
     cut = np.interp(radius, np.hypot(fillet[:, 0], fillet[:, 1]), np.arctan2(fillet[:, 0], -fillet[:, 1]))
@@ -70,8 +79,8 @@ def _tip_corner_path(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Radius (mm) and polar angle from straight down (rad) of a corner of the mate's tip in the gear's tooth frame.
 
-    ``mate_angle`` (n,), rad: of the end of the mate's involute from the line of centres, seen from the mate's centre. Where that end
-    is on the line of action it lies on the gear's involute.
+    ``mate_angle`` (n,), rad: of the end of the mate's involute from the line of centres, seen from the mate's centre.
+    Where that end is on the line of action it lies on the gear's involute.
     """
     operating = _operating_angle(gear, mate, centre_distance)
     contact_roll = np.tan(operating) * (1.0 + mate.base_radius / gear.base_radius)

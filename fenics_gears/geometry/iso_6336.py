@@ -1,7 +1,8 @@
 """Tooth stiffness of pairs by ISO 6336-1, method B: solid steel gears, in plane with their face.
 
-The standard's formulas: the flexibility q' of an ideal pair (``c'th = 1/q'``), ``c' = 0.8 c'th C_R C_B cos(beta)`` adjusted to measurements, and for the
-mesh ``c_gamma_alpha = c' (0.75 eps_alpha + 0.25)``. Gear bodies are solid here (C_R = 1).
+The standard's formulas: the flexibility q' of an ideal pair (``c'th = 1/q'``), ``c' = 0.8 c'th C_R C_B cos(beta)``
+adjusted to measurements, and for the mesh ``c_gamma_alpha = c' (0.75 eps_alpha + 0.25)``. Gear bodies are solid here
+(C_R = 1).
 """
 
 from __future__ import annotations
@@ -30,7 +31,8 @@ def single_stiffness(gears: GearPairData) -> tuple[float, float]:
         - 0.00193 * x2 - 0.24188 * x2 / z2 + 0.00529 * x1**2 + 0.00182 * x2**2
     )  # fmt: skip
     dedenda = [
-        gear.profile_shift + 0.5 * (gear.teeth / cos(beta) - gear.root_diameter / gears.module) for gear in (gears.pinion, gears.wheel)
+        gear.profile_shift + 0.5 * (gear.teeth / cos(beta) - gear.root_diameter / gears.module)
+        for gear in (gears.pinion, gears.wheel)
     ]
     basic_rack = 1.0 + 0.5 * (1.2 - np.mean(dedenda))
     angle = 1.0 - 0.02 * (20.0 - degrees(gears.pressure_angle))
@@ -47,7 +49,8 @@ def pair_stiffness(gears: GearPairData, line_load: float) -> float:
 def mesh_factor(pairs: float) -> float:
     """Stiffness of a mesh in parts of c' for a number of pairs: 0.75 pairs + 0.25.
 
-    Of the contact ratio it is c_gamma_alpha/c'; of 1 and 2 pairs, 1 and 1.75, the two levels whose mean over the path that is.
+    Of the contact ratio it is c_gamma_alpha/c'; of 1 and 2 pairs, 1 and 1.75, the two levels whose mean over the path
+    that is.
 
     >>> mesh_factor(1), mesh_factor(2), mesh_factor(1.5) == (mesh_factor(1) + mesh_factor(2)) / 2
     (1.0, 1.75, True)

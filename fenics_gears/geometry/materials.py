@@ -1,7 +1,8 @@
-"""Gear materials by name: Young's modulus, MPa, Poisson's ratio, yield strength, MPa, of named grades, and where they are from.
+"""Gear materials by name: Young's modulus, MPa, Poisson's ratio, yield strength, MPa, of named grades, and where they
+are from.
 
-The least yield strengths are of quenched and tempered steel more than 40 and up to 100 mm thick. Other names stand for many grades, and those of case-hardened steels would
-be the core's, not the flanks'.
+The least yield strengths are of quenched and tempered steel more than 40 and up to 100 mm thick. Other names stand for
+many grades, and those of case-hardened steels would be the core's, not the flanks'.
 """
 
 from __future__ import annotations
@@ -10,7 +11,9 @@ from fenics_gears.geometry.gear_data import Material
 
 _ISO_6336 = "ISO 6336-2, table of the elasticity factor"
 # The table has moduli alone; Poisson's ratios are common ones.
-_PLASTICS = "Encyclopedia of Physical Science and Technology, Plastics Engineering, Table I: short term, room temperature"
+_PLASTICS = (
+    "Encyclopedia of Physical Science and Technology, Plastics Engineering, Table I: short term, room temperature"
+)
 MATERIALS: dict[str, tuple[Material, str]] = {
     "steel": (Material(206e3, 0.3), "ISO 6336-1"),
     "C45 QT": (Material(206e3, 0.3, 370.0), "ISO 6336-1; yield strength EN ISO 683-1"),

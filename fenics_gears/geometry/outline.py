@@ -1,4 +1,5 @@
-"""The outline of one tooth in its transverse section: rack-generated fillet and involute, in the tooth's body frame (see involute.py)."""
+"""The outline of one tooth in its transverse section: rack-generated fillet and involute, in the tooth's body frame
+(see involute.py)."""
 
 from __future__ import annotations
 
@@ -19,7 +20,8 @@ ARC_LENGTH_SAMPLES = 401
 class ToothOutline:
     """Drive side of one tooth; the coast side is its mirror image about the centreline.
 
-    fillet: (n, 2), mm, from the root circle (first point) to the form circle (last point), evenly spaced along the curve.
+    fillet: (n, 2), mm, from the root circle (first point) to the form circle (last point), evenly spaced along the
+        curve.
     centreline_angle, space_angle: polar angles (rad) of the tooth's centreline and of the centre of the tooth space
     beside the drive flank; the root circle runs from the fillet's first point to the space angle.
     """
@@ -50,7 +52,8 @@ def centreline_angle(gear: Gear) -> float:
 
 
 def tip_corner(gear: Gear) -> np.ndarray:
-    """Point (2,), mm, where the tip circle begins on the drive side: at the end of the involute, or beyond the straight chamfer there."""
+    """Point (2,), mm, where the tip circle begins on the drive side: at the end of the involute, or beyond the straight
+    chamfer there."""
     if not gear.tip_chamfer:
         return canonical_point(gear.base_radius, gear.tip_roll_angle)
     angle = centreline_angle(gear) + 0.5 * gear.tip_thickness / gear.tip_radius
@@ -65,13 +68,13 @@ def tooth_outline(gear: Gear, fillet_points: int = 41) -> ToothOutline:
     """
     if gear.tip_form_radius <= gear.form_radius:
         raise GeometryError(
-            f"no involute: the tip circle of the gear with {gear.teeth} teeth, radius {gear.tip_radius:.6g} mm, must lie "
-            f"above its fillet, which reaches up to {gear.form_radius:.6g} mm"
+            f"no involute: the tip circle of the gear with {gear.teeth} teeth, radius {gear.tip_radius:.6g} mm, must"
+            f" lie above its fillet, which reaches up to {gear.form_radius:.6g} mm"
         )
     if gear.rack_tip_centre[0] < 0.0:
         raise GeometryError(
-            f"the fillets of neighbouring teeth overlap: the tip of the rack that cuts the gear with {gear.teeth} teeth "
-            f"has room for a radius of {gear.largest_rack_tip_radius:.4g} mm, not of {gear.rack_tip_radius:.4g} mm"
+            f"the fillets of neighbouring teeth overlap: the tip of the rack that cuts the gear with {gear.teeth} teeth"
+            f" has room for a radius of {gear.largest_rack_tip_radius:.4g} mm, not of {gear.rack_tip_radius:.4g} mm"
         )
     centreline = centreline_angle(gear)
     return ToothOutline(

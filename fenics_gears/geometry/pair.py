@@ -1,7 +1,8 @@
 """A pinion and a wheel on their centres: the line of action and the points on it.
 
 Positions on the line of action are distances ``xi`` (mm) from T1, where it leaves the pinion's base circle. The pinion
-drives, so that contact runs from the wheel's tip (path_start) to the pinion's tip (path_end), unless the mate is cut away there.
+drives, so that contact runs from the wheel's tip (path_start) to the pinion's tip (path_end), unless the mate is cut
+away there.
 """
 
 from __future__ import annotations
@@ -50,13 +51,16 @@ class GearPair:
 
     @property
     def common_face(self) -> tuple[float, float]:
-        """Ends z (mm) of the common face, where both gears are: the left one, negative, and the right one; 0 is its middle."""
+        """Ends z (mm) of the common face, where both gears are: the left one, negative, and the right one; 0 is its
+        middle."""
         return -0.5 * self.face_width, 0.5 * self.face_width
 
     @property
     def gear_middles(self) -> tuple[float, float]:
         """Places z (mm) of the mid-widths of pinion and wheel, from the middle of the common face."""
-        ends = [(offset - 0.5 * width, offset + 0.5 * width) for offset, width in zip(self.axial_offsets, self.face_widths)]
+        ends = [
+            (offset - 0.5 * width, offset + 0.5 * width) for offset, width in zip(self.axial_offsets, self.face_widths)
+        ]
         middle = 0.5 * (max(low for low, _ in ends) + min(high for _, high in ends))
         return self.axial_offsets[0] - middle, self.axial_offsets[1] - middle
 
@@ -93,7 +97,8 @@ class GearPair:
 
     @cached_property
     def cosine(self) -> float:
-        """Cosine of the base helix angle: the contact normal is (cosine, 0, -cosine slope) in the line of action, across it and along the axis."""
+        """Cosine of the base helix angle: the contact normal is (cosine, 0, -cosine slope) in the line of action,
+        across it and along the axis."""
         return 1.0 / sqrt(1.0 + self.slope**2)
 
     @property
@@ -108,7 +113,8 @@ class GearPair:
 
     @property
     def rotation_ratio(self) -> float:
-        """Teeth of the pinion over teeth of the wheel: rotation of the wheel over that of the pinion, without its sign."""
+        """Teeth of the pinion over teeth of the wheel: rotation of the wheel over that of the pinion, without its
+        sign."""
         return self.pinion.teeth / self.wheel.teeth
 
     @cached_property
@@ -140,19 +146,26 @@ class GearPair:
     def tip_positions(self) -> tuple[float, float]:
         """Positions (mm) where the wheel's tip and the pinion's tip cross the line of action."""
         wheel, pinion = self.wheel, self.pinion
-        return self.line_of_action_length - wheel.base_radius * wheel.tip_roll_angle, pinion.base_radius * pinion.tip_roll_angle
+        return (
+            self.line_of_action_length - wheel.base_radius * wheel.tip_roll_angle,
+            pinion.base_radius * pinion.tip_roll_angle,
+        )
 
     @cached_property
     def path_start(self) -> float:
-        """Position (mm) where contact begins: at the wheel's tip, or later, at the form circle of an undercut pinion."""
+        """Position (mm) where contact begins: at the wheel's tip, or later, at the form circle of an undercut
+        pinion."""
         tip, pinion = self.tip_positions[0], self.pinion
         return max(tip, pinion.base_radius * pinion.form_roll_angle) if pinion.undercut else tip
 
     @cached_property
     def path_end(self) -> float:
-        """Position (mm) where contact ends: at the pinion's tip, or earlier, at the form circle of an undercut wheel."""
+        """Position (mm) where contact ends: at the pinion's tip, or earlier, at the form circle of an undercut
+        wheel."""
         tip, wheel = self.tip_positions[1], self.wheel
-        return min(tip, self.line_of_action_length - wheel.base_radius * wheel.form_roll_angle) if wheel.undercut else tip
+        return (
+            min(tip, self.line_of_action_length - wheel.base_radius * wheel.form_roll_angle) if wheel.undercut else tip
+        )
 
     @cached_property
     def contact_ratio(self) -> float:
@@ -197,7 +210,8 @@ class GearPair:
 
     @property
     def sap_roll_angles(self) -> tuple[float, float]:
-        """Roll angles (rad) of pinion and wheel at their starts of active profile: the pinion's is in contact first, the wheel's last."""
+        """Roll angles (rad) of pinion and wheel at their starts of active profile: the pinion's is in contact first,
+        the wheel's last."""
         return self.pinion_roll_angle(self.path_start), self.wheel_roll_angle(self.path_end)
 
     @property
@@ -210,7 +224,8 @@ class GearPair:
     def backlash(self) -> float:
         """Gap (mm) along the line of action between the coast flanks while the drive flanks touch.
 
-        The base pitch less both base-circle thicknesses seen at the operating pressure angle; negative when the teeth overlap.
+        The base pitch less both base-circle thicknesses seen at the operating pressure angle; negative when the teeth
+        overlap.
         """
         swept = involute_function(tan(self.operating_pressure_angle))
         pinion, wheel = self.pinion, self.wheel
@@ -228,14 +243,19 @@ class GearPair:
         """Centre distance (mm) at which both flanks of a tooth touch."""
         pinion, wheel = self.pinion, self.wheel
         bases = pinion.base_radius + wheel.base_radius
-        both_teeth = pinion.base_radius * pinion.tooth_half_angle_at_base + wheel.base_radius * wheel.tooth_half_angle_at_base
+        both_teeth = (
+            pinion.base_radius * pinion.tooth_half_angle_at_base + wheel.base_radius * wheel.tooth_half_angle_at_base
+        )
         return bases * sqrt(1.0 + inverse_involute((both_teeth - 0.5 * self.base_pitch) / bases) ** 2)
 
     @property
     def tip_clearances(self) -> tuple[float, float]:
         """Distances (mm) from the tip circles of pinion and wheel to the mate's root circle."""
         pinion, wheel = self.pinion, self.wheel
-        return self.centre_distance - pinion.tip_radius - wheel.root_radius, self.centre_distance - wheel.tip_radius - pinion.root_radius
+        return (
+            self.centre_distance - pinion.tip_radius - wheel.root_radius,
+            self.centre_distance - wheel.tip_radius - pinion.root_radius,
+        )
 
 
 # Cost, warnings, the run and its quasi-static companion ask for the same pair.
@@ -245,10 +265,14 @@ def gear_pair(data: GearPairData) -> GearPair:
 
     Raises GeometryError, which names what is wrong, on which gear, by how much, and what to change.
     """
-    pinion, wheel = (transverse_gear(gear, data.module, data.pressure_angle, data.helix_angle) for gear in (data.pinion, data.wheel))
+    pinion, wheel = (
+        transverse_gear(gear, data.module, data.pressure_angle, data.helix_angle) for gear in (data.pinion, data.wheel)
+    )
     check_gear(pinion, "pinion")
     check_gear(wheel, "wheel")
-    pair = GearPair(pinion, wheel, data.centre_distance, data.face_width, data.face_widths, _helix(data), data.axial_offsets)
+    pair = GearPair(
+        pinion, wheel, data.centre_distance, data.face_width, data.face_widths, _helix(data), data.axial_offsets
+    )
     check_pair(pair)
     return _with_web_as_it_counts(pair)
 

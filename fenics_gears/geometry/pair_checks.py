@@ -48,9 +48,9 @@ def design_warnings(pair: GearPair) -> list[str]:
     whole = (pair.tip_positions[1] - pair.tip_positions[0]) / pair.base_pitch
     for name, other, lowest in _shortened(pair):
         found.append(
-            f"{name}: undercut: the {other}'s tip would be in contact down to roll angle {in_degrees(lowest)}, but the involute is cut away below "
-            f"{in_degrees(getattr(pair, name).form_roll_angle)} (form circle): contact ratio {pair.contact_ratio:.4g} instead of {whole:.4g}; "
-            f"{_less_undercut(pair, name)}"
+            f"{name}: undercut: the {other}'s tip would be in contact down to roll angle {in_degrees(lowest)}, but the"
+            f" involute is cut away below {in_degrees(getattr(pair, name).form_roll_angle)} (form circle): contact"
+            f" ratio {pair.contact_ratio:.4g} instead of {whole:.4g}; {_less_undercut(pair, name)}"
         )
     return found
 
@@ -67,9 +67,10 @@ def _check_centres(pair: GearPair) -> None:
         first, second = pair.axial_offsets
         refuse(
             "pair",
-            f"the gears do not overlap axially: pinion {pair.face_widths[0]:.6g} mm wide at axial offset {first:.6g} mm, wheel {pair.face_widths[1]:.6g} mm "
-            f"wide at {second:.6g} mm; their middles may be less than {0.5 * sum(pair.face_widths):.6g} mm apart: change gears.pinion.axial_offset or "
-            "gears.wheel.axial_offset",
+            f"the gears do not overlap axially: pinion {pair.face_widths[0]:.6g} mm wide at axial offset {first:.6g}"
+            f" mm, wheel {pair.face_widths[1]:.6g} mm wide at {second:.6g} mm; their middles may be less than"
+            f" {0.5 * sum(pair.face_widths):.6g} mm apart: change gears.pinion.axial_offset or"
+            " gears.wheel.axial_offset",
         )
     if not (isfinite(pair.face_width) and pair.face_width > 0.0):
         refuse("pair", f"gears.face_width must be a positive length, not {pair.face_width}")
@@ -102,9 +103,9 @@ def _check_contact_ratio(pair: GearPair) -> None:
         undercut = "".join(f", or {_less_undercut(pair, name)}" for name in short)
         refuse(
             "pair",
-            f"{'transverse ' if pair.helix else ''}contact ratio {pair.contact_ratio:.4g}{cut}, must be at least 1, otherwise a tooth pair leaves before the "
-            f"next one enters: raise gears.pinion.tip_diameter or gears.wheel.tip_diameter, or lower gears.centre_distance "
-            f"({pair.centre_distance:.6g} mm){undercut}",
+            f"{'transverse ' if pair.helix else ''}contact ratio {pair.contact_ratio:.4g}{cut}, must be at least 1,"
+            " otherwise a tooth pair leaves before the next one enters: raise gears.pinion.tip_diameter or"
+            f" gears.wheel.tip_diameter, or lower gears.centre_distance ({pair.centre_distance:.6g} mm){undercut}",
         )
 
 
@@ -114,7 +115,8 @@ def _less_undercut(pair: GearPair, name: str) -> str:
 
 
 def _shortened(pair: GearPair) -> Iterator[tuple[str, str, float]]:
-    """Gears whose involute ends above the mate's tip: their name, the mate's and the roll angle (rad) that the mate's tip would reach."""
+    """Gears whose involute ends above the mate's tip: their name, the mate's and the roll angle (rad) that the mate's
+    tip would reach."""
     start, end = pair.tip_positions
     for (name, other), lowest in zip(NAMES, (pair.pinion_roll_angle(start), pair.wheel_roll_angle(end))):
         gear = getattr(pair, name)
@@ -129,9 +131,9 @@ def _check_interference(pair: GearPair) -> None:
             largest_tip = 2.0 * _largest_mating_tip_radius(pair, other, gear)
             refuse(
                 name,
-                f"interference: the {other}'s tip reaches its fillet: contact down to roll angle {in_degrees(lowest)}, but the "
-                f"involute begins at {in_degrees(gear.form_roll_angle)}: lower gears.{other}.tip_diameter to {largest_tip:.6g} mm "
-                f"or less, or lower gears.{name}.root_diameter or gears.{name}.rack_tip_radius",
+                f"interference: the {other}'s tip reaches its fillet: contact down to roll angle {in_degrees(lowest)},"
+                f" but the involute begins at {in_degrees(gear.form_roll_angle)}: lower gears.{other}.tip_diameter to"
+                f" {largest_tip:.6g} mm or less, or lower gears.{name}.root_diameter or gears.{name}.rack_tip_radius",
             )
 
 
@@ -141,9 +143,9 @@ def _check_fillet_clearance(pair: GearPair) -> None:
         if clearance < -ROUNDING:
             refuse(
                 name,
-                f"interference: the {other}'s tip corner cuts {-clearance:.4g} mm into its fillet, off the line of action "
-                f"(clearance must not be negative): lower gears.{other}.tip_diameter, gears.{name}.root_diameter or "
-                f"gears.{name}.rack_tip_radius",
+                f"interference: the {other}'s tip corner cuts {-clearance:.4g} mm into its fillet, off the line of"
+                f" action (clearance must not be negative): lower gears.{other}.tip_diameter,"
+                f" gears.{name}.root_diameter or gears.{name}.rack_tip_radius",
             )
 
 

@@ -1,6 +1,7 @@
 """Crowning and slope of the profile: how much material is gone at each roll angle.
 
-ISO 21771 has both, as C_alpha and C_Halpha, over the usable flank; here they are over its used part, from the start of active profile to the tip.
+ISO 21771 has both, as C_alpha and C_Halpha, over the usable flank; here they are over its used part, from the start of
+active profile to the tip.
 """
 
 from __future__ import annotations
@@ -16,7 +17,8 @@ from fenics_gears.geometry.profile_modification_data import ProfileModification,
 
 @dataclass(frozen=True)
 class ProfileCurve:
-    """Material removed along the flank's normal between two roll angles (rad); of crowning and slope (mm) nothing is added to the involute."""
+    """Material removed along the flank's normal between two roll angles (rad); of crowning and slope (mm) nothing is
+    added to the involute."""
 
     modification: ProfileModification
     start_roll_angle: float
@@ -27,12 +29,16 @@ class ProfileCurve:
     def __call__(self, roll_angle) -> np.ndarray:
         """Removal (mm, not negative) at roll angles (rad, any shape)."""
         own = self.modification
-        along = (np.asarray(roll_angle, dtype=float) - self.start_roll_angle) / (self.end_roll_angle - self.start_roll_angle)
+        along = (np.asarray(roll_angle, dtype=float) - self.start_roll_angle) / (
+            self.end_roll_angle - self.start_roll_angle
+        )
         crowned = own.crowning * (2.0 * along - 1.0) ** 2 - min(own.crowning, 0.0)
         return np.maximum(crowned, 0.0) + np.maximum(own.slope * along - min(own.slope, 0.0), 0.0)
 
 
-def profile_curves(pair: GearPair, modifications: ProfileModifications) -> tuple[ProfileCurve | None, ProfileCurve | None]:
+def profile_curves(
+    pair: GearPair, modifications: ProfileModifications
+) -> tuple[ProfileCurve | None, ProfileCurve | None]:
     """The curves of pinion and wheel; None for a gear without modification."""
     sides = zip((pair.pinion, pair.wheel), (modifications.pinion, modifications.wheel), pair.sap_roll_angles)
     return tuple(None if own is None else ProfileCurve(own, start, gear.tip_roll_angle) for gear, own, start in sides)

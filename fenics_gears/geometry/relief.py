@@ -15,7 +15,8 @@ from fenics_gears.geometry.relief_data import Relief, RootRelief, TipRelief
 
 @dataclass(frozen=True)
 class ReliefCurve:
-    """Material removed along the flank's normal: nothing up to the start, ``depth`` (mm) at the end; roll angles in rad.
+    """Material removed along the flank's normal: nothing up to the start, ``depth`` (mm) at the end; roll angles in
+    rad.
 
     ``depth ((v - start)/(end - start))^power``, whichever way the end lies; ``power`` 1 or more.
     """
@@ -28,7 +29,10 @@ class ReliefCurve:
     def __call__(self, roll_angle) -> np.ndarray:
         """Removal (mm, not negative) at roll angles (rad, any shape); it goes on growing beyond the end."""
         length = self.end_roll_angle - self.start_roll_angle
-        return self.depth * np.maximum((np.asarray(roll_angle, dtype=float) - self.start_roll_angle) / length, 0.0) ** self.power
+        return (
+            self.depth
+            * np.maximum((np.asarray(roll_angle, dtype=float) - self.start_roll_angle) / length, 0.0) ** self.power
+        )
 
     @property
     def kinks(self) -> tuple[float, ...]:
@@ -38,7 +42,8 @@ class ReliefCurve:
 
 @dataclass(frozen=True)
 class _Side:
-    """One end of a gear's flank: the gear, its name, the section of the scene, roll angle (rad) of the end and where relief usually starts."""
+    """One end of a gear's flank: the gear, its name, the section of the scene, roll angle (rad) of the end and where
+    relief usually starts."""
 
     gear: Gear
     name: str
@@ -58,55 +63,71 @@ class _Side:
 
 
 def tip_reliefs(pair: GearPair, reliefs: TipRelief) -> tuple[ReliefCurve | None, ReliefCurve | None]:
-    """Relief of pinion and wheel from HPSTC, unless the scene gives another start, to the tip; None for a gear that has none.
+    """Relief of pinion and wheel from HPSTC, unless the scene gives another start, to the tip; None for a gear that has
+    none.
 
     Raises GeometryError as ``relief_curve`` does.
     """
-    return _curves(pair, reliefs, "tip_relief", (pair.pinion.tip_roll_angle, pair.wheel.tip_roll_angle), pair.hpstc_roll_angles)
+    return _curves(
+        pair, reliefs, "tip_relief", (pair.pinion.tip_roll_angle, pair.wheel.tip_roll_angle), pair.hpstc_roll_angles
+    )
 
 
 def root_reliefs(pair: GearPair, reliefs: RootRelief) -> tuple[ReliefCurve | None, ReliefCurve | None]:
-    """Relief of pinion and wheel from LPSTC, unless the scene gives another start, to the form circle; None for a gear that has none.
+    """Relief of pinion and wheel from LPSTC, unless the scene gives another start, to the form circle; None for a gear
+    that has none.
 
     Raises GeometryError as ``relief_curve`` does.
     """
-    return _curves(pair, reliefs, "root_relief", (pair.pinion.form_roll_angle, pair.wheel.form_roll_angle), pair.lpstc_roll_angles)
+    return _curves(
+        pair, reliefs, "root_relief", (pair.pinion.form_roll_angle, pair.wheel.form_roll_angle), pair.lpstc_roll_angles
+    )
 
 
 def _curves(pair: GearPair, reliefs: TipRelief | RootRelief, section: str, ends, usual_starts):
-    sides = (_Side(getattr(pair, name), name, section, *angles) for name, *angles in zip(("pinion", "wheel"), ends, usual_starts))
-    return tuple(None if relief is None else relief_curve(relief, side) for relief, side in zip((reliefs.pinion, reliefs.wheel), sides))
+    sides = (
+        _Side(getattr(pair, name), name, section, *angles)
+        for name, *angles in zip(("pinion", "wheel"), ends, usual_starts)
+    )
+    return tuple(
+        None if relief is None else relief_curve(relief, side)
+        for relief, side in zip((reliefs.pinion, reliefs.wheel), sides)
+    )
 
 
 def relief_curve(relief: Relief, side: _Side) -> ReliefCurve:
     """Relief at one end of a gear's flank.
 
-    Raises GeometryError when it would start off the involute or at its own end, or when its depth is negative or more than
-    half the tooth's thickness.
+    Raises GeometryError when it would start off the involute or at its own end, or when its depth is negative or more
+    than half the tooth's thickness.
     """
     _check_depth(relief, side)
     start, gear = _start(relief, side), side.gear
     lowest, highest = gear.form_roll_angle, gear.tip_roll_angle
     if not lowest <= start <= highest or start == side.end:
         raise GeometryError(
-            f"{side.name}: {side.words} starts at {_written_start(relief, start, side)}, but its involute runs from "
-            f"{degrees(lowest):.4g} deg (form circle) to {degrees(highest):.4g} deg (tip), diameters "
-            f"{2.0 * gear.form_radius:.6g} to {2.0 * gear.tip_radius:.6g} mm, {gear.base_radius * (highest - lowest):.4g} mm on the path of "
-            f"contact, {0.5 * gear.base_radius * (highest**2 - lowest**2):.4g} mm along the flank: change {side.field}.{_changed(relief)}"
+            f"{side.name}: {side.words} starts at {_written_start(relief, start, side)}, but its involute runs from"
+            f" {degrees(lowest):.4g} deg (form circle) to {degrees(highest):.4g} deg (tip), diameters"
+            f" {2.0 * gear.form_radius:.6g} to {2.0 * gear.tip_radius:.6g} mm,"
+            f" {gear.base_radius * (highest - lowest):.4g} mm on the path of contact,"
+            f" {0.5 * gear.base_radius * (highest**2 - lowest**2):.4g} mm along the flank: change"
+            f" {side.field}.{_changed(relief)}"
         )
     return ReliefCurve(relief.depth, start, side.end, relief.power)
 
 
 def _check_depth(relief: Relief, side: _Side) -> None:
     if not (isfinite(relief.depth) and relief.depth >= 0.0):
-        raise GeometryError(f"{side.name}: {side.section} depth {relief.depth} mm; it must be zero or a positive length")
+        raise GeometryError(
+            f"{side.name}: {side.section} depth {relief.depth} mm; it must be zero or a positive length"
+        )
     thickness = float(side.gear.tooth_thickness(side.gear.radius(side.end)))
     if relief.depth > 0.5 * thickness:
         end = "tip" if side.section == "tip_relief" else "form circle"
         left = "no tip would be left" if end == "tip" else "nothing of the tooth would be left there"
         raise GeometryError(
-            f"{side.name}: {side.section} depth {relief.depth:.4g} mm is more than half the tooth's thickness at the {end}, "
-            f"{thickness:.4g} mm: {left}; lower {side.field}.depth"
+            f"{side.name}: {side.section} depth {relief.depth:.4g} mm is more than half the tooth's thickness at the"
+            f" {end}, {thickness:.4g} mm: {left}; lower {side.field}.depth"
         )
 
 
@@ -128,12 +149,25 @@ def _start(relief: Relief, side: _Side) -> float:
 def _written_start(relief: Relief, start: float, side: _Side) -> str:
     """Where a relief starts, in the terms of the scene."""
     end = "tip" if side.section == "tip_relief" else "form circle"
-    for length, measured in ((relief.length_on_path, "on the path of contact"), (relief.length_on_flank, "along the flank")):
+    for length, measured in (
+        (relief.length_on_path, "on the path of contact"),
+        (relief.length_on_flank, "along the flank"),
+    ):
         if length is not None:
             return f"{length:.6g} mm from the {end} {measured}"
-    return f"roll angle {degrees(start):.4g} deg" if relief.start_diameter is None else f"diameter {relief.start_diameter:.6g} mm"
+    return (
+        f"roll angle {degrees(start):.4g} deg"
+        if relief.start_diameter is None
+        else f"diameter {relief.start_diameter:.6g} mm"
+    )
 
 
 def _changed(relief: Relief) -> str:
     """The field of the scene that gives the start."""
-    return "length_on_path" if relief.length_on_path is not None else "length_on_flank" if relief.length_on_flank is not None else "start"
+    return (
+        "length_on_path"
+        if relief.length_on_path is not None
+        else "length_on_flank"
+        if relief.length_on_flank is not None
+        else "start"
+    )

@@ -10,10 +10,13 @@ POWERS = {LINEAR: 1, PARABOLIC: 2}
 
 @dataclass(frozen=True)
 class Relief:
-    """Relief of one gear: depth at its end, mm; start as a roll angle in rad, a diameter or a length in mm, none for the usual place.
+    """Relief of one gear: depth at its end, mm; start as a roll angle in rad, a diameter or a length in mm, none for
+    the usual place.
 
-    ``shape``: "linear" or "parabolic" in the roll angle, from the start to the end. ``length_on_path``: from the start to the end, on
-    the path of contact (ISO 21771, where profile charts have it); ``length_on_flank``: the same along the involute. ``exponent``: the power in place of the shape's.
+    ``shape``: "linear" or "parabolic" in the roll angle, from the start to the end. ``length_on_path``: from the start
+        to the end, on
+    the path of contact (ISO 21771, where profile charts have it); ``length_on_flank``: the same along the involute.
+    ``exponent``: the power in place of the shape's.
     """
 
     depth: float

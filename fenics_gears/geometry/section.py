@@ -1,8 +1,8 @@
 """Area and polar second moment of a gear's cross-section, between bore and outline.
 
-By Green's theorem over the boundary, A = 1/2 of the integral of r^2 dtheta, and I_p = 1/4 of that of r^4 dtheta. Along an involute of
-roll angle v these are rb^2 v^2 dv and rb^4 v^2 (1 + v^2) dv, exactly, as circles are; radial lines contribute nothing; the fillet goes by
-Gauss quadrature. Micro-geometry (reliefs, errors) is left out.
+By Green's theorem over the boundary, A = 1/2 of the integral of r^2 dtheta, and I_p = 1/4 of that of r^4 dtheta. Along
+an involute of roll angle v these are rb^2 v^2 dv and rb^4 v^2 (1 + v^2) dv, exactly, as circles are; radial lines
+contribute nothing; the fillet goes by Gauss quadrature. Micro-geometry (reliefs, errors) is left out.
 """
 
 from __future__ import annotations
@@ -32,17 +32,30 @@ class CrossSection:
 def gear_section(gear: Gear) -> CrossSection:
     """The cross-section of a gear from bore to tip; a web counts by its share of the face width."""
     tip, form = gear.tip_roll_angle, gear.form_roll_angle
-    half_tip = 0.5 * gear.tip_thickness / gear.tip_radius if gear.tip_chamfer else gear.tooth_half_angle_at_base - float(involute_function(tip))
+    half_tip = (
+        0.5 * gear.tip_thickness / gear.tip_radius
+        if gear.tip_chamfer
+        else gear.tooth_half_angle_at_base - float(involute_function(tip))
+    )
     chamfer = _straight(tip_corner(gear), canonical_point(gear.base_radius, tip)) if gear.tip_chamfer else 0.0
-    half_tooth = _arc(gear.tip_radius, half_tip) + chamfer + _involute(gear.base_radius, tip) - _involute(gear.base_radius, form) + _fillet(gear)
+    half_tooth = (
+        _arc(gear.tip_radius, half_tip)
+        + chamfer
+        + _involute(gear.base_radius, tip)
+        - _involute(gear.base_radius, form)
+        + _fillet(gear)
+    )
     area, moment = 2 * gear.teeth * half_tooth - _arc(gear.bore_radius, 2.0 * pi)
     if (web := gear.web) is not None:
-        area, moment = np.array([area, moment]) - (1.0 - web.share) * (_arc(web.rim_radius, 2.0 * pi) - _arc(web.hub_radius, 2.0 * pi))
+        area, moment = np.array([area, moment]) - (1.0 - web.share) * (
+            _arc(web.rim_radius, 2.0 * pi) - _arc(web.hub_radius, 2.0 * pi)
+        )
     return CrossSection(float(area), float(moment))
 
 
 def cells_section(points: np.ndarray, cells: np.ndarray) -> CrossSection:
-    """The cross-section that straight-sided cells (m, 3 or 4), corners counter-clockwise, of points (n, 2), mm, cover."""
+    """The cross-section that straight-sided cells (m, 3 or 4), corners counter-clockwise, of points (n, 2), mm,
+    cover."""
     corner = points[cells]
     ahead = np.roll(corner, -1, axis=1)
     turned = corner[..., 0] * ahead[..., 1] - corner[..., 1] * ahead[..., 0]
@@ -63,11 +76,17 @@ def _straight(start: np.ndarray, end: np.ndarray) -> np.ndarray:
 
 def _involute(base_radius: float, roll_angle: float) -> np.ndarray:
     """Both integrals along the involute from the base circle to a roll angle."""
-    return np.array([0.5 * base_radius**2 * roll_angle**3 / 3.0, 0.25 * base_radius**4 * (roll_angle**3 / 3.0 + roll_angle**5 / 5.0)])
+    return np.array(
+        [
+            0.5 * base_radius**2 * roll_angle**3 / 3.0,
+            0.25 * base_radius**4 * (roll_angle**3 / 3.0 + roll_angle**5 / 5.0),
+        ]
+    )
 
 
 def _fillet(gear: Gear) -> np.ndarray:
-    """Both integrals from the form circle down the fillet and along the root circle to the middle of the tooth space."""
+    """Both integrals from the form circle down the fillet and along the root circle to the middle of the tooth
+    space."""
     nodes, weights = np.polynomial.legendre.leggauss(QUADRATURE_POINTS)
     half = 0.5 * gear.fillet_end
     points, tangents = fillet_point(gear, half * (1.0 + nodes)), fillet_tangent(gear, half * (1.0 + nodes))

@@ -1,7 +1,7 @@
 """Sliding of the flanks along the path of contact, from the rigid pair's nominal motion (ISO 21771, Niemann/Winter).
 
-At a distance xi (mm) from T1 the flanks' radii of curvature are rho1 = xi and rho2 = T1T2 - xi, and their points move across the line of
-action with omega1 rho1 and omega2 rho2. Positions are arrays of any shape.
+At a distance xi (mm) from T1 the flanks' radii of curvature are rho1 = xi and rho2 = T1T2 - xi, and their points move
+across the line of action with omega1 rho1 and omega2 rho2. Positions are arrays of any shape.
 """
 
 from __future__ import annotations
@@ -10,7 +10,8 @@ import numpy as np
 
 from fenics_gears.geometry.pair import GearPair
 
-# Start of contact, LPSTC of the pinion, pitch point, HPSTC of the pinion, end of contact: the letters of ISO 21771 where the pinion drives.
+# Start of contact, LPSTC of the pinion, pitch point, HPSTC of the pinion, end of contact: the letters of ISO 21771
+# where the pinion drives.
 CONTACT_POINTS = ("A", "B", "C", "D", "E")
 
 
@@ -22,7 +23,8 @@ def contact_points(pair: GearPair) -> np.ndarray:
 def sliding_per_rotation(pair: GearPair, position):
     """Sliding speed over the pinion's angular speed, mm: v_g / omega1 = rho1 - rho2 z1/z2.
 
-    Of the pinion's flank over the wheel's, positive towards the pinion's tip: negative before the pitch point, positive after it.
+    Of the pinion's flank over the wheel's, positive towards the pinion's tip: negative before the pitch point, positive
+    after it.
     """
     return position - pair.rotation_ratio * (pair.line_of_action_length - position)
 
@@ -30,8 +32,8 @@ def sliding_per_rotation(pair: GearPair, position):
 def specific_sliding(pair: GearPair, position) -> tuple[np.ndarray, np.ndarray]:
     """Sliding speed over the speed of the flank's own point across the line of action, of pinion and wheel.
 
-    zeta1 = 1 - rho2 z1/(rho1 z2), zeta2 = 1 - rho1 z2/(rho2 z1): negative in a dedendum, positive in an addendum, largest in size at the start
-    of a gear's active profile; minus infinity at its base circle.
+    zeta1 = 1 - rho2 z1/(rho1 z2), zeta2 = 1 - rho1 z2/(rho2 z1): negative in a dedendum, positive in an addendum,
+    largest in size at the start of a gear's active profile; minus infinity at its base circle.
     """
     position = np.asarray(position, dtype=float)
     across = pair.rotation_ratio * (pair.line_of_action_length - position)

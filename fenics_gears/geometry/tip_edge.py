@@ -15,10 +15,11 @@ from fenics_gears.geometry.outline import tip_corner
 
 @dataclass(frozen=True)
 class TipEdge:
-    """An arc of `radius` (mm) tangent to the involute and to the tip circle, or its chamfer; radius 0 is the sharp edge where the two meet.
+    """An arc of `radius` (mm) tangent to the involute and to the tip circle, or its chamfer; radius 0 is the sharp edge
+    where the two meet.
 
-    `centre` (2,), mm, of the arc; `flank_roll` (rad): where the arc leaves the involute; `flank_normal` and `tip_normal`
-    (2,): outward unit normals at its two ends, on the flank and on the tip circle or chamfer.
+    `centre` (2,), mm, of the arc; `flank_roll` (rad): where the arc leaves the involute; `flank_normal` and
+    `tip_normal` (2,): outward unit normals at its two ends, on the flank and on the tip circle or chamfer.
     """
 
     radius: float
@@ -38,16 +39,17 @@ class TipEdge:
 def tip_edge(gear: Gear, radius: float) -> TipEdge:
     """The tip edge of the drive flank.
 
-    The curve parallel to an involute is an involute of the same base circle: the arc's centre, `radius` inside the flank and inside
-    the tip circle, is at rb^2 + (rb v - radius)^2 = (ra - radius)^2. Raises GeometryError for a radius that leaves no tip or flank.
+    The curve parallel to an involute is an involute of the same base circle: the arc's centre, `radius` inside the
+    flank and inside the tip circle, is at rb^2 + (rb v - radius)^2 = (ra - radius)^2. Raises GeometryError for a radius
+    that leaves no tip or flank.
     """
     if gear.tip_chamfer and radius >= 0.0:
         return _chamfered(gear, radius)
     largest = 0.5 * gear.tip_thickness
     if not 0.0 <= radius <= largest:
         raise GeometryError(
-            f"tip edge radius {radius:.4g} mm of the gear with {gear.teeth} teeth: it must lie between 0 and half the tooth's "
-            f"thickness at the tip, {largest:.4g} mm; change corner_contact.edge_radius"
+            f"tip edge radius {radius:.4g} mm of the gear with {gear.teeth} teeth: it must lie between 0 and half the"
+            f" tooth's thickness at the tip, {largest:.4g} mm; change corner_contact.edge_radius"
         )
     base, inner = gear.base_radius, gear.tip_radius - radius
     roll = (radius + np.sqrt(max(inner**2 - base**2, 0.0))) / base if radius else gear.tip_roll_angle
@@ -70,11 +72,15 @@ def _chamfered(gear: Gear, radius: float) -> TipEdge:
     def centre(roll: float) -> np.ndarray:
         return canonical_point(base, roll) - radius * canonical_normal(roll)
 
-    roll = halved(lambda at: (centre(at) - foot) @ outward >= -radius, gear.form_roll_angle, gear.tip_roll_angle) if radius else gear.tip_roll_angle
+    roll = (
+        halved(lambda at: (centre(at) - foot) @ outward >= -radius, gear.form_roll_angle, gear.tip_roll_angle)
+        if radius
+        else gear.tip_roll_angle
+    )
     if roll <= gear.form_roll_angle * (1.0 + 1e-9) or (centre(roll) - end) @ along > 0.0:
         raise GeometryError(
-            f"tip edge radius {radius:.4g} mm of the gear with {gear.teeth} teeth does not fit between its involute and its chamfer, which is "
-            f"{np.linalg.norm(end - foot):.4g} mm long; lower corner_contact.edge_radius"
+            f"tip edge radius {radius:.4g} mm of the gear with {gear.teeth} teeth does not fit between its involute and"
+            f" its chamfer, which is {np.linalg.norm(end - foot):.4g} mm long; lower corner_contact.edge_radius"
         )
     return TipEdge(radius, centre(roll), float(roll), canonical_normal(roll), outward)
 

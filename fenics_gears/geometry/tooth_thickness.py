@@ -1,7 +1,10 @@
-"""Tooth thickness as drawings give it: base tangent length, dimension over balls, normal thickness; each way between them and the profile shift.
+"""Tooth thickness as drawings give it: base tangent length, dimension over balls, normal thickness; each way between
+them and the profile shift.
 
-Angles in rad, lengths in mm; profile shifts in normal modules. All of them measure the half angle psi_b of a tooth at the base circle (DIN 3960, ISO 21771):
-W_k = cos(beta_b) [(k - 1) p_bt + d_b psi_b], and for the centre of a ball between two teeth inv(alpha_K) = D_M/(d_b cos(beta_b)) + psi_b - pi/z.
+Angles in rad, lengths in mm; profile shifts in normal modules. All of them measure the half angle psi_b of a tooth at
+the base circle (DIN 3960, ISO 21771):
+W_k = cos(beta_b) [(k - 1) p_bt + d_b psi_b], and for the centre of a ball between two teeth inv(alpha_K) = D_M/(d_b
+cos(beta_b)) + psi_b - pi/z.
 """
 
 from __future__ import annotations
@@ -25,7 +28,9 @@ def shift_of_half_angle(gear: Gear, half_angle: float) -> float:
 
 def normal_thickness(gear: Gear) -> float:
     """Normal thickness s_n = m_n (pi/2 + 2 x tan(alpha_n)) at the reference cylinder."""
-    return gear.normal_module * (0.5 * pi + 2.0 * gear.profile_shift * gear.rack_stretch * tan(gear.normal_pressure_angle))
+    return gear.normal_module * (
+        0.5 * pi + 2.0 * gear.profile_shift * gear.rack_stretch * tan(gear.normal_pressure_angle)
+    )
 
 
 def shift_of_normal_thickness(gear: Gear, thickness: float) -> float:
@@ -35,12 +40,16 @@ def shift_of_normal_thickness(gear: Gear, thickness: float) -> float:
 
 def base_tangent_length(gear: Gear, teeth: int) -> float:
     """Base tangent length W_k over that many teeth."""
-    return cos(base_helix_angle(gear)) * ((teeth - 1) * gear.base_pitch + 2.0 * gear.base_radius * gear.tooth_half_angle_at_base)
+    return cos(base_helix_angle(gear)) * (
+        (teeth - 1) * gear.base_pitch + 2.0 * gear.base_radius * gear.tooth_half_angle_at_base
+    )
 
 
 def shift_of_base_tangent_length(gear: Gear, length: float, teeth: int) -> float:
     """The profile shift with that base tangent length."""
-    return shift_of_half_angle(gear, 0.5 * (length / cos(base_helix_angle(gear)) - (teeth - 1) * gear.base_pitch) / gear.base_radius)
+    return shift_of_half_angle(
+        gear, 0.5 * (length / cos(base_helix_angle(gear)) - (teeth - 1) * gear.base_pitch) / gear.base_radius
+    )
 
 
 def spanned_teeth(gear: Gear) -> int:
@@ -48,7 +57,16 @@ def spanned_teeth(gear: Gear) -> int:
     shift = gear.profile_shift * gear.rack_stretch
     involute = tan(gear.pressure_angle) - gear.pressure_angle
     roll = gear.roll_angle(max(_middle_radius(gear), gear.base_radius))
-    count = gear.teeth / pi * (roll / cos(base_helix_angle(gear)) ** 2 - involute - 2.0 * shift * tan(gear.normal_pressure_angle) / gear.teeth) + 0.5
+    count = (
+        gear.teeth
+        / pi
+        * (
+            roll / cos(base_helix_angle(gear)) ** 2
+            - involute
+            - 2.0 * shift * tan(gear.normal_pressure_angle) / gear.teeth
+        )
+        + 0.5
+    )
     return max(2, round(float(count)))
 
 
@@ -58,8 +76,13 @@ def tangent_contact_radius(gear: Gear, length: float) -> float:
 
 
 def ball_centre(gear: Gear, ball_diameter: float) -> float:
-    """Radius of the centre of a ball between two teeth; the base radius where the ball is too small to touch both flanks."""
-    swept = ball_diameter / (2.0 * gear.base_radius * cos(base_helix_angle(gear))) + gear.tooth_half_angle_at_base - pi / gear.teeth
+    """Radius of the centre of a ball between two teeth; the base radius where the ball is too small to touch both
+    flanks."""
+    swept = (
+        ball_diameter / (2.0 * gear.base_radius * cos(base_helix_angle(gear)))
+        + gear.tooth_half_angle_at_base
+        - pi / gear.teeth
+    )
     return float(gear.radius(inverse_involute(swept)))
 
 
@@ -75,16 +98,20 @@ def dimension_over_balls(gear: Gear, ball_diameter: float) -> float:
 
 
 def shift_of_dimension_over_balls(gear: Gear, dimension: float, ball_diameter: float) -> float | None:
-    """The profile shift with that dimension over balls; None where the balls' centres would lie within the base circle."""
+    """The profile shift with that dimension over balls; None where the balls' centres would lie within the base
+    circle."""
     centre = 0.5 * (dimension - ball_diameter) / _opposite(gear)
     if centre <= gear.base_radius:
         return None
     swept = float(involute_function(tan(acos(gear.base_radius / centre))))
-    return shift_of_half_angle(gear, swept - ball_diameter / (2.0 * gear.base_radius * cos(base_helix_angle(gear))) + pi / gear.teeth)
+    return shift_of_half_angle(
+        gear, swept - ball_diameter / (2.0 * gear.base_radius * cos(base_helix_angle(gear))) + pi / gear.teeth
+    )
 
 
 def ball_diameter(gear: Gear) -> float:
-    """Diameter of a ball that touches the flanks near the shifted reference circle, exactly there for spur gears but for rounding to 0.05 mm."""
+    """Diameter of a ball that touches the flanks near the shifted reference circle, exactly there for spur gears but
+    for rounding to 0.05 mm."""
     roll = float(gear.roll_angle(max(_middle_radius(gear), gear.base_radius)))
     centre = tan(roll + pi / gear.teeth - gear.tooth_half_angle_at_base)
     return max(1, round(40.0 * gear.base_radius * (centre - roll) * cos(base_helix_angle(gear)))) / 20.0

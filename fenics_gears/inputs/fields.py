@@ -1,7 +1,8 @@
 """The kinds of fields a scene has: quantities with units, bare numbers, choices; each knows what it allows.
 
-Each function returns a pydantic field; its wording travels along as ``Allowed``, for the messages and the documentation. ``meaning`` says
-what the field is; ``otherwise`` what is taken where a scene leaves it out, and thereby that it may.
+Each function returns a pydantic field; its wording travels along as ``Allowed``, for the messages and the
+documentation. ``meaning`` says what the field is; ``otherwise`` what is taken where a scene leaves it out, and thereby
+that it may.
 """
 
 from __future__ import annotations
@@ -22,8 +23,9 @@ from fenics_gears.inputs.written import as_written
 class Allowed:
     """What a field allows, in words, and how its text becomes a number.
 
-    ``kind`` is the kind of quantity ("a length"), None for a field without unit, and ``unit`` a usual one; ``words`` are texts that stand
-    for other values; ``below`` is a sentence added where a value is too small. ``meaning`` and ``otherwise`` are for the documentation:
+    ``kind`` is the kind of quantity ("a length"), None for a field without unit, and ``unit`` a usual one; ``words``
+    are texts that stand for other values; ``below`` is a sentence added where a value is too small. ``meaning`` and
+    ``otherwise`` are for the documentation:
     what the field is, and what is taken where it is left out.
     """
 
@@ -104,7 +106,9 @@ class AllowedList(Allowed):
         if not isinstance(value, list):
             raise refused("is not a list.")
         if not self.shortest <= len(value) <= self.longest:
-            raise refused("is empty." if not value else f"has {len(value)} {'entry' if len(value) == 1 else 'entries'}.")
+            raise refused(
+                "is empty." if not value else f"has {len(value)} {'entry' if len(value) == 1 else 'entries'}."
+            )
         return tuple(self._entry(number, entry) for number, entry in enumerate(value, 1))
 
     def _entry(self, number: int, entry: Any) -> float:
@@ -224,29 +228,52 @@ def number(
     """A bare number; ``above`` and ``below`` are excluded, ``lowest`` and ``highest`` included."""
     least = f"above {above:g} and" if lowest is None else f"from {lowest:g}"
     most = f"below {below:g}" if highest is None else f"up to {highest:g}"
-    allowed = Allowed(f"a number {least} {most}, without unit, such as {example:g}", below=too_low, meaning=meaning, otherwise=otherwise)
-    return Field(None if otherwise else default, gt=above, ge=lowest, lt=below, le=highest, json_schema_extra={"allowed": allowed})
+    allowed = Allowed(
+        f"a number {least} {most}, without unit, such as {example:g}",
+        below=too_low,
+        meaning=meaning,
+        otherwise=otherwise,
+    )
+    return Field(
+        None if otherwise else default,
+        gt=above,
+        ge=lowest,
+        lt=below,
+        le=highest,
+        json_schema_extra={"allowed": allowed},
+    )
 
 
-def quantities(lowest: str, highest: str, *examples: str, meaning: str, otherwise: str, count: int | None = None) -> Any:
+def quantities(
+    lowest: str, highest: str, *examples: str, meaning: str, otherwise: str, count: int | None = None
+) -> Any:
     """A list of quantities with units, optional; bounds of each entry, both included, are written with units too.
 
     ``examples``: of two entries, or one for both; ``count``: of the entries, where it is fixed.
     """
     (low, kind), high, first, second = units.quantity(lowest), units.quantity(highest)[0], examples[0], examples[-1]
     many, sizes = (f"{count} quantities", {"shortest": count, "longest": count}) if count else ("quantities", {})
-    description = f'a list of {many}, each {kind} from {lowest} to {highest}, with its unit, such as ["{first}", "{second}"]'
-    return _field(AllowedList(description, kind, units.unit_of(first), bounds=(low, high), meaning=meaning, otherwise=otherwise, **sizes))
+    description = (
+        f'a list of {many}, each {kind} from {lowest} to {highest}, with its unit, such as ["{first}", "{second}"]'
+    )
+    return _field(
+        AllowedList(
+            description, kind, units.unit_of(first), bounds=(low, high), meaning=meaning, otherwise=otherwise, **sizes
+        )
+    )
 
 
 def numbers(lowest: float, highest: float, example: float, *, meaning: str, otherwise: str) -> Any:
     """A list of bare numbers, optional; bounds of each entry, both included."""
-    description = f"a list of numbers, each from {lowest:g} to {highest:g}, without unit, such as [{example:g}, {example:g}]"
+    description = (
+        f"a list of numbers, each from {lowest:g} to {highest:g}, without unit, such as [{example:g}, {example:g}]"
+    )
     return _field(AllowedList(description, bounds=(lowest, highest), meaning=meaning, otherwise=otherwise))
 
 
 def either(*ranges: tuple[str, str, str], words: dict[str, Any], meaning: str, otherwise: str) -> Any:
-    """A quantity of one of several kinds, each given as lowest, highest, example with units; optional. It becomes a ``Measured``."""
+    """A quantity of one of several kinds, each given as lowest, highest, example with units; optional. It becomes a
+    ``Measured``."""
     described, bounds = [], {}
     for lowest, highest, example in ranges:
         (low, kind), high = units.quantity(lowest), units.quantity(highest)[0]
@@ -254,7 +281,13 @@ def either(*ranges: tuple[str, str, str], words: dict[str, Any], meaning: str, o
         bounds[kind] = low, high
     description = ", or ".join([*described, *(f'"{word}"' for word in words)])
     allowed = AllowedEither(
-        description, next(iter(bounds)), units.unit_of(ranges[0][2]), words, meaning=meaning, otherwise=otherwise, ranges=bounds
+        description,
+        next(iter(bounds)),
+        units.unit_of(ranges[0][2]),
+        words,
+        meaning=meaning,
+        otherwise=otherwise,
+        ranges=bounds,
     )
     return _field(allowed)
 
@@ -272,18 +305,26 @@ def whole_number(
 def choice(*names: str, meaning: str, otherwise: str) -> Any:
     """One of a few names, optional."""
     listed = ", ".join(f'"{name}"' for name in names)
-    return _field(Allowed(f"one of {listed}" if len(names) > 1 else f"only {listed}", meaning=meaning, otherwise=otherwise))
+    return _field(
+        Allowed(f"one of {listed}" if len(names) > 1 else f"only {listed}", meaning=meaning, otherwise=otherwise)
+    )
 
 
 def text(longest: int, *, meaning: str, otherwise: str) -> Any:
     """A text, optional."""
-    return _field(Allowed(f"a text of at most {longest} characters", meaning=meaning, otherwise=otherwise), max_length=longest)
+    return _field(
+        Allowed(f"a text of at most {longest} characters", meaning=meaning, otherwise=otherwise), max_length=longest
+    )
 
 
 def file_name(ending: str, example: str, *, meaning: str, otherwise: str) -> Any:
     """The name of a file that ends in ``ending``, optional."""
-    description = f'the name of a file that ends in {ending}, of at most {LONGEST_FILE_NAME} characters, such as "{example}"'
-    return _field(AllowedFile(description, meaning=meaning, otherwise=otherwise, ending=ending), max_length=LONGEST_FILE_NAME)
+    description = (
+        f'the name of a file that ends in {ending}, of at most {LONGEST_FILE_NAME} characters, such as "{example}"'
+    )
+    return _field(
+        AllowedFile(description, meaning=meaning, otherwise=otherwise, ending=ending), max_length=LONGEST_FILE_NAME
+    )
 
 
 def switch(*, meaning: str) -> Any:

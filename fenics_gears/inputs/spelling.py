@@ -1,4 +1,5 @@
-"""From values in N, mm, s, rad back to a section of a scene file that reads as the same values, bit for bit: the way back of ``inputs.fields``."""
+"""From values in N, mm, s, rad back to a section of a scene file that reads as the same values, bit for bit: the way
+back of ``inputs.fields``."""
 
 from __future__ import annotations
 
@@ -24,10 +25,17 @@ def section_tree(values: Any, section: type[BaseModel], leaving: Collection[str]
     found: dict[str, Any] = {}
     for each in fields(values):
         value, schema = getattr(values, each.name), section.model_fields.get(each.name)
-        if schema is None or each.name in leaving or value is None or (value == _default(each) and not schema.is_required()):
+        if (
+            schema is None
+            or each.name in leaving
+            or value is None
+            or (value == _default(each) and not schema.is_required())
+        ):
             continue
         inner = section_within(section, each.name)
-        found[each.name] = section_tree(value, inner) if inner is not None else spelled(value, allowed_in(section, each.name))
+        found[each.name] = (
+            section_tree(value, inner) if inner is not None else spelled(value, allowed_in(section, each.name))
+        )
     return found
 
 
@@ -37,9 +45,12 @@ def field_of(section: type[BaseModel], name: str, value: Any) -> Any:
 
 
 def spelled(value: Any, allowed: Allowed) -> Any:
-    """A value as a scene file has it: a quantity in the field's usual unit where that gives it bit for bit, else in N, mm, s, rad."""
+    """A value as a scene file has it: a quantity in the field's usual unit where that gives it bit for bit, else in N,
+    mm, s, rad."""
     if isinstance(allowed, AllowedList):
-        return [float(each) if allowed.kind is None else quantity_text(each, allowed.kind, allowed.unit) for each in value]
+        return [
+            float(each) if allowed.kind is None else quantity_text(each, allowed.kind, allowed.unit) for each in value
+        ]
     return value if allowed.kind is None else quantity_text(value, allowed.kind, allowed.unit)
 
 

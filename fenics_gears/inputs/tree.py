@@ -14,7 +14,8 @@ from fenics_gears.inputs.written import as_written
 Tree = Mapping[str, Any]
 GEARS = ("pinion", "wheel")
 MOST_TEETH = 1000
-# In modules. Real errors of manufacture are far smaller; the model moves flanks by them but not their points of contact.
+# In modules. Real errors of manufacture are far smaller; the model moves flanks by them but not their points of
+# contact.
 LARGEST_ERROR = 0.1
 
 
@@ -38,7 +39,8 @@ def with_gears(tree: Tree, name: str) -> dict[Path, Tree]:
 
 
 def given_for(both: Tree, gear: str) -> set[str]:
-    """Names that a section gives for the "pinion" or the "wheel": those for both gears, and those of the gear's own section."""
+    """Names that a section gives for the "pinion" or the "wheel": those for both gears, and those of the gear's own
+    section."""
     return {*both, *(table(both, gear) or {})}
 
 
@@ -63,7 +65,8 @@ def teeth_in(tree: Tree, gear: str) -> int | None:
     return teeth if type(teeth) is int and 0 < teeth <= MOST_TEETH else None
 
 
-# What a load may be given by: torque that resists the wheel, torque that drives the pinion, power that goes through, without losses.
+# What a load may be given by: torque that resists the wheel, torque that drives the pinion, power that goes through,
+# without losses.
 LOADS = ("wheel_torque", "pinion_torque", "power")
 
 
@@ -85,7 +88,12 @@ def load_in(tree: Tree) -> tuple[Path, float] | None:
 
 
 # What makes a scene three-dimensional, in the order in which messages name it.
-OVER_THE_FACE: tuple[Path, ...] = (("gears", "helix_angle"), ("lead_modifications",), ("misalignment",), ("bearings", "places"))
+OVER_THE_FACE: tuple[Path, ...] = (
+    ("gears", "helix_angle"),
+    ("lead_modifications",),
+    ("misalignment",),
+    ("bearings", "places"),
+)
 
 
 def dotted(path: Path) -> str:
@@ -95,15 +103,25 @@ def dotted(path: Path) -> str:
 
 def over_the_face(tree: Tree) -> list[Path]:
     """What of a scene makes it three-dimensional; nothing of a plane one."""
-    return [path for path in OVER_THE_FACE if (value_at(tree, *path) if len(path) > 1 else table(tree, path[0])) is not None]
+    return [
+        path for path in OVER_THE_FACE if (value_at(tree, *path) if len(path) > 1 else table(tree, path[0])) is not None
+    ]
 
 
-NOT_IN_THE_PLANE = f"is of three-dimensional scenes: allowed beside {', '.join(map(dotted, OVER_THE_FACE[:-1]))} or {dotted(OVER_THE_FACE[-1])}. Leave it out."
+NOT_IN_THE_PLANE = (
+    f"is of three-dimensional scenes: allowed beside {', '.join(map(dotted, OVER_THE_FACE[:-1]))} or"
+    f" {dotted(OVER_THE_FACE[-1])}. Leave it out."
+)
 
 
 def material_sections(tree: Tree) -> list[Path]:
     """Paths of the sections, misspelt ones too, that say what gears are made of; none of rigid gears."""
-    return [(*path, name) for path, home in with_gears(tree, "gears").items() for name in home if nearest(name, ["material"])]
+    return [
+        (*path, name)
+        for path, home in with_gears(tree, "gears").items()
+        for name in home
+        if nearest(name, ["material"])
+    ]
 
 
 def too_large_for_the_module(tree: Tree, path: Path, written: Any) -> Iterator[Problem]:

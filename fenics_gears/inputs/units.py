@@ -1,6 +1,7 @@
 """Quantities with units, converted once to N, mm, s and rad.
 
-The list of units is closed: no prefix is guessed, so that "Mm" is a mistake and not a megametre. An angle has a dimension of
+The list of units is closed: no prefix is guessed, so that "Mm" is a mistake and not a megametre. An angle has a
+    dimension of
 its own, so that "N m" is no torsional stiffness and "Hz" no angular speed.
 """
 
@@ -90,7 +91,9 @@ _KINDS = {
 }
 
 _QUANTITY = re.compile(r"\s*([+-]?(?:(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|inf|nan))(?![.,\d])\s*(.*?)\s*", re.DOTALL)
-_SPELLINGS = str.maketrans({"µ": "u", "μ": "u", "°": " deg", "%": " percent", "·": "*", "⋅": "*", "¹": "^1", "²": "^2", "³": "^3", "⁴": "^4"})
+_SPELLINGS = str.maketrans(
+    {"µ": "u", "μ": "u", "°": " deg", "%": " percent", "·": "*", "⋅": "*", "¹": "^1", "²": "^2", "³": "^3", "⁴": "^4"}
+)
 _NEGATIVE_POWER = re.compile("⁻([¹²³⁴])")
 _DIGITS = str.maketrans("¹²³⁴", "1234")
 # What a drawing or a data sheet writes for revolutions a minute, without blanks: ISO 80000-3 counts a revolution as 1.
@@ -102,7 +105,9 @@ _BRACKETS = rf"\(\s*{_FACTOR}(?:{_JOINT}{_FACTOR})*\s*\)"
 _ITEM = rf"(?:{_FACTOR}|{_BRACKETS})"
 _LONGEST_UNIT = 40
 _UNIT_TEXT = re.compile(rf"(?:1\s*/\s*)?{_ITEM}(?:{_JOINT}{_ITEM})*")
-_ITEMS = re.compile(r"(?P<joint>/?)\s*(?:\((?P<inner>[^)]*)\)|(?P<name>[A-Za-z]+)(?:\s*(?:\^|\*\*)\s*(?P<power>-?\d+))?)")
+_ITEMS = re.compile(
+    r"(?P<joint>/?)\s*(?:\((?P<inner>[^)]*)\)|(?P<name>[A-Za-z]+)(?:\s*(?:\^|\*\*)\s*(?P<power>-?\d+))?)"
+)
 
 
 class QuantityError(ValueError):
@@ -131,9 +136,11 @@ def quantity(text: str) -> tuple[float, str]:
 
 
 def of_kind(text: str, *kinds: str) -> tuple[float, str]:
-    """The number and its kind as of ``quantity``, one of some kinds; where an angular speed is wanted, 1/min is revolutions a minute.
+    """The number and its kind as of ``quantity``, one of some kinds; where an angular speed is wanted, 1/min is
+    revolutions a minute.
 
-    1/s is not taken for one: it stands for revolutions in some papers and for radians in others. Raises QuantityError for another kind too.
+    1/s is not taken for one: it stands for revolutions in some papers and for radians in others. Raises QuantityError
+    for another kind too.
 
     >>> of_kind("60 min^-1", "an angular speed")[0] == quantity("60 rpm")[0]
     True

@@ -30,12 +30,15 @@ def as_written(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, int) and abs(value) >= 10**_LONGEST:
         return f"a number of more than {_LONGEST} digits"
-    text = json.dumps(value, ensure_ascii=False) if isinstance(value, str) else getattr(value, "text", None) or str(value)
+    text = (
+        json.dumps(value, ensure_ascii=False) if isinstance(value, str) else getattr(value, "text", None) or str(value)
+    )
     return text if len(text) <= _LONGEST else text[: _LONGEST - 3] + "..."
 
 
 def as_toml(tree: Mapping[str, Any]) -> str:
-    """A parsed scene as the text of a scene file; entries that are None are left out. Raises TypeError for what no file can hold."""
+    """A parsed scene as the text of a scene file; entries that are None are left out. Raises TypeError for what no file
+    can hold."""
     return "\n".join(_section_lines(tree, ())).strip() + "\n"
 
 
@@ -57,7 +60,8 @@ def _toml_name(name: Any) -> str:
 
 
 def toml_value(value: Any) -> str:
-    """A value, a table of values included, in TOML's spelling on one line. Raises TypeError for a value that no TOML file can hold."""
+    """A value, a table of values included, in TOML's spelling on one line. Raises TypeError for a value that no TOML
+    file can hold."""
     if hasattr(value, "tolist"):
         # Of numpy, which from version 2 on spells itself np.float64(0.1).
         value = value.tolist()

@@ -1,7 +1,8 @@
 """Expected time and memory of a run: operations are counted, their times were measured on one machine.
 
-Seconds are those of one core of the reference machine (Intel Xeon of 2023, 2 cores, Debian 12's OpenBLAS, one thread); machines differ by a
-factor of two. `python -m tests.benchmarks.expected_cost` prints what is expected beside what is measured, of the examples.
+Seconds are those of one core of the reference machine (Intel Xeon of 2023, 2 cores, Debian 12's OpenBLAS, one thread);
+machines differ by a factor of two. `python -m tests.benchmarks.expected_cost` prints what is expected beside what is
+measured, of the examples.
 """
 
 from __future__ import annotations
@@ -19,21 +20,39 @@ from fenics_gears.model.resolution import EVERY_STEP
 
 Number = float | np.ndarray
 
-# Unknowns of a sector mesh: a body part and one part per flank node; fitted to meshes from 0.16 to 0.01 mm of the paper's pair.
-SECTOR_UNKNOWNS = {"P1": (5200, 35.0), "P2": (2300, 30.0), "Q1": (6500, 31.0), "Q1 incompatible": (6500, 31.0), "Q2": (3000, 35.0)}
-# Seconds of meshing and condensing: a gear, an unknown, the cube of a flank's dofs (a dense inverse), their square for each block of compliance.
+# Unknowns of a sector mesh: a body part and one part per flank node; fitted to meshes from 0.16 to 0.01 mm of the
+# paper's pair.
+SECTOR_UNKNOWNS = {
+    "P1": (5200, 35.0),
+    "P2": (2300, 30.0),
+    "Q1": (6500, 31.0),
+    "Q1 incompatible": (6500, 31.0),
+    "Q2": (3000, 35.0),
+}
+# Seconds of meshing and condensing: a gear, an unknown, the cube of a flank's dofs (a dense inverse), their square for
+# each block of compliance.
 GEAR, UNKNOWN, FLANK_CUBE, FLANK_SQUARE = 0.04, 1.2e-5, 1.4e-10, 4.5e-8
 # Two inverses of symmetric matrices by Cholesky, in those of a general one.
 BOTH_FLANKS_INVERSES = 0.75
-# Seconds of marching: at a position each pair of flanks and the square of contact nodes, a step and each of its contact rows.
+# Seconds of marching: at a position each pair of flanks and the square of contact nodes, a step and each of its contact
+# rows.
 PAIR, NODES_SQUARE, STEP, ROW = 3e-4, 1e-7, 8e-6, 2.5e-7
 # A step of rigid flanks, which have a solver of their own.
 RIGID_STEP = 1.4e-4
-# Seconds that an effect adds to a step: gaps that differ, a torque that varies, openings of both flanks, time steps of unequal length.
-STEP_OF_EFFECT = {"flank_errors": 4e-5, "eccentricity": 2e-5, "torque_ripple": 1e-5, "coast_flanks": 5e-6, "speed_ramp": 1e-5}
-# Mesh cycles that are unlike where a gear is meshed as a whole: those in which a cracked tooth or its neighbours are in mesh (measured).
+# Seconds that an effect adds to a step: gaps that differ, a torque that varies, openings of both flanks, time steps of
+# unequal length.
+STEP_OF_EFFECT = {
+    "flank_errors": 4e-5,
+    "eccentricity": 2e-5,
+    "torque_ripple": 1e-5,
+    "coast_flanks": 5e-6,
+    "speed_ramp": 1e-5,
+}
+# Mesh cycles that are unlike where a gear is meshed as a whole: those in which a cracked tooth or its neighbours are in
+# mesh (measured).
 UNLIKE_CYCLES = 5
-# For the reference route, seconds: an unknown of a remeshed sector, a step, the cube of its contact rows; matrices of a position.
+# For the reference route, seconds: an unknown of a remeshed sector, a step, the cube of its contact rows; matrices of a
+# position.
 REMESHED_UNKNOWN, REMESHED_STEP, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 4e-4, 1.5e-10, 7.0
 # Bytes: the program with its libraries; the same with those that mesh and condense; one number.
 PROGRAM, CONDENSING_PROGRAM, BYTES_OF_A_NUMBER = 200e6, 300e6, 8.0
@@ -45,10 +64,11 @@ MATRICES_OF_A_FLANK, OPERATORS_WITH_FRICTION = 10.0, 1.5
 
 @dataclass(frozen=True)
 class ExpectedCost:
-    """Seconds of condensing (None where nothing is condensed) and of marching, of which `building` make the contact operators; unknowns (words, number)
-    of the gears; how bodies over the face are condensed (words, way).
+    """Seconds of condensing (None where nothing is condensed) and of marching, of which `building` make the contact
+    operators; unknowns (words, number) of the gears; how bodies over the face are condensed (words, way).
 
-    Bytes: `memory` of all, of which `operators` need not be kept: they are made again each time the mesh cycle comes round.
+    Bytes: `memory` of all, of which `operators` need not be kept: they are made again each time the mesh cycle comes
+        round.
     """
 
     condensing: float | None
@@ -71,17 +91,23 @@ def too_large(model: Model, cost: ExpectedCost, allowed: float) -> str:
         return ""
     less = "Larger flank elements and fewer mesh cycles take less"
     if model.face is not None:
-        less = f"Fewer slices (accuracy.slices, here {model.face.slices}) and larger elements of the bodies (accuracy.body_element_size, accuracy.layers) take less"
+        less = (
+            f"Fewer slices (accuracy.slices, here {model.face.slices}) and larger elements of the bodies"
+            " (accuracy.body_element_size, accuracy.layers) take less"
+        )
     return (
-        f"The run would take {cost.held / 1e9:.3g} GB of memory, contact operators apart, and {allowed / 1e9:.3g} GB are allowed. Nothing was computed. "
-        f"{less}; `--memory` or FENICS_GEARS_MEMORY allow more."
+        f"The run would take {cost.held / 1e9:.3g} GB of memory, contact operators apart, and {allowed / 1e9:.3g} GB"
+        f" are allowed. Nothing was computed. {less}; `--memory` or FENICS_GEARS_MEMORY allow more."
     )
 
 
 def loaded_pairs(model: Model) -> float:
     """Pairs of flanks in contact windows, on the average over the mesh cycle."""
     grid = model.resolution.contact_grid
-    pairs = [len(pair_places(model.pair, grid, phase / 16, model.scene.coast_flanks is not None, model.corner)) for phase in range(16)]
+    pairs = [
+        len(pair_places(model.pair, grid, phase / 16, model.scene.coast_flanks is not None, model.corner))
+        for phase in range(16)
+    ]
     return sum(pairs) / len(pairs)
 
 
@@ -118,12 +144,20 @@ def expected_cost(model: Model, ranks: int = 1) -> ExpectedCost:
     condensing, marching, held, operators = cost(model, gears)
     unknowns = tuple((gear.words, gear.unknowns) for gear in gears)
     building = 0.0 if cost is _remeshed_cost else _building(model, contact_rows(model))
-    return ExpectedCost(condensing, marching, CONDENSING_PROGRAM + model.stored_bytes + held + operators, operators, unknowns, building=building)
+    return ExpectedCost(
+        condensing,
+        marching,
+        CONDENSING_PROGRAM + model.stored_bytes + held + operators,
+        operators,
+        unknowns,
+        building=building,
+    )
 
 
 @dataclass(frozen=True)
 class _Gear:
-    """A gear to be condensed: its finite elements' unknowns, dofs of a flank, blocks of its compliance that are computed, those that contact
+    """A gear to be condensed: its finite elements' unknowns, dofs of a flank, blocks of its compliance that are
+    computed, those that contact
     copies (the transposes, of teeth behind), dense inverses of a flank's size."""
 
     words: str
@@ -146,7 +180,14 @@ def _condensed(model: Model, name: str) -> _Gear:
         return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1, reach.same)
     # Half a symmetric sector, for motions of either symmetry.
     across = reach.across[1] - reach.across[0] + 1
-    return _Gear(f"half a {name} sector", 0.5 * body + per_node * 0.5 * dofs, dofs, reach.same + 1 + across, 2 * reach.same, BOTH_FLANKS_INVERSES)
+    return _Gear(
+        f"half a {name} sector",
+        0.5 * body + per_node * 0.5 * dofs,
+        dofs,
+        reach.same + 1 + across,
+        2 * reach.same,
+        BOTH_FLANKS_INVERSES,
+    )
 
 
 def _meshed(model: Model, name: str) -> int | None:
@@ -164,7 +205,9 @@ def _positions(model: Model) -> int:
 
 def _marching(model: Model, rows: float) -> float:
     """Seconds of marching with so many contact rows a position."""
-    step = (STEP if model.scene.tooth_elasticity is not None else RIGID_STEP) + sum(STEP_OF_EFFECT.get(effect.section, 0.0) for effect in effects_on(model.scene))
+    step = (STEP if model.scene.tooth_elasticity is not None else RIGID_STEP) + sum(
+        STEP_OF_EFFECT.get(effect.section, 0.0) for effect in effects_on(model.scene)
+    )
     return _building(model, rows) + model.steps * (step + ROW * rows)
 
 
@@ -178,12 +221,23 @@ def _condensed_once_cost(model: Model, gears: list[_Gear]) -> tuple[float, float
     """Seconds of condensing and of marching, bytes that are held all the time and those of the contact operators."""
     rows = contact_rows(model)
     condensing = sum(
-        GEAR + UNKNOWN * gear.unknowns + gear.inverses * FLANK_CUBE * gear.flank_dofs**3 + gear.blocks * FLANK_SQUARE * gear.flank_dofs**2
+        GEAR
+        + UNKNOWN * gear.unknowns
+        + gear.inverses * FLANK_CUBE * gear.flank_dofs**3
+        + gear.blocks * FLANK_SQUARE * gear.flank_dofs**2
         for gear in gears
     )
     nodes = _positions(model) * rows / (2 if model.scene.friction is not None else 1)
-    held = BYTES_OF_A_NUMBER * NUMBERS_OF_A_NODE * nodes + sum(flank_bytes(gear.flank_dofs) + BYTES_OF_A_NUMBER * (gear.blocks + gear.copied) * gear.flank_dofs**2 for gear in gears)
-    return condensing, _marching(model, rows), held, operator_bytes(_positions(model), rows, model.scene.friction is not None)
+    held = BYTES_OF_A_NUMBER * NUMBERS_OF_A_NODE * nodes + sum(
+        flank_bytes(gear.flank_dofs) + BYTES_OF_A_NUMBER * (gear.blocks + gear.copied) * gear.flank_dofs**2
+        for gear in gears
+    )
+    return (
+        condensing,
+        _marching(model, rows),
+        held,
+        operator_bytes(_positions(model), rows, model.scene.friction is not None),
+    )
 
 
 def _face_cost(model: Model, gears: list[_Gear], ranks: int) -> ExpectedCost:
@@ -196,14 +250,28 @@ def _face_cost(model: Model, gears: list[_Gear], ranks: int) -> ExpectedCost:
     sections = tuple((gear.words, gear.unknowns) for gear in gears)
     names = ("the pinion's body", "the wheel's body")
     bodies = tuple(zip(names, over_face.unknowns))
-    memory = CONDENSING_PROGRAM + model.stored_bytes + max(held + over_face.kept + over_face.operators, over_face.memory)
-    return ExpectedCost(condensing + over_face.condensing, over_face.marching, memory, over_face.operators, (*sections, *bodies), tuple(zip(names, over_face.ways)), over_face.building)
+    memory = (
+        CONDENSING_PROGRAM + model.stored_bytes + max(held + over_face.kept + over_face.operators, over_face.memory)
+    )
+    return ExpectedCost(
+        condensing + over_face.condensing,
+        over_face.marching,
+        memory,
+        over_face.operators,
+        (*sections, *bodies),
+        tuple(zip(names, over_face.ways)),
+        over_face.building,
+    )
 
 
 def _remeshed_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, float, float]:
     """The same where every loaded sector is meshed anew at every position."""
     order = 2 if model.resolution.element.endswith("2") else 1
-    positions, nodes, pairs = model.resolution.steps_per_mesh_cycle, model.resolution.contact_grid.nodes, loaded_pairs(model)
+    positions, nodes, pairs = (
+        model.resolution.steps_per_mesh_cycle,
+        model.resolution.contact_grid.nodes,
+        loaded_pairs(model),
+    )
     rows = 2.0 * pairs * (order * (nodes - 1) + 1)
     condensing = positions * pairs * REMESHED_UNKNOWN * sum(gear.unknowns for gear in gears)
     marching = model.steps * (REMESHED_STEP + ROW_CUBE * rows**3)

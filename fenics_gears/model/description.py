@@ -45,19 +45,31 @@ def effect_states(scene: Scene) -> list[EffectState]:
             continue
         results = [variable.name for variable in effect.variables if variable.name in there]
         added = {"unknowns": effect.unknowns, "terms": effect.terms, "results": results}
-        states.append(EffectState(effect, True, effect.description, "; ".join(f"{kind}: {', '.join(names)}" for kind, names in added.items() if names)))
+        states.append(
+            EffectState(
+                effect,
+                True,
+                effect.description,
+                "; ".join(f"{kind}: {', '.join(names)}" for kind, names in added.items() if names),
+            )
+        )
     return states
 
 
 def describe(scene: Scene) -> list[tuple[str, Rows]]:
-    """Geometry, model, accuracy, natural frequencies and cost of a scene: headings, each with rows (label, value, unit).
+    """Geometry, model, accuracy, natural frequencies and cost of a scene: headings, each with rows (label, value,
+    unit).
 
     Raises GeometryError for impossible gears.
     """
     model = model_of(scene)
     derived = [(each.name, each.value, f"{each.unit}, {each.formula}".lstrip(", ")) for each in scene.derived]
     sections: list[tuple[str, Rows]] = [("Derived, since the scene leaves it out", derived)] if derived else []
-    sections += [("Gear pair", characteristics(model.pair)), ("Model", _model_rows(model)), ("Accuracy", _accuracy_rows(model))]
+    sections += [
+        ("Gear pair", characteristics(model.pair)),
+        ("Model", _model_rows(model)),
+        ("Accuracy", _accuracy_rows(model)),
+    ]
     if model.drivetrain.mass is not None:
         sections.append(("Inertia", _inertia_rows(model)))
         sections.append(("Natural frequencies with one tooth pair in mesh (about)", _frequency_rows(model)))
@@ -70,44 +82,82 @@ def describe(scene: Scene) -> list[tuple[str, Rows]]:
 def _model_rows(model: Model) -> Rows:
     grid = model.resolution.contact_grid
     each = "normal and tangential force" if model.scene.friction is not None else "normal force"
-    touching = f"each with a {each} where flanks touch" if model.scene.tooth_elasticity is not None else "the first to touch carries all"
+    touching = (
+        f"each with a {each} where flanks touch"
+        if model.scene.tooth_elasticity is not None
+        else "the first to touch carries all"
+    )
     return [
         *_face_rows(model),
         *_curve_rows(model),
-        ("motions of the gears that are unknown", f"{len(model.drivetrain.coordinates)}:", ", ".join(model.drivetrain.coordinates)),
-        ("contact nodes of a tooth pair", f"{grid.nodes},", touching) if model.face is None else ("slices of the face", f"{model.face.slices},", f"contact nodes in each, {touching}"),
+        (
+            "motions of the gears that are unknown",
+            f"{len(model.drivetrain.coordinates)}:",
+            ", ".join(model.drivetrain.coordinates),
+        ),
+        ("contact nodes of a tooth pair", f"{grid.nodes},", touching)
+        if model.face is None
+        else ("slices of the face", f"{model.face.slices},", f"contact nodes in each, {touching}"),
         ("equations in time", _method(model), ""),
-        *([] if model.scene.motion.speed_given else [("time", "counts mesh cycles, 1 s each", "for the scene has no speed and needs none")]),
+        *(
+            []
+            if model.scene.motion.speed_given
+            else [("time", "counts mesh cycles, 1 s each", "for the scene has no speed and needs none")]
+        ),
         ("nominal force along the line of action", model.scene.load.wheel_torque / model.pair.wheel.base_radius, "N"),
-        *([] if model.scene.friction is None else [("coefficient of friction", model.friction_coefficient, model.scene.friction.formula and f"after {model.scene.friction.formula}" or "")]),
+        *(
+            []
+            if model.scene.friction is None
+            else [
+                (
+                    "coefficient of friction",
+                    model.friction_coefficient,
+                    model.scene.friction.formula and f"after {model.scene.friction.formula}" or "",
+                )
+            ]
+        ),
         *(_speed_rows(model) if model.scene.motion.speed_given else []),
     ]
 
 
 def _face_rows(model: Model) -> Rows:
-    """Widths, where they or their places differ; of three-dimensional scenes also hands, modifications along the face and misalignment."""
+    """Widths, where they or their places differ; of three-dimensional scenes also hands, modifications along the face
+    and misalignment."""
     pair, scene = model.pair, model.scene
     widths: Rows = []
     if pair.axial_offsets != (0.0, 0.0) or pair.face_widths[0] != pair.face_widths[1]:
         places = pair.gear_middles if pair.axial_offsets != (0.0, 0.0) else (None, None)
-        each = (f"{name} {width:g} mm" + ("" if middle is None else f" about {middle:g} mm") for name, width, middle in zip(GEARS, pair.face_widths, places))
+        each = (
+            f"{name} {width:g} mm" + ("" if middle is None else f" about {middle:g} mm")
+            for name, width, middle in zip(GEARS, pair.face_widths, places)
+        )
         widths = [("face width in common", pair.face_width, f"mm: {', '.join(each)}")]
     if not scene.three_dimensional:
         return [*widths, *_plane_rows(model)]
     low, high = pair.common_face
-    found: Rows = [*widths, ("flanks are resolved over the face", f"z from {low:g} mm to {high:g} mm", "from its middle, left to right")]
+    found: Rows = [
+        *widths,
+        ("flanks are resolved over the face", f"z from {low:g} mm to {high:g} mm", "from its middle, left to right"),
+    ]
     if pair.helix is not None:
         hands = (pair.helix.pinion_hand, "left" if pair.helix.pinion_hand == "right" else "right")
         found.append(("hand of the helix", f"pinion {hands[0]}, wheel {hands[1]}", ""))
     for name in GEARS if scene.lead_modifications is not None else ():
         own = getattr(scene.lead_modifications, name)
         relief = None if own is None else own.end_relief
-        found += [(f"{name} {words}", 1e3 * amount, "um") for words, amount in _amounts(own, ("crowning", "helix_slope"))]
+        found += [
+            (f"{name} {words}", 1e3 * amount, "um") for words, amount in _amounts(own, ("crowning", "helix_slope"))
+        ]
         if relief is not None:
             ends = "both ends" if relief.sides == "both" else f"the {relief.sides} end"
-            found.append((f"{name} end relief", 1e3 * relief.depth, f"um, {relief.shape} over {relief.length:g} mm at {ends}"))
+            found.append(
+                (f"{name} end relief", 1e3 * relief.depth, f"um, {relief.shape} over {relief.length:g} mm at {ends}")
+            )
     about = "um over the common face, about the pitch point in its middle"
-    return found + [(f"misalignment {words}", 1e3 * amount, about) for words, amount in _amounts(scene.misalignment, ("in_plane", "out_of_plane"))]
+    return found + [
+        (f"misalignment {words}", 1e3 * amount, about)
+        for words, amount in _amounts(scene.misalignment, ("in_plane", "out_of_plane"))
+    ]
 
 
 def _curve_rows(model: Model) -> Rows:
@@ -117,7 +167,13 @@ def _curve_rows(model: Model) -> Rows:
         own, gear = getattr(model.scene.flank_errors, name), getattr(model.pair, name)
         zero = "in their mean" if own.anchor == MEAN else ""
         if own.measured_profile is not None:
-            rows.append((f"{name} profile curves are zero", zero or f"at diameter {2.0 * float(gear.radius(v_roll_angle(gear))):.6g} mm", "" if zero else "(V cylinder, d + 2 x m)"))
+            rows.append(
+                (
+                    f"{name} profile curves are zero",
+                    zero or f"at diameter {2.0 * float(gear.radius(v_roll_angle(gear))):.6g} mm",
+                    "" if zero else "(V cylinder, d + 2 x m)",
+                )
+            )
         if own.measured_helix is not None:
             rows.append((f"{name} helix curves are zero", zero or "at mid-width", ""))
     return rows
@@ -136,7 +192,7 @@ def _plane_rows(model: Model) -> Rows:
     modules = pair.face_width / pair.pinion.module
     softer = too_stiff(modules, scene.gears.materials)
     if softer >= NOTABLE_STIFFNESS:
-        way_out = "over the face it is not, with the section [lead_modifications.pinion] and crowning = \"0 um\""
+        way_out = 'over the face it is not, with the section [lead_modifications.pinion] and crowning = "0 um"'
         words = f"too stiff (mean transmission error) for a face of {modules:.3g} modules; {way_out}"
         found.append(("plane strain", f"about {softer:.1f}%", words))
     return found
@@ -148,7 +204,8 @@ def _amounts(data, names: tuple[str, ...]) -> list[tuple[str, float]]:
 
 
 def _speed_rows(model: Model) -> Rows:
-    """Nominal speeds of the gears, the pitch circles and the flanks' sliding, at the highest mesh frequency of the run."""
+    """Nominal speeds of the gears, the pitch circles and the flanks' sliding, at the highest mesh frequency of the
+    run."""
     pair, highest = model.pair, model.scene.mesh_frequencies[1]
     turns = highest / pair.pinion.teeth
     ends = np.array([pair.path_start, pair.path_end])
@@ -156,14 +213,23 @@ def _speed_rows(model: Model) -> Rows:
     pitch = 2.0 * np.pi * turns * pair.centre_distance * pair.rotation_ratio / (1.0 + pair.rotation_ratio) * MILLIMETRE
     when = "" if model.scene.speed_ramp is None else ", at the ramp's highest speed"
     return [
-        ("nominal speeds", f"{60.0 * turns:.5g} rpm pinion, {60.0 * turns * pair.rotation_ratio:.5g} rpm wheel", when.lstrip(", ")),
+        (
+            "nominal speeds",
+            f"{60.0 * turns:.5g} rpm pinion, {60.0 * turns * pair.rotation_ratio:.5g} rpm wheel",
+            when.lstrip(", "),
+        ),
         ("pitch line velocity", float(pitch), "m/s" + when),
-        ("sliding speed", f"{sliding[0]:.4g} m/s at the start of contact, {sliding[1]:.4g} m/s at its end", when.lstrip(", ")),
+        (
+            "sliding speed",
+            f"{sliding[0]:.4g} m/s at the start of contact, {sliding[1]:.4g} m/s at its end",
+            when.lstrip(", "),
+        ),
     ]
 
 
 def _inertia_rows(model: Model) -> Rows:
-    """Mass and moment of inertia of each gear, of the far end of the output shaft, and what both gears are along the line of action."""
+    """Mass and moment of inertia of each gear, of the far end of the output shaft, and what both gears are along the
+    line of action."""
     from fenics_gears.model.drivetrain import lumped_gears
 
     rows: Rows = []
@@ -175,12 +241,30 @@ def _inertia_rows(model: Model) -> Rows:
             origin = "" if getattr(given, field) is not None else ", of its body by the density"
             rows.append((f"{name} {field.replace('_', ' ')}", 1e3 * getattr(lumped, field), unit + origin))
         if model.scene.bearings is not None and model.scene.bearings.places_of(name) is not None:
-            rows.append((f"{name} tilting moment of inertia", 1e3 * lumped.tilting_inertia, "kg mm^2, about a diameter" + ("" if given.tilting_moment_of_inertia else ": J/2 + m b^2/12")))
+            rows.append(
+                (
+                    f"{name} tilting moment of inertia",
+                    1e3 * lumped.tilting_inertia,
+                    "kg mm^2, about a diameter" + ("" if given.tilting_moment_of_inertia else ": J/2 + m b^2/12"),
+                )
+            )
         along.append(lumped.moment_of_inertia / getattr(model.pair, name).base_radius ** 2)
     load = model.scene.inertia.shaft_end if model.scene.shafts is not None else model.scene.inertia.load
     if load is not None:
-        rows.append(("load moment of inertia", 1e3 * load, "kg mm^2, " + ("far end of the output shaft" if model.scene.shafts is not None else "with the wheel")))
-    rows.append(("reduced mass J1 J2/(J1 rb2^2 + J2 rb1^2)", 1e3 * along[0] * along[1] / sum(along), "kg, of both gears along the line of action"))
+        rows.append(
+            (
+                "load moment of inertia",
+                1e3 * load,
+                "kg mm^2, " + ("far end of the output shaft" if model.scene.shafts is not None else "with the wheel"),
+            )
+        )
+    rows.append(
+        (
+            "reduced mass J1 J2/(J1 rb2^2 + J2 rb1^2)",
+            1e3 * along[0] * along[1] / sum(along),
+            "kg, of both gears along the line of action",
+        )
+    )
     return rows
 
 
@@ -189,7 +273,9 @@ def _method(model: Model) -> str:
         return "quasi-static"
     if model.time_scales.averages_acceleration:
         return "average acceleration"
-    return "backward Euler, " + ("forces of rigid flanks being impulsive" if model.time_scales.impulsive else "no vibration being sampled")
+    return "backward Euler, " + (
+        "forces of rigid flanks being impulsive" if model.time_scales.impulsive else "no vibration being sampled"
+    )
 
 
 def _accuracy_rows(model: Model) -> Rows:
@@ -208,7 +294,17 @@ def _accuracy_rows(model: Model) -> Rows:
     ]
     condensation: Rows = [("condensation", resolution.condensation + origin(asked.condensation), "")]
     return [
-        *([("target", f"{asked.target:.3%}:", "a run chooses settings first, by two or three coarse test runs; what follows is without a target")] if asked.target else []),
+        *(
+            [
+                (
+                    "target",
+                    f"{asked.target:.3%}:",
+                    "a run chooses settings first, by two or three coarse test runs; what follows is without a target",
+                )
+            ]
+            if asked.target
+            else []
+        ),
         *([("model of the mesh", f"{asked.model}, from the scene", "")] if asked.model else []),
         *(elastic if model.resolution.element in SECTOR_UNKNOWNS else []),
         ("contact length", resolution.contact_grid.length, "mm" + origin(asked.contact_length)),
@@ -225,7 +321,11 @@ def _contact_fields(model: Model) -> str:
     """Of how many steps contact fields are stored."""
     if not model.scene.resolves_contact:
         return "curves are stored for all"
-    return f"curves are stored for all, contact fields for the last {model.contact_steps}" if model.contact_steps else "curves are stored for all, contact fields for none"
+    return (
+        f"curves are stored for all, contact fields for the last {model.contact_steps}"
+        if model.contact_steps
+        else "curves are stored for all, contact fields for none"
+    )
 
 
 def _period_rows(model: Model) -> Rows:
@@ -234,20 +334,42 @@ def _period_rows(model: Model) -> Rows:
     if period == inf:
         return [("mesh cycles of the common period", "none", "(no two mesh cycles are alike)")]
     whole = period > 1 and period == lcm(gears.pinion.teeth, gears.wheel.teeth)
-    return [("mesh cycles of the common period", period, "after which every tooth has met every other" if whole else "(all mesh cycles are alike)" if period == 1 else "")]
+    return [
+        (
+            "mesh cycles of the common period",
+            period,
+            "after which every tooth has met every other"
+            if whole
+            else "(all mesh cycles are alike)"
+            if period == 1
+            else "",
+        )
+    ]
 
 
 def _frequency_rows(model: Model) -> Rows:
     """Each natural frequency with the steps that a period has, and the limits of what a step resolves and samples."""
     rows: Rows = []
     for number, vibration in enumerate(model.vibrations, 1):
-        steps, unmoved = vibration.steps_per_period(model.time_step), "" if vibration.excited else ", not excited by the mesh"
+        steps, unmoved = (
+            vibration.steps_per_period(model.time_step),
+            "" if vibration.excited else ", not excited by the mesh",
+        )
         motion = vibration.motion and f", {vibration.motion}"
         damped = f", damping ratio {vibration.damping_ratio:.2g}" if vibration.damping_ratio > 0.0 else ", undamped"
-        rows.append((f"mode {number}", vibration.frequency, f"Hz: {steps:.3g} steps per period{damped}{motion}{unmoved}"))
-    rows.append(("highest frequency that is resolved", resolved_frequency(model.time_step), f"Hz: by the time step, periods exact within {PERIOD_ERROR:.0%}"))
+        rows.append(
+            (f"mode {number}", vibration.frequency, f"Hz: {steps:.3g} steps per period{damped}{motion}{unmoved}")
+        )
+    rows.append(
+        (
+            "highest frequency that is resolved",
+            resolved_frequency(model.time_step),
+            f"Hz: by the time step, periods exact within {PERIOD_ERROR:.0%}",
+        )
+    )
     rows.append(("highest frequency that is sampled", 0.5 / model.time_step, "Hz: two steps per period"))
     return rows
+
 
 # Bytes; fewer are always kept.
 NOTABLE_OPERATORS = 1e9
@@ -269,12 +391,18 @@ def _cost_rows(model: Model) -> Rows:
 
 def _cost(model: Model) -> Rows:
     cost = expected_cost(model)
-    condensing = [] if cost.condensing is None else [("meshing and condensing, unless cached", f"{cost.condensing:.1f}", "s")]
+    condensing = (
+        [] if cost.condensing is None else [("meshing and condensing, unless cached", f"{cost.condensing:.1f}", "s")]
+    )
     return [
         *((f"unknowns of {words}", f"{count:.0f}", "") for words, count in cost.unknowns),
         *((f"condensing {words}", way, "") for words, way in cost.ways),
         *condensing,
         ("marching", f"{cost.marching:.1f}", "s"),
         ("memory", f"{cost.memory / 1e6:.0f}", "MB"),
-        *([("memory if contact operators are not kept", f"{cost.held / 1e6:.0f}", "MB")] if cost.operators > NOTABLE_OPERATORS else []),
+        *(
+            [("memory if contact operators are not kept", f"{cost.held / 1e6:.0f}", "MB")]
+            if cost.operators > NOTABLE_OPERATORS
+            else []
+        ),
     ]

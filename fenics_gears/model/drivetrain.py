@@ -27,7 +27,9 @@ def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
 
 def mesh_stiffness(scene: Scene) -> float:
     """Rough stiffness (N/mm) of one tooth pair along the line of action; infinite if rigid."""
-    return inf if scene.tooth_elasticity is None else rough_pair_stiffness(scene.tooth_elasticity, scene.gears.face_width)
+    return (
+        inf if scene.tooth_elasticity is None else rough_pair_stiffness(scene.tooth_elasticity, scene.gears.face_width)
+    )
 
 
 def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:

@@ -12,28 +12,33 @@ from fenics_gears.model.model import Model
 from fenics_gears.model.storage import FILLET_POINTS_OVER_FACE
 from fenics_gears.system.memory import usual_memory
 
-# Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a cut for each harmonic of the ring,
-# of which there are half as many as teeth.
+# Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a
+# cut for each harmonic of the ring, of which there are half as many as teeth.
 UNKNOWN, CONDENSED_CUBE, HARMONIC_CUBE = 6e-5, 2e-10, 1e-10
 # Of conjugate gradients, for each of the condensed unknowns a second time.
 SOLVED_BY_GRADIENTS = 3e-5
-# Seconds at a position of each tooth pair in a slice and of the square of contact nodes; of a step, of their square and their cube (elimination).
+# Seconds at a position of each tooth pair in a slice and of the square of contact nodes; of a step, of their square and
+# their cube (elimination).
 PAIR_IN_SLICE, NODES_SQUARE, STEP_NODES_SQUARE, STEP_NODES_CUBE = 5e-4, 7e-9, 1.5e-9, 5e-12
 # With friction: of a position, of a step.
 POSITION_WITH_FRICTION, STEP_WITH_FRICTION = 3.5, 2.5
-# Nodes of a section's flank where body elements are 0.35 modules, and the power by which they grow as elements become smaller; memory of the contact operators with
-# the copies that building and marching make, in that of the operators (measured).
+# Nodes of a section's flank where body elements are 0.35 modules, and the power by which they grow as elements become
+# smaller; memory of the contact operators with the copies that building and marching make, in that of the operators
+# (measured).
 FLANK_NODES, POWER, WITH_COPIES = 17.0, 0.6, 1.25
 
-# Of root stress, seconds: an unknown for each column solved, and a step for each stress of a tooth per force on one (measured; several loaded teeth).
+# Of root stress, seconds: an unknown for each column solved, and a step for each stress of a tooth per force on one
+# (measured; several loaded teeth).
 SOLVED_UNKNOWN, STEP_STRESS = 4e-7, 5e-9
-# Bytes for each contact node of a position: the matrices from its force to forces on the flank nodes of both gears (measured).
+# Bytes for each contact node of a position: the matrices from its force to forces on the flank nodes of both gears
+# (measured).
 ON_FLANKS = 200.0
 
 
 @dataclass(frozen=True)
 class FaceCost:
-    """Seconds of condensing both bodies and of marching, of which `building` make the contact operators, unknowns of the bodies, bytes while condensing, of the bodies' compliances on slices (`kept`) and
+    """Seconds of condensing both bodies and of marching, of which `building` make the contact operators, unknowns of
+    the bodies, bytes while condensing, of the bodies' compliances on slices (`kept`) and
     of the contact operators; how each body is condensed, in words."""
 
     condensing: float
@@ -49,14 +54,22 @@ class FaceCost:
 def contact_nodes(model: Model, phases: int = 4) -> tuple[float, float]:
     """Tooth pairs in slices, and their contact nodes, on the average over the mesh cycle."""
     pair, grid, face = model.pair, model.resolution.contact_grid, model.face
-    places = [place for phase in range(phases) for place in face_places(pair, grid, face, phase / phases, model.scene.coast_flanks is not None, model.corner)]
+    places = [
+        place
+        for phase in range(phases)
+        for place in face_places(pair, grid, face, phase / phases, model.scene.coast_flanks is not None, model.corner)
+    ]
     nodes = sum(len(node_offsets(flank_ends(pair, place.contact_rolls), grid)) for place in places)
     return len(places) / phases, nodes / phases
 
 
 def _size(model: Model, number: int) -> tuple[int, int]:
     """Unknowns of a gear's body, and those that it is condensed onto."""
-    return expected_size((model.pair.pinion, model.pair.wheel)[number], face_discretisation(model, number), model.scene.coast_flanks is not None)
+    return expected_size(
+        (model.pair.pinion, model.pair.wheel)[number],
+        face_discretisation(model, number),
+        model.scene.coast_flanks is not None,
+    )
 
 
 def by_gradients(model: Model, number: int, ranks: int = 1) -> bool:
@@ -65,7 +78,8 @@ def by_gradients(model: Model, number: int, ranks: int = 1) -> bool:
 
 
 def face_cost(model: Model, ranks: int = 1) -> FaceCost:
-    """Cost of the three-dimensional bodies and of contact over the face, without that of the plane sections; memory of each of some MPI ranks that share the bodies."""
+    """Cost of the three-dimensional bodies and of contact over the face, without that of the plane sections; memory of
+    each of some MPI ranks that share the bodies."""
     bodies, ways, condensing, memory, kept, stress_step = [], [], 0.0, 0.0, 0.0, 0.0
     coast = model.scene.coast_flanks is not None
     for number, gear in enumerate((model.pair.pinion, model.pair.wheel)):
@@ -78,7 +92,9 @@ def face_cost(model: Model, ranks: int = 1) -> FaceCost:
         condensing += (UNKNOWN + (SOLVED_BY_GRADIENTS * condensed if iterative else 0.0)) * unknowns
         condensing += CONDENSED_CUBE * condensed**3 + HARMONIC_CUBE * (gear.teeth // 2 + 1) * of_cut**3
         memory = max(memory, expected_memory(unknowns, condensed, iterative, ranks))
-        ways.append(_way(iterative, *(expected_memory(unknowns, condensed, each, ranks) for each in (iterative, False))))
+        ways.append(
+            _way(iterative, *(expected_memory(unknowns, condensed, each, ranks) for each in (iterative, False)))
+        )
         finer = 0.35 * gear.module / division.section_size
         on_slices = 3.0 * FLANK_NODES * finer**POWER * model.face.slices * (2 if coast else 1)
         kept += 8.0 * (2 * model.touching.reach.farthest + 1) * on_slices**2
@@ -97,11 +113,23 @@ def face_cost(model: Model, ranks: int = 1) -> FaceCost:
     # Normals alone, or both kinds and by the forces of the step before.
     operators = WITH_COPIES * 8.0 * positions * nodes**2 * (6.0 if rubbing else 1.0)
     building = positions * position
-    return FaceCost(condensing, building + model.steps * (step + stress_step), (bodies[0], bodies[1]), memory, operators, kept, tuple(ways), building)
+    return FaceCost(
+        condensing,
+        building + model.steps * (step + stress_step),
+        (bodies[0], bodies[1]),
+        memory,
+        operators,
+        kept,
+        tuple(ways),
+        building,
+    )
 
 
 def _way(iterative: bool, memory: float, by_factor: float) -> str:
     """How a body is condensed, and why."""
     if iterative:
-        return f"conjugate gradients, {memory / 1e9:.3g} GB: a factorisation takes {by_factor / 1e9:.3g} GB, and {usual_memory() / 1e9:.3g} GB are allowed"
+        return (
+            f"conjugate gradients, {memory / 1e9:.3g} GB: a factorisation takes {by_factor / 1e9:.3g} GB, and"
+            f" {usual_memory() / 1e9:.3g} GB are allowed"
+        )
     return f"factorisation by MUMPS, {memory / 1e9:.3g} GB"

@@ -13,12 +13,20 @@ from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.rough_stiffness import mean_youngs_modulus
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.defaults import FEWEST_LAYERS, LAYER_THICKNESS, LAYER_TURN, LAYER_TURN_RELIEVED, SECTION_SIZE, SLICES_OF_A_LAYER
+from fenics_gears.scene.defaults import (
+    FEWEST_LAYERS,
+    LAYER_THICKNESS,
+    LAYER_TURN,
+    LAYER_TURN_RELIEVED,
+    SECTION_SIZE,
+    SLICES_OF_A_LAYER,
+)
 
 if TYPE_CHECKING:
     from fenics_gears.model.model import Model
 
-# A layer tells two slices apart. With 16 in it, line loads that vary over it err by up to half; the mean over the face does not.
+# A layer tells two slices apart. With 16 in it, line loads that vary over it err by up to half; the mean over the face
+# does not.
 MOST_SLICES_OF_A_LAYER = 4
 # Where part of the face carries.
 FEWEST_LOADED_SLICES = 6
@@ -31,12 +39,17 @@ LEAST_OVERHANG = 0.1
 def face_of(scene: Scene, pair: GearPair) -> Face:
     """The slices of the common face, all of one width."""
     least = _fewest_layers(scene, pair)
-    slices = scene.accuracy.slices or _multiple(scene.accuracy.layers, SLICES_OF_A_LAYER * least) or SLICES_OF_A_LAYER * least
+    slices = (
+        scene.accuracy.slices
+        or _multiple(scene.accuracy.layers, SLICES_OF_A_LAYER * least)
+        or SLICES_OF_A_LAYER * least
+    )
     return Face(*even_slices(pair.face_width, slices), pair.slope, pair.gear_middles)
 
 
 def layers_of_common_face(scene: Scene, pair: GearPair, slices: int) -> int:
-    """How many layers of either body are on the common face: as many as the scene asks for, or so many that slices end where layers do."""
+    """How many layers of either body are on the common face: as many as the scene asks for, or so many that slices end
+    where layers do."""
     if scene.accuracy.layers:
         return scene.accuracy.layers
     wanted = max(_fewest_layers(scene, pair), ceil(slices / SLICES_OF_A_LAYER))
@@ -46,7 +59,8 @@ def layers_of_common_face(scene: Scene, pair: GearPair, slices: int) -> int:
 
 
 def _fewest_layers(scene: Scene, pair: GearPair) -> int:
-    """Layers of the common face by their thickness and, of a helical pair, by how far its line of contact moves within one."""
+    """Layers of the common face by their thickness and, of a helical pair, by how far its line of contact moves within
+    one."""
     relieved = scene.tip_relief is not None and None not in (scene.tip_relief.pinion, scene.tip_relief.wheel)
     turn = LAYER_TURN_RELIEVED if relieved else LAYER_TURN
     moves = turn * pair.base_pitch / abs(pair.slope) if pair.slope else np.inf
@@ -58,18 +72,22 @@ def _multiple(layers: int | None, slices: int) -> int | None:
     return layers and layers * max(round(slices / layers), 1)
 
 
-# Length of the window of contact nodes where no edge is near, in half-widths of the contact; and mesh stiffness per face width, as a part of Young's modulus:
+# Length of the window of contact nodes where no edge is near, in half-widths of the contact; and mesh stiffness per
+# face width, as a part of Young's modulus:
 # the largest line load is the mean one and this stiffness times the largest difference of openings along the face.
 INNER_HALF_WIDTHS, MESH_STIFFNESS = 4.5, 0.1
 
 
 def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: Callable[[float], float]) -> float:
-    """Length (mm) of that window, for the largest line load that is expected; `half_width_of`: half-width (mm) of the contact under a line load (N/mm)."""
+    """Length (mm) of that window, for the largest line load that is expected; `half_width_of`: half-width (mm) of the
+    contact under a line load (N/mm)."""
     # Imported here: plane scenes have none.
     from fenics_gears.geometry.face import face_opening
 
     opening = face_opening(pair, scene.lead_modifications, scene.misalignment, np.linspace(*pair.common_face, 21))
-    return INNER_HALF_WIDTHS * half_width_of(line_load + MESH_STIFFNESS * mean_youngs_modulus(scene.tooth_elasticity) * float(np.ptp(opening)))
+    return INNER_HALF_WIDTHS * half_width_of(
+        line_load + MESH_STIFFNESS * mean_youngs_modulus(scene.tooth_elasticity) * float(np.ptp(opening))
+    )
 
 
 def face_discretisation(model: Model, gear: int) -> FaceDiscretisation:
@@ -77,7 +95,8 @@ def face_discretisation(model: Model, gear: int) -> FaceDiscretisation:
     pair, common = model.pair, layers_of_common_face(model.scene, model.pair, model.face.slices)
     width, thickness = pair.face_widths[gear], pair.face_width / common
     overhang, beyond = 0.5 * (width - pair.face_width), 0
-    # Layers are alike towards both ends of a gear, which halves the work: they begin with the common face where the gear reaches as far beyond it at either end.
+    # Layers are alike towards both ends of a gear, which halves the work: they begin with the common face where the
+    # gear reaches as far beyond it at either end.
     if overhang > LEAST_OVERHANG * thickness and abs(pair.gear_middles[gear]) < LEAST_OVERHANG * thickness:
         beyond = ceil(overhang / thickness - LEAST_OVERHANG)
     layers = common + 2 * beyond if beyond else ceil(width / thickness - LEAST_OVERHANG)
@@ -93,18 +112,21 @@ def check_layers(model: Model) -> None:
 
 
 def face_warnings(model: Model) -> list[str]:
-    """Sentences where the layers of the bodies do not tell the slices of the face apart, and where too few slices carry the load."""
+    """Sentences where the layers of the bodies do not tell the slices of the face apart, and where too few slices carry
+    the load."""
     slices, layers, found = model.face.slices, layers_of_common_face(model.scene, model.pair, model.face.slices), []
     if slices > MOST_SLICES_OF_A_LAYER * layers:
         found.append(
-            f"accuracy.layers = {layers}: the gears' bodies have {slices / layers:.3g} slices of the face to a layer, which they cannot tell apart; a line "
-            f"load that varies over a layer is then wrong. Take accuracy.layers = {ceil(slices / SLICES_OF_A_LAYER)}, or fewer accuracy.slices"
+            f"accuracy.layers = {layers}: the gears' bodies have {slices / layers:.3g} slices of the face to a layer,"
+            " which they cannot tell apart; a line load that varies over a layer is then wrong. Take accuracy.layers ="
+            f" {ceil(slices / SLICES_OF_A_LAYER)}, or fewer accuracy.slices"
         )
     part = loaded_part(model)
     if part < 1.0 and part * slices < FEWEST_LOADED_SLICES:
         found.append(
-            f"accuracy.slices = {slices}: about {part:.2g} of the face carries under this load, {part * slices:.2g} slices of it; pairs that carry on less than a "
-            f"slice are missed. Take accuracy.slices = {SLICES_OF_A_LAYER * ceil(FEWEST_LOADED_SLICES / part / SLICES_OF_A_LAYER)}"
+            f"accuracy.slices = {slices}: about {part:.2g} of the face carries under this load, {part * slices:.2g}"
+            " slices of it; pairs that carry on less than a slice are missed. Take accuracy.slices ="
+            f" {SLICES_OF_A_LAYER * ceil(FEWEST_LOADED_SLICES / part / SLICES_OF_A_LAYER)}"
         )
     return found
 
@@ -112,7 +134,8 @@ def face_warnings(model: Model) -> list[str]:
 def loaded_part(model: Model) -> float:
     """About which part of the face carries, from its opening at the pitch point and the mesh stiffness."""
     places = np.linspace(*model.pair.common_face, 401)
-    # How far each place stands back from the first that touches, by increasing distance, and the approach at which the load reaches so far.
+    # How far each place stands back from the first that touches, by increasing distance, and the approach at which the
+    # load reaches so far.
     opening = np.sort(model.face_opening(places))
     stiffness = MESH_STIFFNESS * mean_youngs_modulus(model.scene.tooth_elasticity)
     carried = stiffness * (opening * np.arange(len(places)) - np.cumsum(np.insert(opening[:-1], 0, 0.0))) / len(places)

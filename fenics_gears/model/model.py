@@ -34,7 +34,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Model:
-    """A scene ready to be computed: its gear pair, its drivetrain, how finely, and the material removed from either flank.
+    """A scene ready to be computed: its gear pair, its drivetrain, how finely, and the material removed from either
+    flank.
 
     `contact_cycles`: mesh cycles, the last, whose contact fields are stored.
     """
@@ -70,7 +71,9 @@ class Model:
     @property
     def equations_of_motion(self) -> EquationsOfMotion:
         """What a march of the scene solves for."""
-        return EquationsOfMotion(self.drivetrain, self.time_step, self.friction_coefficient, self.time_scales, self.clock, self.loads)
+        return EquationsOfMotion(
+            self.drivetrain, self.time_step, self.friction_coefficient, self.time_scales, self.clock, self.loads
+        )
 
     @property
     def steps(self) -> int:
@@ -89,13 +92,27 @@ class Model:
 
     @cached_property
     def touching(self) -> Touching:
-        """Which tooth pairs can touch: how far apart loaded teeth are (`reach`), and how many pairs there are at once (`slots`)."""
+        """Which tooth pairs can touch: how far apart loaded teeth are (`reach`), and how many pairs there are at once
+        (`slots`)."""
         resolution = self.resolution
         if self.face is not None:
             from fenics_gears.contact.face_cycle import touching_on_face
 
-            return touching_on_face(self.pair, resolution.contact_grid, self.face, resolution.steps_per_mesh_cycle, self.scene.coast_flanks is not None, self.corner)
-        return touching(self.pair, resolution.contact_grid, resolution.steps_per_mesh_cycle, self.scene.coast_flanks is not None, self.corner)
+            return touching_on_face(
+                self.pair,
+                resolution.contact_grid,
+                self.face,
+                resolution.steps_per_mesh_cycle,
+                self.scene.coast_flanks is not None,
+                self.corner,
+            )
+        return touching(
+            self.pair,
+            resolution.contact_grid,
+            resolution.steps_per_mesh_cycle,
+            self.scene.coast_flanks is not None,
+            self.corner,
+        )
 
     @cached_property
     def face(self) -> Face | None:
@@ -107,7 +124,8 @@ class Model:
         return face_of(self.scene, self.pair)
 
     def face_opening(self, z: np.ndarray, position: np.ndarray | None = None) -> np.ndarray:
-        """Gap (k,), mm, along the line of action by lead modifications and misalignment at places z (k,), mm, on the face; see `geometry.face`."""
+        """Gap (k,), mm, along the line of action by lead modifications and misalignment at places z (k,), mm, on the
+        face; see `geometry.face`."""
         from fenics_gears.geometry.face import face_opening
 
         return face_opening(self.pair, self.scene.lead_modifications, self.scene.misalignment, z, position)
@@ -117,18 +135,24 @@ class Model:
         """The same between the coast flanks, along their own line of action; None where nothing opens them."""
         from fenics_gears.geometry.face import coast_face_opening
 
-        return None if self.scene.misalignment is None else partial(coast_face_opening, self.pair, self.scene.misalignment)
+        return (
+            None if self.scene.misalignment is None else partial(coast_face_opening, self.pair, self.scene.misalignment)
+        )
 
     def transmission_error(self, position: np.ndarray) -> np.ndarray:
         """T_E = phi2 + (z1/z2) phi1 [13], rad of the wheel, at centre coordinates (..., k)."""
         gears = self.scene.gears
-        return self.drivetrain.value(position, "rotation_2") + gears.pinion.teeth / gears.wheel.teeth * self.drivetrain.value(position, "rotation_1")
+        return self.drivetrain.value(
+            position, "rotation_2"
+        ) + gears.pinion.teeth / gears.wheel.teeth * self.drivetrain.value(position, "rotation_1")
 
     @property
     def stored_bytes(self) -> int:
         """Size of the result in memory: curves of all steps, and contact fields of those that are stored."""
         slices = 0 if self.face is None else self.face.slices
-        size = sizes(self.steps + 1, self.contact_steps, self.touching.slots, self.resolution.contact_grid.most_nodes, slices)
+        size = sizes(
+            self.steps + 1, self.contact_steps, self.touching.slots, self.resolution.contact_grid.most_nodes, slices
+        )
         return counted_bytes(stored_arrays(self.scene, size), size)
 
     @cached_property
@@ -152,7 +176,8 @@ class Model:
 
     @property
     def warnings(self) -> list[str]:
-        """Sentences for the user before the run: thin tips, contact or vibrations not resolved, inertia that does not matter."""
+        """Sentences for the user before the run: thin tips, contact or vibrations not resolved, inertia that does not
+        matter."""
         found = [*self._of_a_part(), *self._without_fields(), *self._unusual()]
         found += [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
         found += [*locking_warnings(self.resolution, self.scene.gears.materials), *rim_warnings(self)]
@@ -182,8 +207,9 @@ class Model:
         whole = lcm(self.scene.gears.pinion.teeth, self.scene.gears.wheel.teeth)
         words = f' or "{HUNTING_TOOTH_PERIOD}"' if period == whole else ""
         return [
-            f"only {run} of the {period} mesh cycles of the common period are run: cycles are not alike, and the transmission error and all other "
-            f"numbers are of a part of them; motion.mesh_cycles = {period}{words} goes through all"
+            f"only {run} of the {period} mesh cycles of the common period are run: cycles are not alike, and the"
+            f" transmission error and all other numbers are of a part of them; motion.mesh_cycles = {period}{words}"
+            " goes through all"
         ]
 
     def _unusual(self) -> list[str]:
@@ -196,9 +222,10 @@ class Model:
         if not self.contact_cycles or self.contact_cycles >= motion.recorded_cycles:
             return []
         return [
-            f"contact fields (pressures over the contact nodes) are stored of the last {self.contact_cycles} of {motion.mesh_cycles} mesh cycles only: "
-            f"with those of all the result would hold more than {MOST_UNASKED_BYTES / 1e9:g} GB; output.contact_fields says how many to store. "
-            "Curves and numbers are of all"
+            f"contact fields (pressures over the contact nodes) are stored of the last {self.contact_cycles} of"
+            f" {motion.mesh_cycles} mesh cycles only: with those of all the result would hold more than"
+            f" {MOST_UNASKED_BYTES / 1e9:g} GB; output.contact_fields says how many to store. Curves and numbers are"
+            " of all"
         ]
 
 
@@ -209,7 +236,8 @@ MOST_STORED_BYTES, MOST_UNASKED_BYTES = 4e9, 1e9
 def model_of(scene: Scene) -> Model:
     """The model of a scene: all that follows from it before anything expensive is computed.
 
-    Raises GeometryError for impossible gears, SceneError for a result too large to be held, for layers that turn too far, or for files that do not fit the scene.
+    Raises GeometryError for impossible gears, SceneError for a result too large to be held, for layers that turn too
+    far, or for files that do not fit the scene.
     """
     pair = gear_pair(scene.gears)
     check_files(scene, pair)
@@ -236,10 +264,12 @@ def _too_large(curves: Model, whole: Model) -> str:
     motion = whole.scene.motion
     if curves.stored_bytes > MOST_STORED_BYTES:
         return (
-            f"motion.mesh_cycles = {motion.mesh_cycles}: the curves of all steps would hold {curves.stored_bytes / 1e9:.3g} GB, {allowed}; run fewer "
-            "mesh cycles, or fewer accuracy.steps_per_mesh_cycle"
+            f"motion.mesh_cycles = {motion.mesh_cycles}: the curves of all steps would hold"
+            f" {curves.stored_bytes / 1e9:.3g} GB, {allowed}; run fewer mesh cycles, or fewer"
+            " accuracy.steps_per_mesh_cycle"
         )
     return (
-        f"motion.recorded_cycles = {motion.recorded_cycles}: the result would hold {whole.stored_bytes / 1e9:.3g} GB, {allowed}; store the contact "
-        'fields of fewer mesh cycles, output.contact_fields = "last 2 cycles", or take fewer accuracy.steps_per_mesh_cycle'
+        f"motion.recorded_cycles = {motion.recorded_cycles}: the result would hold {whole.stored_bytes / 1e9:.3g} GB,"
+        f' {allowed}; store the contact fields of fewer mesh cycles, output.contact_fields = "last 2 cycles", or take'
+        " fewer accuracy.steps_per_mesh_cycle"
     )

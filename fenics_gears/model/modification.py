@@ -22,7 +22,8 @@ def corner(scene: Scene, pair: GearPair):
 
 
 def removals(scene: Scene, pair: GearPair) -> tuple:
-    """Material that the scene's effects remove from the drive flanks of pinion and wheel: functions of the roll angle, or None.
+    """Material that the scene's effects remove from the drive flanks of pinion and wheel: functions of the roll angle,
+    or None.
 
     Raises GeometryError where an effect asks for what the flank does not have.
     """

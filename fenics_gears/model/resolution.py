@@ -1,4 +1,5 @@
-"""How finely a scene is computed: the scene's own `[accuracy]` values, and for the rest defaults derived from the scene.
+"""How finely a scene is computed: the scene's own `[accuracy]` values, and for the rest defaults derived from the
+scene.
 
 Flank elements and contact nodes come from the Hertz half-width at the whole load on one tooth pair and the smallest
 relative radius on the path of contact; the contact window from the deflection that lets teeth touch off the line of
@@ -41,18 +42,21 @@ LEAST_PAIR_STIFFNESS = 0.5 * PAIR_STIFFNESS
 HALF_WIDTHS_BESIDE = 2.0
 # Beyond this the window would reach past the tooth; the load that asks for it breaks teeth. In modules.
 LONGEST_WINDOW = 3.0
-# Where the mate's tip edge presses, along the flank from the start of its active profile, in modules. Of the paper's pair a longer part changes the
-# transmission error by 0.01 % at 144 and at 575 N/mm, by 0.04 % at 1700 N/mm; 0.15 below and 0.06 above would err by 0.01, 0.14 and 0.26 %.
+# Where the mate's tip edge presses, along the flank from the start of its active profile, in modules. Of the paper's
+# pair a longer part changes the transmission error by 0.01 % at 144 and at 575 N/mm, by 0.04 % at 1700 N/mm; 0.15 below
+# and 0.06 above would err by 0.01, 0.14 and 0.26 %.
 BELOW_MATE_TIP, ABOVE_MATE_TIP = 0.03, 0.18
 # Contact nodes closer than this part of the distance of flank nodes are nearly dependent.
 CLOSEST_NODES = 0.7
-# Above this Poisson's ratio these first-order elements are more than 0.5 % too stiff on a tooth (2 % at 0.49, 8 % at 0.499).
+# Above this Poisson's ratio these first-order elements are more than 0.5 % too stiff on a tooth (2 % at 0.49, 8 % at
+# 0.499).
 LOCKING_ELEMENTS, LOCKING_POISSONS_RATIO = ("P1", "Q1"), 0.45
 # How often gears are meshed and condensed: the fast route, and the paper's.
 ONCE, EVERY_STEP = "once", "every step"
 # For rigid flanks: contact window in modules, and the number of nodes in it among which the first contact is searched.
 RIGID, RIGID_WINDOW, RIGID_NODES = "rigid", 0.5, 81
-# Curves of fewer see little of the change from one tooth pair to two. With 4 the peak-to-peak value of the paper's pair with friction misses 13 %.
+# Curves of fewer see little of the change from one tooth pair to two. With 4 the peak-to-peak value of the paper's pair
+# with friction misses 13 %.
 FEWEST_STEPS = 20
 
 
@@ -60,8 +64,10 @@ FEWEST_STEPS = 20
 class Resolution:
     """All of `[accuracy]`, decided: element name, element size (mm), contact grid, steps in a mesh cycle, condensation.
 
-    `half_width`: the Hertz half-width (mm) that the defaults go by; zero without load. `body_element_size` (mm): largest in tooth
-    and rim, None for the element's default; `elastic_teeth`: how far apart teeth feel each other (1: not at all), None for all;
+    `half_width`: the Hertz half-width (mm) that the defaults go by; zero without load. `body_element_size` (mm):
+        largest in tooth
+    and rim, None for the element's default; `elastic_teeth`: how far apart teeth feel each other (1: not at all), None
+    for all;
     `mate_tips`: roll angles (rad) of pinion and wheel between which the mate's tip edge may press.
     """
 
@@ -126,12 +132,16 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     if scene.three_dimensional:
         from fenics_gears.model.face_resolution import inner_length
 
-        half_width_of = partial(hertz_half_width, relative_radius=_widest(pair), plane_modulus=plane_contact_modulus(scene))
+        half_width_of = partial(
+            hertz_half_width, relative_radius=_widest(pair), plane_modulus=plane_contact_modulus(scene)
+        )
         inner = inner_length(scene, pair, line_load, half_width_of) + 2.0 * spacing
     return Resolution(
         element=asked.element or DEFAULT_ELEMENT,
         flank_element_size=size,
-        contact_grid=ContactGrid(length, nodes, asked.interpolation or AVERAGED, closer_at_edges=condensation == ONCE, inner_length=inner),
+        contact_grid=ContactGrid(
+            length, nodes, asked.interpolation or AVERAGED, closer_at_edges=condensation == ONCE, inner_length=inner
+        ),
         steps_per_mesh_cycle=asked.steps_per_mesh_cycle or _steps_per_mesh_cycle(scene, drivetrain),
         half_width=half_width,
         condensation=condensation,
@@ -144,8 +154,8 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
 def mate_tips(pair: GearPair) -> tuple[tuple[float, float], tuple[float, float]]:
     """Roll angles (rad) of pinion and wheel between which the mate's tip edge may press on the flank.
 
-    The edge comes down the flank to the start of active profile and turns there. A loaded pair touches with the edge alone before it enters and after it
-    has left the path of contact, so that the edge presses above that point.
+    The edge comes down the flank to the start of active profile and turns there. A loaded pair touches with the edge
+    alone before it enters and after it has left the path of contact, so that the edge presses above that point.
     """
     gears, ends = (pair.pinion, pair.wheel), (pair.path_start, pair.line_of_action_length - pair.path_end)
     found = []
@@ -160,7 +170,9 @@ def mate_tips(pair: GearPair) -> tuple[tuple[float, float], tuple[float, float]]
 def _rigid_resolution(scene: Scene, drivetrain: Drivetrain) -> Resolution:
     """Rigid flanks touch at a point: a window in which it is found, and steps."""
     asked, module = scene.accuracy, scene.gears.module
-    steps = asked.steps_per_mesh_cycle or (STEPS_PER_MESH_CYCLE if drivetrain.mass is None else MOST_STEPS_PER_MESH_CYCLE)
+    steps = asked.steps_per_mesh_cycle or (
+        STEPS_PER_MESH_CYCLE if drivetrain.mass is None else MOST_STEPS_PER_MESH_CYCLE
+    )
     grid = ContactGrid(asked.contact_length or RIGID_WINDOW * module, asked.contact_nodes or RIGID_NODES)
     return Resolution(RIGID, 0.0, grid, steps, half_width=0.0, condensation=ONCE)
 
@@ -175,7 +187,10 @@ def _contact_length(scene: Scene, pair: GearPair, line_load: float, half_width: 
 def _widest(pair: GearPair) -> float:
     """The largest relative radius (mm) on the path of contact."""
     middle = 0.5 * pair.line_of_action_length
-    return max(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end, min(max(middle, pair.path_start), pair.path_end)))
+    return max(
+        relative_radius(pair, xi)
+        for xi in (pair.path_start, pair.path_end, min(max(middle, pair.path_start), pair.path_end))
+    )
 
 
 def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
@@ -191,24 +206,30 @@ def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
 
 
 def resolution_warnings(resolution: Resolution) -> list[str]:
-    """Sentences on settings too coarse to resolve the contact or the mesh cycle, or contact nodes too close for the elements."""
+    """Sentences on settings too coarse to resolve the contact or the mesh cycle, or contact nodes too close for the
+    elements."""
     found, spacing = [], resolution.contact_grid.spacing
     if resolution.steps_per_mesh_cycle < FEWEST_STEPS:
         found.append(
-            f"accuracy.steps_per_mesh_cycle is {resolution.steps_per_mesh_cycle}: curves do not show what lies between the steps, and the peak-to-peak "
-            f"transmission error may miss an extreme; from {FEWEST_STEPS} on it is right within about 1%, without vibrations"
+            f"accuracy.steps_per_mesh_cycle is {resolution.steps_per_mesh_cycle}: curves do not show what lies between"
+            f" the steps, and the peak-to-peak transmission error may miss an extreme; from {FEWEST_STEPS} on it is"
+            " right within about 1%, without vibrations"
         )
-    for name, size in (("accuracy.flank_element_size", resolution.flank_element_size), ("the spacing of accuracy.contact_nodes", spacing)):
+    for name, size in (
+        ("accuracy.flank_element_size", resolution.flank_element_size),
+        ("the spacing of accuracy.contact_nodes", spacing),
+    ):
         if size > resolution.half_width > 0.0:
             found.append(
-                f"{name} is {size:.3g} mm, more than the Hertz half-width of {resolution.half_width:.3g} mm at full load: contact is not "
-                "resolved; pressures are not right, and the transmission error may be off by per cents"
+                f"{name} is {size:.3g} mm, more than the Hertz half-width of {resolution.half_width:.3g} mm at full"
+                " load: contact is not resolved; pressures are not right, and the transmission error may be off by per"
+                " cents"
             )
     node_distance = resolution.flank_element_size / (2 if resolution.element.endswith("2") else 1)
     if spacing < CLOSEST_NODES * node_distance:
         found.append(
-            f"contact nodes stand {spacing:.3g} mm apart, the flank's own nodes {node_distance:.3g} mm: the pressure oscillates; lower "
-            "accuracy.contact_nodes or accuracy.flank_element_size"
+            f"contact nodes stand {spacing:.3g} mm apart, the flank's own nodes {node_distance:.3g} mm: the pressure"
+            " oscillates; lower accuracy.contact_nodes or accuracy.flank_element_size"
         )
     return found
 
@@ -219,6 +240,6 @@ def locking_warnings(resolution: Resolution, materials: Sequence[Material] | Non
     if resolution.element not in LOCKING_ELEMENTS or largest <= LOCKING_POISSONS_RATIO:
         return []
     return [
-        f"accuracy.element {resolution.element} locks in a nearly incompressible material (poissons_ratio is {largest:g}, "
-        f"above {LOCKING_POISSONS_RATIO}): the teeth are too stiff; choose accuracy.element P2 or Q2"
+        f"accuracy.element {resolution.element} locks in a nearly incompressible material (poissons_ratio is"
+        f" {largest:g}, above {LOCKING_POISSONS_RATIO}): the teeth are too stiff; choose accuracy.element P2 or Q2"
     ]

@@ -22,13 +22,18 @@ ROOT_STRESS_OVER_FACE = ROOT_STRESS | {
     "root_stress_over_face": ("contact_time", "gear", "slot", "fillet", "face_position"),
 }
 COORDINATES = {"time": ("time",), "mesh_phase": ("time",), "pair_number": ("time", "slot")}
-CONTACT_COORDINATES = {"contact_time": ("contact_time",), "contact_mesh_phase": ("contact_time",), "contact_pair_number": ("contact_time", "slot")}
+CONTACT_COORDINATES = {
+    "contact_time": ("contact_time",),
+    "contact_mesh_phase": ("contact_time",),
+    "contact_pair_number": ("contact_time", "slot"),
+}
 
 Arrays = Mapping[str, tuple[tuple[str, ...], np.dtype]]
 
 
 def sizes(steps: int, contact_steps: int, slots: int, nodes: int, slices: int = 0) -> dict[str, int]:
-    """Length of each dimension of a result with so many steps, of which the contact fields of so many are stored; `slices` of a face, if it has any."""
+    """Length of each dimension of a result with so many steps, of which the contact fields of so many are stored;
+    `slices` of a face, if it has any."""
     return {
         "face_position": slices,
         "time": steps, "contact_time": contact_steps, "slot": slots, "contact_node": nodes,
@@ -37,12 +42,18 @@ def sizes(steps: int, contact_steps: int, slots: int, nodes: int, slices: int = 
 
 
 def stored_arrays(scene: Scene, size: Mapping[str, int]) -> Arrays:
-    """Dimensions and type of every array of a scene's result that grows with its steps; contact fields only where there are steps of them."""
+    """Dimensions and type of every array of a scene's result that grows with its steps; contact fields only where there
+    are steps of them."""
     arrays = {variable.name: variable.dims for variable in result_variables(scene)} | COORDINATES
     if scene.output.root_stress and scene.resolves_contact:
         arrays |= ROOT_STRESS_OVER_FACE if scene.three_dimensional else ROOT_STRESS
     arrays |= CONTACT_COORDINATES
-    whole = {"newton_iterations": np.dtype(np.int64), "closed_nodes": np.dtype(np.int64), "pair_number": np.dtype(np.int32), "contact_pair_number": np.dtype(np.int32)}
+    whole = {
+        "newton_iterations": np.dtype(np.int64),
+        "closed_nodes": np.dtype(np.int64),
+        "pair_number": np.dtype(np.int32),
+        "contact_pair_number": np.dtype(np.int32),
+    }
     return {
         name: (dims, whole.get(name, np.dtype(float)))
         for name, dims in arrays.items()

@@ -1,4 +1,5 @@
-"""Contact stress and its limit by ISO 6336-2:2006, method B, for endurance (Z_NT = 1), and equal hardness of both gears (Z_W = 1)."""
+"""Contact stress and its limit by ISO 6336-2:2006, method B, for endurance (Z_NT = 1), and equal hardness of both gears
+(Z_W = 1)."""
 
 from __future__ import annotations
 
@@ -23,10 +24,21 @@ def flank_stress(operation: Operation, finish: Finish, factors: LoadFactors) -> 
     """Stresses of both gears by Z_H, Z_E, Z_eps, Z_beta, Z_B and Z_D."""
     pair = operation.pair
     ratio = pair.wheel.teeth / pair.pinion.teeth
-    load = operation.tangential_force / (2.0 * pair.pinion.reference_radius * operation.face_width) * (ratio + 1.0) / ratio
-    nominal = zone_factor(operation) * elasticity_factor(operation) * contact_ratio_factor(operation) * sqrt(load / cos(operation.helix_angle))
+    load = (
+        operation.tangential_force / (2.0 * pair.pinion.reference_radius * operation.face_width) * (ratio + 1.0) / ratio
+    )
+    nominal = (
+        zone_factor(operation)
+        * elasticity_factor(operation)
+        * contact_ratio_factor(operation)
+        * sqrt(load / cos(operation.helix_angle))
+    )
     raised = nominal * sqrt(finish.application_factor * factors.dynamic * factors.face * factors.transverse)
-    return FlankStress(nominal, tuple(raised * each for each in single_pair_factors(operation)), finish.flank_limit * _film(operation, finish))
+    return FlankStress(
+        nominal,
+        tuple(raised * each for each in single_pair_factors(operation)),
+        finish.flank_limit * _film(operation, finish),
+    )
 
 
 def zone_factor(operation: Operation) -> float:
@@ -41,7 +53,8 @@ def elasticity_factor(operation: Operation) -> float:
 
 
 def single_pair_factors(operation: Operation) -> tuple[float, float]:
-    """Z_B and Z_D: from the pitch point to the inner points of single contact; with an overlap they lose their weight."""
+    """Z_B and Z_D: from the pitch point to the inner points of single contact; with an overlap they lose their
+    weight."""
     pair = operation.pair
     working, overlap = pair.operating_pressure_angle, min(pair.overlap_ratio, 1.0)
 

@@ -1,4 +1,5 @@
-"""Dynamic, face and transverse load factors of ISO 6336-1:2006: K_v and K_Halpha by method B, K_Hbeta by method C without shaft deflection."""
+"""Dynamic, face and transverse load factors of ISO 6336-1:2006: K_v and K_Halpha by method B, K_Hbeta by method C
+without shaft deflection."""
 
 from __future__ import annotations
 
@@ -40,7 +41,9 @@ def load_factors(operation: Operation, finish: Finish) -> LoadFactors:
     transverse = _transverse(operation, finish, deviations, dynamic * face)
     total, alpha = operation.pair.total_contact_ratio, operation.pair.contact_ratio
     highest = total / (alpha * contact_ratio_factor(operation) ** 2), total / (0.25 * alpha + 0.75)
-    return LoadFactors(dynamic, face, face ** (1.0 / (1.0 + part + part**2)), *(min(max(transverse, 1.0), most) for most in highest))
+    return LoadFactors(
+        dynamic, face, face ** (1.0 / (1.0 + part + part**2)), *(min(max(transverse, 1.0), most) for most in highest)
+    )
 
 
 def _deviations(operation: Operation, finish: Finish) -> _Deviations:
@@ -63,13 +66,19 @@ def _dynamic(operation: Operation, finish: Finish, deviations: _Deviations) -> f
     relief = operation.tip_relief or (finish.flank_limit / 97.0 - 18.45) ** 2 / 18.0 + 1.5
     stiffness, total = operation.single_stiffness, operation.pair.total_contact_ratio
     pitch, form, modified = (
-        stiffness * deviations.base_pitch_left / line_load, stiffness * deviations.profile_form_left / line_load, abs(1.0 - stiffness * relief / line_load),
+        stiffness * deviations.base_pitch_left / line_load, stiffness * deviations.profile_form_left / line_load,
+        abs(1.0 - stiffness * relief / line_load),
     )  # fmt: skip
     c1, c5 = 0.32, 0.47
     if total <= 2.0:
         c2, c3, c4, c6 = 0.34, 0.23, 0.90, 0.47
     else:
-        c2, c3, c4, c6 = 0.57 / (total - 0.3), 0.096 / (total - 1.56), (0.57 - 0.05 * total) / (total - 1.44), 0.12 / (total - 1.74)
+        c2, c3, c4, c6 = (
+            0.57 / (total - 0.3),
+            0.096 / (total - 1.56),
+            (0.57 - 0.05 * total) / (total - 1.44),
+            0.12 / (total - 1.74),
+        )
     c7 = 0.75 if total <= 1.5 else 0.125 * sin(pi * (total - 2.0)) + 0.875 if total <= 2.5 else 1.0
     resonance = 30e3 / (pi * operation.pair.pinion.teeth) * sqrt(operation.mesh_stiffness / operation.reduced_mass)
     ratio = operation.pinion_speed / resonance

@@ -67,12 +67,15 @@ class Operation:
     @property
     def reduced_radius(self) -> float:
         """Reduced radius of curvature (mm) at the pitch point, in the transverse section."""
-        first, second = (gear.base_radius * tan(self.pair.operating_pressure_angle) for gear in (self.pair.pinion, self.pair.wheel))
+        first, second = (
+            gear.base_radius * tan(self.pair.operating_pressure_angle) for gear in (self.pair.pinion, self.pair.wheel)
+        )
         return first * second / (first + second)
 
 
 def solid_reduced_mass(pair: GearPair, density: float = 7.83e-6) -> float:
-    """Reduced mass (kg/mm of face width) of two solid gears of a density (kg/mm^3), ISO 6336-1:2006 eq. (30): discs of the mean of tip and root diameter."""
+    """Reduced mass (kg/mm of face width) of two solid gears of a density (kg/mm^3), ISO 6336-1:2006 eq. (30): discs of
+    the mean of tip and root diameter."""
 
     def mass(gear) -> float:
         mean = gear.tip_radius + gear.root_radius

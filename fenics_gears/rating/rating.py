@@ -1,4 +1,5 @@
-"""A run's load capacity, row by row: by the standard's own formulas from the nominal load, and from the loads and stresses that the run has computed."""
+"""A run's load capacity, row by row: by the standard's own formulas from the nominal load, and from the loads and
+stresses that the run has computed."""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ POINTS = 201
 
 @dataclass(frozen=True)
 class Row:
-    """One quantity: symbol with its meaning, unit, value by the standard, and from the run; nan where one of them has none."""
+    """One quantity: symbol with its meaning, unit, value by the standard, and from the run; nan where one of them has
+    none."""
 
     name: str
     unit: str
@@ -49,11 +51,20 @@ def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[Row]:
     pressure = found.get("peak_contact_pressure", nan)
     for name, stress in zip(("pinion", "wheel"), flank.stress):
         rows.append(Row(f"sigma_H, contact stress of the {name}", "MPa", stress, pressure))
-        rows.append(Row(f"S_H, safety against pitting of the {name}", "1", flank.limit / stress, flank.limit / pressure))
+        rows.append(
+            Row(f"S_H, safety against pitting of the {name}", "1", flank.limit / stress, flank.limit / pressure)
+        )
     for name, root in zip(("pinion", "wheel"), roots):
         computed = found.get(f"largest_root_stress_{name}", nan)
         rows.append(Row(f"sigma_F, root stress of the {name}", "MPa", root.stress, computed))
-        rows.append(Row(f"S_F, safety against tooth breakage of the {name}", "1", root.limit / root.stress, root.limit / computed))
+        rows.append(
+            Row(
+                f"S_F, safety against tooth breakage of the {name}",
+                "1",
+                root.limit / root.stress,
+                root.limit / computed,
+            )
+        )
     return rows + _flash(operation, finish, result)
 
 
@@ -83,7 +94,7 @@ def _misalignment(scene: Scene, pair: GearPair) -> float | None:
     scene that names neither.
 
     It is the straight part of the gap between the unloaded flanks along the face, in which crowning and end relief
-    have none. """
+    have none."""
     leads = scene.lead_modifications
     sloped = leads is not None and any(own is not None and own.helix_slope for own in (leads.pinion, leads.wheel))
     if scene.misalignment is None and not sloped:
@@ -127,20 +138,27 @@ def _reduced_mass(scene: Scene, pair: GearPair) -> float:
 
 
 def _flash(operation: Operation, finish: Finish, result: xr.Dataset) -> list[Row]:
-    """The largest flash temperature of a run with friction, by the standard's load share and by the computed forces of the tooth pairs."""
+    """The largest flash temperature of a run with friction, by the standard's load share and by the computed forces of
+    the tooth pairs."""
     friction = result.attrs.get("friction_coefficient")
     if friction is None:
         return []
     pair, settled = operation.pair, of_settled(result)
     path = np.linspace(pair.path_start, pair.path_end, POINTS)
     whole = finish.application_factor * transverse_line_force(pair, operation.tangential_force)
-    standard = flash_temperature(pair, operation.materials, path, whole * standard_share(pair, path), friction, operation.pinion_speed)
+    standard = flash_temperature(
+        pair, operation.materials, path, whole * standard_share(pair, path), friction, operation.pinion_speed
+    )
     forces = settled["pair_normal_force"].transpose("time", "slot").values
-    since = settled["mesh_phase"].values[:, None] - (settled["pair_number"].transpose("time", "slot").values - settled["pair_number"].attrs["number_at_phase_0"])
+    since = settled["mesh_phase"].values[:, None] - (
+        settled["pair_number"].transpose("time", "slot").values - settled["pair_number"].attrs["number_at_phase_0"]
+    )
     places = pair.path_start + since * pair.base_pitch
     # Teeth that bend touch a little before and after the path of contact, where the formula's speeds are not theirs.
     on_path = (places >= pair.path_start) & (places <= pair.path_end) & np.isfinite(forces)
     # The standard's line force is in the transverse section; those of the run are along the contact normal.
     transverse = pair.cosine * forces[on_path] / pair.face_width
-    computed = flash_temperature(pair, operation.materials, places[on_path], transverse, friction, operation.pinion_speed)
+    computed = flash_temperature(
+        pair, operation.materials, places[on_path], transverse, friction, operation.pinion_speed
+    )
     return [Row("flash temperature", "K", float(standard.max()), float(computed.max(initial=0.0)))]

@@ -1,4 +1,5 @@
-"""Tooth root stress and its limit by ISO 6336-3:2006, method B, for endurance (Y_NT = 1), solid rims (Y_B = 1) and teeth of ordinary depth (Y_DT = 1)."""
+"""Tooth root stress and its limit by ISO 6336-3:2006, method B, for endurance (Y_NT = 1), solid rims (Y_B = 1) and
+teeth of ordinary depth (Y_DT = 1)."""
 
 from __future__ import annotations
 
@@ -35,13 +36,20 @@ class RootStress:
 
 
 def root_stresses(operation: Operation, finish: Finish, factors: LoadFactors) -> tuple[RootStress, RootStress]:
-    """Of pinion and wheel: F_t / (b m_n) Y_F Y_S Y_beta, raised by the load factors; the limit by Y_delta_relT, Y_RrelT and Y_X of case-hardened steel."""
+    """Of pinion and wheel: F_t / (b m_n) Y_F Y_S Y_beta, raised by the load factors; the limit by Y_delta_relT, Y_RrelT
+    and Y_X of case-hardened steel."""
     return tuple(_of_gear(operation, finish, factors, gear) for gear in (operation.pair.pinion, operation.pair.wheel))
 
 
 def _of_gear(operation: Operation, finish: Finish, factors: LoadFactors, gear: Gear) -> RootStress:
     tooth = form_at_outer_point(gear, operation.pair.contact_ratio)
-    nominal = operation.tangential_force / (operation.face_width * gear.normal_module) * tooth.form * tooth.stress_correction * helix_angle_factor(operation)
+    nominal = (
+        operation.tangential_force
+        / (operation.face_width * gear.normal_module)
+        * tooth.form
+        * tooth.stress_correction
+        * helix_angle_factor(operation)
+    )
     stress = nominal * finish.application_factor * factors.dynamic * factors.face_root * factors.transverse_root
     notch = 0.9434 + 0.0231 * sqrt(1.0 + 2.0 * tooth.notch)
     surface = 1.120 if finish.root_roughness < 1.0 else 1.674 - 0.529 * (finish.root_roughness + 1.0) ** 0.1
@@ -55,11 +63,13 @@ def helix_angle_factor(operation: Operation) -> float:
 
 
 def virtual_gear(gear: Gear) -> Gear:
-    """The virtual spur gear in the normal section: z_n = z/(cos(beta_b)^2 cos(beta)) teeth, tip and root as far from the reference circle."""
+    """The virtual spur gear in the normal section: z_n = z/(cos(beta_b)^2 cos(beta)) teeth, tip and root as far from
+    the reference circle."""
     teeth, module = gear.teeth / (cos(base_helix_angle(gear)) ** 2 * cos(gear.helix_angle)), gear.normal_module
     away = 0.5 * teeth * module - gear.reference_radius
     return replace(
-        gear, teeth=teeth, module=module, pressure_angle=gear.normal_pressure_angle, profile_shift=gear.profile_shift * gear.module / module,
+        gear, teeth=teeth, module=module, pressure_angle=gear.normal_pressure_angle,
+        profile_shift=gear.profile_shift * gear.module / module,
         tip_radius=gear.tip_radius + away, root_radius=gear.root_radius + away, helix_angle=0.0,
     )  # fmt: skip
 
@@ -72,14 +82,20 @@ def form_at_outer_point(gear: Gear, contact_ratio: float) -> ToothForm:
 
 
 def tooth_form(gear: Gear, roll_angle: float) -> ToothForm:
-    """The tooth of a spur gear loaded at a flank point, cut by a rack whose rounding may stand out by s_pr; lengths in modules (ISO 6336-3:2006 sections 6 and 7).
+    """The tooth of a spur gear loaded at a flank point, cut by a rack whose rounding may stand out by s_pr; lengths in
+    modules (ISO 6336-3:2006 sections 6 and 7).
 
     Y_F = 6 h cos(alpha_Fen) / (s^2 cos(alpha_n)), s the chord and h the lever arm at the 30 degree tangents;
     Y_S = (1.2 + 0.13 s/h) q^(1 / (1.21 + 2.3 h/s)) with q = s/(2 rho).
     """
     z, x, alpha, module = gear.teeth, gear.profile_shift, gear.pressure_angle, gear.module
     depth_of_rack, tip = gear.dedendum / module, gear.rack_tip_radius / module
-    land = 0.25 * pi - depth_of_rack * tan(alpha) - (1.0 - sin(alpha)) * tip / cos(alpha) + gear.protuberance / (module * cos(alpha))
+    land = (
+        0.25 * pi
+        - depth_of_rack * tan(alpha)
+        - (1.0 - sin(alpha)) * tip / cos(alpha)
+        + gear.protuberance / (module * cos(alpha))
+    )
     depth = tip - depth_of_rack + x
     theta = pi / 6.0
     for _ in range(50):
@@ -93,4 +109,8 @@ def tooth_form(gear: Gear, roll_angle: float) -> ToothForm:
     lean = at_load - half_tooth
     arm = 0.5 * ((cos(half_tooth) - sin(half_tooth) * tan(lean)) * load_diameter - z * cos(pi / 3.0 - theta) - beyond)
     notch = 0.5 * chord / radius
-    return ToothForm(6.0 * arm * cos(lean) / (chord**2 * cos(alpha)), (1.2 + 0.13 * chord / arm) * notch ** (1.0 / (1.21 + 2.3 * arm / chord)), notch)
+    return ToothForm(
+        6.0 * arm * cos(lean) / (chord**2 * cos(alpha)),
+        (1.2 + 0.13 * chord / arm) * notch ** (1.0 / (1.21 + 2.3 * arm / chord)),
+        notch,
+    )

@@ -17,19 +17,26 @@ LOGGER = logging.getLogger(__name__)
 
 
 def scene_attributes(scene: Scene) -> dict[str, str]:
-    """The text and the name of a scene; of one that names files also the folder from which they are looked for, and a hash of what was read from each."""
+    """The text and the name of a scene; of one that names files also the folder from which they are looked for, and a
+    hash of what was read from each."""
     found, files = {"scene": scene.text, "scene_name": scene.name}, _files(scene)
     if files:
-        found |= {"scene_folder": scene.folder, "scene_files": "\n".join(f"{digest} {name}" for name, digest in files.items())}
+        found |= {
+            "scene_folder": scene.folder,
+            "scene_files": "\n".join(f"{digest} {name}" for name, digest in files.items()),
+        }
     return found
 
 
 def carried_scene(result: xr.Dataset) -> Scene:
-    """The scene that was run; a warning is logged where files that it names are no longer what they were. Raises SceneError where its text is no scene of this version."""
+    """The scene that was run; a warning is logged where files that it names are no longer what they were. Raises
+    SceneError where its text is no scene of this version."""
     text = str(result.attrs.get("scene", ""))
     if text.startswith(NO_FILE):
         raise SceneError(text.removeprefix("# ").rstrip())
-    scene = scene_from_text(text, str(result.attrs.get("scene_name") or "scene"), directory=Path(str(result.attrs.get("scene_folder", ""))))
+    scene = scene_from_text(
+        text, str(result.attrs.get("scene_name") or "scene"), directory=Path(str(result.attrs.get("scene_folder", "")))
+    )
     for words in changed_files(result, scene):
         LOGGER.warning("%s", words)
     return scene
@@ -41,7 +48,8 @@ def changed_files(result: xr.Dataset, scene: Scene) -> list[str]:
     then = (line.partition(" ")[::2] for line in str(result.attrs.get("scene_files", "")).splitlines())
     folder = result.attrs.get("scene_folder")
     return [
-        f"{name}, which the scene names, is not what it was when the scene was run (looked for in {folder}). What is computed from it now is not of that run."
+        f"{name}, which the scene names, is not what it was when the scene was run (looked for in {folder}). What is"
+        " computed from it now is not of that run."
         for digest, name in then
         if now.get(name) != digest
     ]

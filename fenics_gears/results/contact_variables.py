@@ -1,4 +1,5 @@
-"""Contact in the result: forces of the mesh, of each tooth pair and of each contact node, and their reactions on the shafts."""
+"""Contact in the result: forces of the mesh, of each tooth pair and of each contact node, and their reactions on the
+shafts."""
 
 from __future__ import annotations
 
@@ -16,7 +17,8 @@ Values = dict[str, np.ndarray]
 
 
 def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
-    """Forces of the whole mesh at consecutive steps, on drive and on coast flanks, and their reactions on both gears' centres."""
+    """Forces of the whole mesh at consecutive steps, on drive and on coast flanks, and their reactions on both gears'
+    centres."""
     steps, drive = nodes.steps, nodes.drive
     reactions = _summed(nodes.of("rows_of_normals"), nodes.normal, nodes.layouts.starts)
 
@@ -61,13 +63,17 @@ def _summed(rows, forces, starts):
 
 def largest_normal_force(result: xr.Dataset, steps: slice = slice(None)) -> float:
     """The largest contact force (N) of a mesh, on its drive or its coast flanks, in all steps or some."""
-    forces = [result[name].values[steps].max(initial=0.0) for name in ("normal_force", "coast_normal_force") if name in result]
+    forces = [
+        result[name].values[steps].max(initial=0.0) for name in ("normal_force", "coast_normal_force") if name in result
+    ]
     return float(max(forces))
 
 
 def mesh_force(result: xr.Dataset) -> np.ndarray:
     """Force (time,), N, of the drive flanks less that of the coast flanks."""
-    return result["normal_force"].values - (result["coast_normal_force"].values if "coast_normal_force" in result else 0.0)
+    return result["normal_force"].values - (
+        result["coast_normal_force"].values if "coast_normal_force" in result else 0.0
+    )
 
 
 def pair_variables(scene: Scene, nodes: SideBySide) -> Values:
@@ -86,10 +92,13 @@ def pair_variables(scene: Scene, nodes: SideBySide) -> Values:
 
 
 def _rigid_pairs(scene: Scene, nodes: SideBySide) -> Values:
-    """Forces of pairs of rigid flanks; not a number where several pairs touch together, for their shares are not determined."""
+    """Forces of pairs of rigid flanks; not a number where several pairs touch together, for their shares are not
+    determined."""
     from fenics_gears.contact.rigid_cycle import pairs_that_touch
 
-    sides = {"pair_normal_force": DRIVE} | ({"pair_coast_normal_force": COAST} if scene.coast_flanks is not None else {})
+    sides = {"pair_normal_force": DRIVE} | (
+        {"pair_coast_normal_force": COAST} if scene.coast_flanks is not None else {}
+    )
     force = {name: np.zeros((len(nodes.steps), nodes.slots)) for name in sides}
     for i, record in enumerate(nodes.steps.records):
         operator, forces = record.position.operator, _normal(record)
@@ -98,7 +107,9 @@ def _rigid_pairs(scene: Scene, nodes: SideBySide) -> Values:
             name = next(each for each, side in sides.items() if side == flank)
             together = pairs_that_touch(operator, node)
             for pair in together:
-                force[name][i, nodes.slot_of(i, operator.pairs[pair].place.index)] = forces[node] if len(together) == 1 else np.nan
+                force[name][i, nodes.slot_of(i, operator.pairs[pair].place.index)] = (
+                    forces[node] if len(together) == 1 else np.nan
+                )
     return force
 
 
@@ -107,7 +118,8 @@ def _normal(record: Record) -> np.ndarray:
 
 
 def node_variables(scene: Scene, nodes: SideBySide) -> Values:
-    """Pressure, traction and place of each contact node (steps, slots, nodes); pressures are zero, places not a number where there is none."""
+    """Pressure, traction and place of each contact node (steps, slots, nodes); pressures are zero, places not a number
+    where there is none."""
     pressure = nodes.normal / nodes.of("area")
     traction = None if scene.friction is None else nodes.tangential / nodes.of("area")
     values = {"contact_offset": nodes.over_nodes(nodes.of("offsets"), True, np.nan)}
@@ -120,7 +132,8 @@ def node_variables(scene: Scene, nodes: SideBySide) -> Values:
 
 
 def watched_contact(nodes: SideBySide) -> Values:
-    """What the run's warnings need of consecutive steps: contact at the window's ends and on tips, rank of the compliance."""
+    """What the run's warnings need of consecutive steps: contact at the window's ends and on tips, rank of the
+    compliance."""
     steps = nodes.steps
     found = {
         "window reached": nodes.any(nodes.of("at_end") & nodes.closed),

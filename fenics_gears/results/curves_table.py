@@ -1,4 +1,5 @@
-"""CSV tables for programs that do not read NetCDF: all curves over time of a result, and what a dataset has over given dimensions."""
+"""CSV tables for programs that do not read NetCDF: all curves over time of a result, and what a dataset has over given
+dimensions."""
 
 from __future__ import annotations
 
@@ -26,13 +27,23 @@ def save_curves(result: xr.Dataset, path: Path) -> None:
 
 
 def save_tables(dataset: xr.Dataset, directory: Path, stem: str) -> list[Path]:
-    """Write a dataset as `stem`.nc and, of its variables over the same dimensions, a table each: a line for each combination of their coordinates.
+    """Write a dataset as `stem`.nc and, of its variables over the same dimensions, a table each: a line for each
+    combination of their coordinates.
 
     A table is called by its dimensions, `map_over_load_and_mesh_phase.csv`. Returns the files.
     """
     save(dataset, directory / f"{stem}.nc")
     every = dict.fromkeys(each.dims for each in dataset.data_vars.values() if each.dims)
-    return [directory / f"{stem}.nc", *(write_whole(directory / f"{stem}_over_{'_and_'.join(dims)}.csv", lambda path, dims=dims: _save_table(dataset, dims, path)) for dims in every)]
+    return [
+        directory / f"{stem}.nc",
+        *(
+            write_whole(
+                directory / f"{stem}_over_{'_and_'.join(dims)}.csv",
+                lambda path, dims=dims: _save_table(dataset, dims, path),
+            )
+            for dims in every
+        ),
+    ]
 
 
 def _save_table(dataset: xr.Dataset, dimensions: tuple[str, ...], path: Path) -> None:
@@ -43,11 +54,14 @@ def _save_table(dataset: xr.Dataset, dimensions: tuple[str, ...], path: Path) ->
     with open(path, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
         writer.writerow([f"{name}{_unit(dataset[name].attrs.get('units', '1'))}" for name in names])
-        writer.writerows([value if isinstance(value, str) else f"{value:.{DIGITS}g}" for value in row] for row in zip(*columns))
+        writer.writerows(
+            [value if isinstance(value, str) else f"{value:.{DIGITS}g}" for value in row] for row in zip(*columns)
+        )
 
 
 def curves(result: xr.Dataset) -> Iterator[tuple[str, np.ndarray]]:
-    """The head and the values (steps,) of each curve: time, mesh phase, then each variable over time alone or over time and gear."""
+    """The head and the values (steps,) of each curve: time, mesh phase, then each variable over time alone or over time
+    and gear."""
     first = [name for name in ("time", "mesh_phase") if name in result.variables]
     for name in (*first, *(name for name in result.data_vars if name not in first)):
         variable, unit = result[name], _unit(result[name].attrs.get("units", "1"))

@@ -1,7 +1,9 @@
 """The result of a run: one labelled dataset, with units and long names.
 
-Dimensions: `time`, all marched steps; `slot`, the tooth pairs that can touch at once; `gear` ("pinion", "wheel"); `contact_time`, the
-steps whose contact fields are stored; `contact_node`; of flanks resolved over the face also `face_position`. A variable that belongs to an effect is there only when the scene names that effect.
+Dimensions: `time`, all marched steps; `slot`, the tooth pairs that can touch at once; `gear` ("pinion", "wheel");
+    `contact_time`, the
+steps whose contact fields are stored; `contact_node`; of flanks resolved over the face also `face_position`. A variable
+that belongs to an effect is there only when the scene names that effect.
 """
 
 from __future__ import annotations
@@ -47,7 +49,10 @@ def dataset(recorder: Recorder, march: March) -> xr.Dataset:
     result.attrs.update(_numbers(recorder, march, result, counted_steps))
     found = [counted.warning] if counted.warning else []
     found += warnings_of(recorder, march, result)
-    found += [*warnings_of_energy(model.scene, result, recorder.cycle.steps, shown_steps(result)), *_undetermined_shares(result)]
+    found += [
+        *warnings_of_energy(model.scene, result, recorder.cycle.steps, shown_steps(result)),
+        *_undetermined_shares(result),
+    ]
     for sentences in from_effects(model.scene, "findings", recorder.watched):
         found += sentences
     result.attrs["warnings"] = "\n".join(found)
@@ -56,7 +61,10 @@ def dataset(recorder: Recorder, march: March) -> xr.Dataset:
 
 def _variables(recorder: Recorder, arrays: dict[str, np.ndarray], first: int):
     """Name, dimensions, values and labels of each variable; `first`: the first settled step."""
-    scene, described = recorder.model.scene, {variable.name: variable for variable in result_variables(recorder.model.scene)}
+    scene, described = (
+        recorder.model.scene,
+        {variable.name: variable for variable in result_variables(recorder.model.scene)},
+    )
     for name, variable in described.items():
         if name in arrays:
             yield name, variable.dims, arrays[name], {"units": variable.units, "long_name": variable.long_name}
@@ -65,10 +73,17 @@ def _variables(recorder: Recorder, arrays: dict[str, np.ndarray], first: int):
             if dims[:1] != ("time",):
                 yield name, dims, values, {"units": described[name].units, "long_name": described[name].long_name}
     forces, numbers = arrays["pair_normal_force"][first:], arrays["pair_number"][first:]
-    points = path_point_values(recorder.model.scene, recorder.model.pair, arrays["mesh_phase"][first:], numbers, forces, recorder.first_number)
+    points = path_point_values(
+        recorder.model.scene, recorder.model.pair, arrays["mesh_phase"][first:], numbers, forces, recorder.first_number
+    )
     for name, values in points.items():
         if name in described:
-            yield name, described[name].dims, values, {"units": described[name].units, "long_name": described[name].long_name}
+            yield (
+                name,
+                described[name].dims,
+                values,
+                {"units": described[name].units, "long_name": described[name].long_name},
+            )
     if recorder.stress is not None:
         for name, words in recorder.stress.labels()[0].items():
             if name in arrays:
@@ -78,7 +93,9 @@ def _variables(recorder: Recorder, arrays: dict[str, np.ndarray], first: int):
 def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str, tuple]:
     numbered = {
         "units": "1",
-        "long_name": "number of the tooth pair in each slot, from 1 in the order in which they enter; 0 for an empty slot",
+        "long_name": (
+            "number of the tooth pair in each slot, from 1 in the order in which they enter; 0 for an empty slot"
+        ),
         # A pair's number less this is the mesh phase at which it reaches the start of contact.
         "number_at_phase_0": recorder.first_number,
     }
@@ -92,18 +109,37 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
     }
     if "contact_time" in arrays:
         coordinates |= {
-            "contact_time": ("contact_time", arrays["contact_time"], {"units": "s", "long_name": "time at which contact fields are stored"}),
+            "contact_time": (
+                "contact_time",
+                arrays["contact_time"],
+                {"units": "s", "long_name": "time at which contact fields are stored"},
+            ),
             "contact_mesh_phase": (
-                "contact_time", arrays["contact_mesh_phase"], {"units": "1", "long_name": "mesh cycles since the start at the times of the contact fields"},
+                "contact_time",
+                arrays["contact_mesh_phase"],
+                {"units": "1", "long_name": "mesh cycles since the start at the times of the contact fields"},
             ),
             "contact_pair_number": (
-                ("contact_time", "slot"), arrays["contact_pair_number"], numbered | {"long_name": "pair_number at the times of the contact fields"},
+                ("contact_time", "slot"),
+                arrays["contact_pair_number"],
+                numbered | {"long_name": "pair_number at the times of the contact fields"},
             ),
-        }  # fmt: skip
+        }
     if recorder.cycle.face is not None:
-        words = "distance along the axes from the middle of the common face, towards the end from which the pinion is seen to turn counter-clockwise"
-        coordinates["face_position"] = ("face_position", recorder.cycle.face.positions, {"units": "mm", "long_name": words})
-        coordinates["face_slice_width"] = ("face_position", recorder.cycle.face.widths, {"units": "mm", "long_name": "width of the slice along the axes"})
+        words = (
+            "distance along the axes from the middle of the common face, towards the end from which the pinion is seen"
+            " to turn counter-clockwise"
+        )
+        coordinates["face_position"] = (
+            "face_position",
+            recorder.cycle.face.positions,
+            {"units": "mm", "long_name": words},
+        )
+        coordinates["face_slice_width"] = (
+            "face_position",
+            recorder.cycle.face.widths,
+            {"units": "mm", "long_name": "width of the slice along the axes"},
+        )
     return coordinates if recorder.stress is None else coordinates | recorder.stress.labels()[1]
 
 
@@ -118,8 +154,9 @@ def _undetermined_shares(result: xr.Dataset) -> list[str]:
     if not steps:
         return []
     return [
-        f"several pairs of rigid flanks touch at once in {steps} of {len(result['time'])} steps: their shares of the force are not "
-        "determined, and pair_normal_force is not a number there; a scene with [gears.material] has them"
+        f"several pairs of rigid flanks touch at once in {steps} of {len(result['time'])} steps: their shares of the"
+        " force are not determined, and pair_normal_force is not a number there; a scene with [gears.material] has"
+        " them"
     ]
 
 
@@ -158,7 +195,12 @@ def _numbers(recorder: Recorder, march: March, result: xr.Dataset, counted: xr.D
     numbers |= peak_to_peak(extrema, error)
     # The last step begins the next cycle.
     numbers["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
-    if len(error) > 1 and recorder.model.scene.friction is not None and not march.locked and largest_normal_force(result) > NO_FORCE:
+    if (
+        len(error) > 1
+        and recorder.model.scene.friction is not None
+        and not march.locked
+        and largest_normal_force(result) > NO_FORCE
+    ):
         numbers |= _friction_loss(counted)
     counted.attrs.update(numbers)
     numbers |= key_numbers(counted, recorder.model.pair, timed=recorder.model.scene.motion.speed_given)

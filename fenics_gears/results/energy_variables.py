@@ -56,9 +56,16 @@ def _energy_of_teeth(table, starts, kinds, forces):
 
 
 def work_variables(
-    scene: Scene, cycle: Cycle, drivetrain: Drivetrain, clock: Clock, loads: Sequence[VaryingLoad], steps: Steps, energy: np.ndarray
+    scene: Scene,
+    cycle: Cycle,
+    drivetrain: Drivetrain,
+    clock: Clock,
+    loads: Sequence[VaryingLoad],
+    steps: Steps,
+    energy: np.ndarray,
 ) -> dict:
-    """Work since the first of consecutive steps (N mm), which with the `energy` (time,) adds up to nothing but round-off:
+    """Work since the first of consecutive steps (N mm), which with the `energy` (time,) adds up to nothing but
+    round-off:
 
     energy - energy[0] = work_input - work_output - work_damping - work_friction + work_contact_changes + energy_defect.
     """

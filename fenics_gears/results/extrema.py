@@ -1,10 +1,12 @@
 """Extrema of a run's curves, located between its steps.
 
-Of a quasi-static run positions between the steps are solved where the largest value can lie: between two steps the curve is taken to stay below
-the straight lines through the steps on either side, as it does at smooth crests and at corners where a tooth pair enters or leaves contact. Lines
-through solved positions replace these, until no crossing lies above the largest value found. With inertia curves are smooth: the extremum is that
-of the cubic through four steps, which is of fourth order. The march's own velocities give no more: between two steps average acceleration
-means a parabola. Where steps are too long for any vibration, the motion follows the static one: positions are solved as without inertia.
+Of a quasi-static run positions between the steps are solved where the largest value can lie: between two steps the
+curve is taken to stay below the straight lines through the steps on either side, as it does at smooth crests and at
+corners where a tooth pair enters or leaves contact. Lines through solved positions replace these, until no crossing
+lies above the largest value found. With inertia curves are smooth: the extremum is that of the cubic through four
+steps, which is of fourth order. The march's own velocities give no more: between two steps average acceleration means a
+parabola. Where steps are too long for any vibration, the motion follows the static one: positions are solved as without
+inertia.
 """
 
 from __future__ import annotations
@@ -29,14 +31,16 @@ from fenics_gears.results.numbers import SAME
 
 # Positions solved for an extremum at most, and up to which part of the curve's span it is sought.
 MOST_SOLVED, SOUGHT = 20, 1e-4
-# Over a face, whose positions cost a hundred times as much and whose slices leave a peak-to-peak value some 2 % uncertain.
+# Over a face, whose positions cost a hundred times as much and whose slices leave a peak-to-peak value some 2 %
+# uncertain.
 SOUGHT_OVER_FACE = 3e-4
 # A position solved again is that of the march if it is as near as this part of what is sought.
 SAME_POSITION = 0.1
-# How far down from the largest value a curve is followed, in parts of what is sought. What falls within less than this part of a step jumps.
+# How far down from the largest value a curve is followed, in parts of what is sought. What falls within less than this
+# part of a step jumps.
 NEAR, WIDTH_OF_JUMP = 50.0, 1e-3
-# A curve has not jumped where it falls in the next step by at least this part of the fall before. A crest is smooth where the lower of the
-# parabolas from either side is above the steps by at least this part of the higher one.
+# A curve has not jumped where it falls in the next step by at least this part of the fall before. A crest is smooth
+# where the lower of the parabolas from either side is above the steps by at least this part of the higher one.
 LIKE = 0.5
 # A position is sought no nearer to a step than this part of the distance to the next.
 NEAREST = 0.02
@@ -53,7 +57,8 @@ class Extremum:
 class Extrema:
     """Locates the largest values of curves over the settled steps of a run.
 
-    `mesh_phase`, `transmission_error` (s,), rad: of consecutive steps; the latter tells whether a position solved again is that of the march.
+    `mesh_phase`, `transmission_error` (s,), rad: of consecutive steps; the latter tells whether a position solved again
+    is that of the march.
     `found_by`: how the last one was located.
     """
 
@@ -63,15 +68,21 @@ class Extrema:
         self._period = common_period(model.scene) * cycle.steps
         whole = isfinite(self._period) and len(self._steps) > self._period
         # Solved in the first period, so that the same cycles give the same bits however many are run.
-        self._first, self._whole = int((self._steps[-1] - self._period) // self._period * self._period) if whole else 0, whole
+        self._first, self._whole = (
+            int((self._steps[-1] - self._period) // self._period * self._period) if whole else 0,
+            whole,
+        )
         self._quasi_static = model.drivetrain.mass is None
         follows_statics = self._quasi_static or not model.time_scales.averages_acceleration
         self._sought = SOUGHT if cycle.face is None else SOUGHT_OVER_FACE
         self.found_by = CUBICS if not follows_statics else SOLVED if cycle.traits.divisible else STEPS
         if self.found_by == SOLVED:
-            # Not a method of this object: with a circle of references all operators would stay until Python looks for garbage.
+            # Not a method of this object: with a circle of references all operators would stay until Python looks for
+            # garbage.
             same = SAME_POSITION * SOUGHT * float(np.ptp(transmission_error))
-            marched = partial(_is_marched, model, transmission_error, self._place(0), same if self._quasi_static else np.inf)
+            marched = partial(
+                _is_marched, model, transmission_error, self._place(0), same if self._quasi_static else np.inf
+            )
             self._between = BetweenSteps(cycle, model.equations_of_motion, marched)
 
     def largest(self, curve: np.ndarray, of: Callable[[Record], float]) -> Extremum:
@@ -82,7 +93,9 @@ class Extrema:
         found = step, value
         if self.found_by == SOLVED:
             sought = self._sought * float(np.ptp(curve)) + round_off
-            step_in_period, highest_value = highest(*self._last_period(curve), lambda step: self._at(step, curve, of), sought)
+            step_in_period, highest_value = highest(
+                *self._last_period(curve), lambda step: self._at(step, curve, of), sought
+            )
             found = self._first + step_in_period, highest_value
         elif self.found_by == CUBICS:
             found = largest_of_cubics(self._steps, curve)
@@ -100,7 +113,8 @@ class Extrema:
     def _at(self, step: float, curve: np.ndarray, of: Callable[[Record], float]) -> float:
         """Value of a curve (s,) at a place between two steps; not a number where it cannot be solved.
 
-        With inertia it is the static value and, straight between the steps, by what the curve differs from static values there.
+        With inertia it is the static value and, straight between the steps, by what the curve differs from static
+        values there.
         """
         ends = (ceil(step) - 1, ceil(step))
         try:
@@ -111,19 +125,31 @@ class Extrema:
             self.found_by = STEPS
             return np.nan
         value, *static = map(of, records)
-        return value + float(np.interp(step, ends, [curve[self._place(end)] - each for end, each in zip(ends, static)])) if static else value
+        return (
+            value + float(np.interp(step, ends, [curve[self._place(end)] - each for end, each in zip(ends, static)]))
+            if static
+            else value
+        )
 
     def _last_period(self, curve: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Steps from the first of a period and values of the last one, with a step before and after it as it repeats; of all steps where none is whole."""
+        """Steps from the first of a period and values of the last one, with a step before and after it as it repeats;
+        of all steps where none is whole."""
         if not self._whole:
             return self._steps.astype(float), curve
         steps, values = self._steps[-self._period - 1 :] - self._first, curve[-self._period - 1 :]
-        return np.concatenate(([steps[0] - 1.0], steps, [steps[-1] + 1.0])), np.concatenate((values[-2:-1], values, values[1:2]))
+        return np.concatenate(([steps[0] - 1.0], steps, [steps[-1] + 1.0])), np.concatenate(
+            (values[-2:-1], values, values[1:2])
+        )
 
 
 def _is_marched(model: Model, transmission_error: np.ndarray, first: int, same: float, record: Record) -> bool:
-    """Whether a position has the transmission error (s,) of the march at its step, of which step 0 has the place `first`; any has where `same` is infinite."""
-    return same == np.inf or abs(float(model.transmission_error(record.state.position)) - transmission_error[int(record.step) + first]) <= same
+    """Whether a position has the transmission error (s,) of the march at its step, of which step 0 has the place
+    `first`; any has where `same` is infinite."""
+    return (
+        same == np.inf
+        or abs(float(model.transmission_error(record.state.position)) - transmission_error[int(record.step) + first])
+        <= same
+    )
 
 
 def peak_to_peak(extrema: Extrema, error: np.ndarray) -> dict[str, float | str]:
@@ -141,7 +167,11 @@ def peak_to_peak(extrema: Extrema, error: np.ndarray) -> dict[str, float | str]:
 def largest_pair_force(extrema: Extrema, curves: xr.Dataset | Mapping[str, np.ndarray]) -> dict[str, float | str]:
     """The largest normal force of a tooth pair, N, by its curves over the steps, where it is, and how it was found."""
     found = extrema.largest(largest_force_over_time(curves), _largest_force_of_a_pair)
-    return {"largest_pair_force": found.value, "largest_pair_force_mesh_phase": found.mesh_phase, "largest_pair_force_from": extrema.found_by}
+    return {
+        "largest_pair_force": found.value,
+        "largest_pair_force_mesh_phase": found.mesh_phase,
+        "largest_pair_force_from": extrema.found_by,
+    }
 
 
 def _largest_force_of_a_pair(record: Record) -> float:
@@ -150,16 +180,25 @@ def _largest_force_of_a_pair(record: Record) -> float:
     pair_of_node = operator.node_pair
     if operator.face is not None:
         # There a tooth pair has nodes in many slices.
-        numbers = {key: number for number, key in enumerate(dict.fromkeys((pair.place.flank, pair.place.index) for pair in operator.pairs))}
-        pair_of_node = np.array([numbers[pair.place.flank, pair.place.index] for pair in operator.pairs], dtype=int)[pair_of_node]
+        numbers = {
+            key: number
+            for number, key in enumerate(dict.fromkeys((pair.place.flank, pair.place.index) for pair in operator.pairs))
+        }
+        pair_of_node = np.array([numbers[pair.place.flank, pair.place.index] for pair in operator.pairs], dtype=int)[
+            pair_of_node
+        ]
     return float(np.bincount(pair_of_node, record.solution.forces[: operator.nodes], minlength=1).max())
 
 
-def highest(steps: np.ndarray, values: np.ndarray, value: Callable[[float], float], sought: float) -> tuple[float, float]:
-    """Place and largest value of a curve given at `steps` (s,) by `values` (s,), and anywhere between them by `value`, which may be not a number.
+def highest(
+    steps: np.ndarray, values: np.ndarray, value: Callable[[float], float], sought: float
+) -> tuple[float, float]:
+    """Place and largest value of a curve given at `steps` (s,) by `values` (s,), and anywhere between them by `value`,
+    which may be not a number.
 
-    Between the first two and the last two steps nothing is sought. Ends where no crossing of lines is higher by `sought` and on either side of the
-    largest value the curve falls by NEAR times that in small parts, so that lines are those beside the crest; or after MOST_SOLVED.
+    Between the first two and the last two steps nothing is sought. Ends where no crossing of lines is higher by
+    `sought` and on either side of the largest value the curve falls by NEAR times that in small parts, so that lines
+    are those beside the crest; or after MOST_SOLVED.
     """
     for _ in range(MOST_SOLVED):
         bounds, places = _bounds(steps, values)
@@ -179,12 +218,17 @@ def highest(steps: np.ndarray, values: np.ndarray, value: Callable[[float], floa
 
 
 def _steep_neighbour(steps: np.ndarray, values: np.ndarray, near: float) -> int:
-    """The steeper of the intervals in which a curve falls below the largest value by more than `near` on either side within a step of it; 0 where
+    """The steeper of the intervals in which a curve falls below the largest value by more than `near` on either side
+    within a step of it; 0 where
     neither falls by so much in itself, over more than a jump's width, or both are at an end."""
     top, found = int(values.argmax()), {}
     for side in (-1, 1):
         end = top
-        while 0 < end + side < len(values) - 1 and values[end + side] >= values[top] - near and abs(steps[end + side] - steps[top]) < 1.0:
+        while (
+            0 < end + side < len(values) - 1
+            and values[end + side] >= values[top] - near
+            and abs(steps[end + side] - steps[top]) < 1.0
+        ):
             end += side
         interval = min(end, end + side)
         if 0 < interval < len(values) - 2 and steps[interval + 1] - steps[interval] > WIDTH_OF_JUMP:
@@ -194,9 +238,11 @@ def _steep_neighbour(steps: np.ndarray, values: np.ndarray, near: float) -> int:
 
 
 def _bounds(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """How high a curve may be (s - 3,) between points x, y (s,), each interval but the outer ones; and the place that is to be solved there.
+    """How high a curve may be (s - 3,) between points x, y (s,), each interval but the outer ones; and the place that
+    is to be solved there.
 
-    That is the crossing of the lines from either side. Where one rises into the interval and the other lies far below its end, the curve may
+    That is the crossing of the lines from either side. Where one rises into the interval and the other lies far below
+    its end, the curve may
     have jumped down anywhere: then half-way.
     """
     slope, h = np.diff(y) / np.diff(x), np.diff(x)[1:-1]
@@ -212,9 +258,11 @@ def _bounds(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def largest_of_cubics(steps: np.ndarray, values: np.ndarray) -> tuple[float, float]:
-    """Place and largest value of the cubics through each four consecutive `values` (s,) at equal distances, between the middle two.
+    """Place and largest value of the cubics through each four consecutive `values` (s,) at equal distances, between the
+    middle two.
 
-    Only where the parabolas through three of them, either way, have crests alike: where the curve has a corner it is not a cubic.
+    Only where the parabolas through three of them, either way, have crests alike: where the curve has a corner it is
+    not a cubic.
     """
     if len(values) < 4:
         return float(steps[values.argmax()]), float(values.max())

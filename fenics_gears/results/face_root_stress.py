@@ -1,4 +1,5 @@
-"""Root stress in the result of flanks resolved over the face: stress in both fillets of each loaded tooth, slice by slice, over time."""
+"""Root stress in the result of flanks resolved over the face: stress in both fillets of each loaded tooth, slice by
+slice, over time."""
 
 from __future__ import annotations
 
@@ -16,15 +17,18 @@ from fenics_gears.dynamics.steps import Record
 from fenics_gears.results.root_stress_variables import RootStress
 from fenics_gears.results.side_by_side import SideBySide
 
-# Of a gear: the teeth loaded at a position, by `sector_of`, and the forces on their flanks' slices per contact force (loaded d, forces).
+# Of a gear: the teeth loaded at a position, by `sector_of`, and the forces on their flanks' slices per contact force
+# (loaded d, forces).
 OnFlanks = tuple[list[int], sparse.csr_matrix]
 
 
 class FaceRootStress(RootStress):
-    """Root stress at the steps of a cycle over the face: forces on slices of the flanks from the contact forces, times the stress per force on a slice."""
+    """Root stress at the steps of a cycle over the face: forces on slices of the flanks from the contact forces, times
+    the stress per force on a slice."""
 
     def on_flanks(self, record: Record) -> tuple[list[int], tuple[OnFlanks, OnFlanks]]:
-        """Indices of the tooth pairs in reach, and matrices from contact forces to forces on both gears' flanks, built when first asked for."""
+        """Indices of the tooth pairs in reach, and matrices from contact forces to forces on both gears' flanks, built
+        when first asked for."""
         phase = record.step % self.cycle.steps
         if phase not in self._matrices:
             pairs = record.position.operator.pairs
@@ -41,11 +45,17 @@ class FaceRootStress(RootStress):
         for nodes, pair in zip(node_slices(pairs), pairs):
             forces = slice_rows(gear, data, face, pair, tangential)
             columns = np.r_[nodes, count + nodes.start : count + nodes.stop] if tangential else np.r_[nodes]
-            first = dofs * sectors.index(sector_of(gear, pair)) + len(forces) * (face.slices * pair.place.flank + pair.place.slice)
+            first = dofs * sectors.index(sector_of(gear, pair)) + len(forces) * (
+                face.slices * pair.place.flank + pair.place.slice
+            )
             row, column = np.nonzero(forces)
             entries.append((forces[row, column], first + row, columns[column]))
-        values, row, column = (np.concatenate(each) for each in zip(*entries)) if entries else np.empty((3, 0), dtype=int)
-        return sectors, sparse.csr_matrix((values, (row, column)), shape=(dofs * len(sectors), (2 if tangential else 1) * count))
+        values, row, column = (
+            (np.concatenate(each) for each in zip(*entries)) if entries else np.empty((3, 0), dtype=int)
+        )
+        return sectors, sparse.csr_matrix(
+            (values, (row, column)), shape=(dofs * len(sectors), (2 if tangential else 1) * count)
+        )
 
     def values(self, nodes: SideBySide) -> dict[str, np.ndarray]:
         """Root stress at consecutive steps; not a number where a slot's pair is out of reach."""
@@ -72,7 +82,10 @@ class FaceRootStress(RootStress):
         """As in the plane, and that of the slices."""
         words, coordinates = super().labels()
         section = words["root_stress_at_30_degrees"]
-        return words | {"root_stress_at_30_degrees": f"largest {section}", "root_stress_over_face": section}, coordinates
+        return words | {
+            "root_stress_at_30_degrees": f"largest {section}",
+            "root_stress_over_face": section,
+        }, coordinates
 
 
 def _variables(values: np.ndarray) -> dict[str, np.ndarray]:

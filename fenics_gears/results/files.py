@@ -39,7 +39,8 @@ def save(result: xr.Dataset, path: str | Path) -> None:
 
 
 class NeverFull:
-    """A file for HDF5, which itself does not come back cleanly from a full disk: this goes on in memory then, and has the `failure`."""
+    """A file for HDF5, which itself does not come back cleanly from a full disk: this goes on in memory then, and has
+    the `failure`."""
 
     def __init__(self, file: BinaryIO):
         self._file = file
@@ -77,7 +78,8 @@ class NeverFull:
 
 
 def load(path: str | Path) -> xr.Dataset:
-    """Read a saved result into memory, one of an earlier layout as results are now. Raises ComputationError when the file is no result of this program, or damaged."""
+    """Read a saved result into memory, one of an earlier layout as results are now. Raises ComputationError when the
+    file is no result of this program, or damaged."""
     result = read(path)
     if "transmission_error" not in result or "scene" not in result.attrs:
         raise ComputationError(f"{path}: holds no run of this program (no transmission_error, no scene text)")
@@ -91,7 +93,8 @@ def load(path: str | Path) -> xr.Dataset:
 
 
 def check_readable(path: str | Path) -> None:
-    """Raise ComputationError where HDF5 would end this process at a file: where it is damaged below a seal that was made anew."""
+    """Raise ComputationError where HDF5 would end this process at a file: where it is damaged below a seal that was
+    made anew."""
     import h5py
 
     from fenics_gears.results.netcdf import variables_in
@@ -101,11 +104,14 @@ def check_readable(path: str | Path) -> None:
             list(variables_in(file))
 
     if not survives(all_but_values):
-        raise ComputationError(f"{path}: cannot be read as a result: it is damaged, although its digest fits. Run its scene again.")
+        raise ComputationError(
+            f"{path}: cannot be read as a result: it is damaged, although its digest fits. Run its scene again."
+        )
 
 
 def read(path: str | Path) -> xr.Dataset:
-    """Read a saved dataset, whatever it holds, into memory. Raises ComputationError when it is damaged or not written by `save`."""
+    """Read a saved dataset, whatever it holds, into memory. Raises ComputationError when it is damaged or not written
+    by `save`."""
     from fenics_gears.results.netcdf import read_netcdf
 
     try:

@@ -1,9 +1,9 @@
 """What a march has recorded, on disk while it goes on: it outlives a process that is killed, and takes no memory.
 
-A directory of plain files, a file for each variable, to which the values of every block of steps are written when the block is done; then
-STATE, which says how many steps are whole, is replaced. Nothing waits in the process to be written: what was written is in the hands of the
-operating system, which loses nothing of it when the process is killed. HDF5 keeps parts of its files in the process; what a kill leaves of
-them cannot always be opened.
+A directory of plain files, a file for each variable, to which the values of every block of steps are written when the
+block is done; then STATE, which says how many steps are whole, is replaced. Nothing waits in the process to be written:
+what was written is in the hands of the operating system, which loses nothing of it when the process is killed. HDF5
+keeps parts of its files in the process; what a kill leaves of them cannot always be opened.
 """
 
 from __future__ import annotations
@@ -38,7 +38,8 @@ logger = logging.getLogger(__name__)
 SECONDS_WITHOUT = 2.0
 HEADER, STATE = "journal.json", "state.json"
 DAMAGED = "it does not hold what was written into it"
-# Places beside those of the last steps: values that a reader still needs are not overwritten while a block or two are written.
+# Places beside those of the last steps: values that a reader still needs are not overwritten while a block or two are
+# written.
 SPARE = 4 * LONGEST_BLOCK
 # Names of the check sums of a step's values, and whether they are of contact fields.
 CHECKS, CHECK = {"check: curves": False, "check: fields": True}, Kind(np.dtype(np.uint32), ())
@@ -56,7 +57,8 @@ class Place:
 
 
 class Journal(InMemory):
-    """Keeps values in memory for the first SECONDS_WITHOUT, then in files; in memory again where these cannot be written.
+    """Keeps values in memory for the first SECONDS_WITHOUT, then in files; in memory again where these cannot be
+    written.
 
     `place`: the directory, and where files that the `scene` names are looked for.
     """
@@ -86,7 +88,9 @@ class Journal(InMemory):
             self._commit(first + len(values["time"]), march)
         except OSError as failure:
             logger.warning(
-                "%s: %s. The run goes on without writing its steps as they come: if it is killed, they are lost.", self.directory, failure.strerror or failure
+                "%s: %s. The run goes on without writing its steps as they come: if it is killed, they are lost.",
+                self.directory,
+                failure.strerror or failure,
             )
             self._give_up(first)
             super().put(first, values)
@@ -96,7 +100,8 @@ class Journal(InMemory):
         return _read(self._files[name], self.kinds[name], steps) if self._files else super().get(name, steps)
 
     def _write(self, first: int, count: int, values: Values) -> None:
-        """Write values of so many steps from `first` on, of contact fields those of the last of them, and their check sums."""
+        """Write values of so many steps from `first` on, of contact fields those of the last of them, and their check
+        sums."""
         own = {name: np.ascontiguousarray(each, self.kinds[name].type) for name, each in values.items()}
         for name, each in own.items():
             _write(self._files[name], self.kinds[name], first + count - len(each), each)
@@ -114,9 +119,16 @@ class Journal(InMemory):
         self.directory.mkdir(parents=True, exist_ok=True)
         kinds = self.kinds | dict.fromkeys(CHECKS, CHECK) | LISTS
         header = {
-            "version": fenics_gears.__version__, "scene": self._scene.text, "name": self._scene.name, "folder": str(self.place.scene_folder.absolute()), "steps": self.steps,
-            "kinds": {name: [str(number), kind.type.str, kind.shape, kind.last] for number, (name, kind) in enumerate(kinds.items())},
-        }  # fmt: skip
+            "version": fenics_gears.__version__,
+            "scene": self._scene.text,
+            "name": self._scene.name,
+            "folder": str(self.place.scene_folder.absolute()),
+            "steps": self.steps,
+            "kinds": {
+                name: [str(number), kind.type.str, kind.shape, kind.last]
+                for number, (name, kind) in enumerate(kinds.items())
+            },
+        }
         self._write_text(HEADER, header)
         files = {name: open(self.directory / str(number), "w+b", buffering=0) for number, name in enumerate(kinds)}
         values = {name: super(Journal, self).get(name, steps) for name in self.kinds}
@@ -140,7 +152,9 @@ class Journal(InMemory):
             new = np.array(longer[known:], dtype=kind.type).reshape(-1, *kind.shape)
             _write(self._files[name], kind, known, new)
             self._listed[name] = len(longer), check + int(check_sums(known, len(new), [new]).sum())
-        self._write_text(STATE, {"steps": steps, "march": {name: getattr(march, name) for name in COUNTS}, "listed": self._listed})
+        self._write_text(
+            STATE, {"steps": steps, "march": {name: getattr(march, name) for name in COUNTS}, "listed": self._listed}
+        )
         self._whole = steps
 
     def _write_text(self, name: str, content: dict) -> None:
@@ -161,7 +175,8 @@ class Journal(InMemory):
 
 @dataclass(frozen=True)
 class Recorded:
-    """What a journal holds of a run: its `scene`, how many `steps` it was to have beside the start, the `march` so far, and `values` by name."""
+    """What a journal holds of a run: its `scene`, how many `steps` it was to have beside the start, the `march` so far,
+    and `values` by name."""
 
     scene: Scene
     steps: int
@@ -185,12 +200,19 @@ def remove(directory: Path) -> None:
 
 
 def read(directory: Path) -> Recorded:
-    """What a journal holds, also one that is still written. Raises ComputationError where it is damaged or of another version of the program."""
+    """What a journal holds, also one that is still written. Raises ComputationError where it is damaged or of another
+    version of the program."""
     try:
         header, state = _text(directory / HEADER), _text(directory / STATE)
         if header["version"] != fenics_gears.__version__:
-            raise ValueError(f"it was written by version {header['version']} of this program, which can read it; this is {fenics_gears.__version__}")
-        kinds = {name: (number, Kind(np.dtype(kind), tuple(shape), last)) for name, (number, kind, shape, last) in header["kinds"].items()}
+            raise ValueError(
+                f"it was written by version {header['version']} of this program, which can read it; this is"
+                f" {fenics_gears.__version__}"
+            )
+        kinds = {
+            name: (number, Kind(np.dtype(kind), tuple(shape), last))
+            for name, (number, kind, shape, last) in header["kinds"].items()
+        }
         lengths = dict.fromkeys(kinds, state["steps"]) | {name: length for name, (length, _) in state["listed"].items()}
         values = {}
         for name, (number, kind) in kinds.items():
@@ -214,7 +236,8 @@ def read(directory: Path) -> Recorded:
 
 
 def check_sums(first: int, count: int, values: Sequence[np.ndarray]) -> np.ndarray:
-    """Check sum (s,) of values (s, ...) of so many steps from `first` on: every word, and which step it is, has a part in it."""
+    """Check sum (s,) of values (s, ...) of so many steps from `first` on: every word, and which step it is, has a part
+    in it."""
     sums = np.arange(first + 1, first + 1 + count).astype(np.uint32)
     for own in values:
         flat = own.reshape(len(own), -1) if own.size else np.zeros((len(own), 1))
@@ -261,4 +284,6 @@ def _read(file: FileIO, kind: Kind, steps: int) -> np.ndarray:
     length = min(steps, kind.last + SPARE) if kind.last else steps
     # Whoever changes the values changes them in memory only.
     content = mmap(file.fileno(), length * kind.type.itemsize * prod(kind.shape), access=ACCESS_COPY)
-    return np.frombuffer(content, kind.type).reshape(length, *kind.shape)[kind.places(kind.kept_from(steps), steps, SPARE)]
+    return np.frombuffer(content, kind.type).reshape(length, *kind.shape)[
+        kind.places(kind.kept_from(steps), steps, SPARE)
+    ]

@@ -24,12 +24,14 @@ class Kind:
 
     @classmethod
     def of(cls, name: str, values: np.ndarray, stored: Arrays, steps: int, last: int) -> Kind:
-        """That of `values` (s, ...), by the list of stored arrays or, where it does not name them, as they are; a run has so many `steps` at most."""
+        """That of `values` (s, ...), by the list of stored arrays or, where it does not name them, as they are; a run
+        has so many `steps` at most."""
         dims, kind = stored.get(name, (("time",), values.dtype))
         return cls(kind, values.shape[1:], last if dims[0] == "contact_time" and last < steps else 0)
 
     def places(self, first: int, end: int, spare: int = 0) -> np.ndarray | slice:
-        """Where the values of the steps from `first` to before `end` lie; `spare`: places beside those of the last steps."""
+        """Where the values of the steps from `first` to before `end` lie; `spare`: places beside those of the last
+        steps."""
         return np.arange(first, end) % (self.last + spare) if self.last else slice(first, end)
 
     def kept_from(self, steps: int) -> int:
@@ -45,7 +47,8 @@ class Kept(Protocol):
 
 
 class InMemory:
-    """Keeps the values of at most so many `steps`, of contact fields those of the `last`; `stored`: the arrays with a type of their own."""
+    """Keeps the values of at most so many `steps`, of contact fields those of the `last`; `stored`: the arrays with a
+    type of their own."""
 
     def __init__(self, stored: Arrays, steps: int, last: int):
         self.stored, self.steps, self.last = stored, steps, last
@@ -53,7 +56,8 @@ class InMemory:
         self._arrays: dict[str, np.ndarray] = {}
 
     def put(self, first: int, values: Values, march: March | None = None) -> None:
-        """Keep the values (s, ...) of the steps from `first` on, by name; the `march` so far is kept by who needs it."""
+        """Keep the values (s, ...) of the steps from `first` on, by name; the `march` so far is kept by who needs
+        it."""
         for name, own in values.items():
             if name not in self.kinds:
                 kind = self.kinds[name] = Kind.of(name, own, self.stored, self.steps, self.last)

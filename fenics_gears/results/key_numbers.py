@@ -1,4 +1,5 @@
-"""The key numbers of a run, taken from the curves of its settled mesh cycles. `results.attributes` lists them with units and meaning."""
+"""The key numbers of a run, taken from the curves of its settled mesh cycles. `results.attributes` lists them with
+units and meaning."""
 
 from __future__ import annotations
 
@@ -12,30 +13,50 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, sliding_speed, specific_sliding
 from fenics_gears.results.contact_variables import largest_normal_force, mesh_force
 from fenics_gears.results.energy_variables import transmitted
-from fenics_gears.results.numbers import HARMONICS, first_largest, harmonics, largest_of_one_pair, mean_where_positive, shares_at
+from fenics_gears.results.numbers import (
+    HARMONICS,
+    first_largest,
+    harmonics,
+    largest_of_one_pair,
+    mean_where_positive,
+    shares_at,
+)
 from fenics_gears.scene.data import Scene
 
 MICROMETRE, WATT = 1e-3, 1e3  # mm, N mm/s
 HARMONIC_NAMES = tuple(f"transmission_error_harmonic_{n}" for n in range(1, HARMONICS + 1))
 # The numbers that a study takes of each case, where it has them.
 STUDIED = (
-    *HARMONIC_NAMES, "rms_transmission_error", "rms_normal_force", "mean_mesh_stiffness", "mean_mesh_stiffness_tangent", "single_pair_stiffness", "largest_pair_force",
-    "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure", "peak_edge_pressure", "peak_kink_pressure", "largest_root_stress_pinion",
-    "largest_root_stress_wheel",    "input_power", "friction_loss", "friction_power", "mesh_efficiency", "contact_loss_share",
-    "overlap_ratio", "total_contact_ratio", "face_load_factor", "largest_line_load_factor", "edge_line_load_factor", "transverse_load_factor",
+    *HARMONIC_NAMES, "rms_transmission_error", "rms_normal_force", "mean_mesh_stiffness", "mean_mesh_stiffness_tangent",
+    "single_pair_stiffness", "largest_pair_force",
+    "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure", "peak_edge_pressure",
+    "peak_kink_pressure", "largest_root_stress_pinion",
+    "largest_root_stress_wheel",    "input_power", "friction_loss", "friction_power", "mesh_efficiency",
+    "contact_loss_share",
+    "overlap_ratio", "total_contact_ratio", "face_load_factor", "largest_line_load_factor", "edge_line_load_factor",
+    "transverse_load_factor",
 )  # fmt: skip
 
 
 def key_numbers(counted: xr.Dataset, pair: GearPair, timed: bool = True) -> dict[str, float | str]:
-    """All numbers of the settled steps of a result; its attribute `friction_loss` is used if it is there. timed: the scene has a speed, without
+    """All numbers of the settled steps of a result; its attribute `friction_loss` is used if it is there. timed: the
+    scene has a speed, without
     which there is no power."""
     # The last step begins the next cycle.
     settled = counted.isel(time=slice(0, max(counted.sizes["time"] - 1, 1)))
-    return _harmonics(settled, pair) | _stiffness(settled, pair) | _pair_force(settled) | _pressure(settled, pair) | _root_stress(settled) | _power(counted, timed)
+    return (
+        _harmonics(settled, pair)
+        | _stiffness(settled, pair)
+        | _pair_force(settled)
+        | _pressure(settled, pair)
+        | _root_stress(settled)
+        | _power(counted, timed)
+    )
 
 
 def _harmonics(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
-    """Harmonics and r.m.s. of the transmission error as a length at the wheel's base circle, um, and r.m.s. of the mesh force, N, of the last whole mesh
+    """Harmonics and r.m.s. of the transmission error as a length at the wheel's base circle, um, and r.m.s. of the mesh
+    force, N, of the last whole mesh
     cycles; nothing of less than one, or on a ramp, where no two cycles are alike."""
     phase = settled["mesh_phase"].values
     if len(phase) < 2 or "mesh_frequency" in settled:
@@ -45,15 +66,24 @@ def _harmonics(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
     if not cycles:
         return {}
     curve = settled["transmission_error"].values[-cycles * a_cycle :] * pair.wheel.base_radius / MICROMETRE
-    found = {name: float(amplitude) for name, amplitude in zip(HARMONIC_NAMES, harmonics(curve, cycles)) if np.isfinite(amplitude)}
-    return found | {"rms_transmission_error": float(curve.std()), "rms_normal_force": float(mesh_force(settled)[-cycles * a_cycle :].std())}
+    found = {
+        name: float(amplitude)
+        for name, amplitude in zip(HARMONIC_NAMES, harmonics(curve, cycles))
+        if np.isfinite(amplitude)
+    }
+    return found | {
+        "rms_transmission_error": float(curve.std()),
+        "rms_normal_force": float(mesh_force(settled)[-cycles * a_cycle :].std()),
+    }
 
 
 def _stiffness(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
     """Mesh stiffness over the face width, N/(mm um): c_gamma, its tangent, and the c' of one pair."""
     if "mesh_stiffness" not in settled:
         return {}
-    secant, tangent, pairs = (settled[name].values for name in ("mesh_stiffness", "mesh_stiffness_tangent", "loaded_pairs"))
+    secant, tangent, pairs = (
+        settled[name].values for name in ("mesh_stiffness", "mesh_stiffness_tangent", "loaded_pairs")
+    )
     found = {
         "mean_mesh_stiffness": mean_where_positive(secant),
         "mean_mesh_stiffness_tangent": mean_where_positive(tangent),
@@ -63,13 +93,17 @@ def _stiffness(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
 
 
 def _pair_force(settled: xr.Dataset) -> dict[str, float]:
-    """The largest normal force of a tooth pair, N, at the steps, on drive or coast flanks; nothing where shares of rigid pairs are not
+    """The largest normal force of a tooth pair, N, at the steps, on drive or coast flanks; nothing where shares of
+    rigid pairs are not
     determined, or nothing presses."""
     over_time = largest_force_over_time(settled)
     if np.isnan(over_time).any() or over_time.max() <= NO_FORCE:
         return {}
     place = first_largest(over_time)
-    return {"largest_pair_force": float(over_time[place]), "largest_pair_force_mesh_phase": float(settled["mesh_phase"].values[place])}
+    return {
+        "largest_pair_force": float(over_time[place]),
+        "largest_pair_force_mesh_phase": float(settled["mesh_phase"].values[place]),
+    }
 
 
 def largest_force_over_time(curves: xr.Dataset | Mapping[str, np.ndarray]) -> np.ndarray:
@@ -105,7 +139,8 @@ def _pressure(settled: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
 
 
 def _root_stress(settled: xr.Dataset) -> dict[str, float | str]:
-    """The largest root stress of either gear, MPa, when it is, at the tooth of which pair and on which side; where it was asked for."""
+    """The largest root stress of either gear, MPa, when it is, at the tooth of which pair and on which side; where it
+    was asked for."""
     if "root_stress_maximum" not in settled:
         return {}
     found: dict[str, float | str] = {}
@@ -127,7 +162,8 @@ def _root_stress(settled: xr.Dataset) -> dict[str, float | str]:
 
 
 def _power(counted: xr.Dataset, timed: bool) -> dict[str, float]:
-    """Mean power of the drive, W, friction loss, W, and efficiency of the mesh; no power without a speed, nothing if the drive does no work."""
+    """Mean power of the drive, W, friction loss, W, and efficiency of the mesh; no power without a speed, nothing if
+    the drive does no work."""
     seconds, drive = float(np.ptp(counted["time"].values)), abs(transmitted(counted).drive)
     if not seconds or not drive or largest_normal_force(counted) <= NO_FORCE:
         return {}
@@ -150,15 +186,21 @@ def wedged(curves: xr.Dataset) -> np.ndarray:
 def path_point_values(
     scene: Scene, pair: GearPair, phase: np.ndarray, numbers: np.ndarray, forces: np.ndarray, first_number: int
 ) -> dict[str, np.ndarray]:
-    """What the points A to E of the path of contact have: place, sliding by the nominal motion, share of the load in the settled steps.
+    """What the points A to E of the path of contact have: place, sliding by the nominal motion, share of the load in
+    the settled steps.
 
-    Of these steps `phase` (steps,), mesh cycles, the pairs' `numbers` (steps, slots), 0 for none, of which `first_number` reaches the start of contact at
-    phase 0, and their `forces` (steps, slots), N.
+    Of these steps `phase` (steps,), mesh cycles, the pairs' `numbers` (steps, slots), 0 for none, of which
+    `first_number` reaches the start of contact at phase 0, and their `forces` (steps, slots), N.
     """
     points = contact_points(pair)
     rolls = pair.pinion_roll_angle(points), pair.wheel_roll_angle(points)
     diameters = [2.0 * gear.radius(roll) for gear, roll in zip((pair.pinion, pair.wheel), rolls)]
-    shares = shares_at((points - pair.path_start) / pair.base_pitch, phase, numbers - first_number, np.where(numbers > 0, forces, np.nan))
+    shares = shares_at(
+        (points - pair.path_start) / pair.base_pitch,
+        phase,
+        numbers - first_number,
+        np.where(numbers > 0, forces, np.nan),
+    )
     return {
         "path_point_position": points,
         "path_point_diameter": np.transpose(diameters),

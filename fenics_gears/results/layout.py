@@ -1,4 +1,5 @@
-"""What every result's file has: names, dimensions and types, checked after its seal, which only says that its bytes are those that were written."""
+"""What every result's file has: names, dimensions and types, checked after its seal, which only says that its bytes are
+those that were written."""
 
 from __future__ import annotations
 
@@ -39,16 +40,24 @@ def _mistakes(result: xr.Dataset) -> Iterator[str]:
             yield f"{name} holds {result[name].dtype}, not numbers"
     numbers = {each.name for each in RESULT_ATTRIBUTES if each.units}
     for name, value in result.attrs.items():
-        if name in TEXTS and not isinstance(value, str) or name in numbers and not isinstance(value, (int, float, np.number)):
+        if (
+            name in TEXTS
+            and not isinstance(value, str)
+            or name in numbers
+            and not isinstance(value, (int, float, np.number))
+        ):
             yield f"its attribute {name} is {value!r:.60}"
     yield from _mistakes_of_places(result)
 
 
 @cache
 def _known_dims() -> dict[str, list[tuple[str, ...]]]:
-    """Dimensions that variables of numbers may have, by name; those of contact nodes are of slices too where the flanks are resolved over the face."""
+    """Dimensions that variables of numbers may have, by name; those of contact nodes are of slices too where the flanks
+    are resolved over the face."""
     variables = [*COMMON_VARIABLES, *FACE_VARIABLES, *(variable for effect in EFFECTS for variable in effect.variables)]
-    found = {each.name: [each.dims, *([(*OF_SLICES, "contact_node")] if each.dims == OF_NODES else [])] for each in variables}
+    found = {
+        each.name: [each.dims, *([(*OF_SLICES, "contact_node")] if each.dims == OF_NODES else [])] for each in variables
+    }
     for own in (COORDINATES, CONTACT_COORDINATES, {"slot": ("slot",)}, ROOT_STRESS, ROOT_STRESS_OVER_FACE):
         for name, dims in own.items():
             found.setdefault(name, []).append(dims)

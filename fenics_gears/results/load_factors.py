@@ -19,7 +19,8 @@ BESIDE = 1e-9
 
 
 def load_factors(counted: xr.Dataset, pair: GearPair) -> dict[str, float]:
-    """Overlap and total contact ratio, and the load factors of the flanks that carry in the settled steps of a result; nothing of flanks without load.
+    """Overlap and total contact ratio, and the load factors of the flanks that carry in the settled steps of a result;
+    nothing of flanks without load.
 
     Factors along the face need contact fields, of which those of settled steps count.
     """
@@ -106,13 +107,15 @@ def _line_ends(result: xr.Dataset, pair: GearPair, side: str, z: np.ndarray) -> 
 
 
 def passing(pair: GearPair, position, side: str):
-    """Where the contact of a pair's drive flanks stands (mm from T1) when that of its flanks of `side` passes a position on their own line of action."""
+    """Where the contact of a pair's drive flanks stands (mm from T1) when that of its flanks of `side` passes a
+    position on their own line of action."""
     # There coast flanks go the other way.
     return pair.pinion.base_radius * coast_roll_angles(pair, 0.0)[0] - position if side else position
 
 
 def contact_line_lengths(pair: GearPair, positions) -> np.ndarray:
-    """Length (mm) along the axes of the line of contact of pairs that stand at positions (mm from T1, any shape) in the middle of the face."""
+    """Length (mm) along the axes of the line of contact of pairs that stand at positions (mm from T1, any shape) in the
+    middle of the face."""
     positions = np.asarray(positions, dtype=float)
     half, slope = 0.5 * pair.face_width, abs(pair.slope)
     if slope == 0.0:
@@ -122,7 +125,8 @@ def contact_line_lengths(pair: GearPair, positions) -> np.ndarray:
 
 
 def largest_even_share(pair: GearPair) -> float:
-    """Largest share of a tooth pair in the mesh's force if the line load were the same along all lines of contact, over a mesh cycle."""
+    """Largest share of a tooth pair in the mesh's force if the line load were the same along all lines of contact, over
+    a mesh cycle."""
     lengths = _lengths_where_they_turn(pair)
     return float((lengths.max(axis=1) / lengths.sum(axis=1)).max())
 

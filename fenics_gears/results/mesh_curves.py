@@ -7,7 +7,17 @@ from collections.abc import Mapping
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import COMPLIANCE, GAP, JACOBIAN, NODE_PAIR, ON_DRIVE_FLANKS, flags_at, integers_at, matrix_at, vector_at
+from fenics_gears.contact.addresses import (
+    COMPLIANCE,
+    GAP,
+    JACOBIAN,
+    NODE_PAIR,
+    ON_DRIVE_FLANKS,
+    flags_at,
+    integers_at,
+    matrix_at,
+    vector_at,
+)
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_stiffness import mesh_stiffness
 from fenics_gears.contact.pressure import read_off
@@ -20,7 +30,9 @@ Curves = dict[str, np.ndarray]
 
 def stiffness_curves(steps: Steps) -> Curves:
     """Secant and tangent stiffness of the mesh, and how many pairs carry, at consecutive steps of an elastic mesh."""
-    secant, tangent, pairs = _stiffness(steps.table, steps.starts, steps.kinds, steps.states[:, 0].copy(), steps.forces, steps.status)
+    secant, tangent, pairs = _stiffness(
+        steps.table, steps.starts, steps.kinds, steps.states[:, 0].copy(), steps.forces, steps.status
+    )
     return {"mesh_stiffness": secant, "mesh_stiffness_tangent": tangent, "loaded_pairs": pairs}
 
 
@@ -31,8 +43,10 @@ def _stiffness(table, starts, kinds, positions, forces, status):
         row, n = table[s], starts[s + 1] - starts[s]
         m = kinds * n
         found[:, s] = mesh_stiffness(
-            matrix_at(row[COMPLIANCE], m, m), matrix_at(row[JACOBIAN], m, k), vector_at(row[GAP], n), flags_at(row[ON_DRIVE_FLANKS], n),
-            integers_at(row[NODE_PAIR], n), status[starts[s] : starts[s + 1]], forces[kinds * starts[s] : kinds * starts[s + 1]], positions[s],
+            matrix_at(row[COMPLIANCE], m, m), matrix_at(row[JACOBIAN], m, k), vector_at(row[GAP], n),
+            flags_at(row[ON_DRIVE_FLANKS], n),
+            integers_at(row[NODE_PAIR], n), status[starts[s] : starts[s + 1]],
+            forces[kinds * starts[s] : kinds * starts[s + 1]], positions[s],
         )  # fmt: skip
     return found
 
@@ -45,8 +59,9 @@ def _together(parts: np.ndarray) -> np.ndarray:
 def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray], singular: EdgesAndKinks) -> Curves:
     """The largest pressure of consecutive steps, its tooth pair and its place, from their contact `fields`.
 
-    What is beside an edge or a kink is left out and has a largest pressure of its own, as have pairs that press with the sharp edge of a tip, or of an undercut
-    involute, and slices near the ends of the face: linear elasticity has infinite pressure there, and the number grows as contact nodes come closer.
+    What is beside an edge or a kink is left out and has a largest pressure of its own, as have pairs that press with
+    the sharp edge of a tip, or of an undercut involute, and slices near the ends of the face: linear elasticity has
+    infinite pressure there, and the number grows as contact nodes come closer.
     """
     pressed_edge, beside = nodes.of("on_edge").any(axis=0) & (nodes.normal > NO_FORCE), singular.beside(nodes)
     largest, rolls = {kind: [] for kind in (NOTHING, KINK, EDGE)}, []

@@ -1,8 +1,8 @@
-"""A dataset as NetCDF-4, written and read by h5py as the format's specification has dimensions and attributes in HDF5 (appendix "NetCDF-4 format" of the
-NetCDF user's guide).
+"""A dataset as NetCDF-4, written and read by h5py as the format's specification has dimensions and attributes in HDF5
+(appendix "NetCDF-4 format" of the NetCDF user's guide).
 
-Half a hundred variables with their attributes take HDF5 longer to make than to fill. Datasets alike in all but values, such as the runs of a
-study, therefore begin as copies of one file without values.
+Half a hundred variables with their attributes take HDF5 longer to make than to fill. Datasets alike in all but values,
+such as the runs of a study, therefore begin as copies of one file without values.
 """
 
 from __future__ import annotations
@@ -32,7 +32,9 @@ def write_netcdf(dataset: xr.Dataset, content) -> None:
     """Write a dataset into an empty open file as NetCDF-4, large arrays of several dimensions compressed."""
     variables, attributes = cf_encoder(*encode_dataset_coordinates(dataset))
     values = {name: _as_stored(variable) for name, variable in variables.items()}
-    layout = [(name, each.dtype.str, each.shape, variables[name].dims, variables[name].attrs) for name, each in values.items()]
+    layout = [
+        (name, each.dtype.str, each.shape, variables[name].dims, variables[name].attrs) for name, each in values.items()
+    ]
     without_values = _without_values(Layout.of(layout, dict(dataset.sizes)))
     if dataset.nbytes > MOST_IN_MEMORY:
         content.write(without_values)
@@ -53,7 +55,8 @@ def _as_stored(variable: xr.Variable) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Layout:
-    """What a dataset has but its values: of each variable name, type, shape, dimensions and attributes, and the sizes of dimensions; equal in `words`."""
+    """What a dataset has but its values: of each variable name, type, shape, dimensions and attributes, and the sizes
+    of dimensions; equal in `words`."""
 
     words: str
     variables: list[tuple] = field(compare=False)
@@ -62,7 +65,9 @@ class Layout:
     @classmethod
     def of(cls, variables: list[tuple], sizes: dict[str, int]) -> Layout:
         """With words that tell apart whatever files would."""
-        typed = [(*each, [str(getattr(value, "dtype", type(value))) for value in each[-1].values()]) for each in variables]
+        typed = [
+            (*each, [str(getattr(value, "dtype", type(value))) for value in each[-1].values()]) for each in variables
+        ]
         return cls(repr((typed, sizes)), variables, sizes)
 
 
@@ -75,7 +80,9 @@ def _without_values(layout: Layout) -> bytes:
         written = {name: _made(file, name, kind, shape, labels) for name, kind, shape, _, labels in layout.variables}
         scales = {name: written.get(name) or file.create_dataset(name, (size,), ">f4") for name, size in sizes.items()}
         for number, (name, scale) in enumerate(scales.items()):
-            scale.make_scale(name if name in dims else f"This is a netCDF dimension but not a netCDF variable.{scale.size:10}")
+            scale.make_scale(
+                name if name in dims else f"This is a netCDF dimension but not a netCDF variable.{scale.size:10}"
+            )
             scale.attrs["_Netcdf4Dimid"] = np.int32(number)
         for name, made in written.items():
             for axis, dimension in enumerate(dims[name]):
@@ -91,7 +98,9 @@ def _made(file: h5py.File, name: str, kind: str, shape: tuple[int, ...], labels:
     if len(shape) > 1 and (size := type_of_values.itemsize * int(np.prod(shape))) > LEAST_COMPRESSED:
         rows = max(1, min(shape[0], LARGEST_CHUNK * shape[0] // size))
         packed = {"chunks": (rows, *shape[1:]), "compression": "gzip", "compression_opts": 1, "shuffle": True}
-    made = file.create_dataset(name, shape, type_of_values, fillvalue=labels.get("_FillValue"), track_order=True, **packed)
+    made = file.create_dataset(
+        name, shape, type_of_values, fillvalue=labels.get("_FillValue"), track_order=True, **packed
+    )
     _write_attributes(made, labels)
     return made
 
@@ -105,7 +114,8 @@ def _fill(file: h5py.File, values: Mapping[str, np.ndarray], attributes: Mapping
 
 
 def _write_attributes(place, attributes: Mapping[str, Any]) -> None:
-    """As `place.attrs.update(attributes)`, single values, of which there are hundreds, by HDF5's own call: a third of the time."""
+    """As `place.attrs.update(attributes)`, single values, of which there are hundreds, by HDF5's own call: a third of
+    the time."""
     scalar = h5py.h5s.create(h5py.h5s.SCALAR)
     for name, value in attributes.items():
         array = np.array(value, dtype=TEXT if isinstance(value, str) else None)
@@ -116,19 +126,33 @@ def _write_attributes(place, attributes: Mapping[str, Any]) -> None:
 
 
 # What the format keeps in attributes of its own.
-OF_THE_FORMAT = {"CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_Netcdf4Dimid", "_Netcdf4Coordinates", "_NCProperties", "_nc3_strict"}
+OF_THE_FORMAT = {
+    "CLASS",
+    "NAME",
+    "DIMENSION_LIST",
+    "REFERENCE_LIST",
+    "_Netcdf4Dimid",
+    "_Netcdf4Coordinates",
+    "_NCProperties",
+    "_nc3_strict",
+}
 NO_VARIABLE = "This is a netCDF dimension but not a netCDF variable"
 
 
 def read_netcdf(content) -> xr.Dataset:
-    """The dataset in an open NetCDF-4 file, in memory: as `xarray.open_dataset` by h5netcdf, in a third of the time for so many variables."""
+    """The dataset in an open NetCDF-4 file, in memory: as `xarray.open_dataset` by h5netcdf, in a third of the time for
+    so many variables."""
     with h5py.File(content) as file:
-        variables = {name: (dims, held.asstr()[()] if held.dtype.kind == "O" else held[()], _labels(attributes)) for name, dims, held, attributes in variables_in(file)}
+        variables = {
+            name: (dims, held.asstr()[()] if held.dtype.kind == "O" else held[()], _labels(attributes))
+            for name, dims, held, attributes in variables_in(file)
+        }
         return xr.decode_cf(xr.Dataset(variables, attrs=_labels(dict(file["/"].attrs)))).load()
 
 
 def variables_in(file: h5py.File) -> Iterator[tuple[str, tuple[str, ...], h5py.Dataset, dict[str, Any]]]:
-    """Name, dimensions, HDF5's dataset and attributes of each variable. Where what HDF5 keeps of them is damaged, it may end the process."""
+    """Name, dimensions, HDF5's dataset and attributes of each variable. Where what HDF5 keeps of them is damaged, it
+    may end the process."""
     # As a group the root has its names in the order in which they were written.
     for name, held in file["/"].items():
         attributes = dict(held.attrs)
@@ -141,7 +165,11 @@ def variables_in(file: h5py.File) -> Iterator[tuple[str, tuple[str, ...], h5py.D
 
 
 def _labels(attributes: Mapping[str, Any]) -> dict[str, Any]:
-    return {name: value[0] if np.shape(value) == (1,) else value for name, value in attributes.items() if name not in OF_THE_FORMAT}
+    return {
+        name: value[0] if np.shape(value) == (1,) else value
+        for name, value in attributes.items()
+        if name not in OF_THE_FORMAT
+    }
 
 
 def _text(value: Any) -> str:

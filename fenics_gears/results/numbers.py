@@ -1,6 +1,7 @@
 """The numbers that a pair is judged by, as plain functions of curves; `results.key_numbers` applies them to a result.
 
-Curves (steps,) are those of whole mesh cycles of the settled motion, one value a step, the end left out that begins the next cycle.
+Curves (steps,) are those of whole mesh cycles of the settled motion, one value a step, the end left out that begins the
+next cycle.
 """
 
 from __future__ import annotations
@@ -14,10 +15,11 @@ SAME = 1e-9
 
 
 def harmonics(curve: np.ndarray, cycles: int, count: int = HARMONICS) -> np.ndarray:
-    """Amplitudes (count,) of the first harmonics of the mesh frequency in a curve over `cycles` whole mesh cycles, in the curve's unit.
+    """Amplitudes (count,) of the first harmonics of the mesh frequency in a curve over `cycles` whole mesh cycles, in
+    the curve's unit.
 
-    The curve is mean + sum over n of amplitude_n cos(2 pi n phase + shift_n) and what lies between the harmonics; harmonics that
-    the steps do not sample, above half of the steps a cycle, are not a number.
+    The curve is mean + sum over n of amplitude_n cos(2 pi n phase + shift_n) and what lies between the harmonics;
+    harmonics that the steps do not sample, above half of the steps a cycle, are not a number.
     """
     steps = len(curve) // cycles
     spectrum = np.abs(np.fft.rfft(curve)) * (2.0 / len(curve))
@@ -26,16 +28,22 @@ def harmonics(curve: np.ndarray, cycles: int, count: int = HARMONICS) -> np.ndar
 
 
 def shares_at(positions, phase: np.ndarray, numbers: np.ndarray, forces: np.ndarray) -> np.ndarray:
-    """Share (len(positions),) of the mesh's force that a pair carries at positions on its path, in mesh cycles since the start of contact.
+    """Share (len(positions),) of the mesh's force that a pair carries at positions on its path, in mesh cycles since
+    the start of contact.
 
-    `phase` (steps,): mesh cycles; `numbers`, `forces` (steps, pairs): the pairs' numbers and their forces, N; a pair with number n is at
-    position `phase - n`. Straight between steps, the mean over the pairs that pass a position; not a number where none does.
+    `phase` (steps,): mesh cycles; `numbers`, `forces` (steps, pairs): the pairs' numbers and their forces, N; a pair
+    with number n is at position `phase - n`. Straight between steps, the mean over the pairs that pass a position; not
+    a number where none does.
     """
     positions = np.asarray(positions, dtype=float)
     total = np.nansum(forces, axis=1, keepdims=True)
     share = np.divide(forces, total, out=np.full(forces.shape, np.nan), where=total > 0.0)
     known = np.isfinite(share)
-    passed, number, share = (phase[:, None] - numbers)[known], np.broadcast_to(numbers, forces.shape)[known], share[known]
+    passed, number, share = (
+        (phase[:, None] - numbers)[known],
+        np.broadcast_to(numbers, forces.shape)[known],
+        share[known],
+    )
     if not len(share):
         return np.full(len(positions), np.nan)
     order = np.lexsort((passed, number))
@@ -47,7 +55,9 @@ def shares_at(positions, phase: np.ndarray, numbers: np.ndarray, forces: np.ndar
     inside = (positions >= lowest[:, None] - ROUNDING) & (positions <= highest[:, None] + ROUNDING)
     found = np.interp(positions + apart * np.arange(len(first))[:, None], passed + apart * of_pair, share)
     count = inside.sum(axis=0)
-    return np.divide(np.where(inside, found, 0.0).sum(axis=0), count, out=np.full(len(positions), np.nan), where=count > 0)
+    return np.divide(
+        np.where(inside, found, 0.0).sum(axis=0), count, out=np.full(len(positions), np.nan), where=count > 0
+    )
 
 
 def mean_where_positive(values: np.ndarray) -> float:
@@ -63,5 +73,6 @@ def largest_of_one_pair(stiffness: np.ndarray, pairs: np.ndarray) -> float:
 
 
 def first_largest(values: np.ndarray) -> int:
-    """Place of the first value that is the largest but for round-off: cycles repeat, and round-off must not say which of them is named."""
+    """Place of the first value that is the largest but for round-off: cycles repeat, and round-off must not say which
+    of them is named."""
     return int(np.argmax(values >= np.nanmax(values) * (1.0 - SAME)))

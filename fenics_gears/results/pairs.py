@@ -21,12 +21,19 @@ class Life:
 
 
 def carrying_side(result: xr.Dataset) -> str:
-    """What names of variables of the flanks that carry more begin with: nothing for drive flanks, "coast_" for coast flanks."""
-    return "coast_" if "coast_normal_force" in result and float(result["coast_normal_force"].sum()) > float(result["normal_force"].sum()) else ""
+    """What names of variables of the flanks that carry more begin with: nothing for drive flanks, "coast_" for coast
+    flanks."""
+    return (
+        "coast_"
+        if "coast_normal_force" in result
+        and float(result["coast_normal_force"].sum()) > float(result["normal_force"].sum())
+        else ""
+    )
 
 
 def shown_steps(result: xr.Dataset) -> slice:
-    """Which steps of a result pictures show: its last cycles, as many as its attribute `shown_cycles` says, all of a ramp."""
+    """Which steps of a result pictures show: its last cycles, as many as its attribute `shown_cycles` says, all of a
+    ramp."""
     cycles, phase = result.attrs.get("shown_cycles"), result["mesh_phase"].values
     if cycles is None or not len(phase) or phase[-1] - phase[0] <= cycles * (1.0 + 1e-9):
         return slice(None)
@@ -40,17 +47,19 @@ def shown(result: xr.Dataset) -> xr.Dataset:
 
 
 def contact_times(result: xr.Dataset) -> xr.Dataset:
-    """A result with those of its steps whose contact fields are stored: `time` and `contact_time` go together. Raises SceneError without any."""
+    """A result with those of its steps whose contact fields are stored: `time` and `contact_time` go together. Raises
+    SceneError without any."""
     if not result.sizes.get("contact_time", 0):
         raise SceneError(
-            "the result holds no contact fields, which stresses and pressures over the flank need. [output] contact_fields = true or "
-            '"last 2 cycles" in the scene stores them; run it again.'
+            "the result holds no contact fields, which stresses and pressures over the flank need. [output]"
+            ' contact_fields = true or "last 2 cycles" in the scene stores them; run it again.'
         )
     return result.isel(time=np.isin(result["time"].values, result["contact_time"].values))
 
 
 def in_middle_slice(result: xr.Dataset) -> xr.Dataset:
-    """A result with the contact fields of the slice in the middle of the face only; unchanged where it has no slices."""
+    """A result with the contact fields of the slice in the middle of the face only; unchanged where it has no
+    slices."""
     return result.isel(face_position=result.sizes["face_position"] // 2) if "face_position" in result.sizes else result
 
 
@@ -66,17 +75,22 @@ def lives(numbers: np.ndarray) -> Iterator[Life]:
 
 
 def by_pair(variable: xr.DataArray, absent: float = np.nan) -> xr.DataArray:
-    """A variable of a result with the dimension `pair` in place of `slot`: each tooth pair's own curve, `absent` while it is out of reach.
+    """A variable of a result with the dimension `pair` in place of `slot`: each tooth pair's own curve, `absent` while
+    it is out of reach.
 
     As many values as steps times pairs: of a long run take a part first, `shown(result)` or `result.isel(time=...)`.
     """
-    time, numbers = ("contact_time", "contact_pair_number") if "contact_time" in variable.dims else ("time", "pair_number")
+    time, numbers = (
+        ("contact_time", "contact_pair_number") if "contact_time" in variable.dims else ("time", "pair_number")
+    )
     rest = [each for each in variable.dims if each not in (time, "slot")]
     values, pairs = variable.transpose(time, "slot", *rest).values, list(lives(variable[numbers].values))
     own = np.full((len(values), len(pairs), *values.shape[2:]), absent)
     for place, life in enumerate(pairs):
         own[life.steps, place] = values[life.steps, life.slot]
     kept = {name: each for name, each in variable.coords.items() if "slot" not in each.dims}
-    found = xr.DataArray(own, {**kept, "pair": [life.number for life in pairs]}, (time, "pair", *rest), variable.name, variable.attrs)
+    found = xr.DataArray(
+        own, {**kept, "pair": [life.number for life in pairs]}, (time, "pair", *rest), variable.name, variable.attrs
+    )
     found["pair"].attrs["long_name"] = "tooth pair, in the order in which they enter"
     return found.transpose(*("pair" if each == "slot" else each for each in variable.dims))

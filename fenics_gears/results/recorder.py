@@ -1,7 +1,7 @@
 """Records a march while it goes: curves of all steps, contact fields of the last steps, and what the warnings need.
 
-Steps are evaluated some at a time and then dropped; their values are kept in memory (`results.kept`) or, of a long march, in a journal on
-disk (`results.journal`). Contact fields are those of the last steps wherever the march ends.
+Steps are evaluated some at a time and then dropped; their values are kept in memory (`results.kept`) or, of a long
+march, in a journal on disk (`results.journal`). Contact fields are those of the last steps wherever the march ends.
 """
 
 from __future__ import annotations
@@ -35,20 +35,33 @@ WATCHED = "watched: "
 
 
 class Recorder:
-    """Takes the steps of a march, block by block; `loads`: the varying ones, the model's unless given; `stress`: root stress, if asked for.
+    """Takes the steps of a march, block by block; `loads`: the varying ones, the model's unless given; `stress`: root
+    stress, if asked for.
 
-    `journal`: where a long march is written down; in memory only where None. `steps`: how many are recorded. `first_number`: number of the
+    `journal`: where a long march is written down; in memory only where None. `steps`: how many are recorded.
+        `first_number`: number of the
     pair that reaches the start of contact as the run begins.
     """
 
     def __init__(
-        self, model: Model, cycle: Cycle, loads: Sequence[VaryingLoad] | None = None, stress: RootStress | None = None, journal: Place | None = None
+        self,
+        model: Model,
+        cycle: Cycle,
+        loads: Sequence[VaryingLoad] | None = None,
+        stress: RootStress | None = None,
+        journal: Place | None = None,
     ):
         self.model, self.cycle, self.stress = model, cycle, stress
         self.loads = model.loads if loads is None else loads
         ways = touching_at(lambda step: [pair.place for pair in cycle.pairs_at(step)], cycle.steps, cycle.coast_flanks)
         self.first_number, self.slots = 1 + ways.latest, ways.slots
-        self.size = sizes(model.steps + 1, model.contact_steps, self.slots, cycle.grid.most_nodes, 0 if cycle.face is None else cycle.face.slices)
+        self.size = sizes(
+            model.steps + 1,
+            model.contact_steps,
+            self.slots,
+            cycle.grid.most_nodes,
+            0 if cycle.face is None else cycle.face.slices,
+        )
         self.stored = stored_arrays(model.scene, self.size)
         self._room = self._room_for(journal)
         self.kept: Kept = self._room
@@ -81,7 +94,9 @@ class Recorder:
         self._evaluate()
         if not self.steps:
             none = self.size | {"time": 0, "contact_time": 0}
-            self.arrays = {name: np.empty([none[each] for each in dims], kind) for name, (dims, kind) in self.stored.items()}
+            self.arrays = {
+                name: np.empty([none[each] for each in dims], kind) for name, (dims, kind) in self.stored.items()
+            }
             return
         self.arrays = {name: self.kept.get(name, self.steps) for name in self.stored}
         self.watched = {name: self.kept.get(f"{WATCHED}{name}", self.steps) for name in self._watched}
@@ -108,8 +123,15 @@ class Recorder:
         values |= energies
         for effect in effects_on(scene):
             if any(variable.dims == ("time",) for variable in effect.variables) and effect.results is not None:
-                values |= {name: of for name, (_, of) in effect.results(getattr(scene, effect.section), scene, cycle, numbers).items()}
-        fields = {"contact_time": times, "contact_mesh_phase": values["mesh_phase"], "contact_pair_number": nodes.pair_number}
+                values |= {
+                    name: of
+                    for name, (_, of) in effect.results(getattr(scene, effect.section), scene, cycle, numbers).items()
+                }
+        fields = {
+            "contact_time": times,
+            "contact_mesh_phase": values["mesh_phase"],
+            "contact_pair_number": nodes.pair_number,
+        }
         watched = watched_contact(nodes)
         if scene.resolves_contact:
             fields |= node_variables(scene, nodes)
@@ -128,7 +150,11 @@ class Recorder:
         # Last of all: a march that is interrupted before this line evaluates these steps again.
         self._watched = tuple(watched)
         del self._waiting[0]
-        self._last, self._worked, self.steps = block.between(len(block) - 1, len(block)), worked, self.steps + len(block)
+        self._last, self._worked, self.steps = (
+            block.between(len(block) - 1, len(block)),
+            worked,
+            self.steps + len(block),
+        )
 
     def _centres(self, block: Steps) -> dict[str, np.ndarray]:
         scene, drivetrain = self.model.scene, self.model.drivetrain
@@ -150,11 +176,14 @@ class Recorder:
         return values
 
     def _energies(self, block: Steps) -> tuple[dict[str, np.ndarray], dict[str, float]]:
-        """Energies and the work since the first step; and the work at the last step, from which the next block goes on."""
+        """Energies and the work since the first step; and the work at the last step, from which the next block goes
+        on."""
         model, before = self.model, 0 if self._last is None else 1
         together = block if self._last is None else self._last.followed_by(block)
         energies = energy_variables(model.scene, model.drivetrain, together)
-        work = work_variables(model.scene, self.cycle, model.drivetrain, model.clock, self.loads, together, energies["energy"])
+        work = work_variables(
+            model.scene, self.cycle, model.drivetrain, model.clock, self.loads, together, energies["energy"]
+        )
         work = {name: value + self._worked.get(name, 0.0) for name, value in work.items()}
         worked = {name: value[-1] for name, value in work.items()}
         return {name: value[before:] for name, value in (energies | work).items()}, worked

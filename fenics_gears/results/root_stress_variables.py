@@ -21,7 +21,8 @@ SIDES = ("drive", "coast")
 
 
 class RootStress:
-    """Root stress at the steps of a cycle: for each position a matrix from contact forces to stresses, built when first asked for."""
+    """Root stress at the steps of a cycle: for each position a matrix from contact forces to stresses, built when first
+    asked for."""
 
     def __init__(self, pair: GearPair, cycle: Cycle, rows: Rows):
         self.pair, self.cycle, self.rows = pair, cycle, rows
@@ -37,7 +38,8 @@ class RootStress:
         return teeth, matrix @ record.solution.forces
 
     def _matrix(self, pairs: Sequence[ToothPair], tangential: bool) -> tuple[list[int], np.ndarray]:
-        """Indices of the pairs, and stress (gears, pairs, points, forces) per contact force, N; forces as the operator has them."""
+        """Indices of the pairs, and stress (gears, pairs, points, forces) per contact force, N; forces as the operator
+        has them."""
         teeth = sorted({pair.place.index for pair in pairs}, reverse=True)
         count = sum(len(pair.offsets) for pair in pairs)
         points = self.rows[0].rows.shape[1]
@@ -48,14 +50,20 @@ class RootStress:
                 line = unmirrored(data, line) if pair.place.flank == COAST else line
                 columns = np.r_[nodes, count + nodes.start : count + nodes.stop] if tangential else np.r_[nodes]
                 for place, index in enumerate(teeth):
-                    known, first = self._known(gear, SENSE_OF_TEETH[gear] * index - sector_of(gear, pair)), pair.place.flank * len(line)
+                    known, first = (
+                        self._known(gear, SENSE_OF_TEETH[gear] * index - sector_of(gear, pair)),
+                        pair.place.flank * len(line),
+                    )
                     matrix[gear, place][:, columns] += known[:, first : first + len(line)] @ line
         return teeth, matrix
 
     def _known(self, gear: int, ahead: int) -> np.ndarray:
         rows = self.rows[gear]
         if abs(ahead) > rows.reach:
-            raise ComputationError(f"root stress: the stress of a tooth {ahead} pitches from the loaded one was not computed, known are {rows.reach}")
+            raise ComputationError(
+                f"root stress: the stress of a tooth {ahead} pitches from the loaded one was not computed, known are"
+                f" {rows.reach}"
+            )
         return rows.rows[rows.reach + ahead]
 
     def values(self, nodes: SideBySide) -> dict[str, np.ndarray]:
@@ -67,7 +75,11 @@ class RootStress:
             for place, index in enumerate(teeth):
                 values[i, :, nodes.slot_of(i, index)] = stresses[:, place].reshape(2, 2, points)
         along = values[..., :-1].reshape(*values.shape[:3], -1)
-        return {"root_stress": along, "root_stress_maximum": np.fmax.reduce(along, axis=-1), "root_stress_at_30_degrees": values[..., -1]}
+        return {
+            "root_stress": along,
+            "root_stress_maximum": np.fmax.reduce(along, axis=-1),
+            "root_stress_at_30_degrees": values[..., -1],
+        }
 
     def labels(self) -> tuple[dict[str, str], dict[str, tuple]]:
         """Long names of the variables, and the coordinates of their fillet points."""
@@ -75,11 +87,14 @@ class RootStress:
         words = {
             "root_stress": "stress along the surface of the fillets",
             "root_stress_maximum": "largest tension in the fillets",
-            "root_stress_at_30_degrees": "stress where the fillet's tangent stands at 30 degrees to the tooth's centreline",
+            "root_stress_at_30_degrees": (
+                "stress where the fillet's tangent stands at 30 degrees to the tooth's centreline"
+            ),
         }
         return words, {
             "fillet": ("fillet", list(SIDES), {"long_name": "side of the tooth"}),
-            "fillet_side": ("fillet_point", np.repeat(SIDES, angles.shape[1]), {"long_name": "side of the tooth that the fillet point is on"}),
+            "fillet_side": ("fillet_point", np.repeat(SIDES, angles.shape[1]), {"long_name": "side of the tooth that "
+                "the fillet point is on"}),
             "fillet_tangent_angle": (
                 ("gear", "fillet_point"), np.hstack([angles, angles]),
                 {"units": "rad", "long_name": "angle between the fillet's tangent and the tooth's centreline"},

@@ -1,4 +1,5 @@
-"""The steps that a run's numbers are taken from: all after the vibration of the start has died down, in whole common periods."""
+"""The steps that a run's numbers are taken from: all after the vibration of the start has died down, in whole common
+periods."""
 
 from __future__ import annotations
 
@@ -16,23 +17,27 @@ from fenics_gears.model.model import Model
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
 
-# The start has died down when so much is left of the slowest vibration that it has set off, in parts of what it was; where the run is long enough, less
+# The start has died down when so much is left of the slowest vibration that it has set off, in parts of what it was;
+# where the run is long enough, less
 # is left: at high speed the start may be twenty times as large as the settled motion.
 DIED_DOWN, QUIET = 0.01, 0.001
 
 
 @dataclass(frozen=True)
 class Settled:
-    """The steps that count, from `first` to the last of the run; `warning`: what is left of the start there, empty where it has died down."""
+    """The steps that count, from `first` to the last of the run; `warning`: what is left of the start there, empty
+    where it has died down."""
 
     first: int
     warning: str = ""
 
 
 def settled(model: Model, steps: int) -> Settled:
-    """The settled ones of so many steps, by the drivetrain's slowest vibration that contact excites; all of a quasi-static run.
+    """The settled ones of so many steps, by the drivetrain's slowest vibration that contact excites; all of a
+    quasi-static run.
 
-    They are whole common periods: at least the last one, and where all cycles are alike at least those with contact fields, even if the
+    They are whole common periods: at least the last one, and where all cycles are alike at least those with contact
+        fields, even if the
     start has not died down. A run that never repeats (a ramp) and does not die down counts as a whole.
     """
     a_cycle, period = model.resolution.steps_per_mesh_cycle, common_period(model.scene)
@@ -45,13 +50,16 @@ def settled(model: Model, steps: int) -> Settled:
     whole = (steps - first) // (int(period) * a_cycle)
     warning = ""
     if calm > first and steps:
-        needed = ceil(model.clock.duration(0, calm) * model.scene.motion.mesh_frequency + least / a_cycle) if rate else None
+        needed = (
+            ceil(model.clock.duration(0, calm) * model.scene.motion.mesh_frequency + least / a_cycle) if rate else None
+        )
         warning = _warning(slowest, rate, exp(-rate * model.clock.time(first)), needed, True)
     return Settled(steps - whole * int(period) * a_cycle if whole else first, warning)
 
 
 def settling_time(model: Model) -> float:
-    """Time (s) in which the start dies down to 0.1 %; infinite where nothing damps what it sets off, zero without vibrations."""
+    """Time (s) in which the start dies down to 0.1 %; infinite where nothing damps what it sets off, zero without
+    vibrations."""
     rate, _ = _slowest(model)
     return log(1.0 / QUIET) / rate if rate else inf
 
@@ -98,8 +106,8 @@ def _warning(slowest: Vibration, rate: float, left: float, needed: int | None, r
     mode = f"its slowest vibration ({slowest.frequency:.4g} Hz, damping ratio {slowest.damping_ratio:.2g})"
     if not rate:
         return (
-            f"the start does not die down: nothing damps {slowest.frequency:.4g} Hz, which it sets off, and all numbers have it in them; "
-            "[damping] lets it die down"
+            f"the start does not die down: nothing damps {slowest.frequency:.4g} Hz, which it sets off, and all numbers"
+            " have it in them; [damping] lets it die down"
         )
     cycles = "" if needed is None else f"; motion.mesh_cycles = {needed} leaves {DIED_DOWN:.0%}"
     return f"the start has not died down where the numbers begin: {left:.2g} of {mode} is left{cycles}"

@@ -11,7 +11,15 @@ import numpy as np
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import CENTRE_COORDINATES, COORDINATES, ContactOperator, displacement_jacobian, node_slices, over_nodes, per_node
+from fenics_gears.contact.operator import (
+    CENTRE_COORDINATES,
+    COORDINATES,
+    ContactOperator,
+    displacement_jacobian,
+    node_slices,
+    over_nodes,
+    per_node,
+)
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.contact.window import flank_ends
 from fenics_gears.dynamics.steps import Steps
@@ -21,10 +29,12 @@ from fenics_gears.geometry.pair import GearPair
 class Layout:
     """What belongs to the contact nodes (n,) of a position of the gears, whatever the step.
 
-    `index`: of the node's tooth pair at the position; `node`: its place in that pair; `drive`: whether it is on a drive flank; `at_end`:
-    whether it stands on an end of the window; `on_edge` (4, n): on the edge of the pinion's and of the wheel's tip, and on the edge at the form circle
-    of either where it is undercut; `arcs` (2, n): where it touches the pinion's and the wheel's flank, mm along the involute from the base circle; `rows_of_normals` (6, n) and
-    `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force (x, y), N, and torque, N mm; over a face (12, n), with
+    `index`: of the node's tooth pair at the position; `node`: its place in that pair; `drive`: whether it is on a drive
+        flank; `at_end`:
+    whether it stands on an end of the window; `on_edge` (4, n): on the edge of the pinion's and of the wheel's tip, and
+    on the edge at the form circle of either where it is undercut; `arcs` (2, n): where it touches the pinion's and the
+    wheel's flank, mm along the involute from the base circle; `rows_of_normals` (6, n) and `rows_of_tangents` (6, n or
+    0): reaction of both centres to a unit of each force: force (x, y), N, and torque, N mm; over a face (12, n), with
     the axial force, N, and the moments about x and y, N mm, of both gears after these.
     """
 
@@ -35,7 +45,9 @@ class Layout:
         self.index = per_node(pairs, np.array([pair.place.index for pair in pairs], dtype=int))
         self.node = np.concatenate([np.arange(count) for count in counts] or [np.empty(0, dtype=int)])
         self.drive = per_node(pairs, np.array([pair.place.flank == DRIVE for pair in pairs], dtype=bool))
-        self.area, self.offsets, self.rolls = (over_nodes(pairs, name) for name in ("lengths", "offsets", "pinion_roll"))
+        self.area, self.offsets, self.rolls = (
+            over_nodes(pairs, name) for name in ("lengths", "offsets", "pinion_roll")
+        )
         self.at_end = np.abs(self.offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
         if operator.face is None:
             self.area = self.area * cycle.pair.face_width
@@ -52,7 +64,8 @@ class Layout:
 
 
 def _at_inner_end(cycle: Cycle, pairs, offsets: np.ndarray) -> np.ndarray:
-    """Nodes (n,) that stand first or last in a window that is shorter than the whole one, and not on the edge of a flank."""
+    """Nodes (n,) that stand first or last in a window that is shorter than the whole one, and not on the edge of a
+    flank."""
     found, round_off = np.zeros(len(offsets), dtype=bool), 1e-9 * cycle.grid.length
     for pair, nodes in zip(pairs, node_slices(pairs)):
         below, above = flank_ends(cycle.pair, pair.place.contact_rolls)
@@ -62,7 +75,8 @@ def _at_inner_end(cycle: Cycle, pairs, offsets: np.ndarray) -> np.ndarray:
 
 
 def _on_edges(cycle: Cycle, pairs, counts: Sequence[int]) -> np.ndarray:
-    """Nodes (4, n) that stand on the edge that ends a flank: the pinion's tip and the wheel's form circle below the line of action, the others above."""
+    """Nodes (4, n) that stand on the edge that ends a flank: the pinion's tip and the wheel's form circle below the
+    line of action, the others above."""
     found, half = np.zeros((4, sum(counts)), dtype=bool), 0.5 * cycle.grid.length * (1.0 - 1e-9)
     cut = cycle.pair.pinion.undercut, cycle.pair.wheel.undercut
     for pair, nodes in zip(pairs, node_slices(pairs)):
@@ -87,14 +101,18 @@ def _arcs(gears: GearPair, pairs) -> np.ndarray:
     found = np.full((2, sum(len(pair.offsets) for pair in pairs)), np.nan)
     for pair, nodes in zip(pairs, node_slices(pairs)):
         if pair.place.line is None:
-            for row, radius, roll, side in zip(found, (gears.pinion.base_radius, gears.wheel.base_radius), pair.place.contact_rolls, (-1.0, 1.0)):
+            for row, radius, roll, side in zip(
+                found, (gears.pinion.base_radius, gears.wheel.base_radius), pair.place.contact_rolls, (-1.0, 1.0)
+            ):
                 row[nodes] = 0.5 * radius * roll_angle_at_height(radius, roll, radius + side * pair.offsets) ** 2
     return found
 
 
 def _reaction_rows(operator: ContactOperator, tangential: bool) -> np.ndarray:
     """-G^T of all coordinates of both centres, rotations as torques."""
-    rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential, face=operator.face).T
+    rows = displacement_jacobian(
+        operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential, face=operator.face
+    ).T
     units = np.concatenate([[1.0, 1.0, radius] for radius in operator.base_radii])
     if len(rows) > len(CENTRE_COORDINATES):
         rows = rows[[name != "shaft_twist" for name in COORDINATES]]
@@ -132,7 +150,9 @@ class KnownLayouts:
         """The layouts of some steps of that cycle."""
         key = tuple([id(position.operator.pairs) for position in steps.positions])
         if key not in self._joined:
-            self._joined[key] = Layouts([self._layout(cycle, position.operator, steps.kinds) for position in steps.positions], steps.kinds)
+            self._joined[key] = Layouts(
+                [self._layout(cycle, position.operator, steps.kinds) for position in steps.positions], steps.kinds
+            )
         return self._joined[key]
 
     def _layout(self, cycle: Cycle, operator: ContactOperator, kinds: int) -> Layout:
@@ -162,7 +182,8 @@ def known_layouts(cycle: Cycle) -> KnownLayouts:
 class SideBySide:
     """The contact nodes (N,) of consecutive steps, one step's after the other's.
 
-    `step`: the place of the step that each node is of; `slot`: where its tooth pair is kept, pairs being numbered from `first_number` on for the
+    `step`: the place of the step that each node is of; `slot`: where its tooth pair is kept, pairs being numbered from
+        `first_number` on for the
     pair of index 0 in cycle 0; `normal` and `tangential`: its forces, N, the latter None without friction.
     """
 
@@ -200,10 +221,13 @@ class SideBySide:
 
     def by_slot(self, values: np.ndarray) -> np.ndarray:
         """Sum of values (N,) over the nodes of each tooth pair (steps, slots)."""
-        return np.bincount(self._slots, values, minlength=len(self.steps) * self.slots).reshape(len(self.steps), self.slots)
+        return np.bincount(self._slots, values, minlength=len(self.steps) * self.slots).reshape(
+            len(self.steps), self.slots
+        )
 
     def over_nodes(self, values: np.ndarray, drive: bool, absent: float) -> np.ndarray:
-        """Values (N,) of drive or coast flanks by step, slot, slice of the face if there are any, and contact node; `absent` where there is no node."""
+        """Values (N,) of drive or coast flanks by step, slot, slice of the face if there are any, and contact node;
+        `absent` where there is no node."""
         slices = () if self.cycle.face is None else (self.cycle.face.slices,)
         field = np.full((len(self.steps), self.slots, *slices, self.cycle.grid.most_nodes), absent)
         places = (self._slots if not slices else self._slices) * self.cycle.grid.most_nodes + self.of("node")

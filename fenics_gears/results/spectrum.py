@@ -1,7 +1,8 @@
-"""Orders of a record, their sources (the mesh, a turn of either gear, waves on the flanks), and the sidebands of mesh harmonics.
+"""Orders of a record, their sources (the mesh, a turn of either gear, waves on the flanks), and the sidebands of mesh
+harmonics.
 
-Windows are sums of cosines as `scipy.signal.windows` has them; their figures after F. J. Harris, On the use of windows for harmonic analysis,
-Proc. IEEE 66 (1978).
+Windows are sums of cosines as `scipy.signal.windows` has them; their figures after F. J. Harris, On the use of windows
+for harmonic analysis, Proc. IEEE 66 (1978).
 """
 
 from __future__ import annotations
@@ -13,11 +14,21 @@ import numpy as np
 
 from fenics_gears.scene.data import Scene
 
-MESH, PINION, WHEEL, BOTH, HUNTING = "mesh", "turn of the pinion", "turn of the wheel", "turn of either gear", "hunting tooth"
-# Factors of the cosines; a line on a bin spreads over as many bins on either side as there are cosines. A line midway between bins is 36 % too low
-# without a window, 15 % in Hann's, 0.1 % in the flat top.
+MESH, PINION, WHEEL, BOTH, HUNTING = (
+    "mesh",
+    "turn of the pinion",
+    "turn of the wheel",
+    "turn of either gear",
+    "hunting tooth",
+)
+# Factors of the cosines; a line on a bin spreads over as many bins on either side as there are cosines. A line midway
+# between bins is 36 % too low without a window, 15 % in Hann's, 0.1 % in the flat top.
 NO_WINDOW, HANN, FLAT_TOP = "none", "hann", "flat-top"
-WINDOWS = {NO_WINDOW: (1.0,), HANN: (0.5, 0.5), FLAT_TOP: (0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368)}
+WINDOWS = {
+    NO_WINDOW: (1.0,),
+    HANN: (0.5, 0.5),
+    FLAT_TOP: (0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368),
+}
 # Sidebands on either side of a mesh harmonic that count.
 SIDEBANDS = 6
 
@@ -26,7 +37,8 @@ SIDEBANDS = 6
 class OrderLines:
     """Amplitudes of a signal (n,) by order (n,), turns of the pinion being order 1; without the mean.
 
-    `exact`: of whole hunting tooth periods without a window, so that each line stands alone; else of a record in a window, where a line spreads
+    `exact`: of whole hunting tooth periods without a window, so that each line stands alone; else of a record in a
+        window, where a line spreads
     over `spread` bins on either side; `bandwidth`: the window's equivalent noise bandwidth in bins.
     """
 
@@ -46,7 +58,8 @@ class OrderLines:
         return float(self.orders[0])
 
     def square(self, order: float) -> float:
-        """Square of the amplitude of the line at an order, from all that the window spreads it over; within 0.2 % also for one between bins."""
+        """Square of the amplitude of the line at an order, from all that the window spreads it over; within 0.2 % also
+        for one between bins."""
         reach = self.spread + (0.6 if self.spread else 0.1)
         near = np.abs(self.orders - order) <= reach * self.spacing
         return float((self.amplitudes[near] ** 2).sum() / self.bandwidth)
@@ -54,7 +67,8 @@ class OrderLines:
 
 @dataclass(frozen=True)
 class Sidebands:
-    """A mesh harmonic with its sidebands: the square of its own amplitude, and the sums of squares of those at shaft orders beside it.
+    """A mesh harmonic with its sidebands: the square of its own amplitude, and the sums of squares of those at shaft
+    orders beside it.
 
     A sideband that belongs to either gear, its order being whole turns of both, counts with both, and once in `all`.
     """
@@ -70,10 +84,14 @@ class Sidebands:
         return self.all / self.line if self.line > 0.0 else np.nan
 
 
-def order_lines(error: np.ndarray, cycles: float, teeth: tuple[int, int], window: str | None = None) -> OrderLines | None:
-    """Orders of an error (n + 1,), in its own unit, over mesh cycles from its first to its last value; `teeth` of pinion and wheel.
+def order_lines(
+    error: np.ndarray, cycles: float, teeth: tuple[int, int], window: str | None = None
+) -> OrderLines | None:
+    """Orders of an error (n + 1,), in its own unit, over mesh cycles from its first to its last value; `teeth` of
+    pinion and wheel.
 
-    window: one of `WINDOWS`, laid over the whole record; None takes whole hunting tooth periods without a window where the record has them, else
+    window: one of `WINDOWS`, laid over the whole record; None takes whole hunting tooth periods without a window where
+        the record has them, else
     Hann's. None where the record is shorter than a turn of the pinion.
     """
     steps, period = len(error) - 1, lcm(*teeth)
@@ -84,7 +102,8 @@ def order_lines(error: np.ndarray, cycles: float, teeth: tuple[int, int], window
     exact = window is None and bool(whole) and abs(used - steps * whole * period / cycles) < 1e-6
     length = used if exact else steps
     name = NO_WINDOW if exact else window or HANN
-    # The mean by the window's own weights: of a line between bins any other leaves a constant, which spreads over the lowest orders.
+    # The mean by the window's own weights: of a line between bins any other leaves a constant, which spreads over the
+    # lowest orders.
     values, weights = error[-length - 1 : -1], weights_of(name, length)
     values = values - np.average(values, weights=weights)
     amplitudes = 2.0 * np.abs(np.fft.rfft(values * weights)) / weights.sum()
@@ -100,7 +119,8 @@ def weights_of(window: str, length: int) -> np.ndarray:
 
 
 def sidebands(lines: OrderLines, teeth: tuple[int, int], harmonic: int, count: int = SIDEBANDS) -> Sidebands | None:
-    """The first `count` sidebands on either side of a mesh harmonic, no further than half-way to the next; None where the record cannot tell them apart."""
+    """The first `count` sidebands on either side of a mesh harmonic, no further than half-way to the next; None where
+    the record cannot tell them apart."""
     turns = {"pinion": 1.0, "wheel": teeth[0] / teeth[1]}
     found = {gear: _beside(teeth[0], harmonic, turn, count) for gear, turn in turns.items()}
     every = np.unique(np.round(np.concatenate([*found.values(), [harmonic * teeth[0]]]), 9))
@@ -126,7 +146,8 @@ def level(amplitude: np.ndarray, reference: float = 1.0) -> np.ndarray:
 
 
 def origin(order: float, teeth: tuple[int, int]) -> str:
-    """The source of an order, by what it repeats with: the mesh, a turn of the pinion, of the wheel, of either, or the hunting tooth."""
+    """The source of an order, by what it repeats with: the mesh, a turn of the pinion, of the wheel, of either, or the
+    hunting tooth."""
     turns = order, order * teeth[1] / teeth[0]
     if _whole(order / teeth[0]):
         return MESH

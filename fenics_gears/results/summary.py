@@ -38,7 +38,11 @@ def summary_rows(dataset, stages: Sequence[tuple[str, float]] = ()) -> list[Row]
     said = dataset.attrs.get("warnings", "").splitlines()
     first = [warning for warning in said if NO_MEANING in warning or FEWER_THAN_THE_PERIOD in warning]
     rows = [*result_rows(dataset), *solver_rows(dataset), *(_said(stages) or stage_rows(dataset))]
-    return [*(("WARNING", warning, "") for warning in first), *rows, *(("WARNING", warning, "") for warning in said if warning not in first)]
+    return [
+        *(("WARNING", warning, "") for warning in first),
+        *rows,
+        *(("WARNING", warning, "") for warning in said if warning not in first),
+    ]
 
 
 def _said(stages: Sequence[tuple[str, float]]) -> list[Row]:
@@ -57,7 +61,10 @@ def result_rows(dataset) -> list[Row]:
 def _transmission_error(attributes) -> list[Row]:
     """As length along the line of action, which is that at the wheel's base circle, and as angle of the wheel."""
     rows = []
-    for name, label in (("peak_to_peak_transmission_error", "transmission error, peak to peak"), ("mean_transmission_error", "transmission error, mean")):
+    for name, label in (
+        ("peak_to_peak_transmission_error", "transmission error, peak to peak"),
+        ("mean_transmission_error", "transmission error, mean"),
+    ):
         angle = attributes.get(name, math.nan)
         length = angle * attributes["base_radius_wheel"] * MICROMETRES
         known = f"{length:.4g} um = {angle:.5g} rad" if abs(length) > ROUND_OFF else "0 um"
@@ -69,25 +76,56 @@ def _harmonics(attributes) -> list[Row]:
     found = [attributes[name] for name in HARMONIC_NAMES if name in attributes]
     if max(found, default=0.0) < ROUND_OFF:
         return []
-    return [(f"harmonics of the mesh, 1 to {len(found)}", ", ".join(f"{each:.3g}" for each in found), "um")] if found else []
+    return (
+        [(f"harmonics of the mesh, 1 to {len(found)}", ", ".join(f"{each:.3g}" for each in found), "um")]
+        if found
+        else []
+    )
 
 
 def _stiffness(attributes) -> list[Row]:
     """The tangent, which small vibrations have; the secant counts gaps of relief and misalignment as deflection."""
     if "mean_mesh_stiffness_tangent" not in attributes:
         return []
-    one = f", one pair {attributes['single_pair_stiffness']:.4g} at most" if "single_pair_stiffness" in attributes else ""
+    one = (
+        f", one pair {attributes['single_pair_stiffness']:.4g} at most" if "single_pair_stiffness" in attributes else ""
+    )
     secant = f"{attributes['mean_mesh_stiffness']:.4g}{one}"
-    return [("mesh stiffness, tangent", f"{attributes['mean_mesh_stiffness_tangent']:.4g} N/(mm um) on average; force over deflection {secant}", "")]
+    return [
+        (
+            "mesh stiffness, tangent",
+            f"{attributes['mean_mesh_stiffness_tangent']:.4g} N/(mm um) on average; force over deflection {secant}",
+            "",
+        )
+    ]
 
 
 def _pair_force(attributes) -> list[Row]:
     if not attributes.get("largest_pair_force"):
         return []
-    rows = [("largest force of a tooth pair", f"{attributes['largest_pair_force']:.4g} N at mesh cycle {attributes['largest_pair_force_mesh_phase']:.6g}", "")]
+    rows = [
+        (
+            "largest force of a tooth pair",
+            f"{attributes['largest_pair_force']:.4g} N at mesh cycle {attributes['largest_pair_force_mesh_phase']:.6g}",
+            "",
+        )
+    ]
     if "dynamic_factor_by_force" in attributes:
-        stress = f", {attributes['dynamic_factor_by_stress']:.3f} by root stress" if "dynamic_factor_by_stress" in attributes else ""
-        rows.append(("dynamic factor", f"{attributes['dynamic_factor_by_force']:.3f} by force of a tooth pair{stress}, over that without inertia", ""))
+        stress = (
+            f", {attributes['dynamic_factor_by_stress']:.3f} by root stress"
+            if "dynamic_factor_by_stress" in attributes
+            else ""
+        )
+        rows.append(
+            (
+                "dynamic factor",
+                (
+                    f"{attributes['dynamic_factor_by_force']:.3f} by force of a tooth pair{stress}, over that without"
+                    " inertia"
+                ),
+                "",
+            )
+        )
     if "dynamic_factor_unknown" in attributes:
         rows.append(("dynamic factor", attributes["dynamic_factor_unknown"], ""))
     return rows
@@ -97,12 +135,30 @@ def _face(attributes) -> list[Row]:
     """Load factors and overlap of flanks that are resolved over the face."""
     if "overlap_ratio" not in attributes:
         return []
-    rows = [("contact ratio", f"{attributes['total_contact_ratio']:.4g} in all, overlap ratio {attributes['overlap_ratio']:.4g}", "")]
+    rows = [
+        (
+            "contact ratio",
+            f"{attributes['total_contact_ratio']:.4g} in all, overlap ratio {attributes['overlap_ratio']:.4g}",
+            "",
+        )
+    ]
     if "face_load_factor" in attributes:
-        rows.append(("face load factor K_Hbeta", f"{attributes['face_load_factor']:.3f}, of the line load averaged over the mesh cycle", ""))
+        rows.append(
+            (
+                "face load factor K_Hbeta",
+                f"{attributes['face_load_factor']:.3f}, of the line load averaged over the mesh cycle",
+                "",
+            )
+        )
     if "largest_line_load_factor" in attributes:
         edges = f", {attributes['edge_line_load_factor']:.3f} at edges" if "edge_line_load_factor" in attributes else ""
-        rows.append(("largest line load over even one", f"{attributes['largest_line_load_factor']:.3f} away from edges{edges}", ""))
+        rows.append(
+            (
+                "largest line load over even one",
+                f"{attributes['largest_line_load_factor']:.3f} away from edges{edges}",
+                "",
+            )
+        )
     if "transverse_load_factor" in attributes:
         rows.append(("transverse load factor K_Halpha", f"{attributes['transverse_load_factor']:.3f}", ""))
     return rows
@@ -111,13 +167,18 @@ def _face(attributes) -> list[Row]:
 def _pressure(attributes) -> list[Row]:
     if not attributes.get("peak_contact_pressure") or "peak_contact_pressure_diameter" not in attributes:
         return []
-    place = f"at mesh cycle {attributes['peak_contact_pressure_mesh_phase']:.6g}, pinion's diameter {attributes['peak_contact_pressure_diameter']:.4g} mm"
+    place = (
+        f"at mesh cycle {attributes['peak_contact_pressure_mesh_phase']:.6g}, pinion's diameter"
+        f" {attributes['peak_contact_pressure_diameter']:.4g} mm"
+    )
     flank = ", coast flank" if attributes["peak_contact_pressure_flank"] == "coast" else ""
     apart = [name for name in APART if f"peak_{name}_pressure" in attributes]
     label = "peak contact pressure" + (f", without {' and '.join(APART[name] for name in apart)}" if apart else "")
     rows = [(label, f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
     if "peak_kink_pressure" in attributes:
-        rows.append(("pressure at kinks of relief", f"{attributes['peak_kink_pressure']:.4g} MPa, more on a finer mesh", ""))
+        rows.append(
+            ("pressure at kinks of relief", f"{attributes['peak_kink_pressure']:.4g} MPa, more on a finer mesh", "")
+        )
     return rows
 
 
@@ -127,16 +188,25 @@ def _power(attributes) -> list[Row]:
         rows.append(("input power", f"{attributes['input_power'] / KILO:.4g} kW", ""))
     if "friction_loss" in attributes:
         watts = f"{attributes['friction_power']:.4g} W = " if "friction_power" in attributes else ""
-        efficiency = f"efficiency of the mesh {attributes['mesh_efficiency']:.3%}" if "mesh_efficiency" in attributes else "of wedged or locked teeth, which have no efficiency"
-        rows.append(("friction loss", f"{watts}{attributes['friction_loss']:.3%} of the drive's work, {efficiency}", ""))
+        efficiency = (
+            f"efficiency of the mesh {attributes['mesh_efficiency']:.3%}"
+            if "mesh_efficiency" in attributes
+            else "of wedged or locked teeth, which have no efficiency"
+        )
+        rows.append(
+            ("friction loss", f"{watts}{attributes['friction_loss']:.3%} of the drive's work, {efficiency}", "")
+        )
     return rows
 
 
 def _sliding(dataset) -> list[Row]:
-    """The fastest sliding, and specific sliding where it is largest in size, at the start of either gear's active profile."""
+    """The fastest sliding, and specific sliding where it is largest in size, at the start of either gear's active
+    profile."""
     if "specific_sliding" not in dataset:
         return []
-    speed = f"{float(abs(dataset['sliding_speed']).max()) / KILO:.4g} m/s at most; " if "sliding_speed" in dataset else ""
+    speed = (
+        f"{float(abs(dataset['sliding_speed']).max()) / KILO:.4g} m/s at most; " if "sliding_speed" in dataset else ""
+    )
     lowest = dataset["specific_sliding"].min("path_point").values
     return [("sliding", f"{speed}specific sliding {lowest[0]:.3g} pinion, {lowest[1]:.3g} wheel", "")]
 
@@ -147,7 +217,16 @@ def _contact_loss(dataset) -> list[Row]:
     count = attributes.get("contact_loss_count")
     if not count or not dataset["normal_force"].max() > 0.0:
         return []
-    return [("contact of the drive flanks lost" if "coast_normal_force" in dataset else "contact lost", f"{count} time{'s' * (count > 1)}, {attributes['contact_loss_share']:.2%} of the time, by up to {attributes['contact_loss_opening'] * MICROMETRES:.3g} um", "")]
+    return [
+        (
+            "contact of the drive flanks lost" if "coast_normal_force" in dataset else "contact lost",
+            (
+                f"{count} time{'s' * (count > 1)}, {attributes['contact_loss_share']:.2%} of the time, by up to"
+                f" {attributes['contact_loss_opening'] * MICROMETRES:.3g} um"
+            ),
+            "",
+        )
+    ]
 
 
 def solver_rows(dataset) -> list[Row]:
@@ -155,7 +234,13 @@ def solver_rows(dataset) -> list[Row]:
     rows = []
     if dataset.sizes["time"]:
         iterations = dataset["newton_iterations"]
-        rows.append(("Newton iterations per step", f"{float(iterations.mean()):.2f} on average, {int(iterations.max())} at most", ""))
+        rows.append(
+            (
+                "Newton iterations per step",
+                f"{float(iterations.mean()):.2f} on average, {int(iterations.max())} at most",
+                "",
+            )
+        )
     return rows + _rungs(dataset.attrs)
 
 
@@ -170,7 +255,10 @@ def _root_stress(attributes) -> list[Row]:
     for gear in ("pinion", "wheel"):
         name = f"largest_root_stress_{gear}"
         if name in attributes:
-            place = f"at mesh cycle {attributes[f'{name}_mesh_phase']:.6g}, tooth of pair {attributes[f'{name}_pair']}, {attributes[f'{name}_fillet']} side"
+            place = (
+                f"at mesh cycle {attributes[f'{name}_mesh_phase']:.6g}, tooth of pair {attributes[f'{name}_pair']},"
+                f" {attributes[f'{name}_fillet']} side"
+            )
             rows.append((f"largest root stress, {gear}", f"{attributes[name]:.4g} MPa {place}", ""))
     return rows
 
@@ -182,12 +270,16 @@ def _estimated_error(attributes) -> list[Row]:
     parts = {name.removeprefix(ESTIMATED): error for name, error in attributes.items() if name.startswith(ESTIMATED)}
     worst = max(parts, key=parts.__getitem__)
     settings = (
-        f"{attributes['element']}, flank elements {attributes['flank_element_size']:.3g} mm, {attributes['contact_nodes']} contact nodes over "
-        f"{attributes['contact_length']:.3g} mm, {attributes['steps_per_mesh_cycle']} steps per mesh cycle"
+        f"{attributes['element']}, flank elements {attributes['flank_element_size']:.3g} mm,"
+        f" {attributes['contact_nodes']} contact nodes over {attributes['contact_length']:.3g} mm,"
+        f" {attributes['steps_per_mesh_cycle']} steps per mesh cycle"
     )
     judged = "T_E and T_EPP"
     if "slices" in attributes:
-        judged, settings = "T_E, T_EPP, line load", f"{settings}, {attributes['slices']} slices on {attributes['layers']} layers"
+        judged, settings = (
+            "T_E, T_EPP, line load",
+            f"{settings}, {attributes['slices']} slices on {attributes['layers']} layers",
+        )
     return [
         (f"estimated error of {judged}", f"{attributes['estimated_error']:.2%}, target {attributes['target']:.3%}", ""),
         ("what limits it", f"{worst}: {parts[worst]:.2%}", ""),

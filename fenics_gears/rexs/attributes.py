@@ -1,7 +1,8 @@
-"""The table of what is looked up in a REXS file: for each value of a scene, the attributes that give it, their unit, and their component.
+"""The table of what is looked up in a REXS file: for each value of a scene, the attributes that give it, their unit,
+and their component.
 
-Where several are named, the first one present counts, unless all must agree (``every``). Another attribute, or its name in another version
-of REXS, is one more line here.
+Where several are named, the first one present counts, unless all must agree (``every``). Another attribute, or its name
+in another version of REXS, is one more line here.
 """
 
 from __future__ import annotations
@@ -18,7 +19,11 @@ Place = tuple[Component, str, str]
 # By what a scene asks for: component (a field of GearParts or Stage), attribute, unit or kind of value.
 ATTRIBUTES: dict[str, tuple[tuple[str, str, str], ...]] = {
     "module": (("gear", "normal_module", "mm"),),
-    "pressure_angle": (("flanks", "normal_pressure_angle", "deg"), ("gear", "normal_pressure_angle", "deg"), ("tools", "normal_pressure_angle", "deg")),
+    "pressure_angle": (
+        ("flanks", "normal_pressure_angle", "deg"),
+        ("gear", "normal_pressure_angle", "deg"),
+        ("tools", "normal_pressure_angle", "deg"),
+    ),
     "centre_distance": (("stage", "center_distance", "mm"),),
     "common_face_width": (("stage", "common_face_width", "mm"),),
     "face_width": (("gear", "face_width", "mm"),),
@@ -27,22 +32,36 @@ ATTRIBUTES: dict[str, tuple[tuple[str, str, str], ...]] = {
     "profile_shift": tuple(
         (holder, name, kind)
         for holder in ("flanks", "gear")
-        for name, kind in (("addendum_modification_coefficient", NUMBER), ("profile_shift_coefficient", NUMBER), ("addendum_modification", MODULES))
+        for name, kind in (
+            ("addendum_modification_coefficient", NUMBER),
+            ("profile_shift_coefficient", NUMBER),
+            ("addendum_modification", MODULES),
+        )
     ),
     "sum_of_shifts": (("stage", "sum_of_addendum_modification_coefficients", NUMBER),),
-    "generated_shift": tuple((holder, "generated_addendum_modification_coefficient", NUMBER) for holder in ("settings", "flanks")),
-    "reference_diameter": (("gear", "reference_circle_diameter", "mm"), ("gear", "reference_diameter_cylindrical_gear", "mm")),
+    "generated_shift": tuple(
+        (holder, "generated_addendum_modification_coefficient", NUMBER) for holder in ("settings", "flanks")
+    ),
+    "reference_diameter": (
+        ("gear", "reference_circle_diameter", "mm"),
+        ("gear", "reference_diameter_cylindrical_gear", "mm"),
+    ),
     "tip_diameter": (("gear", "tip_diameter", "mm"),),
     "addendum": (("flanks", "addendum_coefficient_basic_profile", NUMBER),),
     "root_diameter": (("gear", "root_diameter", "mm"),),
     "tooth_depth": (("gear", "tooth_depth", "mm"),),
     "bore_diameter": (("gear", "inner_diameter", "mm"), ("bodies", "inner_diameter", "mm")),
     "tool_module": (("tool", "normal_module", "mm"),),
-    "tool_addendum": (("tool", "addendum_coefficient_reference_profile", NUMBER), ("tool", "addendum_reference_profile", MODULES)),
+    "tool_addendum": (
+        ("tool", "addendum_coefficient_reference_profile", NUMBER),
+        ("tool", "addendum_reference_profile", MODULES),
+    ),
     # The two last are their names in version 2.
     "rack_tip_radius": (
-        ("tool", "tip_radius_factor", NUMBER), ("tool", "tip_radius", MODULES),
-        ("tool", "tip_corner_radius_factor_reference_profile", NUMBER), ("tool", "tip_corner_radius_reference_profile", MODULES),
+        ("tool", "tip_radius_factor", NUMBER),
+        ("tool", "tip_radius", MODULES),
+        ("tool", "tip_corner_radius_factor_reference_profile", NUMBER),
+        ("tool", "tip_corner_radius_reference_profile", MODULES),
     ),
     "youngs_modulus": (("material", "elastic_modulus", "MPa"),),
     "poissons_ratio": (("material", "poisson_ratio", NUMBER),),
@@ -51,11 +70,15 @@ ATTRIBUTES: dict[str, tuple[tuple[str, str, str], ...]] = {
     "speed_in_mesh": (("gear", "rolling_rotational_speed", SPEED),),
     "speed": (("gear", "rotational_speed", SPEED), ("shafts", "rotational_speed", SPEED)),
     # Words; so are loaded_tooth_flank and is_driving_gear of the stage data, by which ``stage`` sorts parts.
-    "tolerance_class": (("gear", "tolerance_class_according_to_iso_1328_2013", ""), ("gear", "global_tolerance_class_iso_1328_2013", "")),
-}  # fmt: skip
+    "tolerance_class": (
+        ("gear", "tolerance_class_according_to_iso_1328_2013", ""),
+        ("gear", "global_tolerance_class_iso_1328_2013", ""),
+    ),
+}
 # Values that must be above zero.
 POSITIVE = (
-    "module", "centre_distance", "common_face_width", "face_width", "teeth", "tip_diameter", "root_diameter", "youngs_modulus", "density",
+    "module", "centre_distance", "common_face_width", "face_width", "teeth", "tip_diameter", "root_diameter",
+    "youngs_modulus", "density",
 )  # fmt: skip
 # Attributes of gears, flanks and tools for which a scene has no field.
 _THICKNESS = (
@@ -64,7 +87,8 @@ _THICKNESS = (
     "upper_backlash_allowance_balls_or_pins", "lower_backlash_allowance_balls_or_pins",
 )  # fmt: skip
 NO_PLACE = (
-    *_THICKNESS, "tooth_tip_chamfer", "remaining_protuberance", "protuberance_amount", "protuberance_amount_factor", "single_pitch_deviation",
+    *_THICKNESS, "tooth_tip_chamfer", "remaining_protuberance", "protuberance_amount", "protuberance_amount_factor",
+    "single_pitch_deviation",
     "profile_form_deviation", "runout_tolerance", "topographical_deviation_amounts",
 )  # fmt: skip
 # Of a relief, behind its kind.
@@ -75,14 +99,16 @@ NO_PLACE_OF_RELIEFS = (
 
 
 class Reading:
-    """What was found wrong with a model (``problems``), and what a scene made of it leaves out (``left_out``), in sentences."""
+    """What was found wrong with a model (``problems``), and what a scene made of it leaves out (``left_out``), in
+    sentences."""
 
     def __init__(self) -> None:
         self.problems: list[str] = []
         self.left_out: list[str] = []
 
     def attempt(self, look_up: Callable[..., Found], *arguments) -> Found | None:
-        """What a look-up finds; None where it raises a ValueProblem, which is kept, or where one of its arguments was not found."""
+        """What a look-up finds; None where it raises a ValueProblem, which is kept, or where one of its arguments was
+        not found."""
         if any(argument is None for argument in arguments):
             return None
         try:
@@ -98,7 +124,16 @@ def places(owner: GearParts | Stage, asked: str) -> list[Place]:
     found = []
     for holder, name, unit in ATTRIBUTES[asked]:
         holders = getattr(owner, holder)
-        found += [(each, name, unit) for each in ([holders] if isinstance(holders, Component) else holders.values() if isinstance(holders, dict) else holders)]
+        found += [
+            (each, name, unit)
+            for each in (
+                [holders]
+                if isinstance(holders, Component)
+                else holders.values()
+                if isinstance(holders, dict)
+                else holders
+            )
+        ]
     return found
 
 

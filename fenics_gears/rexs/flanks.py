@@ -24,7 +24,9 @@ def relief_sections(reading: Reading, stage: Stage, gears: Sections) -> Sections
     for kind in (TIP, ROOT):
         for part, name in zip(stage.gears, ("pinion", "wheel")):
             circles = gears[f"gears.{name}"]
-            base = reading.attempt(_base_diameter, beta, *(gears["gears"][each] for each in ("module", "pressure_angle")), circles["teeth"])
+            base = reading.attempt(
+                _base_diameter, beta, *(gears["gears"][each] for each in ("module", "pressure_angle")), circles["teeth"]
+            )
             relief = None if base is None else reading.attempt(_relief, part, kind, base, circles["tip_diameter"])
             if relief is not None:
                 found[f"{kind}.{name}"] = relief
@@ -40,7 +42,12 @@ def tolerance_class(reading: Reading, stage: Stage) -> Value | None:
     if len({value.number for value in found}) > 1:
         return Value(coarse.number, coarse.written, f"{coarse.origin}, the coarser of the two gears")
     origin = together(value.origin for value in found)
-    return Value(coarse.number, coarse.written, origin if len(found) == 2 else f"{origin}, of this gear only", assumed=len(found) < 2)
+    return Value(
+        coarse.number,
+        coarse.written,
+        origin if len(found) == 2 else f"{origin}, of this gear only",
+        assumed=len(found) < 2,
+    )
 
 
 def note_what_is_left_out(reading: Reading, stage: Stage) -> None:
@@ -51,7 +58,11 @@ def note_what_is_left_out(reading: Reading, stage: Stage) -> None:
             others = (each for each in found if each.type not in (TIP, ROOT, *LEAD_TYPES))
             reading.left_out += [f"{each} of the {side} flank of component {part.gear.id}" for each in others]
         reliefs = {each.id: each for found in modifications.values() for each in found if each.type in (TIP, ROOT)}
-        places = [(holder, name) for holder in (part.gear, *(part.flanks[side] for side in part.loaded_sides), *part.tool) for name in NO_PLACE]
+        places = [
+            (holder, name)
+            for holder in (part.gear, *(part.flanks[side] for side in part.loaded_sides), *part.tool)
+            for name in NO_PLACE
+        ]
         places += [(relief, f"{relief.type}_{name}") for relief in reliefs.values() for name in NO_PLACE_OF_RELIEFS]
         for component, name in places:
             if name in component.attributes:
@@ -92,13 +103,15 @@ def _relief(part: GearParts, kind: str, base: float, tip: Value) -> Relief | Non
     for side in part.loaded_sides:
         found = [each for each in part.modifications[side] if each.type == kind]
         if len(found) > 1:
-            raise ValueProblem(f"{part.flanks[side]}: two components {kind}, {found[0].id} and {found[1].id}; a scene has one.")
+            raise ValueProblem(
+                f"{part.flanks[side]}: two components {kind}, {found[0].id} and {found[1].id}; a scene has one."
+            )
         by_side[side] = _relief_of(found[0], base, tip.number) if found else None
     one, *others = by_side.values() or (None,)
     if not all(_same(one, other) for other in others):
         raise ValueProblem(
-            f"{part.gear}: its left and its right flank have different {kind}, and the file does not say which one is loaded. "
-            "Allowed: loaded_tooth_flank (left or right) in the gear's stage data."
+            f"{part.gear}: its left and its right flank have different {kind}, and the file does not say which one is"
+            " loaded. Allowed: loaded_tooth_flank (left or right) in the gear's stage data."
         )
     return one
 
@@ -107,7 +120,9 @@ def _same(one: Relief | None, other: Relief | None) -> bool:
     """Whether both remove the same."""
     if one is None or other is None:
         return one is other
-    return one.keys() == other.keys() and all(isclose(one[name].number, other[name].number, rel_tol=SAME) for name in one)
+    return one.keys() == other.keys() and all(
+        isclose(one[name].number, other[name].number, rel_tol=SAME) for name in one
+    )
 
 
 def _relief_of(relief: Component, base: float, tip: float) -> Relief | None:
@@ -131,8 +146,10 @@ def _stated(where: Place) -> Value | None:
 
 
 def _start(relief: Component, base: float, tip: float) -> tuple[str, Value, float | None]:
-    """Where a relief starts, as the field that a scene has for it: by the diameter, or by its length of roll (L_C, ISO 21771), which lies on the
-    path of contact. The diameter (mm) of a tip relief's start beside it: a flank rolls through s = sqrt(d^2 - d_b^2)/2 up to the diameter d."""
+    """Where a relief starts, as the field that a scene has for it: by the diameter, or by its length of roll (L_C, ISO
+    21771), which lies on the
+    path of contact. The diameter (mm) of a tip relief's start beside it: a flank rolls through s = sqrt(d^2 - d_b^2)/2
+    up to the diameter d."""
     where, by_length = (relief, f"{relief.type}_datum_diameter", "mm"), (relief, f"{relief.type}_datum_length", "mm")
     stated, length = _stated(where), _stated(by_length)
     if stated is None and length is None:
@@ -143,11 +160,17 @@ def _start(relief: Component, base: float, tip: float) -> tuple[str, Value, floa
         return "start", stated, stated.number
     whole, diameter = 0.5 * sqrt(max(tip**2 - base**2, 0.0)), None
     if not 0.0 < length.number < whole:
-        raise ValueProblem(f"{place(*by_length[:2])} = {length.words} is no length of roll of this flank. Allowed: above 0 and below {whole:.6g} mm.")
+        raise ValueProblem(
+            f"{place(*by_length[:2])} = {length.words} is no length of roll of this flank. Allowed: above 0 and below"
+            f" {whole:.6g} mm."
+        )
     if relief.type == TIP:
         diameter = sqrt(base**2 + 4.0 * (whole - length.number) ** 2)
         if stated is not None and abs(stated.number - diameter) > ROUNDED * tip:
-            raise ValueProblem(f"{place(*where[:2])} = {stated.words} contradicts {by_length[1]} = {length.words}, which starts at {diameter:.6g} mm.")
+            raise ValueProblem(
+                f"{place(*where[:2])} = {stated.words} contradicts {by_length[1]} = {length.words}, which starts at"
+                f" {diameter:.6g} mm."
+            )
     return ("length_on_path", length, diameter) if stated is None else ("start", stated, stated.number)
 
 
@@ -169,7 +192,9 @@ def _at_the_tip(relief: Component, depth: Value, start: float, power: int, base:
     if evaluated is None:
         return depth
     if not base <= start < evaluated.number:
-        raise ValueProblem(f"{place(*where[:2])} = {evaluated.words} does not lie outside the start of the relief, {start:.6g} mm.")
+        raise ValueProblem(
+            f"{place(*where[:2])} = {evaluated.words} does not lie outside the start of the relief, {start:.6g} mm."
+        )
     if isclose(evaluated.number, tip, rel_tol=SAME):
         return depth
     begin, there, end = (sqrt(diameter**2 - base**2) for diameter in (start, evaluated.number, max(tip, base)))

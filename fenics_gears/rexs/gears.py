@@ -1,4 +1,5 @@
-"""The gears of a stage: teeth, circles and material, given by the file, computed from it, or taken from the standard."""
+"""The gears of a stage: teeth, circles and material, given by the file, computed from it, or taken from the
+standard."""
 
 from __future__ import annotations
 
@@ -10,7 +11,8 @@ from fenics_gears.rexs.attributes import Reading, every, first, given, needed
 from fenics_gears.rexs.stage import GearParts, Stage
 from fenics_gears.rexs.values import Value, ValueProblem, agreed, bare, computed, place, together
 
-# By the section of a scene ("gears.pinion"), its fields; None for what was not found, which is among the reading's problems.
+# By the section of a scene ("gears.pinion"), its fields; None for what was not found, which is among the reading's
+# problems.
 Sections = dict[str, dict[str, Value | None]]
 STANDARD = "ISO 53 A"
 ADDENDUM, DEDENDUM, _ = RACKS[STANDARD]
@@ -35,14 +37,32 @@ def gear_sections(reading: Reading, stage: Stage) -> Sections:
     for part, count in zip(stage.gears, teeth):
         reading.attempt(_check_reference_diameter, part, beta, module, count)
     reading.attempt(_check_sum_of_shifts, stage, *shifts)
-    pair, widths = {"module": module, "pressure_angle": angle, **helix, "centre_distance": distance}, reading.attempt(_face_widths, stage) or [None]
+    pair, widths = (
+        {"module": module, "pressure_angle": angle, **helix, "centre_distance": distance},
+        reading.attempt(_face_widths, stage) or [None],
+    )
     if len(widths) == 1:
         pair["face_width"] = widths[0]
     else:
         gears = [{**gear, "face_width": width} for gear, width in zip(gears, widths)]
-    rack = {"profile": Value(0.0, f'"{STANDARD}"', "no tip radius of the tool; that of ISO 53, or what has room on the rack's tip", assumed=True)}
-    racks = {f"gears.{name}.rack": rack for name, gear in zip(("pinion", "wheel"), gears) if "rack_tip_radius" not in gear}
-    return {"gears": pair, "gears.pinion": gears[0], "gears.wheel": gears[1], **racks, **(reading.attempt(_materials, stage) or {})}
+    rack = {
+        "profile": Value(
+            0.0,
+            f'"{STANDARD}"',
+            "no tip radius of the tool; that of ISO 53, or what has room on the rack's tip",
+            assumed=True,
+        )
+    }
+    racks = {
+        f"gears.{name}.rack": rack for name, gear in zip(("pinion", "wheel"), gears) if "rack_tip_radius" not in gear
+    }
+    return {
+        "gears": pair,
+        "gears.pinion": gears[0],
+        "gears.wheel": gears[1],
+        **racks,
+        **(reading.attempt(_materials, stage) or {}),
+    }
 
 
 def _of_both(stage: Stage, asked: str, different: str) -> Value:
@@ -92,14 +112,18 @@ def _face_widths(stage: Stage) -> list[Value]:
     return [agreed(widths, "")] if isclose(widths[0].number, widths[1].number) else widths
 
 
-def _profile_shifts(reading: Reading, stage: Stage, module, angle, distance, teeth: list[Value | None], beta: float) -> list[Value | None]:
+def _profile_shifts(
+    reading: Reading, stage: Stage, module, angle, distance, teeth: list[Value | None], beta: float
+) -> list[Value | None]:
     """The shift of both gears, as the file gives them, or as the centre distance leaves one of them."""
     shifts = [reading.attempt(partial(_stated_shift, part, module)) for part in stage.gears]
     unsaid = [number for number, part in enumerate(stage.gears) if not given(part, "profile_shift")]
     if len(unsaid) == 2:
         reading.attempt(_refuse_both_missing, stage)
     elif unsaid:
-        shifts[unsaid[0]] = reading.attempt(_remaining_shift, stage, beta, shifts[1 - unsaid[0]], module, angle, distance, *teeth)
+        shifts[unsaid[0]] = reading.attempt(
+            _remaining_shift, stage, beta, shifts[1 - unsaid[0]], module, angle, distance, *teeth
+        )
     return shifts
 
 
@@ -113,23 +137,40 @@ def _refuse_both_missing(stage: Stage) -> None:
     raise ValueProblem(f"{pinion} is missing, for its flanks too, and so is that of component {name}.")
 
 
-def _remaining_shift(stage: Stage, beta: float, known: Value, module: Value, angle: Value, distance: Value, *teeth: Value) -> Value:
+def _remaining_shift(
+    stage: Stage, beta: float, known: Value, module: Value, angle: Value, distance: Value, *teeth: Value
+) -> Value:
     """What is left of the sum of both shifts that leaves no backlash (ISO 21771)."""
     count, transverse = sum(each.number for each in teeth), transverse_angle(angle.number, beta)
     cosine = 0.5 * module.number * count * cos(transverse) / cos(beta) / distance.number
     if not cosine < 1.0:
         name = place(stage.stage, "center_distance")
-        raise ValueProblem(f"{name} = {distance.number:.6g} mm is too small for {count:g} teeth of module {module.number:g} mm.")
+        raise ValueProblem(
+            f"{name} = {distance.number:.6g} mm is too small for {count:g} teeth of module {module.number:g} mm."
+        )
     operating = acos(cosine)
     total = 0.5 * count * (tan(operating) - operating - tan(transverse) + transverse) / tan(angle.number)
-    why = "no addendum_modification_coefficient; what that of the other gear and the centre distance leave it, without backlash"
+    why = (
+        "no addendum_modification_coefficient; what that of the other gear and the centre distance leave it, without"
+        " backlash"
+    )
     return bare(round(total - known.number, 9), why, assumed=True)
 
 
-def _gear_section(reading: Reading, part: GearParts, beta: float, module: Value | None, teeth: Value | None, shift: Value | None) -> dict[str, Value | None]:
-    tip = reading.attempt(needed, part, "tip_diameter") if given(part, "tip_diameter") else reading.attempt(_tip_diameter, part, beta, module, teeth, shift)
+def _gear_section(
+    reading: Reading, part: GearParts, beta: float, module: Value | None, teeth: Value | None, shift: Value | None
+) -> dict[str, Value | None]:
+    tip = (
+        reading.attempt(needed, part, "tip_diameter")
+        if given(part, "tip_diameter")
+        else reading.attempt(_tip_diameter, part, beta, module, teeth, shift)
+    )
     stated = given(part, "root_diameter")
-    root = reading.attempt(needed, part, "root_diameter") if stated else reading.attempt(_root_diameter, part, beta, module, teeth, shift, tip)
+    root = (
+        reading.attempt(needed, part, "root_diameter")
+        if stated
+        else reading.attempt(_root_diameter, part, beta, module, teeth, shift, tip)
+    )
     radius = reading.attempt(_of_tool, part, module, "rack_tip_radius")
     return {
         "teeth": teeth,
@@ -145,21 +186,30 @@ def _tip_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shi
     """What the addendum of the flanks gives, or the standard's."""
     addendum = first(part, "addendum")
     modules = ADDENDUM if addendum is None else addendum.number
-    source = f"the addendum of ISO 53, {modules} modules" if addendum is None else f"{addendum.origin}, {modules} modules"
+    source = (
+        f"the addendum of ISO 53, {modules} modules" if addendum is None else f"{addendum.origin}, {modules} modules"
+    )
     number = module.number * (teeth.number / cos(beta) + 2.0 * (shift.number + modules))
-    return computed(number, 1.0, "mm", f"no tip_diameter; from teeth, profile shift and {source}", assumed=addendum is None)
+    return computed(
+        number, 1.0, "mm", f"no tip_diameter; from teeth, profile shift and {source}", assumed=addendum is None
+    )
 
 
 def _root_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shift: Value, tip: Value) -> Value:
-    """What the depth of the teeth gives, or what the rack cuts: its addendum deep, at the shift of its generating where that is given."""
+    """What the depth of the teeth gives, or what the rack cuts: its addendum deep, at the shift of its generating where
+    that is given."""
     depth = first(part, "tooth_depth")
     if depth is not None:
-        return computed(tip.number - 2.0 * depth.number, 1.0, "mm", f"no root_diameter; tip diameter less twice {depth.origin}")
+        return computed(
+            tip.number - 2.0 * depth.number, 1.0, "mm", f"no root_diameter; tip diameter less twice {depth.origin}"
+        )
     generated, addendum = first(part, "generated_shift"), _of_tool(part, module, "tool_addendum")
     at = "profile shift" if generated is None else generated.origin
     modules = DEDENDUM if addendum is None else addendum.number
     number = module.number * (teeth.number / cos(beta) + 2.0 * ((generated or shift).number - modules))
-    source = f"the dedendum of ISO 53, {modules} modules" if addendum is None else f"{addendum.origin}, {modules} modules"
+    source = (
+        f"the dedendum of ISO 53, {modules} modules" if addendum is None else f"{addendum.origin}, {modules} modules"
+    )
     return computed(number, 1.0, "mm", f"no root_diameter; from teeth, {at} and {source}", assumed=addendum is None)
 
 
@@ -181,7 +231,11 @@ def _bore_diameter(part: GearParts, root: Value) -> Value:
 
 def _materials(stage: Stage) -> Sections:
     """The material of both gears, or of each where they differ."""
-    found = {name: {asked: needed(part, asked) for asked in MATERIAL} for name, part in zip(("pinion", "wheel"), stage.gears) if part.material}
+    found = {
+        name: {asked: needed(part, asked) for asked in MATERIAL}
+        for name, part in zip(("pinion", "wheel"), stage.gears)
+        if part.material
+    }
     if not found:
         why = "no material; that of steel (ISO 6336-1)"
         return {"gears.material": {"name": Value(0.0, '"steel"', why, assumed=True)}}

@@ -26,7 +26,8 @@ TORQUE, SPEED = ("--wheel-torque", "437 N m"), ("--pinion-speed", "750 rpm")
 
 @dataclass(frozen=True)
 class ImportedScene:
-    """The text of a scene; of which stage it is; what had to be assumed, as ``field = value: why``; what of the file it leaves out."""
+    """The text of a scene; of which stage it is; what had to be assumed, as ``field = value: why``; what of the file it
+    leaves out."""
 
     text: str
     stage: Stage
@@ -36,7 +37,8 @@ class ImportedScene:
 
 @dataclass(frozen=True)
 class Choice:
-    """Which stage and load case of a file are meant, None for the only one; torque of the driven and speed of the driving gear, as
+    """Which stage and load case of a file are meant, None for the only one; torque of the driven and speed of the
+    driving gear, as
     quantities of a scene, that stand before those of the file."""
 
     stage: int | None = None
@@ -62,12 +64,19 @@ def imported_scene(path: Path, choice: Choice = Choice()) -> ImportedScene:
     densities = {name: reading.attempt(first, part, "density") for name, part in zip(("pinion", "wheel"), stage.gears)}
     note_what_is_left_out(reading, stage)
     _check_all_found(reading, path)
-    assumed = [f"{section}.{name} = {value.words}: {value.origin}" for section, found in sections.items() for name, value in found.items() if value.assumed]
+    assumed = [
+        f"{section}.{name} = {value.words}: {value.origin}"
+        for section, found in sections.items()
+        for name, value in found.items()
+        if value.assumed
+    ]
     notes = {
         "Assumed, since the file does not say it:": assumed,
         "Left out, since a scene has no place for it:": reading.left_out,
         "For [inertia], from which the masses and moments of inertia of both gears follow:": [
-            f"[inertia.{name}] density = {density.written}, {density.origin}" for name, density in densities.items() if density is not None
+            f"[inertia.{name}] density = {density.written}, {density.origin}"
+            for name, density in densities.items()
+            if density is not None
         ],
     }
     text = scene_text(path.name, model, stage, sections, notes)
@@ -77,17 +86,22 @@ def imported_scene(path: Path, choice: Choice = Choice()) -> ImportedScene:
 def _check_all_found(reading: Reading, path: Path) -> None:
     if reading.problems:
         count = "1 mistake" if len(reading.problems) == 1 else f"{len(reading.problems)} mistakes"
-        raise SceneError("\n".join([*(f"{path}: {each}" for each in reading.problems), f"{count} in {path}. Nothing was written."]))
+        raise SceneError(
+            "\n".join([*(f"{path}: {each}" for each in reading.problems), f"{count} in {path}. Nothing was written."])
+        )
 
 
 def _loaded(model: Model, choice: Choice) -> Model:
-    """The model in the chosen load case; as it is where the call says all that a load case is asked for. Raises ValueProblem."""
+    """The model in the chosen load case; as it is where the call says all that a load case is asked for. Raises
+    ValueProblem."""
     if choice.load_case is None and choice.wheel_torque is not None and choice.pinion_speed is not None:
         return model
     return loaded_model(model, choice.load_case)
 
 
-def _load_sections(reading: Reading, model: Model | None, stage: Stage, gears: Sections, by_call: tuple[Value | None, Value | None]) -> Sections:
+def _load_sections(
+    reading: Reading, model: Model | None, stage: Stage, gears: Sections, by_call: tuple[Value | None, Value | None]
+) -> Sections:
     """Torque and speed; ``model``: in its load case, None where that is not known."""
     teeth = gears["gears.pinion"]["teeth"], gears["gears.wheel"]["teeth"]
     ratio = None if None in teeth else teeth[1].number / teeth[0].number
@@ -102,7 +116,9 @@ def _error_sections(reading: Reading, stage: Stage, sections: Sections) -> Secti
     if tolerance is None:
         cycles = Value(1, "1", "quasi-static, so that all mesh cycles are alike", assumed=True)
         return {"motion": {**sections["motion"], "mesh_cycles": cycles}}
-    cycles = Value(0, f'"{HUNTING_TOOTH_PERIOD}"', "errors differ from tooth to tooth; so long until all have met", assumed=True)
+    cycles = Value(
+        0, f'"{HUNTING_TOOTH_PERIOD}"', "errors differ from tooth to tooth; so long until all have met", assumed=True
+    )
     return {"motion": {**sections["motion"], "mesh_cycles": cycles}, "flank_errors": {"tolerance_class": tolerance}}
 
 

@@ -1,4 +1,5 @@
-"""A REXS file as components with attributes, relations between them, and load cases; values are texts as written, with units not yet converted."""
+"""A REXS file as components with attributes, relations between them, and load cases; values are texts as written, with
+units not yet converted."""
 
 from __future__ import annotations
 
@@ -13,8 +14,13 @@ class ModelError(ValueError):
 
 
 def readable(text: Any) -> Any:
-    """A name of the file in one line of characters that can be printed, so that it can stand in a message or a comment."""
-    return " ".join("".join(each if each.isprintable() else " " for each in text).split())[:100] if isinstance(text, str) else text
+    """A name of the file in one line of characters that can be printed, so that it can stand in a message or a
+    comment."""
+    return (
+        " ".join("".join(each if each.isprintable() else " " for each in text).split())[:100]
+        if isinstance(text, str)
+        else text
+    )
 
 
 Name = Annotated[str, BeforeValidator(readable)]
@@ -27,7 +33,8 @@ class _Node(BaseModel):
 
 
 class Attribute(_Node):
-    """A value and its unit as written (empty where there is none). ``value``: a text; of an array a list of texts, or code and text where it
+    """A value and its unit as written (empty where there is none). ``value``: a text; of an array a list of texts, or
+    code and text where it
     is coded; of a matrix a list of lists."""
 
     id: Name
@@ -41,16 +48,23 @@ class Attribute(_Node):
         if not isinstance(tree, Mapping):
             return tree
         value = next((value for key, value in tree.items() if key not in ("id", "unit")), None)
-        return {"id": tree.get("id"), "unit": tree.get("unit"), "value": ("false", "true")[value] if isinstance(value, bool) else readable(value)}
+        return {
+            "id": tree.get("id"),
+            "unit": tree.get("unit"),
+            "value": ("false", "true")[value] if isinstance(value, bool) else readable(value),
+        }
 
 
 def _by_name(attributes: list[Attribute]) -> dict[str, Attribute]:
-    """Attributes by their names, without those that are null or empty. Raises ValueError where one is there twice with different values."""
+    """Attributes by their names, without those that are null or empty. Raises ValueError where one is there twice with
+    different values."""
     found: dict[str, Attribute] = {}
     for each in attributes:
         first = found.setdefault(each.id, each) if each.value not in (None, "") else each
         if first != each:
-            raise ValueError(f"has {each.id} twice, with different values: {first.value} {first.unit}; {each.value} {each.unit}")
+            raise ValueError(
+                f"has {each.id} twice, with different values: {first.value} {first.unit}; {each.value} {each.unit}"
+            )
     return found
 
 
@@ -124,7 +138,9 @@ class Model(_Node):
     @property
     def load_cases(self) -> dict[str, dict[int, Mapping[str, Attribute]]]:
         """By the case's name, what each says of components, by their number."""
-        return {case.id: {each.id: each.attributes for each in case.components} for case in self.load_spectrum.load_cases}
+        return {
+            case.id: {each.id: each.attributes for each in case.components} for case in self.load_spectrum.load_cases
+        }
 
     def related(self, type: str, **known: Component) -> Iterator[Relation]:
         """Relations of a type in which the known components have these roles, in their order."""
@@ -148,7 +164,8 @@ class Model(_Node):
 
 
 def model_of(tree: Any) -> Model:
-    """The model of a file's tree, as JSON has it. Raises ModelError where it is none: of another shape, with numbers that are there twice
+    """The model of a file's tree, as JSON has it. Raises ModelError where it is none: of another shape, with numbers
+    that are there twice
     or lead nowhere, or of a version that is not known."""
     try:
         model = Model.model_validate(tree)
@@ -159,13 +176,22 @@ def model_of(tree: Any) -> Model:
     for relation in model.relations:
         for role, number in relation.roles.items():
             if number not in model.components:
-                raise ModelError(f'has a relation "{relation.type}" whose {role} is component {number}, which is not there')
+                raise ModelError(
+                    f'has a relation "{relation.type}" whose {role} is component {number}, which is not there'
+                )
     return model
 
 
 # What is wrong with a node of a file's tree, by pydantic's names of mistakes.
-_WORDS = {"missing": "is missing", "int_parsing": "is not a whole number", "int_type": "is not a whole number", "list_type": "is not a list",
-          "string_type": "is not a text or a number", "model_type": "is not an object", "model_attributes_type": "is not an object"}  # fmt: skip
+_WORDS = {
+    "missing": "is missing",
+    "int_parsing": "is not a whole number",
+    "int_type": "is not a whole number",
+    "list_type": "is not a list",
+    "string_type": "is not a text or a number",
+    "model_type": "is not an object",
+    "model_attributes_type": "is not an object",
+}
 
 
 def _words(tree: Any, mistake: Mapping[str, Any]) -> str:
@@ -177,7 +203,9 @@ def _words(tree: Any, mistake: Mapping[str, Any]) -> str:
             break
         tree = tree[step]
         number = tree.get("id") if isinstance(tree, Mapping) else None
-        place += f" {step}" if isinstance(step, str) else f" {number}," if isinstance(number, str) else f" ({step + 1}.),"
+        place += (
+            f" {step}" if isinstance(step, str) else f" {number}," if isinstance(number, str) else f" ({step + 1}.),"
+        )
     value = f' = "{readable(mistake["input"])}"' if isinstance(mistake["input"], str) else ""
     words = mistake["ctx"]["error"] if mistake["type"] == "value_error" else _WORDS.get(mistake["type"], mistake["msg"])
     return f"is no REXS:{place or ' the model'}{value} {words}"

@@ -65,7 +65,11 @@ def _packed(content: bytes) -> bytes:
     """The one model in an archive; systems put files of their own beside it, whose names begin with a dot."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            models = [each for each in archive.infolist() if each.filename.endswith(ENDINGS) and not Path(each.filename).name.startswith(".")]
+            models = [
+                each
+                for each in archive.infolist()
+                if each.filename.endswith(ENDINGS) and not Path(each.filename).name.startswith(".")
+            ]
             if len(models) != 1:
                 names = ", ".join(each.filename for each in models) or "none"
                 raise ModelError(f"is a ZIP archive that must hold one .rexs or .rexsj file, but holds: {names}")
@@ -103,14 +107,22 @@ def _of_xml(content: bytes) -> Any:
     if _name(root) != "model":
         raise ModelError(f"is XML, but no REXS: its root is <{_name(root)}>, not <model>")
     components = [_component(each) for each in _within(root, "components", "component")]
-    relations = [{**each.attrib, "refs": [ref.attrib for ref in _within(each, "ref")]} for each in _within(root, "relations", "relation")]
+    relations = [
+        {**each.attrib, "refs": [ref.attrib for ref in _within(each, "ref")]}
+        for each in _within(root, "relations", "relation")
+    ]
     spectra = list(_within(root, "load_spectrum"))
-    cases = [_load_case(case, spectrum if len(spectra) > 1 else None) for spectrum in spectra for case in _within(spectrum, "load_case")]
+    cases = [
+        _load_case(case, spectrum if len(spectra) > 1 else None)
+        for spectrum in spectra
+        for case in _within(spectrum, "load_case")
+    ]
     return {**root.attrib, "components": components, "relations": relations, "load_spectrum": {"load_cases": cases}}
 
 
 class _NoDocumentType(ElementTree.TreeBuilder):
-    """REXS has no document type declaration; entities, which one could declare, can make a small file fill the memory."""
+    """REXS has no document type declaration; entities, which one could declare, can make a small file fill the
+    memory."""
 
     def doctype(self, name: str, pubid: str | None, system: str | None) -> None:
         raise ModelError("has a document type declaration (<!DOCTYPE ...>), which REXS has not; remove it")
@@ -129,7 +141,10 @@ def _within(element: ElementTree.Element, *names: str) -> Iterator[ElementTree.E
 
 
 def _component(element: ElementTree.Element) -> dict[str, Any]:
-    return {**element.attrib, "attributes": [{**each.attrib, "value": _value(each)} for each in _within(element, "attribute")]}
+    return {
+        **element.attrib,
+        "attributes": [{**each.attrib, "value": _value(each)} for each in _within(element, "attribute")],
+    }
 
 
 def _value(element: ElementTree.Element) -> Any:
@@ -139,7 +154,10 @@ def _value(element: ElementTree.Element) -> Any:
     inner = element[0]
     if "code" in inner.attrib:
         return {"code": inner.get("code"), "value": (inner.text or "").strip()}
-    return [_value(each) if len(each) else (each.text or "").strip() for each in (inner if _name(inner) in ("array", "matrix") else element)]
+    return [
+        _value(each) if len(each) else (each.text or "").strip()
+        for each in (inner if _name(inner) in ("array", "matrix") else element)
+    ]
 
 
 def _load_case(case: ElementTree.Element, spectrum: ElementTree.Element | None) -> dict[str, Any]:

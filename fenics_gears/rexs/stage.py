@@ -13,7 +13,8 @@ RACK_TOOL = "rack_shaped_tool"
 
 @dataclass(frozen=True)
 class GearParts:
-    """The components of one gear of a stage: itself, its flanks by their side and what modifies them, its tools and how they were set,
+    """The components of one gear of a stage: itself, its flanks by their side and what modifies them, its tools and how
+    they were set,
     bodies, materials and shafts, and its data in this stage. Lists are empty where the file has none."""
 
     gear: Component
@@ -39,7 +40,9 @@ class GearParts:
     @property
     def loaded_sides(self) -> list[str]:
         """The side of the teeth that is loaded, both where the file does not say which."""
-        said = [word_of(data, "loaded_tooth_flank") for data in self.stage_data if "loaded_tooth_flank" in data.attributes]
+        said = [
+            word_of(data, "loaded_tooth_flank") for data in self.stage_data if "loaded_tooth_flank" in data.attributes
+        ]
         return [side for side in self.flanks if not said or side == said[0]]
 
 
@@ -59,13 +62,18 @@ class Stage:
 
 
 def chosen_stage(model: Model, wanted: int | None) -> Stage:
-    """The stage with the wanted number, or the only one. Raises ValueProblem, which lists the stages, where it is not clear which."""
+    """The stage with the wanted number, or the only one. Raises ValueProblem, which lists the stages, where it is not
+    clear which."""
     relations = {
-        each.roles["stage"]: each for each in model.related("stage") if {"stage", "gear_1", "gear_2"} <= set(each.roles) and _is_cylindrical(model, each)
+        each.roles["stage"]: each
+        for each in model.related("stage")
+        if {"stage", "gear_1", "gear_2"} <= set(each.roles) and _is_cylindrical(model, each)
     }
     if not relations:
         raise ValueProblem(_no_stage(model))
-    listed = "\n".join(f"    --stage {number}    {_described(model, relation)}" for number, relation in relations.items())
+    listed = "\n".join(
+        f"    --stage {number}    {_described(model, relation)}" for number, relation in relations.items()
+    )
     if wanted is None and len(relations) > 1:
         raise ValueProblem(f"has {len(relations)} pairs of cylindrical gears; a scene has one. Choose it:\n{listed}")
     number = next(iter(relations)) if wanted is None else wanted
@@ -79,9 +87,14 @@ def _is_cylindrical(model: Model, relation: Relation) -> bool:
 
 
 def _no_stage(model: Model) -> str:
-    others = sorted({model.components[each.roles["stage"]].type for each in model.related("stage") if "stage" in each.roles})
+    others = sorted(
+        {model.components[each.roles["stage"]].type for each in model.related("stage") if "stage" in each.roles}
+    )
     besides = f" Its stages are: {', '.join(others)}." if others else ""
-    return f'has no pair of cylindrical gears: no relation "stage" with a cylindrical_stage, a gear_1 and a gear_2.{besides}'
+    return (
+        'has no pair of cylindrical gears: no relation "stage" with a cylindrical_stage, a gear_1 and a'
+        f" gear_2.{besides}"
+    )
 
 
 def _described(model: Model, relation: Relation) -> str:
@@ -108,12 +121,22 @@ def _stage(model: Model, relation: Relation) -> Stage:
 
 def _parts(model: Model, stage: Component, gear: Component) -> GearParts:
     sides = next(iter(model.related("flank", gear=gear)), None)
-    flanks = {} if sides is None else {side: model.components[sides.roles[side]] for side in ("left", "right") if side in sides.roles}
+    flanks = (
+        {}
+        if sides is None
+        else {side: model.components[sides.roles[side]] for side in ("left", "right") if side in sides.roles}
+    )
     steps = [step for flank in flanks.values() for step in model.related("manufacturing_step", workpiece=flank)]
     tools = {step.roles["tool"]: step for step in steps if "tool" in step.roles}
     # Up to version 1.2 a gear refers to its tools; from 1.3 on its flanks do, each with how the tool was set.
-    referred = model.partners("ordered_reference", "referenced", origin=gear) + [model.components[number] for number in tools]
-    settings = [model.components[step.roles["manufacturing_settings"]] for step in steps if "manufacturing_settings" in step.roles]
+    referred = model.partners("ordered_reference", "referenced", origin=gear) + [
+        model.components[number] for number in tools
+    ]
+    settings = [
+        model.components[step.roles["manufacturing_settings"]]
+        for step in steps
+        if "manufacturing_settings" in step.roles
+    ]
     return GearParts(
         gear,
         flanks,
@@ -128,7 +151,11 @@ def _parts(model: Model, stage: Component, gear: Component) -> GearParts:
 
 
 def _check_external(gear: Component) -> None:
-    if gear.type == INTERNAL or "number_of_teeth" in gear.attributes and value_of(gear, "number_of_teeth", COUNT).number < 0:
+    if (
+        gear.type == INTERNAL
+        or "number_of_teeth" in gear.attributes
+        and value_of(gear, "number_of_teeth", COUNT).number < 0
+    ):
         raise ValueProblem(f"{gear} is an internal gear; pairs of external gears are computed only.")
     if gear.type != EXTERNAL:
         raise ValueProblem(f"{gear} is no cylindrical gear.")
@@ -140,7 +167,11 @@ def _first_drives(first: GearParts, second: GearParts) -> bool:
     if says[0] != says[1]:
         return says[0] is True or says[1] is False
     # Programs also write that neither drives, or both.
-    teeth = [value_of(part.gear, "number_of_teeth", COUNT).number for part in (first, second) if "number_of_teeth" in part.gear.attributes]
+    teeth = [
+        value_of(part.gear, "number_of_teeth", COUNT).number
+        for part in (first, second)
+        if "number_of_teeth" in part.gear.attributes
+    ]
     return len(teeth) < 2 or teeth[0] <= teeth[1]
 
 

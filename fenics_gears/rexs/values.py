@@ -14,7 +14,8 @@ import numpy as np
 from fenics_gears.inputs import units
 from fenics_gears.rexs.model import Attribute, Component
 
-# REXS's own spellings, as scenes write them. A frequency of REXS counts turns: where a speed is asked for, and only there, "1 / min" is one.
+# REXS's own spellings, as scenes write them. A frequency of REXS counts turns: where a speed is asked for, and only
+# there, "1 / min" is one.
 SPELLINGS = {"none": "", "°": "deg", "mum": "um", "mus": "us", "kg / dm^3": "g / cm^3"}
 TURNS = {"1 / min": "rpm", "1 / s": "rev / s", "Hz": "rev / s"}
 # Kinds of values that are no quantity: a number, a whole number, and a length that a scene has in modules.
@@ -52,7 +53,8 @@ def place(component: Component, name: str) -> str:
 
 
 def value_of(component: Component, name: str, unit: str, module: Value | None = None) -> Value:
-    """The value of an attribute: a quantity of the kind of ``unit``, or one of the kinds above; ``module``: for lengths in modules.
+    """The value of an attribute: a quantity of the kind of ``unit``, or one of the kinds above; ``module``: for lengths
+    in modules.
 
     Raises ValueProblem.
     """
@@ -65,7 +67,10 @@ def value_of(component: Component, name: str, unit: str, module: Value | None = 
     origin = f"{name} of component {component.id}"
     if unit == COUNT:
         if spelt or not _WHOLE.fullmatch(text):
-            raise ValueProblem(f"{said if spelt else f'{place(component, name)} = {text}'} is not a whole number{' without unit' if spelt else ''}.")
+            raise ValueProblem(
+                f"{said if spelt else f'{place(component, name)} = {text}'} is not a whole"
+                f" number{' without unit' if spelt else ''}."
+            )
         return Value(int(text.partition(".")[0]), text.partition(".")[0], origin)
     if unit == NUMBER:
         if spelt not in ("", "%"):
@@ -98,7 +103,10 @@ def word_of(component: Component, name: str) -> str:
 
 def in_words(component: Component, name: str) -> str:
     """An attribute's value, or how many an array has and from where to where they go, with its unit."""
-    entries, unit = _entries(component, name), SPELLINGS.get(component.attributes[name].unit, component.attributes[name].unit)
+    entries, unit = (
+        _entries(component, name),
+        SPELLINGS.get(component.attributes[name].unit, component.attributes[name].unit),
+    )
     try:
         numbers = [float(each) for each in entries]
         text = entries[0] if len(entries) == 1 else f"{len(entries)} values from {min(numbers):g} to {max(numbers):g}"
@@ -122,7 +130,9 @@ def _entries(component: Component, name: str) -> list[str]:
 def _decoded(component: Component, attribute: Attribute) -> list[str]:
     code, text = (str(attribute.value.get(name, "")) for name in ("code", "value"))
     if code not in CODES:
-        raise ValueProblem(f'{place(component, attribute.id)} is an array with the code "{code}". Allowed: {", ".join(CODES)}.')
+        raise ValueProblem(
+            f'{place(component, attribute.id)} is an array with the code "{code}". Allowed: {", ".join(CODES)}.'
+        )
     try:
         # Programs also leave out the padding at the end.
         numbers = np.frombuffer(base64.b64decode(text + "=" * (-len(text) % 4), validate=True), CODES[code])
@@ -142,7 +152,8 @@ def computed(number: float, factor: float, unit: str, origin: str, *, assumed: b
 
 
 def agreed(values: Iterable[Value | None], what: str) -> Value | None:
-    """The one value that several places give; None where none does. Raises ValueProblem where they contradict each other."""
+    """The one value that several places give; None where none does. Raises ValueProblem where they contradict each
+    other."""
     there = [value for value in values if value is not None]
     for other in there[1:]:
         if not isclose(other.number, there[0].number, rel_tol=SAME, abs_tol=1e-12):
@@ -152,7 +163,12 @@ def agreed(values: Iterable[Value | None], what: str) -> Value | None:
             )
     if not there:
         return None
-    return Value(there[0].number, there[0].written, together(value.origin for value in there), any(value.assumed for value in there))
+    return Value(
+        there[0].number,
+        there[0].written,
+        together(value.origin for value in there),
+        any(value.assumed for value in there),
+    )
 
 
 def together(origins: Iterable[str]) -> str:

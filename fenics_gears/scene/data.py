@@ -27,14 +27,19 @@ from fenics_gears.inputs.tree import wheel_torque
 
 @dataclass(frozen=True)
 class Load:
-    """Torque on the wheel's shaft, N mm; positive when it resists the drive. `given`: the field by which the scene has it, in whose words a run is titled."""
+    """Torque on the wheel's shaft, N mm; positive when it resists the drive. `given`: the field by which the scene has
+    it, in whose words a run is titled."""
 
     wheel_torque: float
     given: str = field(default="wheel_torque", compare=False)
 
 
 # How a scene can give its load: unit and name for people.
-LOAD_WORDS = {"wheel_torque": ("N m", "torque on the wheel"), "pinion_torque": ("N m", "torque on the pinion"), "power": ("kW", "power")}
+LOAD_WORDS = {
+    "wheel_torque": ("N m", "torque on the wheel"),
+    "pinion_torque": ("N m", "torque on the pinion"),
+    "power": ("kW", "power"),
+}
 
 
 @dataclass(frozen=True)
@@ -59,10 +64,13 @@ NOMINAL_FREQUENCY = 1.0
 
 @dataclass(frozen=True)
 class Motion:
-    """Mesh frequency, Hz, mesh cycles that are run, and how many of the last of them have their contact fields stored and are shown in pictures.
+    """Mesh frequency, Hz, mesh cycles that are run, and how many of the last of them have their contact fields stored
+    and are shown in pictures.
 
-    ``fewer_where_too_large``: the scene does not give that number, so fewer are stored where the result would be too large.
-    ``speed_given``: whether the scene has a speed; if not, no result depends on one, and the frequency is ``NOMINAL_FREQUENCY``.
+    ``fewer_where_too_large``: the scene does not give that number, so fewer are stored where the result would be too
+        large.
+    ``speed_given``: whether the scene has a speed; if not, no result depends on one, and the frequency is
+        ``NOMINAL_FREQUENCY``.
     """
 
     mesh_frequency: float
@@ -80,7 +88,8 @@ ELASTIC, RIGID_TEETH, STIFFNESS_TABLE, ISO_6336 = "elastic", "rigid teeth", "sti
 class Accuracy:
     """How the scene is computed; where a value is None the program chooses it.
 
-    ``elastic_teeth``: teeth this many pitches apart and further do not deform each other; None: all that can be loaded together do.
+    ``elastic_teeth``: teeth this many pitches apart and further do not deform each other; None: all that can be loaded
+        together do.
     ``slices`` of the common face and ``layers`` of elements over a gear's face: of three-dimensional scenes only.
     ``target``: relative error for which a run chooses all settings by measuring; no other field is given beside it.
     """
@@ -110,11 +119,14 @@ class Output:
 
 @dataclass(frozen=True)
 class Scene:
-    """All input of a run. Its `text` always says what its data are, also of a scene that ``dataclasses.replace`` changed.
+    """All input of a run. Its `text` always says what its data are, also of a scene that ``dataclasses.replace``
+    changed.
 
-    One field for each effect of `effects.EFFECTS` whose section is at the top of a scene file, in the same order; an effect that the scene does
-    not name is None; `derived`: what the scene leaves out of gears and load; `written`: the text that it was read from, before any change; `folder`:
-    from which files are looked for that it names. (Elastic teeth are an effect too: they are there where `gears` have a material.)
+    One field for each effect of `effects.EFFECTS` whose section is at the top of a scene file, in the same order; an
+    effect that the scene does not name is None; `derived`: what the scene leaves out of gears and load; `written`: the
+    text that it was read from, before any change; `folder`:
+    from which files are looked for that it names. (Elastic teeth are an effect too: they are there where `gears` have a
+    material.)
     """
 
     title: str
@@ -147,7 +159,8 @@ class Scene:
 
     @cached_property
     def text(self) -> str:
-        """The scene file that gives these data: as it was read where nothing was changed since, else written anew (``scene.write``)."""
+        """The scene file that gives these data: as it was read where nothing was changed since, else written anew
+        (``scene.write``)."""
         from fenics_gears.scene.write import text_of
 
         return text_of(self)
@@ -182,7 +195,12 @@ class Scene:
     def three_dimensional(self) -> bool:
         """Whether the flanks are resolved over the face: where the scene names what has no meaning in a plane."""
         leaning = self.bearings is not None and self.bearings.places is not None
-        return self.gears.helix_angle > 0.0 or self.lead_modifications is not None or self.misalignment is not None or leaning
+        return (
+            self.gears.helix_angle > 0.0
+            or self.lead_modifications is not None
+            or self.misalignment is not None
+            or leaning
+        )
 
     @property
     def resolves_contact(self) -> bool:

@@ -1,8 +1,10 @@
-"""From the validated ``[gears]`` and ``[load]`` to their data, with what a drawing leaves out derived: diameters, centre distance, tip radius of the rack, tooth thickness.
+"""From the validated ``[gears]`` and ``[load]`` to their data, with what a drawing leaves out derived: diameters,
+centre distance, tip radius of the rack, tooth thickness.
 
-ISO 21771 (DIN 3960), in normal modules: d_a = d + 2 m_n (x + h_aP + k), d_f = d + 2 m_n (x_E - h_fP), inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2)
-tan(alpha_n)/(z1 + z2). x is the profile shift of the drawing and x_E that of the thickness, at which the rack cuts flanks and root; they differ by the
-allowance where a thickness or a backlash is given beside x. k shortens the tips, so that their clearance stays the rack's when a is less than a_d + (x1 + x2) m_n.
+ISO 21771 (DIN 3960), in normal modules: d_a = d + 2 m_n (x + h_aP + k), d_f = d + 2 m_n (x_E - h_fP), inv(alpha_wt) =
+inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2). x is the profile shift of the drawing and x_E that of the thickness,
+at which the rack cuts flanks and root; they differ by the allowance where a thickness or a backlash is given beside x.
+k shortens the tips, so that their clearance stays the rack's when a is less than a_d + (x1 + x2) m_n.
 """
 
 from __future__ import annotations
@@ -27,9 +29,11 @@ from fenics_gears.scene.gear_schema import MEASURES, Gears
 from fenics_gears.scene.gear_schema import Gear as GearText
 from fenics_gears.scene.schema import Load as LoadText
 
-# Largest difference, in modules, of the profile shift of a thickness from that of the drawing: more is another number of spanned teeth or another gear.
+# Largest difference, in modules, of the profile shift of a thickness from that of the drawing: more is another number
+# of spanned teeth or another gear.
 LARGEST_ALLOWANCE = 0.5
-# Largest profile shift that a thickness alone may stand for: one spanned tooth more or less is a shift of pi/(2 tan(alpha_n)), 4.3 at 20 deg.
+# Largest profile shift that a thickness alone may stand for: one spanned tooth more or less is a shift of pi/(2
+# tan(alpha_n)), 4.3 at 20 deg.
 LARGEST_SHIFT = 2.0
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
 NOTABLE_OVERLAP = 0.01
@@ -50,17 +54,28 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
     distance, drawn, derived = completed(gears)
     widths = [own.face_width or gears.face_width for own in both]
     offsets = tuple(float(own.axial_offset or 0.0) for own in both)
-    # Where both ends are apart by as much, and so where there is no offset, the smaller width is the common one, to the last digit.
+    # Where both ends are apart by as much, and so where there is no offset, the smaller width is the common one, to the
+    # last digit.
     apart = abs(offsets[0] - offsets[1])
     common = min(*widths, 0.5 * (widths[0] + widths[1]) - apart) if apart else min(widths)
     alike = widths[0] == widths[1] == common
     pinion, wheel = (
         replace(
-            gear, bore_diameter=float(own.bore_diameter), face_width=None if alike else width, material=material_of(own.material, gears.material), web=_web(own, width)
+            gear,
+            bore_diameter=float(own.bore_diameter),
+            face_width=None if alike else width,
+            material=material_of(own.material, gears.material),
+            web=_web(own, width),
         )
         for gear, own, width in zip(drawn, both, widths)
     )
-    others = {"face_width": common, "pinion": pinion, "wheel": wheel, "material": material_of(gears.material), "axial_offsets": offsets}
+    others = {
+        "face_width": common,
+        "pinion": pinion,
+        "wheel": wheel,
+        "material": material_of(gears.material),
+        "axial_offsets": offsets,
+    }
     data = same_names(GearPairData, gears, ("backlash", "tip_shortening", "rack"), centre_distance=distance, **others)
     return data, derived + _named_materials(gears)
 
@@ -68,14 +83,25 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
 def _web(own: GearText, face_width: float) -> Web | None:
     if own.web is None:
         return None
-    return Web(0.5 * (own.web.hub_diameter or own.bore_diameter), 0.5 * own.web.rim_inner_diameter, own.web.width / face_width)
+    return Web(
+        0.5 * (own.web.hub_diameter or own.bore_diameter), 0.5 * own.web.rim_inner_diameter, own.web.width / face_width
+    )
 
 
 def _named_materials(gears: Gears) -> list[Derived]:
     texts = {"": (gears.material,), **{f"{name} ": (getattr(gears, name).material, gears.material) for name in GEARS}}
-    named = {words: (each[0].name, material_of(*each)) for words, each in texts.items() if each[0] is not None and each[0].name is not None}
+    named = {
+        words: (each[0].name, material_of(*each))
+        for words, each in texts.items()
+        if each[0] is not None and each[0].name is not None
+    }
     return [
-        Derived(f"{words}Young's modulus", 1e-3 * material.youngs_modulus, "GPa", f"Poisson's ratio {material.poissons_ratio:g}, {name} ({MATERIALS[name][1]})")
+        Derived(
+            f"{words}Young's modulus",
+            1e-3 * material.youngs_modulus,
+            "GPa",
+            f"Poisson's ratio {material.poissons_ratio:g}, {name} ({MATERIALS[name][1]})",
+        )
         for words, (name, material) in named.items()
     ]
 
@@ -83,14 +109,19 @@ def _named_materials(gears: Gears) -> list[Derived]:
 def load_data(load: LoadText, gears: Gears, motion: Motion) -> tuple[Load, list[Derived]]:
     """The torque on the wheel, N mm, and how it was derived."""
     name = next(each for each in LOADS if getattr(load, each) is not None)
-    torque = wheel_torque(name, float(getattr(load, name)), (gears.pinion.teeth, gears.wheel.teeth), motion.mesh_frequency)
+    torque = wheel_torque(
+        name, float(getattr(load, name)), (gears.pinion.teeth, gears.wheel.teeth), motion.mesh_frequency
+    )
     assert torque is not None, "a load by power has a speed"
     why = {"pinion_torque": "T_2 = T_1 z2/z1", "power": "T_2 = P/(2 pi n_2)"}
-    return Load(torque, name), [] if name == "wheel_torque" else [Derived("torque on the wheel", 1e-3 * torque, "N m", why[name])]
+    return Load(torque, name), (
+        [] if name == "wheel_torque" else [Derived("torque on the wheel", 1e-3 * torque, "N m", why[name])]
+    )
 
 
 def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Derived]]:
-    """Centre distance, mm, both gears (without bore, face width and material), and what was derived. Raises GeometryError for an impossible figure."""
+    """Centre distance, mm, both gears (without bore, face width and material), and what was derived. Raises
+    GeometryError for an impossible figure."""
     found: list[Derived] = []
     drawn = pair.pinion, pair.wheel
     cut = [_cut(pair, gear, name, found) for gear, name in zip(drawn, GEARS)]
@@ -129,7 +160,9 @@ def _cut(pair: Gears, drawn: GearText, name: str, found: list[Derived]) -> float
     if measure is None:
         return drawn.profile_shift
     beside = MEASURES[measure]
-    written = f"gears.{name}.{measure} = {getattr(drawn, measure):.6g} mm" + (f" with {beside} {getattr(drawn, beside):g}" if beside else "")
+    written = f"gears.{name}.{measure} = {getattr(drawn, measure):.6g} mm" + (
+        f" with {beside} {getattr(drawn, beside):g}" if beside else ""
+    )
     if measure == "tooth_thickness":
         shift = tooth_thickness.shift_of_normal_thickness(gear, drawn.tooth_thickness)
     elif measure == "base_tangent_length":
@@ -141,7 +174,11 @@ def _cut(pair: Gears, drawn: GearText, name: str, found: list[Derived]) -> float
     nominal, allowed = (0.0, LARGEST_SHIFT) if drawn.profile_shift is None else (drawn.profile_shift, LARGEST_ALLOWANCE)
     if abs(shift - nominal) > allowed:
         than = f"profile_shift = {nominal:g}" if nominal else "none"
-        refuse(name, f"{written} is that of a profile shift of {shift:.4g}; allowed are {allowed:g} modules more or less than {than}: check both, and gears.module")
+        refuse(
+            name,
+            f"{written} is that of a profile shift of {shift:.4g}; allowed are {allowed:g} modules more or less than"
+            f" {than}: check both, and gears.module",
+        )
     words = "profile shift" if drawn.profile_shift is None else "profile shift of its tooth thickness"
     if drawn.profile_shift is None:
         odd = unusual.of_profile_shift(name, shift)
@@ -152,12 +189,16 @@ def _cut(pair: Gears, drawn: GearText, name: str, found: list[Derived]) -> float
 
 
 def _centre_distance(pair: Gears, shifts: list[float], cut: list[float], found: list[Derived]) -> float:
-    """As given, or that of the profile shifts without backlash, or of both measured thicknesses with the given backlash."""
+    """As given, or that of the profile shifts without backlash, or of both measured thicknesses with the given
+    backlash."""
     if pair.centre_distance is not None:
         return float(pair.centre_distance)
     opened = pair.backlash is not None and _measure(pair.pinion) is not None
     rack_pair = _rack_pair(pair, cut if opened else shifts, 1.0)
-    distance, words = rack_pair.centre_distance_without_backlash, "inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2), without backlash"
+    distance, words = (
+        rack_pair.centre_distance_without_backlash,
+        "inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2), without backlash",
+    )
     if opened:
         # Imported here: hardly a scene needs it.
         from scipy.optimize import brentq
@@ -166,7 +207,11 @@ def _centre_distance(pair: Gears, shifts: list[float], cut: list[float], found: 
             return pair.backlash - replace(rack_pair, centre_distance=at).circumferential_backlash
 
         words = "both tooth thicknesses and the backlash"
-        distance = brentq(missing, distance, distance + 10.0 * pair.backlash + pair.module) if missing(distance) > 0.0 else distance
+        distance = (
+            brentq(missing, distance, distance + 10.0 * pair.backlash + pair.module)
+            if missing(distance) > 0.0
+            else distance
+        )
     found.append(Derived("centre distance", distance, "mm", words))
     return distance
 
@@ -181,19 +226,25 @@ def _thinned(pair: Gears, cut: list[float], distance: float, found: list[Derived
     if missing < -ROUNDING:
         refuse(
             "pair",
-            f"gears.backlash = {pair.backlash:.4g} mm, but teeth with these profile shifts already have {rack_pair.circumferential_backlash:.4g} mm at centre distance "
-            f"{distance:.6g} mm, and backlash is made by thinner teeth: lower gears.centre_distance or raise the profile shifts",
+            f"gears.backlash = {pair.backlash:.4g} mm, but teeth with these profile shifts already have"
+            f" {rack_pair.circumferential_backlash:.4g} mm at centre distance {distance:.6g} mm, and backlash is made"
+            " by thinner teeth: lower gears.centre_distance or raise the profile shifts",
         )
     # Thickness along the line of action, 2 r_b psi_b, per unit of x: 2 m_t cos(alpha_t) tan(alpha_n).
-    each = 0.5 * missing * cos(rack_pair.operating_pressure_angle) / (2.0 * pinion.module * cos(pinion.pressure_angle) * tan(pair.pressure_angle))
+    each = (
+        0.5
+        * missing
+        * cos(rack_pair.operating_pressure_angle)
+        / (2.0 * pinion.module * cos(pinion.pressure_angle) * tan(pair.pressure_angle))
+    )
     lowered, overlap = [shift - each for shift in cut], -rack_pair.circumferential_backlash
     nominal = rack_pair.centre_distance_without_backlash
     thinner = 2.0 * each * pair.module * tan(pair.pressure_angle)
     words = "half of the backlash by each gear"
     if overlap > NOTABLE_OVERLAP * pair.module:
         words = (
-            f"half by each gear of the backlash and of {overlap:.4g} mm by which teeth with the given profile shifts would "
-            "overlap at this centre distance"
+            f"half by each gear of the backlash and of {overlap:.4g} mm by which teeth with the given profile shifts"
+            " would overlap at this centre distance"
         )
     odd = (unusual.of_thinning(pair, overlap, distance, nominal, thinner), "")
     found += [
@@ -203,7 +254,9 @@ def _thinned(pair: Gears, cut: list[float], distance: float, found: list[Derived
     return lowered
 
 
-def _tip_shortening(pair: Gears, drawn: Iterable[GearText], shifts: list[float], distance: float, found: list[Derived]) -> float:
+def _tip_shortening(
+    pair: Gears, drawn: Iterable[GearText], shifts: list[float], distance: float, found: list[Derived]
+) -> float:
     """-k: as given, or what keeps the rack's tip clearance; never negative."""
     if pair.tip_shortening is not None:
         return pair.tip_shortening
@@ -216,11 +269,22 @@ def _tip_shortening(pair: Gears, drawn: Iterable[GearText], shifts: list[float],
     return shortening
 
 
-def _gear_data(pair: Gears, drawn: GearText, name: str, shift: float, cut: float, shortening: float, found: list[Derived]) -> GearData:
+def _gear_data(
+    pair: Gears, drawn: GearText, name: str, shift: float, cut: float, shortening: float, found: list[Derived]
+) -> GearData:
     reference = pair.module * drawn.teeth / cos(pair.helix_angle or 0.0)
-    standard = RACKS[next((each.profile for each in (drawn.rack, pair.rack) if each is not None and each.profile is not None), "ISO 53 A")]
+    standard = RACKS[
+        next(
+            (each.profile for each in (drawn.rack, pair.rack) if each is not None and each.profile is not None),
+            "ISO 53 A",
+        )
+    ]
     addendum, dedendum, radius = (_of_rack(pair, drawn, figure) for figure in ("addendum", "dedendum", "tip_radius"))
-    tip, root, radius = drawn.tip_diameter, drawn.root_diameter, radius if drawn.rack_tip_radius is None else drawn.rack_tip_radius
+    tip, root, radius = (
+        drawn.tip_diameter,
+        drawn.root_diameter,
+        radius if drawn.rack_tip_radius is None else drawn.rack_tip_radius,
+    )
     if tip is None:
         tip = reference + 2.0 * pair.module * (shift + (standard[0] if addendum is None else addendum) - shortening)
         found.append(Derived(f"{name} tip diameter", tip, "mm", "d_a = d + 2 m_n (x + h_aP + k)"))
@@ -229,12 +293,19 @@ def _gear_data(pair: Gears, drawn: GearText, name: str, shift: float, cut: float
         found.append(Derived(f"{name} root diameter", root, "mm", "d_f = d + 2 m_n (x_E - h_fP)"))
     beyond, angle = _protuberance(pair, drawn)
     if radius is None:
-        radius = min(standard[2], tip_radius_with_room(replace(_rack_gear(pair, drawn.teeth, cut, root), protuberance=beyond)))
-        why = f"what has room on the rack's tip, less than the usual {standard[2]:g}" if radius < standard[2] else "that of the rack"
+        radius = min(
+            standard[2], tip_radius_with_room(replace(_rack_gear(pair, drawn.teeth, cut, root), protuberance=beyond))
+        )
+        why = (
+            f"what has room on the rack's tip, less than the usual {standard[2]:g}"
+            if radius < standard[2]
+            else "that of the rack"
+        )
         found.append(Derived(f"{name} tip radius of the rack", radius, "modules", why))
     # Bare numbers leave their spelling behind.
     data = GearData(
-        drawn.teeth, float(cut), float(tip), float(root), 0.0, float(radius), tip_chamfer=float(drawn.tip_chamfer or 0.0), protuberance=beyond, protuberance_angle=angle,
+        drawn.teeth, float(cut), float(tip), float(root), 0.0, float(radius),
+        tip_chamfer=float(drawn.tip_chamfer or 0.0), protuberance=beyond, protuberance_angle=angle,
         nominal_profile_shift=None if shift == cut else float(shift),
     )  # fmt: skip
     _check_measure(drawn, name, _gear(pair, data))
@@ -242,7 +313,8 @@ def _gear_data(pair: Gears, drawn: GearText, name: str, shift: float, cut: float
 
 
 def _of_rack(pair: Gears, drawn: GearText, figure: str) -> float | None:
-    """A figure of the gear's own rack, else of that of both; None where the profile of one of them stands before it, or nothing."""
+    """A figure of the gear's own rack, else of that of both; None where the profile of one of them stands before it, or
+    nothing."""
     for section in (drawn.rack, pair.rack):
         if section is not None and (getattr(section, figure) is not None or section.profile is not None):
             return getattr(section, figure)
@@ -253,7 +325,8 @@ def _protuberance(pair: Gears, own: GearText) -> tuple[float, float]:
     """Protuberance left beyond the finished flank, mm, and its angle, rad; of the gear's own rack, else of both."""
     sections = [each for each in (own.rack, pair.rack) if each is not None]
     amount, angle, stock = (
-        next((float(getattr(each, field)) for each in sections if getattr(each, field) is not None), None) for field in ("protuberance", "protuberance_angle", "finishing_stock")
+        next((float(getattr(each, field)) for each in sections if getattr(each, field) is not None), None)
+        for field in ("protuberance", "protuberance_angle", "finishing_stock")
     )
     beyond = (amount or 0.0) - (stock or 0.0)
     return beyond, (0.5 * float(pair.pressure_angle) if angle is None else angle) if beyond else 0.0
@@ -263,19 +336,30 @@ def _check_measure(drawn: GearText, name: str, gear: Gear) -> None:
     """Caliper and balls touch the involute, and balls stand out of the tip circle and clear of the root."""
     lowest, measure = gear.form_radius, _measure(drawn)
     if measure == "base_tangent_length":
-        touched, better = tooth_thickness.tangent_contact_radius(gear, drawn.base_tangent_length), tooth_thickness.spanned_teeth(gear)
+        touched, better = (
+            tooth_thickness.tangent_contact_radius(gear, drawn.base_tangent_length),
+            tooth_thickness.spanned_teeth(gear),
+        )
     elif measure == "dimension_over_balls":
-        touched, better = tooth_thickness.ball_contact_radius(gear, drawn.ball_diameter), f"about {tooth_thickness.ball_diameter(gear):.4g} mm"
+        touched, better = (
+            tooth_thickness.ball_contact_radius(gear, drawn.ball_diameter),
+            f"about {tooth_thickness.ball_diameter(gear):.4g} mm",
+        )
         centre, radius = tooth_thickness.ball_centre(gear, drawn.ball_diameter), 0.5 * drawn.ball_diameter
         if centre + radius < gear.tip_radius:
-            refuse(name, f"gears.{name}.ball_diameter = {drawn.ball_diameter:g} mm: the balls lie within the tip circle of {2.0 * gear.tip_radius:.6g} mm: take {better}")
+            refuse(
+                name,
+                f"gears.{name}.ball_diameter = {drawn.ball_diameter:g} mm: the balls lie within the tip circle of"
+                f" {2.0 * gear.tip_radius:.6g} mm: take {better}",
+            )
     else:
         return
     if not lowest - ROUNDING <= touched <= gear.tip_form_radius + ROUNDING:
         refuse(
             name,
-            f"gears.{name}.{measure} = {getattr(drawn, measure):.6g} mm would be measured at diameter {2.0 * touched:.6g} mm, off the involute, which goes from {2.0 * lowest:.6g} to "
-            f"{2.0 * gear.tip_form_radius:.6g} mm: measure with gears.{name}.{MEASURES[measure]} {better}",
+            f"gears.{name}.{measure} = {getattr(drawn, measure):.6g} mm would be measured at diameter"
+            f" {2.0 * touched:.6g} mm, off the involute, which goes from {2.0 * lowest:.6g} to"
+            f" {2.0 * gear.tip_form_radius:.6g} mm: measure with gears.{name}.{MEASURES[measure]} {better}",
         )
 
 
@@ -284,7 +368,17 @@ def _asked_measures(pair: Gears, drawn: GearText, name: str, cut: float) -> Iter
     gear = _rack_gear(pair, drawn.teeth, cut)
     if drawn.spanned_teeth is not None and drawn.base_tangent_length is None:
         length = tooth_thickness.base_tangent_length(gear, drawn.spanned_teeth)
-        yield Derived(f"{name} base tangent length over {drawn.spanned_teeth} teeth", length, "mm", "W_k = m_n cos(alpha_n) [pi (k - 1/2) + z inv(alpha_t) + 2 x tan(alpha_n)]")
+        yield Derived(
+            f"{name} base tangent length over {drawn.spanned_teeth} teeth",
+            length,
+            "mm",
+            "W_k = m_n cos(alpha_n) [pi (k - 1/2) + z inv(alpha_t) + 2 x tan(alpha_n)]",
+        )
     if drawn.ball_diameter is not None and drawn.dimension_over_balls is None:
         dimension = tooth_thickness.dimension_over_balls(gear, drawn.ball_diameter)
-        yield Derived(f"{name} dimension over balls of {drawn.ball_diameter:g} mm", dimension, "mm", "M_d by inv(alpha_K) = D_M/(d_b cos(beta_b)) + psi_b - pi/z")
+        yield Derived(
+            f"{name} dimension over balls of {drawn.ball_diameter:g} mm",
+            dimension,
+            "mm",
+            "M_d by inv(alpha_K) = D_M/(d_b cos(beta_b)) + psi_b - pi/z",
+        )

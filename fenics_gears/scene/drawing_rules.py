@@ -22,13 +22,25 @@ def _thickness_is_given_once(tree: Tree) -> Iterator[Problem]:
         measures = [name for name in MEASURES if name in own]
         if not measures and "profile_shift" not in own:
             allowed = allowed_in(Gear, "profile_shift").description
-            yield Problem(("gears", gear, "profile_shift"), None, f"is missing. Allowed: {allowed}; or one of {', '.join(MEASURES)}.")
+            yield Problem(
+                ("gears", gear, "profile_shift"),
+                None,
+                f"is missing. Allowed: {allowed}; or one of {', '.join(MEASURES)}.",
+            )
         for name in measures[1:]:
-            yield Problem(("gears", gear, name), as_written(own[name]), f"stands beside {measures[0]}; allowed is one measure of the tooth thickness. Leave one out.")
+            yield Problem(
+                ("gears", gear, name),
+                as_written(own[name]),
+                f"stands beside {measures[0]}; allowed is one measure of the tooth thickness. Leave one out.",
+            )
         for name in measures:
             beside = MEASURES[name]
             if beside is not None and beside not in own:
-                yield Problem(("gears", gear, beside), None, f"is missing. Allowed: {allowed_in(Gear, beside).description}; {name} has no meaning without it.")
+                yield Problem(
+                    ("gears", gear, beside),
+                    None,
+                    f"is missing. Allowed: {allowed_in(Gear, beside).description}; {name} has no meaning without it.",
+                )
 
 
 def _backlash_has_its_place(tree: Tree) -> Iterator[Problem]:
@@ -39,7 +51,10 @@ def _backlash_has_its_place(tree: Tree) -> Iterator[Problem]:
     measured = [f"gears.{gear}.{name}" for gear in GEARS for name in MEASURES if name in (table(gears, gear) or {})]
     if measured and (len({name.split(".")[1] for name in measured}) == 1 or "centre_distance" in gears):
         beside = measured[0] if "centre_distance" not in gears else f"{measured[0]} and gears.centre_distance"
-        message = f"stands beside {beside}, of which it follows. Allowed: profile shifts of both gears alone, or measured tooth thicknesses of both without centre_distance. Leave one out."
+        message = (
+            f"stands beside {beside}, of which it follows. Allowed: profile shifts of both gears alone, or measured"
+            " tooth thicknesses of both without centre_distance. Leave one out."
+        )
         yield Problem(("gears", "backlash"), as_written(gears["backlash"]), message)
 
 
@@ -52,20 +67,34 @@ def _no_figure_is_given_twice(tree: Tree) -> Iterator[Problem]:
     for gear in GEARS:
         own = table(gears, gear) or {}
         rack = table(own, "rack") or {}
-        for name, diameter in (("addendum", "tip_diameter"), ("dedendum", "root_diameter"), ("tip_radius", "rack_tip_radius")):
+        for name, diameter in (
+            ("addendum", "tip_diameter"),
+            ("dedendum", "root_diameter"),
+            ("tip_radius", "rack_tip_radius"),
+        ):
             if name in rack and diameter in own:
-                yield Problem(("gears", gear, "rack", name), as_written(rack[name]), f"stands beside gears.{gear}.{diameter}, which says the same. Leave one of the two out.")
+                yield Problem(
+                    ("gears", gear, "rack", name),
+                    as_written(rack[name]),
+                    f"stands beside gears.{gear}.{diameter}, which says the same. Leave one of the two out.",
+                )
 
 
 def _protuberance_is_more_than_the_stock(tree: Tree) -> Iterator[Problem]:
-    """Finishing takes no more than the protuberance has cut free, or it leaves a step in the root; the angle belongs to a protuberance."""
+    """Finishing takes no more than the protuberance has cut free, or it leaves a step in the root; the angle belongs to
+    a protuberance."""
     gears = table(tree, "gears") or {}
     found, pressure_angle = {}, quantity_at(tree, "gears", "pressure_angle")
     for gear in GEARS:
-        amount, stock, angle = (_of_rack(gears, gear, name) for name in ("protuberance", "finishing_stock", "protuberance_angle"))
+        amount, stock, angle = (
+            _of_rack(gears, gear, name) for name in ("protuberance", "finishing_stock", "protuberance_angle")
+        )
         cut = amount[1] if amount else 0.0
         if stock and stock[1] > cut:
-            message = f"is more than the protuberance of the {gear}'s rack, {cut:.4g} mm: finishing would leave a step in the root."
+            message = (
+                f"is more than the protuberance of the {gear}'s rack, {cut:.4g} mm: finishing would leave a step in the"
+                " root."
+            )
             found[stock[0]] = f"{message} Allowed: up to {cut:.4g} mm. Raise protuberance, or lower finishing_stock."
         if angle and not cut:
             found[angle[0]] = "has no meaning without a protuberance. Give protuberance, or leave both out."
@@ -76,7 +105,8 @@ def _protuberance_is_more_than_the_stock(tree: Tree) -> Iterator[Problem]:
 
 
 def _of_rack(gears: Tree, gear: str, figure: str) -> tuple[tuple[str, ...], float] | None:
-    """Where a quantity of a gear's rack is written, in the gear's own section first, and its number; None where it is not."""
+    """Where a quantity of a gear's rack is written, in the gear's own section first, and its number; None where it is
+    not."""
     for path in ((gear, "rack", figure), ("rack", figure)):
         number = quantity_at(gears, *path)
         if number is not None:
@@ -91,16 +121,36 @@ def _load_is_given_once(tree: Tree) -> Iterator[Problem]:
         return
     given = [name for name in LOADS if name in load]
     if not given:
-        yield Problem(("load", "wheel_torque"), None, f"is missing. Allowed: {allowed_in(Load, 'wheel_torque').description}; or pinion_torque or power.")
+        yield Problem(
+            ("load", "wheel_torque"),
+            None,
+            f"is missing. Allowed: {allowed_in(Load, 'wheel_torque').description}; or pinion_torque or power.",
+        )
     for name in given[1:]:
-        yield Problem(("load", name), as_written(load[name]), f"stands beside {given[0]}; allowed is one of {', '.join(LOADS)}. Leave one out.")
+        yield Problem(
+            ("load", name),
+            as_written(load[name]),
+            f"stands beside {given[0]}; allowed is one of {', '.join(LOADS)}. Leave one out.",
+        )
     if "power" not in given:
         return
     written = as_written(value_at(tree, "load", "power"))
     if isinstance(motion, Mapping) and not {"mesh_frequency", "pinion_speed"} & set(motion):
-        yield Problem(("load", "power"), written, 'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or mesh_frequency, or give a torque.')
+        yield Problem(
+            ("load", "power"),
+            written,
+            'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or mesh_frequency, or give a torque.',
+        )
     if "speed_ramp" in tree:
-        yield Problem(("load", "power"), written, "has no one torque beside [speed_ramp]. Give wheel_torque or pinion_torque.")
+        yield Problem(
+            ("load", "power"), written, "has no one torque beside [speed_ramp]. Give wheel_torque or pinion_torque."
+        )
 
 
-DRAWING_RULES = (_thickness_is_given_once, _backlash_has_its_place, _no_figure_is_given_twice, _protuberance_is_more_than_the_stock, _load_is_given_once)
+DRAWING_RULES = (
+    _thickness_is_given_once,
+    _backlash_has_its_place,
+    _no_figure_is_given_twice,
+    _protuberance_is_more_than_the_stock,
+    _load_is_given_once,
+)

@@ -1,11 +1,23 @@
-"""Rules of three-dimensional scenes: what stands beside a helix angle, lead modifications, misalignment and places of bearings."""
+"""Rules of three-dimensional scenes: what stands beside a helix angle, lead modifications, misalignment and places of
+bearings."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import GEARS, NOT_IN_THE_PLANE, Tree, dotted, material_sections, over_the_face, quantity_at, quantity_in, table, value_at
+from fenics_gears.inputs.tree import (
+    GEARS,
+    NOT_IN_THE_PLANE,
+    Tree,
+    dotted,
+    material_sections,
+    over_the_face,
+    quantity_at,
+    quantity_in,
+    table,
+    value_at,
+)
 from fenics_gears.inputs.written import as_written
 
 # Effects say themselves what they need.
@@ -31,17 +43,32 @@ def faces_are_resolved_by_elastic_contact(tree: Tree) -> Iterator[Problem]:
     accuracy = table(tree, "accuracy") or {}
     for name, refused in PLANE_ONLY.items():
         if accuracy.get(name) in refused:
-            yield Problem(("accuracy", name), as_written(accuracy[name]), f'{why}. Take "{INSTEAD[name]}", or leave one of the two out.')
+            yield Problem(
+                ("accuracy", name),
+                as_written(accuracy[name]),
+                f'{why}. Take "{INSTEAD[name]}", or leave one of the two out.',
+            )
     for gear in GEARS:
         if value_at(tree, "gears", gear, "web") is not None:
-            yield Problem(("gears", gear, "web"), "", f"{why}, and webs are of plane sections only. Leave one of the two out.")
+            yield Problem(
+                ("gears", gear, "web"), "", f"{why}, and webs are of plane sections only. Leave one of the two out."
+            )
     of_scene = next((path for path in reasons if path in NOT_EFFECTS), None)
     if of_scene is None:
         return
     if "body_meshes" in tree:
-        yield Problem(("body_meshes",), "", f"{why.replace(dotted(reasons[0]), dotted(of_scene))}, and the mesh of a plane section is not. Leave one of the two out.")
+        yield Problem(
+            ("body_meshes",),
+            "",
+            f"{why.replace(dotted(reasons[0]), dotted(of_scene))}, and the mesh of a plane section is not. Leave one of"
+            " the two out.",
+        )
     if not material_sections(tree):
-        yield Problem(of_scene, as_written(value_at(tree, *of_scene)) or "", "needs teeth that give way. Add [gears.material], or leave it out.")
+        yield Problem(
+            of_scene,
+            as_written(value_at(tree, *of_scene)) or "",
+            "needs teeth that give way. Add [gears.material], or leave it out.",
+        )
 
 
 def fields_of_faces_have_a_face(tree: Tree) -> Iterator[Problem]:
@@ -53,7 +80,10 @@ def fields_of_faces_have_a_face(tree: Tree) -> Iterator[Problem]:
             if name in accuracy:
                 yield Problem(("accuracy", name), as_written(accuracy[name]), NOT_IN_THE_PLANE)
     if "pinion_hand" in gears and "helix_angle" not in gears:
-        message = 'is missing. Allowed: such as "15 deg"; pinion_hand has no meaning without it. Add it, or leave pinion_hand out.'
+        message = (
+            'is missing. Allowed: such as "15 deg"; pinion_hand has no meaning without it. Add it, or leave pinion_hand'
+            " out."
+        )
         yield Problem(("gears", "helix_angle"), None, message)
     if reasons:
         yield from _layers_are_no_needles(tree)
@@ -68,8 +98,14 @@ def _layers_are_no_needles(tree: Tree) -> Iterator[Problem]:
     path = min(given, key=lambda each: given[each])
     thinnest, width = THINNEST_LAYER * module, given[path]
     if width < thinnest:
-        message = f"is less than a layer of elements. Allowed in three-dimensional scenes of this module: from {thinnest:g} mm."
+        message = (
+            "is less than a layer of elements. Allowed in three-dimensional scenes of this module: from"
+            f" {thinnest:g} mm."
+        )
         yield Problem(path, as_written(value_at(tree, *path)), message)
     elif type(layers) is int and (count := min(layers, MOST_LAYERS)) * thinnest > width:
-        message = f"is too many for a face of {width:g} mm: layers would be {width / count:.3g} mm thin. Allowed: up to {int(width / thinnest)}."
+        message = (
+            f"is too many for a face of {width:g} mm: layers would be {width / count:.3g} mm thin. Allowed: up to"
+            f" {int(width / thinnest)}."
+        )
         yield Problem(("accuracy", "layers"), as_written(layers), message)

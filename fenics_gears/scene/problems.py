@@ -37,7 +37,8 @@ def _problems(errors: Iterable[Mapping[str, Any]], tree: Mapping[str, Any]) -> I
 
 
 def without_echoes(problems: Iterable[Problem]) -> list[Problem]:
-    """The problems without those that follow from another: a second one of the same field, or a field that is missing because it is misspelt.
+    """The problems without those that follow from another: a second one of the same field, or a field that is missing
+    because it is misspelt.
 
     Where a rule and the schema both complain of a name, the rule's message stays.
     """
@@ -46,11 +47,16 @@ def without_echoes(problems: Iterable[Problem]) -> list[Problem]:
         by_path.setdefault(problem.path, []).append(problem)
     first = {path: next((each for each in found if not each.unknown), found[0]) for path, found in by_path.items()}
     unknown = [problem.path for problem in first.values() if problem.unknown]
-    return [problem for problem in first.values() if problem.written is not None or not _is_misspelt(problem.path, unknown)]
+    return [
+        problem for problem in first.values() if problem.written is not None or not _is_misspelt(problem.path, unknown)
+    ]
 
 
 def _is_misspelt(missing: Path, unknown: Iterable[Path]) -> bool:
-    return any(path[:-1] == missing[:-1] and (nearest(path[-1], missing[-1:]) or meant(path[:-1], path[-1], missing[-1:])) for path in unknown)
+    return any(
+        path[:-1] == missing[:-1] and (nearest(path[-1], missing[-1:]) or meant(path[:-1], path[-1], missing[-1:]))
+        for path in unknown
+    )
 
 
 def _problem(error: Mapping[str, Any], tree: Mapping[str, Any]) -> Problem:
@@ -112,7 +118,11 @@ def _section_problem(kind: str, path: Path, tree: Mapping[str, Any]) -> Problem:
     name, fields = ".".join(path), ", ".join(_section(path).model_fields)
     if kind == "missing":
         return Problem(path, None, f"is missing. Add the section [{name}] with its fields: {fields}.")
-    return Problem(path, as_written(_value(path, tree)), f"is not a section. Write a line [{name}], and below it its fields: {fields}.")
+    return Problem(
+        path,
+        as_written(_value(path, tree)),
+        f"is not a section. Write a line [{name}], and below it its fields: {fields}.",
+    )
 
 
 def _why_unknown(path: Path, section: type[BaseModel]) -> str:
@@ -126,12 +136,20 @@ def _why_unknown(path: Path, section: type[BaseModel]) -> str:
 
 def _lives_elsewhere(name: str) -> str:
     # What both gears share stands for what each may have of its own.
-    fields = [path for path in known_paths() if len(path) == 2 or len(path) > 2 and (*path[:-2], path[-1]) not in known_paths()]
+    fields = [
+        path
+        for path in known_paths()
+        if len(path) == 2 or len(path) > 2 and (*path[:-2], path[-1]) not in known_paths()
+    ]
     homes = [f"[{'.'.join(path[:-1])}]" for path in fields if path[-1] == name]
     if homes:
         return f' "{name}" belongs to {" or ".join(homes)}.'
     # A symbol stands for something else in every section.
-    named = [f'"{path[-1]}" of [{".".join(path[:-1])}]' for path in fields if len(name) > 2 and meant(path[:-1], name, path[-1:])]
+    named = [
+        f'"{path[-1]}" of [{".".join(path[:-1])}]'
+        for path in fields
+        if len(name) > 2 and meant(path[:-1], name, path[-1:])
+    ]
     return f" Did you mean {' or '.join(named)}?" if named else ""
 
 

@@ -48,11 +48,14 @@ def name_of(path: Path) -> str:
 
 
 def parsed(text: str, source: str) -> dict[str, Any]:
-    """What a TOML text holds, its numbers as they were written, and a material's name as its section. Raises SceneError, which calls the text `source`."""
+    """What a TOML text holds, its numbers as they were written, and a material's name as its section. Raises
+    SceneError, which calls the text `source`."""
     try:
         tree = with_material_sections(tomllib.loads(text, parse_float=WrittenFloat))
     except (ValueError, RecursionError) as error:
-        raise SceneError(f"{source}: is not valid TOML: {_why_no_toml(error)}\nNothing was computed or written.") from None
+        raise SceneError(
+            f"{source}: is not valid TOML: {_why_no_toml(error)}\nNothing was computed or written."
+        ) from None
     if problems := list(_unprintable((), tree)):
         raise SceneError(listed(problems, line_numbers(text), source))
     return tree
@@ -72,7 +75,8 @@ def _unprintable(path: tuple[str, ...], value: Any) -> Iterator[Problem]:
 
 
 def build_scene(sections: Mapping[str, Any], name: str = "scene", *, directory: str | os.PathLike = ".") -> data.Scene:
-    """The scene that plain dictionaries describe, with the sections, keys and quantities of a scene file, and validated like one.
+    """The scene that plain dictionaries describe, with the sections, keys and quantities of a scene file, and validated
+    like one.
 
     An entry that is None is left out. ``Scene.text`` is the scene file that says the same, so that a result carries it.
 
@@ -84,7 +88,10 @@ def build_scene(sections: Mapping[str, Any], name: str = "scene", *, directory: 
     try:
         text = as_toml(sections)
     except (TypeError, ValueError, RecursionError) as error:
-        raise SceneError(f"{name}: is no scene: {error}. Allowed: dictionaries of what a scene file has.\nNothing was computed or written.") from None
+        raise SceneError(
+            f"{name}: is no scene: {error}. Allowed: dictionaries of what a scene file has.\nNothing was computed or"
+            " written."
+        ) from None
     return scene_from_text(text, name, directory=Path(directory), with_lines=False)
 
 
@@ -102,7 +109,9 @@ def scene_from_text(
     source = source or name
     tree = parsed(text, source)
     if "sweep" in tree and "gears" not in tree:
-        raise SceneError(f"{source}: is a study, not a scene; `gears study {source}` runs it. Nothing was computed or written.")
+        raise SceneError(
+            f"{source}: is a study, not a scene; `gears study {source}` runs it. Nothing was computed or written."
+        )
     checked, problems = problems_of_schema(tree)
     problems = without_echoes(problems + broken_rules(tree))
     if problems:
@@ -125,7 +134,8 @@ def _nearest_file(path: Path) -> str:
 
 
 def checked_scene(checked, text: str, name: str, directory: Path) -> data.Scene:
-    """The dataclasses of a scene whose tree has neither problems of its schema, `checked` being what that gave, nor broken rules.
+    """The dataclasses of a scene whose tree has neither problems of its schema, `checked` being what that gave, nor
+    broken rules.
 
     Raises GeometryError for a figure of the gears that cannot be derived.
     """
@@ -153,8 +163,8 @@ def checked_scene(checked, text: str, name: str, directory: Path) -> data.Scene:
 def _motion(checked) -> data.Motion:
     """The motion by its mesh frequency: a turn of the pinion has as many mesh cycles as it has teeth.
 
-    Cycles that are run, unless given (with inertia they must be, or the settling time, whose cycles come first): one, or a whole hunting tooth
-    period where cycles differ.
+    Cycles that are run, unless given (with inertia they must be, or the settling time, whose cycles come first): one,
+    or a whole hunting tooth period where cycles differ.
     Cycles that are recorded, unless given: the last two; of a speed ramp or a whole hunting tooth period all that fit.
     """
     motion, gears = checked.motion, checked.gears
@@ -171,7 +181,9 @@ def _motion(checked) -> data.Motion:
         # True is not a number of cycles, although Python counts it as 1.
         least = 1 if motion.settling_time is None else data.LAST_CYCLES
         wanted = recorded or (fields if fields is not True and fields else least)
-        whole = any(effect.period is not None and getattr(checked, effect.section) is not None for effect in top_level())
+        whole = any(
+            effect.period is not None and getattr(checked, effect.section) is not None for effect in top_level()
+        )
         # Rounded, so that 25 ms at 40 Hz are one cycle in spite of round-off.
         settling = math.ceil(round((motion.settling_time or 0.0) * frequency, 9))
         cycles = settling + max(whole_period if whole else 1, wanted)

@@ -1,6 +1,8 @@
-"""Rules between the fields of a scene, beyond what each field allows by itself. Rules of one effect are in its own module.
+"""Rules between the fields of a scene, beyond what each field allows by itself. Rules of one effect are in its own
+module.
 
-The rules read the parsed TOML file, so that they apply even where some field is wrong; a value that they cannot read is reported elsewhere.
+The rules read the parsed TOML file, so that they apply even where some field is wrong; a value that they cannot read is
+reported elsewhere.
 """
 
 from __future__ import annotations
@@ -14,7 +16,19 @@ from fenics_gears.inputs.fields import allowed_in
 from fenics_gears.inputs.names import nearest
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.synonyms import meant
-from fenics_gears.inputs.tree import GEARS, Tree, given_for, load_in, material_sections, over_the_face, quantity_at, quantity_in, table, teeth_in, value_at
+from fenics_gears.inputs.tree import (
+    GEARS,
+    Tree,
+    given_for,
+    load_in,
+    material_sections,
+    over_the_face,
+    quantity_at,
+    quantity_in,
+    table,
+    teeth_in,
+    value_at,
+)
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.data import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE
 from fenics_gears.scene.drawing_rules import DRAWING_RULES
@@ -35,13 +49,19 @@ def broken_rules(tree: Tree) -> list[Problem]:
 
 def _effects_fit_together(tree: Tree) -> Iterator[Problem]:
     known = [effect.section for effect in effects.top_level()]
-    sections = {nearest(name, known) or meant((), name, known) or name for name in tree}  # a misspelt section is another problem
+    sections = {
+        nearest(name, known) or meant((), name, known) or name for name in tree
+    }  # a misspelt section is another problem
     # Without [gears] the teeth are unknown.
     if table(tree, "gears") is None or material_sections(tree):
         sections.add(TEETH)
     for effect, need in effects.missing_needs(sections):
         missing = effects.effect_named(need).written
-        yield Problem((effect.section,), "", f"needs the section [{missing}], which is missing. Add [{missing}], or leave [{effect.section}] out.")
+        yield Problem(
+            (effect.section,),
+            "",
+            f"needs the section [{missing}], which is missing. Add [{missing}], or leave [{effect.section}] out.",
+        )
     for effect, other in effects.conflicts(sections):
         yield Problem((effect.section,), "", f"cannot stand beside [{other}]. Leave one of the two out.")
 
@@ -51,7 +71,11 @@ def _both_gears_have_a_width(tree: Tree) -> Iterator[Problem]:
     if gears is None or "face_width" in gears or all("face_width" in given_for(gears, gear) for gear in GEARS):
         return
     allowed = allowed_in(Gears, "face_width").description
-    yield Problem(("gears", "face_width"), None, f"is missing. Allowed: {allowed}; or face_width of [gears.pinion] and of [gears.wheel].")
+    yield Problem(
+        ("gears", "face_width"),
+        None,
+        f"is missing. Allowed: {allowed}; or face_width of [gears.pinion] and of [gears.wheel].",
+    )
 
 
 # Only with these does time matter; without them a scene is a sequence of positions, each in equilibrium.
@@ -62,19 +86,36 @@ def _one_speed(tree: Tree) -> Iterator[Problem]:
     motion = table(tree, "motion") or {}
     given = [name for name in ("mesh_frequency", "pinion_speed") if name in motion]
     if len(given) == 2:
-        yield Problem(("motion", "pinion_speed"), as_written(motion["pinion_speed"]), "stands beside mesh_frequency; allowed is one of the two. Leave one out.")
+        yield Problem(
+            ("motion", "pinion_speed"),
+            as_written(motion["pinion_speed"]),
+            "stands beside mesh_frequency; allowed is one of the two. Leave one out.",
+        )
     needing = next((section for section in NEED_A_SPEED if section in tree), None)
     if needing is None or not isinstance(tree.get("motion", {}), Mapping):
         return
     if "motion" not in tree:
-        message = f"is missing. Add the section [motion] with its fields: {', '.join(Motion.model_fields)}; [{needing}] needs a speed."
+        message = (
+            f"is missing. Add the section [motion] with its fields: {', '.join(Motion.model_fields)}; [{needing}] needs"
+            " a speed."
+        )
         yield Problem(("motion",), None, message)
         return
-    if not any(nearest(name, names) or meant(("motion",), name, names) for name in motion for names in [("mesh_frequency", "pinion_speed")]):
-        message = f'is missing. Allowed: mesh_frequency, such as "200 Hz", or pinion_speed, such as "750 rpm"; [{needing}] needs one.'
+    if not any(
+        nearest(name, names) or meant(("motion",), name, names)
+        for name in motion
+        for names in [("mesh_frequency", "pinion_speed")]
+    ):
+        message = (
+            f'is missing. Allowed: mesh_frequency, such as "200 Hz", or pinion_speed, such as "750 rpm"; [{needing}]'
+            " needs one."
+        )
         yield Problem(("motion", "mesh_frequency"), None, message)
     if "mesh_cycles" not in motion and "settling_time" not in motion:
-        message = f"is missing. Allowed: {allowed_in(Motion, 'mesh_cycles').description}; [{needing}] needs it, or settling_time, such as \"25 ms\"."
+        message = (
+            f"is missing. Allowed: {allowed_in(Motion, 'mesh_cycles').description}; [{needing}] needs it, or"
+            ' settling_time, such as "25 ms".'
+        )
         yield Problem(("motion", "mesh_cycles"), None, message)
 
 
@@ -86,9 +127,17 @@ def _one_length_of_the_run(tree: Tree) -> Iterator[Problem]:
     if "mesh_cycles" in motion:
         yield Problem(place, written, "stands beside mesh_cycles; allowed is one of the two. Leave one out.")
     if "inertia" not in tree:
-        yield Problem(place, written, "is for scenes with [inertia]: without it there is no vibration that dies down. Leave it out.")
+        yield Problem(
+            place,
+            written,
+            "is for scenes with [inertia]: without it there is no vibration that dies down. Leave it out.",
+        )
     if "speed_ramp" in tree:
-        yield Problem(place, written, "is for a steady speed. Allowed with [speed_ramp]: mesh_cycles, the length of the whole ramp.")
+        yield Problem(
+            place,
+            written,
+            "is for a steady speed. Allowed with [speed_ramp]: mesh_cycles, the length of the whole ramp.",
+        )
 
 
 def _recorded_cycles_are_run(tree: Tree) -> Iterator[Problem]:
@@ -96,7 +145,10 @@ def _recorded_cycles_are_run(tree: Tree) -> Iterator[Problem]:
     recorded, run = (_cycles(tree, motion.get(name)) for name in ("recorded_cycles", "mesh_cycles"))
     if type(recorded) is int and type(run) is int and recorded > run > 0:
         count = "" if motion["recorded_cycles"] == recorded else f"({recorded} mesh cycles) "
-        message = f"{count}is more than mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most as many cycles as are run."
+        message = (
+            f"{count}is more than mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most as many cycles as"
+            " are run."
+        )
         yield Problem(("motion", "recorded_cycles"), as_written(motion["recorded_cycles"]), message)
 
 
@@ -104,15 +156,26 @@ def _contact_fields_are_of_cycles_that_run(tree: Tree) -> Iterator[Problem]:
     written, motion = value_at(tree, "output", "contact_fields"), table(tree, "motion") or {}
     place = ("output", "contact_fields")
     if written is not None and "recorded_cycles" in motion:
-        yield Problem(place, as_written(written), "stands beside motion.recorded_cycles, which says the same in another way. Leave one of the two out.")
-    asked, run = re.fullmatch(r"last (\d{1,7}) cycles?", written) if isinstance(written, str) else None, _cycles(tree, motion.get("mesh_cycles"))
+        yield Problem(
+            place,
+            as_written(written),
+            "stands beside motion.recorded_cycles, which says the same in another way. Leave one of the two out.",
+        )
+    asked, run = (
+        re.fullmatch(r"last (\d{1,7}) cycles?", written) if isinstance(written, str) else None,
+        _cycles(tree, motion.get("mesh_cycles")),
+    )
     if asked and type(run) is int and int(asked[1]) > run > 0:
-        message = f"is more than motion.mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most as many cycles as are run, or true."
+        message = (
+            f"is more than motion.mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most as many cycles as"
+            " are run, or true."
+        )
         yield Problem(place, as_written(written), message)
 
 
 def _cycles(tree: Tree, written) -> object:
-    """Mesh cycles as a number, also of a whole hunting tooth period; what is written where that is no number of cycles."""
+    """Mesh cycles as a number, also of a whole hunting tooth period; what is written where that is no number of
+    cycles."""
     teeth = [teeth_in(tree, gear) for gear in GEARS]
     return lcm(*teeth) if written == HUNTING_TOOTH_PERIOD and None not in teeth else written
 
@@ -125,11 +188,17 @@ def _resolution_fits_the_teeth(tree: Tree) -> Iterator[Problem]:
     for name, modules in (("flank_element_size", 1.0), ("body_element_size", 10.0), ("contact_length", 3.0)):
         size = quantity_in(accuracy.get(name))
         if size is not None and size > modules * module:
-            yield Problem(("accuracy", name), as_written(accuracy[name]), f"is too large for a module of {module:g} mm. Allowed: up to {modules * module:g} mm.")
+            yield Problem(
+                ("accuracy", name),
+                as_written(accuracy[name]),
+                f"is too large for a module of {module:g} mm. Allowed: up to {modules * module:g} mm.",
+            )
     for name, modules in (("flank_element_size", FINEST_ELEMENT), ("body_element_size", FINEST_BODY)):
         size, finest = quantity_in(accuracy.get(name)), modules * module
         if size is not None and 0 < size < finest:
-            message = f"is too small for a module of {module:g} mm: no memory holds such a mesh. Allowed: from {finest:g} mm."
+            message = (
+                f"is too small for a module of {module:g} mm: no memory holds such a mesh. Allowed: from {finest:g} mm."
+            )
             yield Problem(("accuracy", name), as_written(accuracy[name]), message)
 
 
@@ -137,7 +206,10 @@ def _body_is_no_finer_than_the_flank(tree: Tree) -> Iterator[Problem]:
     accuracy = table(tree, "accuracy") or {}
     body, flank = (quantity_in(accuracy.get(name)) for name in ("body_element_size", "flank_element_size"))
     if body is not None and flank is not None and 0 < body < flank:
-        message = f"is smaller than flank_element_size = {as_written(accuracy['flank_element_size'])}. Allowed: from that size on."
+        message = (
+            f"is smaller than flank_element_size = {as_written(accuracy['flank_element_size'])}. Allowed: from that"
+            " size on."
+        )
         yield Problem(("accuracy", "body_element_size"), as_written(accuracy["body_element_size"]), message)
 
 
@@ -147,7 +219,10 @@ def _remeshing_has_its_own_nodes(tree: Tree) -> Iterator[Problem]:
         return
     for name in ("interpolation", "elastic_teeth"):
         if name in accuracy:
-            message = f'has no meaning beside condensation = "{EVERY_STEP}", where flank nodes meet and the whole gear is meshed. Leave one of the two out.'
+            message = (
+                f'has no meaning beside condensation = "{EVERY_STEP}", where flank nodes meet and the whole gear is'
+                " meshed. Leave one of the two out."
+            )
             yield Problem(("accuracy", name), as_written(accuracy[name]), message)
 
 
@@ -208,7 +283,9 @@ def _a_target_chooses_alone(tree: Tree) -> Iterator[Problem]:
         yield problem("needs teeth that give way. Add [gears.material], or leave the target out.")
     load = load_in(tree)
     if load is not None and load[1] == 0.0:
-        yield problem(f"has no meaning without a load: nothing gives way then. Give {'.'.join(load[0])}, or leave the target out.")
+        yield problem(
+            f"has no meaning without a load: nothing gives way then. Give {'.'.join(load[0])}, or leave the target out."
+        )
     if "body_meshes" in tree:
         yield problem("cannot refine the meshes of [body_meshes]. Leave one of the two out.")
 
@@ -217,12 +294,24 @@ def _root_stress_has_its_teeth(tree: Tree) -> Iterator[Problem]:
     if value_at(tree, "output", "root_stress") is not True:
         return
     if table(tree, "gears") is not None and not material_sections(tree):
-        yield Problem(("output", "root_stress"), "true", "needs teeth that give way. Add [gears.material], or leave root_stress out.")
+        yield Problem(
+            ("output", "root_stress"),
+            "true",
+            "needs teeth that give way. Add [gears.material], or leave root_stress out.",
+        )
     accuracy = table(tree, "accuracy") or {}
     if accuracy.get("model", ELASTIC) != ELASTIC:
-        yield Problem(("output", "root_stress"), "true", f'needs teeth of finite elements. Take accuracy.model = "{ELASTIC}", or leave root_stress out.')
+        yield Problem(
+            ("output", "root_stress"),
+            "true",
+            f'needs teeth of finite elements. Take accuracy.model = "{ELASTIC}", or leave root_stress out.',
+        )
     if accuracy.get("condensation") == EVERY_STEP:
-        yield Problem(("output", "root_stress"), "true", f'cannot stand beside condensation = "{EVERY_STEP}". Take "once", or leave root_stress out.')
+        yield Problem(
+            ("output", "root_stress"),
+            "true",
+            f'cannot stand beside condensation = "{EVERY_STEP}". Take "once", or leave root_stress out.',
+        )
 
 
 _RULES = (

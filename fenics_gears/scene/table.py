@@ -18,7 +18,10 @@ CELL = '<td style="text-align: left">{}</td>'
 
 def html(scene: Scene) -> str:
     """The fields that are not at their defaults, as a scene file has them, and what each of them is."""
-    rows = "".join(f"<tr>{''.join(CELL.format(escape(cell)) for cell in row)}</tr>" for row in rows_of(section_trees(scene), SceneText))
+    rows = "".join(
+        f"<tr>{''.join(CELL.format(escape(cell)) for cell in row)}</tr>"
+        for row in rows_of(section_trees(scene), SceneText)
+    )
     head = "".join(f'<th style="text-align: left">{word}</th>' for word in ("field", "value", "meaning"))
     return f"<table><caption>{escape(scene.title)}</caption><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
 

@@ -1,4 +1,5 @@
-"""From the frozen dataclasses of ``scene.data`` to a scene file that gives the same data, bit for bit: the way back of ``scene.read``."""
+"""From the frozen dataclasses of ``scene.data`` to a scene file that gives the same data, bit for bit: the way back of
+``scene.read``."""
 
 from __future__ import annotations
 
@@ -22,9 +23,11 @@ WORDS = ("title", "name", "derived", "written", "folder")
 
 
 def text_of(scene: data.Scene) -> str:
-    """The text of a scene file that gives a scene's data: sections stand as they were read where they give them, others are written from the data.
+    """The text of a scene file that gives a scene's data: sections stand as they were read where they give them, others
+    are written from the data.
 
-    What no file gives, as where a mesh file that it names was overwritten since, has a text that says so, and that is no scene.
+    What no file gives, as where a mesh file that it names was overwritten since, has a text that says so, and that is
+    no scene.
     """
     sections = section_trees(scene)
     # As read, a section may follow from another one, as a load by its power does from the speed: then all are written.
@@ -43,25 +46,51 @@ def why_another(scene: data.Scene, text: str) -> str:
         found = scene_from_text(text, scene.name, directory=Path(scene.folder), with_lines=False)
     except GearsError as error:
         return " ".join(str(error).removesuffix("Nothing was computed or written.").split())
-    differing = [each.name for each in fields(scene) if each.name not in WORDS and getattr(found, each.name) != getattr(scene, each.name)]
-    return f"{', '.join(differing)} {'is' if len(differing) == 1 else 'are'} not what a file, and the files that it names, can say" if differing else ""
+    differing = [
+        each.name
+        for each in fields(scene)
+        if each.name not in WORDS and getattr(found, each.name) != getattr(scene, each.name)
+    ]
+    return (
+        f"{', '.join(differing)} {'is' if len(differing) == 1 else 'are'} not what a file, and the files that it names,"
+        " can say"
+        if differing
+        else ""
+    )
 
 
 def section_trees(scene: data.Scene) -> dict[str, Any]:
     """All sections of a scene file, by their names, from the data alone."""
-    found = {"title": scene.title or None, "gears": _gears(scene.gears), "load": section_tree(scene.load, schema.Load), "motion": _motion(scene)}
+    found = {
+        "title": scene.title or None,
+        "gears": _gears(scene.gears),
+        "load": section_tree(scene.load, schema.Load),
+        "motion": _motion(scene),
+    }
     found["accuracy"] = section_tree(scene.accuracy, schema.Accuracy) or None
     found["output"] = section_tree(scene.output, schema.Output) or None
-    own = {effect.section: effect.as_section(getattr(scene, effect.section)) for effect in effects_on(scene) if not effect.within}
+    own = {
+        effect.section: effect.as_section(getattr(scene, effect.section))
+        for effect in effects_on(scene)
+        if not effect.within
+    }
     return {name: tree for name, tree in (found | own).items() if tree is not None}
 
 
 def _as_read_where_the_same(scene: data.Scene, sections: dict[str, Any]) -> dict[str, Any]:
     """The sections, but as they were read where they gave the same data then."""
     read = scene_from_text(scene.written, scene.name, directory=Path(scene.folder))
-    kept = {name: tree for name, tree in parsed(scene.written, scene.name).items() if getattr(read, name) == getattr(scene, name)}
+    kept = {
+        name: tree
+        for name, tree in parsed(scene.written, scene.name).items()
+        if getattr(read, name) == getattr(scene, name)
+    }
     # Left out then, and still.
-    return {name: kept.get(name, tree) for name, tree in (kept | sections).items() if name in kept or getattr(read, name) != getattr(scene, name)}
+    return {
+        name: kept.get(name, tree)
+        for name, tree in (kept | sections).items()
+        if name in kept or getattr(read, name) != getattr(scene, name)
+    }
 
 
 def _gears(pair: GearPairData) -> dict[str, Any]:
@@ -99,7 +128,11 @@ def _web(web: Web, face_width: float) -> dict[str, Any]:
 
 def _motion(scene: data.Scene) -> dict[str, Any]:
     motion, period = scene.motion, math.lcm(scene.gears.pinion.teeth, scene.gears.wheel.teeth)
-    found: dict[str, Any] = {"mesh_frequency": field_of(schema.Motion, "mesh_frequency", motion.mesh_frequency)} if motion.speed_given else {}
+    found: dict[str, Any] = (
+        {"mesh_frequency": field_of(schema.Motion, "mesh_frequency", motion.mesh_frequency)}
+        if motion.speed_given
+        else {}
+    )
     if not motion.fewer_where_too_large:
         return found | {"mesh_cycles": motion.mesh_cycles, "recorded_cycles": motion.recorded_cycles}
     # As many as fit are recorded of a ramp, of a whole hunting tooth period, and of one after a settling time.

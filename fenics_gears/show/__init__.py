@@ -1,6 +1,12 @@
 """Pictures of results."""
 
 # Under which names the pictures of a run are written; see show.plots.
-PICTURE_FILES = ("transmission_error.png", "mesh_forces.png", "load_sharing.png", "contact_pressure.png", "order_spectrum.png")
+PICTURE_FILES = (
+    "transmission_error.png",
+    "mesh_forces.png",
+    "load_sharing.png",
+    "contact_pressure.png",
+    "order_spectrum.png",
+)
 # Those of runs whose flanks are resolved over the face.
 FACE_PICTURE_FILES = ("contact_pattern.png", "line_load.png")

@@ -27,7 +27,8 @@ STATES = ("done", "warnings", "failed", "missing")
 
 @dataclass(frozen=True)
 class SweptField:
-    """A swept field: its path in the scene, its unit, its value in each case (n,), numbers (not a number where it is absent) or words."""
+    """A swept field: its path in the scene, its unit, its value in each case (n,), numbers (not a number where it is
+    absent) or words."""
 
     name: str
     path: str
@@ -87,7 +88,14 @@ class Cases:
                 continue
             spread = coordinate.broadcast_like(shape).transpose(*shape.dims)
             unit = str(coordinate.attrs.get("units", ""))
-            found.append(SweptField(str(name), str(coordinate.attrs.get("long_name", name)), "" if unit == "1" else unit.replace("um", "µm"), spread.values.ravel()))
+            found.append(
+                SweptField(
+                    str(name),
+                    str(coordinate.attrs.get("long_name", name)),
+                    "" if unit == "1" else unit.replace("um", "µm"),
+                    spread.values.ravel(),
+                )
+            )
         order = {dimension: place for place, dimension in enumerate(shape.dims)}
         return sorted(found, key=lambda field: order.get(field.name, 0))
 
@@ -102,14 +110,25 @@ class Cases:
     @cached_property
     def states(self) -> list[str]:
         """The state of each case: one of `STATES`."""
-        done, failed, warned = (np.isfinite(self.numbers("peak_to_peak_transmission_error")), self.dataset["failed"].values.ravel(), self.texts("warnings"))
-        return [STATES[1] if ready and said else STATES[0] if ready else STATES[2] if wrong else STATES[3] for ready, wrong, said in zip(done, failed, warned)]
+        done, failed, warned = (
+            np.isfinite(self.numbers("peak_to_peak_transmission_error")),
+            self.dataset["failed"].values.ravel(),
+            self.texts("warnings"),
+        )
+        return [
+            STATES[1] if ready and said else STATES[0] if ready else STATES[2] if wrong else STATES[3]
+            for ready, wrong, said in zip(done, failed, warned)
+        ]
 
     def far_off(self, values: np.ndarray) -> np.ndarray:
         """Which cases (n,) have a value that is many times all others' and belongs to a result without meaning."""
         without_meaning = np.array([NO_MEANING in each for each in self.texts("warnings")]) & np.isfinite(values)
         sound = np.isfinite(values) & ~without_meaning
-        return without_meaning & (np.abs(values) > FAR_OFF * np.abs(values[sound]).max()) if sound.any() else np.zeros(self.count, dtype=bool)
+        return (
+            without_meaning & (np.abs(values) > FAR_OFF * np.abs(values[sound]).max())
+            if sound.any()
+            else np.zeros(self.count, dtype=bool)
+        )
 
     def far_off_in_words(self, far_off: np.ndarray) -> str:
         """A note on cases that are not drawn; empty without any."""
@@ -118,7 +137,10 @@ class Cases:
             return ""
         cases = ", ".join(map(str, np.flatnonzero(far_off)[:LISTED_CASES])) + (", …" if count > LISTED_CASES else "")
         which = f"Case {cases}, whose result has" if count == 1 else f"Cases {cases}, whose results have"
-        return f"{which} no meaning and more than {FAR_OFF:g} times the others' value, {'is' if count == 1 else 'are'} left out; the table of cases has all."
+        return (
+            f"{which} no meaning and more than {FAR_OFF:g} times the others' value, {'is' if count == 1 else 'are'}"
+            " left out; the table of cases has all."
+        )
 
     def words(self, case: int) -> str:
         """A case by its swept values."""
@@ -140,11 +162,14 @@ class Cases:
         file = self.file.parent / name
         page = file.with_suffix(".html")
         found = next((each for each in (page, file) if each.is_file()), None)
-        return "" if found is None else urllib.parse.quote(os.path.relpath(found.resolve(), self.output.parent.resolve()))
+        return (
+            "" if found is None else urllib.parse.quote(os.path.relpath(found.resolve(), self.output.parent.resolve()))
+        )
 
     @cached_property
     def error_scale(self) -> tuple[float, str]:
-        """What a transmission error in rad is multiplied with, and the unit it then has: lengths where all cases have the same gears."""
+        """What a transmission error in rad is multiplied with, and the unit it then has: lengths where all cases have
+        the same gears."""
         if not any(field.path.startswith("gears") for field in self.fields):
             done = next((case for case, state in enumerate(self.states) if state in STATES[:2]), None)
             run = None if done is None else self.run(done)
@@ -157,7 +182,15 @@ class Cases:
         """What is compared between cases: values (n,), unit, name."""
         scale, unit = self.error_scale
         return {
-            "peak_to_peak_transmission_error": (self.numbers("peak_to_peak_transmission_error") * scale, unit, "Transmission error, peak to peak"),
-            "mean_transmission_error": (self.numbers("mean_transmission_error") * scale, unit, "Transmission error, mean"),
+            "peak_to_peak_transmission_error": (
+                self.numbers("peak_to_peak_transmission_error") * scale,
+                unit,
+                "Transmission error, peak to peak",
+            ),
+            "mean_transmission_error": (
+                self.numbers("mean_transmission_error") * scale,
+                unit,
+                "Transmission error, mean",
+            ),
             "max_normal_force": (self.numbers("max_normal_force"), "N", "Largest mesh force"),
         }

@@ -1,6 +1,7 @@
 """Charts as data: curves, bars, bands and a coloured field over two axes, with units, captions and colours.
 
-Two modules draw them: ``show.drawing`` by matplotlib, for files and paper, and ``show.report.interactive`` by plotly, for zooming.
+Two modules draw them: ``show.drawing`` by matplotlib, for files and paper, and ``show.report.interactive`` by plotly,
+    for zooming.
 """
 
 from __future__ import annotations
@@ -22,9 +23,11 @@ LETTER = 0.0105
 
 @dataclass(frozen=True)
 class Curve:
-    """Values (n,) over places (n,) of the first axis, numbers or, for places, words; a band has values (2, n), its lower and upper edge.
+    """Values (n,) over places (n,) of the first axis, numbers or, for places, words; a band has values (2, n), its
+    lower and upper edge.
 
-    width: of the line in pixels, or of bars along the first axis. fill: colour inside a closed line. words: beside each place, on the side `beside` ("right", "top right").
+    width: of the line in pixels, or of bars along the first axis. fill: colour inside a closed line. words: beside each
+        place, on the side `beside` ("right", "top right").
     """
 
     name: str
@@ -42,7 +45,8 @@ class Curve:
 
 @dataclass(frozen=True)
 class Field:
-    """Values (m, n), not a number where there are none, in cells between edges (n + 1,) of the first and (m + 1,) of the second axis.
+    """Values (m, n), not a number where there are none, in cells between edges (n + 1,) of the first and (m + 1,) of
+    the second axis.
 
     limit: where the colours end. colours: from low to high.
     """
@@ -76,8 +80,9 @@ class Flag:
 
 @dataclass(frozen=True)
 class Chart:
-    """Curves over one axis. `note`: a sentence below; `least`: the smallest span that the second axis shows; `linked`: charts of a page with
-    the same word here are zoomed together; `logarithmic`: the axes ("x", "y", "xy") so divided; `equal`: a length is as long on either axis.
+    """Curves over one axis. `note`: a sentence below; `least`: the smallest span that the second axis shows; `linked`:
+    charts of a page with the same word here are zoomed together; `logarithmic`: the axes ("x", "y", "xy") so divided;
+    `equal`: a length is as long on either axis.
     """
 
     caption: str
@@ -122,7 +127,8 @@ class Chart:
 
     @property
     def flag_rows(self) -> list[int]:
-        """The row above the curves in which each flag's words stand right of its line: no words over others or over another's line."""
+        """The row above the curves in which each flag's words stand right of its line: no words over others or over
+        another's line."""
         first, last = self.x_range
         rows = [0] * len(self.flags)
         order = sorted(range(len(self.flags)), key=lambda each: self.flags[each].x)
@@ -135,23 +141,45 @@ class Chart:
 
 
 def over_time(run, caption: str, y_title: str, curves: Sequence[tuple[str, np.ndarray, str]], **options) -> Chart:
-    """Curves of name, values (time,) and colour over the mesh cycles of a run; charts of this kind are zoomed together."""
+    """Curves of name, values (time,) and colour over the mesh cycles of a run; charts of this kind are zoomed
+    together."""
     drawn = [Curve(name, run.phase, values, colour) for name, values, colour in curves]
     return Chart(caption, drawn, MESH_CYCLES, y_title, linked=TIME, x_range=run.window, **options)
 
 
-def of_variables(run, caption: str, what: str, unit: str, names: dict[str, str], colours: Sequence[str] = PALETTE, least: float = 0.0, **options) -> list[Chart]:
-    """A chart of those of these variables, by name and words, that a run's result has, in this unit; none without any. Variables of both
+def of_variables(
+    run,
+    caption: str,
+    what: str,
+    unit: str,
+    names: dict[str, str],
+    colours: Sequence[str] = PALETTE,
+    least: float = 0.0,
+    **options,
+) -> list[Chart]:
+    """A chart of those of these variables, by name and words, that a run's result has, in this unit; none without any.
+    Variables of both
     gears have a curve for either. least: the smallest span that is shown; without, a part of the largest value."""
     curves = []
     for (name, words), colour in zip(names.items(), colours):
         if name in run.dataset:
             values = run.values(name, unit)
-            of_gears = zip(run.dataset["gear"].values, values.T, PALETTE[2:4]) if values.ndim == 2 else [(words, values, colour)]
+            of_gears = (
+                zip(run.dataset["gear"].values, values.T, PALETTE[2:4])
+                if values.ndim == 2
+                else [(words, values, colour)]
+            )
             curves += [(str(each), part, own) for each, part, own in of_gears]
-    return [over_time(run, caption, f"{what} ({unit})", curves, least=least or span(curves), **{"height": 240, **options})] if curves else []
+    return (
+        [over_time(run, caption, f"{what} ({unit})", curves, least=least or span(curves), **{"height": 240, **options})]
+        if curves
+        else []
+    )
 
 
 def span(curves: Sequence[tuple[str, np.ndarray, str]]) -> float:
-    """Smallest span that an axis shows of curves, so that round-off fills no chart: a part of their largest value; 1 for nothing but zeros."""
-    return LEAST_SHARE * max(float(np.abs(values[np.isfinite(values)]).max(initial=0.0)) for _, values, _ in curves) or 1.0
+    """Smallest span that an axis shows of curves, so that round-off fills no chart: a part of their largest value; 1
+    for nothing but zeros."""
+    return (
+        LEAST_SHARE * max(float(np.abs(values[np.isfinite(values)]).max(initial=0.0)) for _, values, _ in curves) or 1.0
+    )

@@ -1,4 +1,5 @@
-"""The contact pattern: the largest pressure at each point of a flank while it is in mesh, over face and height of the tooth."""
+"""The contact pattern: the largest pressure at each point of a flank while it is in mesh, over face and height of the
+tooth."""
 
 from __future__ import annotations
 
@@ -39,17 +40,25 @@ def contact_patterns(run: Run) -> list[Chart]:
         return []
     found = pressure[touched]
     # Edges press with several times as much.
-    limit = min(colour_limit(found, float(found.max())), ABOVE_PEAK * run.dataset.attrs.get("peak_contact_pressure", np.inf) or np.inf)
+    limit = min(
+        colour_limit(found, float(found.max())),
+        ABOVE_PEAK * run.dataset.attrs.get("peak_contact_pressure", np.inf) or np.inf,
+    )
     beyond = f", beyond the colours up to {found.max():.0f} MPa" if found.max() > limit * (1 + 1e-9) else ""
     both = (rolls, rolls_on_wheel(run.pair, part, side, rolls))
     return [_pattern(run, gear, side, pressure, of_gear, limit, beyond) for gear, of_gear in enumerate(both)]
 
 
 def rolls_on_wheel(pair: GearPair, part: xr.Dataset, side: str, rolls: np.ndarray) -> np.ndarray:
-    """Roll angles (rad) on the wheel's flank of contact nodes from those on the pinion's: they stand as far from the point of contact, on the other side."""
+    """Roll angles (rad) on the wheel's flank of contact nodes from those on the pinion's: they stand as far from the
+    point of contact, on the other side."""
     numbers = part["contact_pair_number"]
     since = part["contact_mesh_phase"].values[:, None] - (numbers.values - numbers.attrs["number_at_phase_0"])
-    xi = pair.path_start + since[..., None, None] * pair.base_pitch + (pair.slope * part["face_position"].values)[:, None]
+    xi = (
+        pair.path_start
+        + since[..., None, None] * pair.base_pitch
+        + (pair.slope * part["face_position"].values)[:, None]
+    )
     of_pinion, of_wheel = (coast_roll_angles if side else contact_roll_angles)(pair, xi)
     along = 0.5 * pair.pinion.base_radius * (rolls**2 - of_pinion**2)
     return np.sqrt(np.maximum(of_wheel**2 - 2.0 * along / pair.wheel.base_radius, 0.0))
@@ -59,23 +68,37 @@ def _pattern(run: Run, gear: int, side: str, pressure, rolls, limit: float, beyo
     pair, name = run.pair, GEARS[gear]
     data = getattr(pair, name)
     ends = data.form_roll_angle, data.tip_roll_angle
-    field = pattern(pressure, rolls, run.last_fields["contact_pair_number"].values, ends, data.radius, slice_ends(run.dataset), limit)
+    field = pattern(
+        pressure,
+        rolls,
+        run.last_fields["contact_pair_number"].values,
+        ends,
+        data.radius,
+        slice_ends(run.dataset),
+        limit,
+    )
     pitch = 2.0 * data.radius(contact_roll_angles(pair, pair.pitch_point)[gear])
-    active = 2.0 * data.radius((contact_roll_angles(pair, pair.path_start)[0], contact_roll_angles(pair, pair.path_end)[1])[gear])
+    active = 2.0 * data.radius(
+        (contact_roll_angles(pair, pair.path_start)[0], contact_roll_angles(pair, pair.path_end)[1])[gear]
+    )
     face = np.array(pair.common_face)
     lines = [("pitch cylinder", pitch, DARK, "dash"), ("start of the active profile", active, GREY, "dot")]
     flank = " (coast flank)" if side else ""
     return Chart(
-        f"Largest contact pressure on the {name}'s flank{flank}{beyond}", [Curve(words, face, np.full(2, d), colour, dash, 1.0) for words, d, colour, dash in lines],
-        ACROSS, f"Diameter on the {name} (mm)", x_range=pair.common_face, y_range=(2.0 * data.radius(ends[0]), 2.0 * data.radius(ends[1])),
+        f"Largest contact pressure on the {name}'s flank{flank}{beyond}",
+        [Curve(words, face, np.full(2, d), colour, dash, 1.0) for words, d, colour, dash in lines],
+        ACROSS, f"Diameter on the {name} (mm)", x_range=pair.common_face,
+        y_range=(2.0 * data.radius(ends[0]), 2.0 * data.radius(ends[1])),
         field=field, height=380, note=NOTE,
     )  # fmt: skip
 
 
 def pattern(pressure, rolls, numbers, ends: tuple[float, float], radius, slices: np.ndarray, limit: float) -> Field:
-    """The largest pressure (MPa) in cells of slices and diameter, of pressures and roll angles (step, slot, slice, node) of pairs with numbers (step, slot).
+    """The largest pressure (MPa) in cells of slices and diameter, of pressures and roll angles (step, slot, slice,
+    node) of pairs with numbers (step, slot).
 
-    Nodes reach half-way to their neighbours; the peak of a pair in a slice goes straight from step to step. ends: roll angles between which the cells lie;
+    Nodes reach half-way to their neighbours; the peak of a pair in a slice goes straight from step to step. ends: roll
+    angles between which the cells lie;
     radius: mm, of a roll angle; slices: their ends (S + 1,), mm.
     """
     diameters = np.linspace(2.0 * radius(ends[0]), 2.0 * radius(ends[1]), ROWS + 1)
@@ -83,7 +106,10 @@ def pattern(pressure, rolls, numbers, ends: tuple[float, float], radius, slices:
 
     def fill(begin, end, first, last, column) -> None:
         """Pressures from `begin` to `end` (n,) into the cells between diameters `first` and `last` of columns (n,)."""
-        low, high = (np.clip(np.searchsorted(diameters, each) - 1, 0, ROWS - 1) for each in (np.minimum(first, last), np.maximum(first, last)))
+        low, high = (
+            np.clip(np.searchsorted(diameters, each) - 1, 0, ROWS - 1)
+            for each in (np.minimum(first, last), np.maximum(first, last))
+        )
         count = high - low + 1
         each = np.repeat(np.arange(len(count)), count)
         row = low[each] + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
@@ -95,9 +121,13 @@ def pattern(pressure, rolls, numbers, ends: tuple[float, float], radius, slices:
     pressed = (pressure > 0.0) & np.isfinite(edges[0]) & np.isfinite(edges[1])
     fill(pressure[pressed], pressure[pressed], edges[0][pressed], edges[1][pressed], np.nonzero(pressed)[2])
     node = np.where(pressed, pressure, 0.0).argmax(axis=-1)[..., None]
-    peak, place = (np.take_along_axis(each, node, -1)[..., 0] for each in (pressure, 2.0 * radius(np.clip(rolls, *ends))))
+    peak, place = (
+        np.take_along_axis(each, node, -1)[..., 0] for each in (pressure, 2.0 * radius(np.clip(rolls, *ends)))
+    )
     # The peak of an edge, many times that of the flank, is no larger at the steps between.
     alike = np.maximum(peak[1:], peak[:-1]) < EDGE_PEAK * np.minimum(peak[1:], peak[:-1])
     goes_on = alike & (numbers[1:] == numbers[:-1])[..., None] & np.isfinite(place[1:] + place[:-1])
     fill(peak[:-1][goes_on], peak[1:][goes_on], place[:-1][goes_on], place[1:][goes_on], np.nonzero(goes_on)[2])
-    return Field(slices, diameters, np.where(np.isfinite(values), values, np.nan), "Contact pressure (MPa)", limit, COLOURS)
+    return Field(
+        slices, diameters, np.where(np.isfinite(values), values, np.nan), "Contact pressure (MPa)", limit, COLOURS
+    )

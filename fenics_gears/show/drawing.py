@@ -1,6 +1,7 @@
 """Draws charts by matplotlib: below each other as the picture of a run, or alone as a still image in a page.
 
-Panels, ticks and labels are placed here, by numbers: matplotlib's own layouts and ticks take most of the time of a picture. Lengths are in inches.
+Panels, ticks and labels are placed here, by numbers: matplotlib's own layouts and ticks take most of the time of a
+picture. Lengths are in inches.
 """
 
 from __future__ import annotations
@@ -31,7 +32,8 @@ PANEL = 0.0086
 HEADING_LINE, LINE, LEGEND_ROW, FLAG_ROW, TICK_ROW = 0.25, 0.22, 0.265, 0.236, 0.33
 # Widths of a letter at a tick, in a flag and in a legend, and of what a legend's entry has besides.
 LETTER, FLAG_LETTER, LEGEND_LETTER, LEGEND_HANDLE = 0.106, 0.092, 0.092, 0.56
-# A tick and the gap to its label; room of an axis' title; half a tick label beyond an axis' end; a colour bar and the room before it.
+# A tick and the gap to its label; room of an axis' title; half a tick label beyond an axis' end; a colour bar and the
+# room before it.
 TICK, TITLE, HALF_LABEL, BAR, BAR_GAP = 0.05, 0.28, 0.3, 0.2, 0.24
 # Least distance of ticks on an upright and on a level axis.
 APART_UPRIGHT, APART_LEVEL = 0.36, 0.75
@@ -74,7 +76,13 @@ class Panel:
     def overhang(self) -> float:
         """Width of a flag's words beyond the end of the first axis."""
         first, last = self.chart.x_range or (0.0, 1.0)
-        return max((FLAG_LETTER * (len(flag.words) + 2) - 0.8 * WIDTH * (last - flag.x) / (last - first) for flag in self.chart.flags), default=0.0)
+        return max(
+            (
+                FLAG_LETTER * (len(flag.words) + 2) - 0.8 * WIDTH * (last - flag.x) / (last - first)
+                for flag in self.chart.flags
+            ),
+            default=0.0,
+        )
 
     @property
     def legend_columns(self) -> int:
@@ -85,7 +93,9 @@ class Panel:
     @property
     def legend_rows(self) -> int:
         """Rows of these; none without a legend."""
-        return -(-sum(curve.listed for curve in self.chart.curves) // self.legend_columns) if self.chart.has_legend else 0
+        return (
+            -(-sum(curve.listed for curve in self.chart.curves) // self.legend_columns) if self.chart.has_legend else 0
+        )
 
 
 @dataclass(frozen=True)
@@ -112,10 +122,22 @@ class Scale:
 def picture(heading: str, charts: Sequence[Chart], colour: str = DARK) -> Figure:
     """Charts below each other under a heading; neighbours of the same first axis have its name once."""
     following = [chart.x_title for chart in charts[1:]] + [None]
-    panels = [Panel(chart, "\n".join(textwrap.wrap(chart.caption, LETTERS)), chart.x_title != below) for chart, below in zip(charts, following)]
+    panels = [
+        Panel(chart, "\n".join(textwrap.wrap(chart.caption, LETTERS)), chart.x_title != below)
+        for chart, below in zip(charts, following)
+    ]
     figure = _figure(panels, HEADING_LINE * (heading.count("\n") + 1) + GAP)
     # A title may hold dollar signs that are no formula.
-    figure.suptitle(heading, x=0.012, y=1.0 - GAP / figure.get_figheight(), ha="left", va="top", fontsize=14, color=colour, parse_math=False)
+    figure.suptitle(
+        heading,
+        x=0.012,
+        y=1.0 - GAP / figure.get_figheight(),
+        ha="left",
+        va="top",
+        fontsize=14,
+        color=colour,
+        parse_math=False,
+    )
     return figure
 
 
@@ -125,7 +147,9 @@ def still(chart: Chart) -> bytes:
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
     content = io.BytesIO()
-    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "fenics_gears", "path.simplify_threshold": 0.3}):
+    with matplotlib.rc_context(
+        {"svg.fonttype": "none", "svg.hashsalt": "fenics_gears", "path.simplify_threshold": 0.3}
+    ):
         FigureCanvasSVG(_figure([Panel(chart)])).print_svg(content, metadata={"Date": None, "Creator": None})
     return content.getvalue()
 
@@ -136,11 +160,19 @@ def _figure(panels: Sequence[Panel], heading: float = 0.0) -> Figure:
     figure, bottom, every = Figure(figsize=(WIDTH, height)), height - heading, []
     with matplotlib.rc_context({"axes.grid": False}):
         for panel in panels:
-            every.append(figure.add_axes((0.1, (bottom - panel.above - panel.inside) / height, 0.8, panel.inside / height)))
+            every.append(
+                figure.add_axes((0.1, (bottom - panel.above - panel.inside) / height, 0.8, panel.inside / height))
+            )
             bottom -= panel.height
         scales = [_draw(axes, panel) for axes, panel in zip(every, panels)]
     left = GAP + max(own.width for own, *_ in scales)
-    right = WIDTH - max([HALF_LABEL, *(panel.overhang for panel in panels), *(GAP + sum(each.width for each in beside) for _, *beside in scales if beside)])
+    right = WIDTH - max(
+        [
+            HALF_LABEL,
+            *(panel.overhang for panel in panels),
+            *(GAP + sum(each.width for each in beside) for _, *beside in scales if beside),
+        ]
+    )
     for axes, panel, (own, *beside) in zip(every, panels, scales):
         _, bottom, _, high = axes.get_position().bounds
         axes.set_position((left / WIDTH, bottom, (right - left) / WIDTH, high))
@@ -159,7 +191,8 @@ def _figure(panels: Sequence[Panel], heading: float = 0.0) -> Figure:
 
 
 def _draw(axes: Axes, panel: Panel) -> list[Scale]:
-    """A chart, its legend above it where no curve can be, its title above that; the upright scales, the chart's own first."""
+    """A chart, its legend above it where no curve can be, its title above that; the upright scales, the chart's own
+    first."""
     chart = panel.chart
     bars = [_draw_field(axes, panel)] if chart.field is not None else []
     for curve in chart.curves:
@@ -169,7 +202,15 @@ def _draw(axes: Axes, panel: Panel) -> list[Scale]:
     # A title whose height is given is not moved out of the way of others, which takes long to find out.
     axes.set_title(panel.title, y=1.0, pad=72.0 * (0.6 * GAP + LEGEND_ROW * panel.legend_rows), parse_math=False)
     if chart.has_legend:
-        axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=panel.legend_columns, borderaxespad=0.1, handlelength=1.6, columnspacing=1.4, labelspacing=0.25)
+        axes.legend(
+            loc="lower left",
+            bbox_to_anchor=(0.0, 1.0),
+            ncol=panel.legend_columns,
+            borderaxespad=0.1,
+            handlelength=1.6,
+            columnspacing=1.4,
+            labelspacing=0.25,
+        )
     if chart.flags:
         _draw_flags(axes, panel)
     for axis in (axes.xaxis, axes.yaxis):
@@ -199,7 +240,11 @@ def _set_ends(axes: Axes, chart: Chart) -> None:
 def _draw_level(axes: Axes, panel: Panel, width: float) -> None:
     """Grid and ticks of the first axis; its labels where it is named."""
     chart = panel.chart
-    labels = list(dict.fromkeys(str(each) for curve in chart.curves if np.asarray(curve.x).dtype.kind not in "fiu" for each in curve.x))
+    labels = list(
+        dict.fromkeys(
+            str(each) for curve in chart.curves if np.asarray(curve.x).dtype.kind not in "fiu" for each in curve.x
+        )
+    )
     logarithmic = "x" in chart.logarithmic
     places = np.arange(len(labels)) if labels else ticks(axes.get_xlim(), width / APART_LEVEL, logarithmic)
     across = axes.get_xaxis_transform()
@@ -212,13 +257,29 @@ def _draw_level(axes: Axes, panel: Panel, width: float) -> None:
 
 
 def _draw_upright(scale: Scale, side: int, room: float) -> None:
-    """Ticks of an upright axis with labels on its left (-1) or right (1) side, and its title at the end of the room that there is."""
+    """Ticks of an upright axis with labels on its left (-1) or right (1) side, and its title at the end of the room
+    that there is."""
     axes, end = scale.axes, 0.5 + 0.5 * side
     inch, across = side / (axes.get_position().width * WIDTH), axes.get_yaxis_transform()
     _draw_lines(axes, [((end, place), (end + TICK * inch, place)) for place in scale.places], across)
     for place, label in zip(scale.places, scale.labels):
-        axes.text(end + 2.0 * TICK * inch, place, label, transform=across, ha="left" if side > 0 else "right", va="center_baseline")
-    axes.text(end + room * inch, 0.5, scale.title, transform=axes.transAxes, rotation="vertical", ha="right" if side > 0 else "left", va="center")
+        axes.text(
+            end + 2.0 * TICK * inch,
+            place,
+            label,
+            transform=across,
+            ha="left" if side > 0 else "right",
+            va="center_baseline",
+        )
+    axes.text(
+        end + room * inch,
+        0.5,
+        scale.title,
+        transform=axes.transAxes,
+        rotation="vertical",
+        ha="right" if side > 0 else "left",
+        va="center",
+    )
 
 
 def _draw_lines(axes: Axes, ends: list, transform, colour: str = DARK) -> None:
@@ -248,7 +309,8 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
     marker = "o" if curve.mode in (MARKERS, MARKED_LINES) else ""
     style = DASHES[curve.dash] if curve.mode in (LINES, MARKED_LINES) else ""
     axes.plot(
-        x[places], y[places], color=curve.colour, linestyle=style, marker=marker, markersize=5.0, linewidth=1.1 * curve.width, label=label,
+        x[places], y[places], color=curve.colour, linestyle=style, marker=marker, markersize=5.0,
+        linewidth=1.1 * curve.width, label=label,
         **({"markerfacecolor": "white"} if curve.words else {}),
     )  # fmt: skip
     if curve.fill:
@@ -257,7 +319,8 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
         up, right = ("top" in curve.beside) - ("bottom" in curve.beside), 1 if "right" in curve.beside else -1
         axes.annotate(
             words, (place, height), xytext=(6 * right, 6 * up), textcoords="offset points", fontsize=10.5,
-            ha="left" if right > 0 else "right", va=("center", "bottom", "top")[up], bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
+            ha="left" if right > 0 else "right", va=("center", "bottom", "top")[up],
+            bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0},
         )  # fmt: skip
 
 
@@ -267,9 +330,19 @@ def _draw_field(axes: Axes, panel: Panel) -> Scale:
     colours = LinearSegmentedColormap.from_list("field", list(field.colours))
     beyond = np.nanmax(field.values, initial=0.0) > field.limit * (1 + 1e-9)
     lowest = min(0.0, float(np.nanmin(field.values, initial=0.0)))
-    drawn = axes.pcolormesh(field.x, field.y, np.ma.masked_invalid(field.values), cmap=colours, vmin=lowest, vmax=field.limit, rasterized=True)
+    drawn = axes.pcolormesh(
+        field.x,
+        field.y,
+        np.ma.masked_invalid(field.values),
+        cmap=colours,
+        vmin=lowest,
+        vmax=field.limit,
+        rasterized=True,
+    )
     beside = axes.figure.add_axes((0.9, 0.1, 0.02, 0.8), label=BAR_NAME)
-    axes.figure.colorbar(drawn, cax=beside, extend="max" if beyond else "neither", ticks=NullLocator()).outline.set_visible(False)
+    axes.figure.colorbar(
+        drawn, cax=beside, extend="max" if beyond else "neither", ticks=NullLocator()
+    ).outline.set_visible(False)
     places = ticks((lowest, field.limit), panel.inside / APART_UPRIGHT)
     return Scale(beside, places, written(places), field.title)
 
@@ -284,6 +357,19 @@ def _draw_flags(axes: Axes, panel: Panel) -> None:
     for flag, row in zip(chart.flags, rows):
         top = 1.0 - FLAG_ROW * (max(rows) - row + 1) / panel.inside
         axes.annotate(
-            f" {flag.words}", (flag.x, max(flag.y, low)), xytext=(flag.x, top), textcoords=("data", "axes fraction"), fontsize=11, color=flag.colour,
-            va="bottom", arrowprops={"arrowstyle": "-", "color": flag.colour, "linewidth": 0.8, "relpos": (0.0, 0.0), "shrinkA": 0.0, "shrinkB": 0.0},
-        )  # fmt: skip
+            f" {flag.words}",
+            (flag.x, max(flag.y, low)),
+            xytext=(flag.x, top),
+            textcoords=("data", "axes fraction"),
+            fontsize=11,
+            color=flag.colour,
+            va="bottom",
+            arrowprops={
+                "arrowstyle": "-",
+                "color": flag.colour,
+                "linewidth": 0.8,
+                "relpos": (0.0, 0.0),
+                "shrinkA": 0.0,
+                "shrinkB": 0.0,
+            },
+        )

@@ -11,15 +11,16 @@ from scipy.spatial import cKDTree
 from fenics_gears.show.stress_grid import largest_movement, shown_points
 from fenics_gears.simulation.run_stresses import GearsInMesh
 
-# In modules: how far the largest displacement may be drawn, and how deep one tooth into another. Gaps are drawn as large as they are, so
-# that a pair about to touch overlaps as soon as what closes it is enlarged enough.
+# In modules: how far the largest displacement may be drawn, and how deep one tooth into another. Gaps are drawn as
+# large as they are, so that a pair about to touch overlaps as soon as what closes it is enlarged enough.
 SHOWN_MOVEMENT = 0.12
 DRAWN_OVERLAP = 0.02
 STEPS = (1.0, 2.0, 5.0)
 
 
 def automatic_scale(meshes: list[GearsInMesh]) -> float:
-    """The largest of 1, 2, 5, 10, ... at which displacements are well seen and no tooth is visibly drawn into another; one for all meshes."""
+    """The largest of 1, 2, 5, 10, ... at which displacements are well seen and no tooth is visibly drawn into another;
+    one for all meshes."""
     module = meshes[0].pair.pinion.module
     wanted = SHOWN_MOVEMENT * module / max(max(largest_movement(mesh) for mesh in meshes), 1e-9 * module)
     scales = [step * 10.0**power for power in range(9) for step in STEPS if step * 10.0**power <= wanted]

@@ -18,12 +18,19 @@ COLOURS = {BARE: DARK, ALONE: PALETTE[2], LEFT_OUT: PALETTE[1], ALL: DARK}
 WORDS = {ALONE: "bare scene and one effect (change from bare)", LEFT_OUT: "all effects but one (change from all)"}
 LINE_HEIGHT = 0.36
 OF_FACE = (("face_load_factor", "K$_{Hβ}$"), ("peak_pressure", "Peak pressure (MPa)"))
-LABEL = {"xytext": (5, 0), "textcoords": "offset points", "va": "center", "fontsize": 10.5, "bbox": {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.4}}
+LABEL = {
+    "xytext": (5, 0),
+    "textcoords": "offset points",
+    "va": "center",
+    "fontsize": 10.5,
+    "bbox": {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.4},
+}
 
 
 @styled
 def effect_costs(report: EffectReport) -> Figure:
-    """Unknowns and time of a step on the left, transmission error and peak force on the right; whiskers are the rounds' least and most."""
+    """Unknowns and time of a step on the left, transmission error and peak force on the right; whiskers are the rounds'
+    least and most."""
     rows = report.rows
     # Less leaves no room between heading and footnotes.
     height = max(2.8 + LINE_HEIGHT * len(rows), 4.6)
@@ -32,7 +39,9 @@ def effect_costs(report: EffectReport) -> Figure:
     figure.get_layout_engine().set(w_pad=0.1, h_pad=0.1, rect=(0, 0.6 / height, 1, 1 - 0.6 / height))
     panels = OF_FACE if report.over_face else ()
     figure.set_figwidth(15.0 + 3.4 * len(panels))
-    axes = figure.subplots(1, 4 + len(panels), sharey=True, gridspec_kw={"width_ratios": (1.0, *[1.1] * (3 + len(panels)))})
+    axes = figure.subplots(
+        1, 4 + len(panels), sharey=True, gridspec_kw={"width_ratios": (1.0, *[1.1] * (3 + len(panels)))}
+    )
     places = _places(rows)
     _unknowns(axes[0], rows, places)
     _bars(axes[1], report, places, "step_time", MICRO, "Time per step (µs, median)")
@@ -71,7 +80,8 @@ def _unknowns(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
 
 
 def _bars(axes: Axes, report: EffectReport, places: np.ndarray, name: str, factor: float, title: str) -> None:
-    """One number of every row that has it, with its change, and the bare and the full scene's as lines to compare with."""
+    """One number of every row that has it, with its change, and the bare and the full scene's as lines to compare
+    with."""
     rows = report.rows
     values = np.nan_to_num([getattr(row, name) * factor for row in rows])
     axes.barh(places, values, color=[COLOURS.get(row.subset.kind, GREY) for row in rows], height=0.7)
@@ -102,11 +112,23 @@ def _whiskers(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
 
 def _heading(figure: Figure, report: EffectReport) -> None:
     title = textwrap.shorten(" ".join(report.scene.title.split()), 80, placeholder=" …")
-    figure.suptitle(f"What the effects cost and change: {title}\n{conditions(report.scene)}", x=0.008, ha="left", fontsize=14, color=DARK, parse_math=False)
+    figure.suptitle(
+        f"What the effects cost and change: {title}\n{conditions(report.scene)}",
+        x=0.008,
+        ha="left",
+        fontsize=14,
+        color=DARK,
+        parse_math=False,
+    )
     colours = f"green: {WORDS[ALONE]}; orange: {WORDS[LEFT_OUT]}; dotted line: bare, dashed: all"
-    entries = ["T$_{EPP}$: transmission error, peak to peak, at the wheel's base circle", "grey whiskers: fastest and slowest round"]
+    entries = [
+        "T$_{EPP}$: transmission error, peak to peak, at the wheel's base circle",
+        "grey whiskers: fastest and slowest round",
+    ]
     if any(own_remarks(report, row) for row in report.rows):
         entries.append("* with a remark that the whole scene does not have, see effects.csv")
     where = report.machine
     measured = f"{where['processor']}, load {where['load']}; threads: {where['threads']}; {where['versions']}"
-    figure.text(0.008, 0.1 / figure.get_figheight(), f"{colours}\n{'; '.join(entries)}\n{measured}", fontsize=9.5, color=DARK)
+    figure.text(
+        0.008, 0.1 / figure.get_figheight(), f"{colours}\n{'; '.join(entries)}\n{measured}", fontsize=9.5, color=DARK
+    )

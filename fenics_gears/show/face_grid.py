@@ -9,16 +9,27 @@ import numpy as np
 from fenics_gears.errors import ComputationError
 from fenics_gears.simulation.face_stresses import GearsInSpace, TeethInSpace
 
-# VTK's number of the wedge of second order in section and layer, and where its nodes lie: (height, node of the triangle).
+# VTK's number of the wedge of second order in section and layer, and where its nodes lie: (height, node of the
+# triangle).
 VTK_WEDGE = 32
-WEDGE_NODES = [*((height, node) for node_group in ((0, 1, 2), (3, 4, 5)) for height in (0, 2) for node in node_group), *((1, node) for node in range(6))]
+WEDGE_NODES = [
+    *((height, node) for node_group in ((0, 1, 2), (3, 4, 5)) for height in (0, 2) for node in node_group),
+    *((1, node) for node in range(6)),
+]
 
 
 def surface(points: np.ndarray, teeth: TeethInSpace) -> np.ndarray:
-    """Triangles (k, 3) of the surface of sectors whose nodes are points (s, h, n, 3): sides swept over the heights, and both end faces."""
+    """Triangles (k, 3) of the surface of sectors whose nodes are points (s, h, n, 3): sides swept over the heights, and
+    both end faces."""
     sectors, heights, nodes = points.shape[:3]
     near, far = teeth.outline[:, 0], teeth.outline[:, 1]
-    quads = np.concatenate([np.vstack([np.column_stack([near, far, far + nodes]), np.column_stack([near, far + nodes, near + nodes])]) + nodes * low for low in range(heights - 1)])
+    quads = np.concatenate(
+        [
+            np.vstack([np.column_stack([near, far, far + nodes]), np.column_stack([near, far + nodes, near + nodes])])
+            + nodes * low
+            for low in range(heights - 1)
+        ]
+    )
     # Seen from outside, all are counter-clockwise.
     ends = np.vstack([teeth.subcells[:, ::-1], teeth.subcells + nodes * (heights - 1)])
     one = np.vstack([quads, ends])
@@ -34,7 +45,8 @@ def wedges(teeth: TeethInSpace) -> np.ndarray:
 
 
 def save_vtu(mesh: GearsInSpace, path: Path) -> None:
-    """Displacement (mm) and stress (MPa) of the recovered sectors of both gears as a .vtu file of wedges of second order, in the frame of the line of action.
+    """Displacement (mm) and stress (MPa) of the recovered sectors of both gears as a .vtu file of wedges of second
+    order, in the frame of the line of action.
 
     Raises ComputationError without pyvista.
     """
@@ -57,5 +69,7 @@ def save_vtu(mesh: GearsInSpace, path: Path) -> None:
     grid.point_data["von_mises_stress"] = both(lambda gear: gear.von_mises.ravel())
     grid.point_data["largest_principal_stress"] = both(lambda gear: gear.principal.ravel())
     grid.point_data["gear"] = np.repeat([1, 2], [count, len(stress) - count]).astype(np.int32)
-    grid.point_data["sector"] = both(lambda gear: np.repeat(np.array(gear.sectors, dtype=np.int32), gear.points[0, ..., 0].size))
+    grid.point_data["sector"] = both(
+        lambda gear: np.repeat(np.array(gear.sectors, dtype=np.int32), gear.points[0, ..., 0].size)
+    )
     grid.save(str(path))

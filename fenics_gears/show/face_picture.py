@@ -1,4 +1,5 @@
-"""The gears of a run over the face in mesh in three dimensions, and the teeth of either gear alone, coloured by stress."""
+"""The gears of a run over the face in mesh in three dimensions, and the teeth of either gear alone, coloured by
+stress."""
 
 from __future__ import annotations
 
@@ -27,8 +28,9 @@ UNLOADED, EDGES = "#E4E7EA", "#5A6068"
 PIXELS = 150  # an inch
 LIGHT = {"ambient": 0.55, "diffuse": 0.5, "specular": 0.0}
 CAPTION = (
-    "On the flanks that carry: the run's contact pressure. Elsewhere: von Mises stress of the bodies' mesh, which resolves the roots but not what lies just below the contact.\n"
-    "Grey: teeth further away, whose stress was not recovered."
+    "On the flanks that carry: the run's contact pressure. Elsewhere: von Mises stress of the bodies' mesh, which"
+    " resolves the roots but not what lies just below the contact.\nGrey: teeth further away, whose stress was not"
+    " recovered."
 )
 FLANK = "#F7F7F5"
 PRESSURES = LinearSegmentedColormap.from_list("pressure", list(PRESSURE_COLOURS))
@@ -37,7 +39,8 @@ NAMES = ("pinion", "wheel")
 
 @dataclass(frozen=True)
 class Sight:
-    """A panel: title, place (left, bottom, width, height) in the figure, gears shown, and camera: what it looks at, from which direction, half height, mm."""
+    """A panel: title, place (left, bottom, width, height) in the figure, gears shown, and camera: what it looks at,
+    from which direction, half height, mm."""
 
     title: str
     place: tuple[float, float, float, float]
@@ -55,15 +58,22 @@ def still(mesh: GearsInSpace, dataset: xr.Dataset, scale: float | None = None) -
 def frames(dataset: xr.Dataset, scale: float | None, sampled: list[GearsInSpace]) -> Callable[..., Figure]:
     """What draws the frames of a moving picture, with the colours that suit some of its meshes."""
     limit = max(map(colour_limit, sampled))
-    beyond = any(float(gear.von_mises[..., ~gear.on_flank].max()) > limit * (1.0 + 1e-9) for mesh in sampled for gear in mesh.gears)
+    beyond = any(
+        float(gear.von_mises[..., ~gear.on_flank].max()) > limit * (1.0 + 1e-9)
+        for mesh in sampled
+        for gear in mesh.gears
+    )
     return partial(face_picture, dataset=dataset, scale=1.0 if scale is None else scale, limit=limit, beyond=beyond)
 
 
 @styled
-def face_picture(mesh: GearsInSpace, dataset: xr.Dataset, scale: float, limit: float, beyond: bool, dpi: float = 60.0) -> Figure:
+def face_picture(
+    mesh: GearsInSpace, dataset: xr.Dataset, scale: float, limit: float, beyond: bool, dpi: float = 60.0
+) -> Figure:
     """Both gears in mesh, and the loaded teeth of each alone; `scale`: of the displacements of the teeth from the hubs.
 
-    limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there. Raises ComputationError without pyvista.
+    limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there. Raises ComputationError without
+        pyvista.
     """
     figure = Figure(figsize=(16.0, 9.0), dpi=dpi)
     tiles = [pressed_tiles(mesh, dataset, gear, scale) for gear in (0, 1)]
@@ -77,7 +87,9 @@ def face_picture(mesh: GearsInSpace, dataset: xr.Dataset, scale: float, limit: f
             spine.set_visible(True)
             spine.set_color("#BBBBBB")
     colour_bar(figure, limit, beyond, place=(0.08, 0.33))
-    colour_bar(figure, highest, bool((tiles[0].pressure > highest).any()), "contact pressure (MPa)", (0.49, 0.33), PRESSURES)
+    colour_bar(
+        figure, highest, bool((tiles[0].pressure > highest).any()), "contact pressure (MPa)", (0.49, 0.33), PRESSURES
+    )
     heading(figure, mesh, dataset)
     _words(figure, mesh, dataset, scale)
     return figure
@@ -93,14 +105,26 @@ def sights(mesh: GearsInSpace) -> tuple[Sight, Sight, Sight]:
     pair = mesh.pair
     across, along = _upright(pair)
     pitch = np.array([pair.pitch_point, -pair.pinion.base_radius, 0.0])
-    # From the middle of both gears; and from before the flank that carries: the pinion's drive flank looks along the line of action.
+    # From the middle of both gears; and from before the flank that carries: the pinion's drive flank looks along the
+    # line of action.
     middle = -0.5 * (pair.centre_distance - pair.pinion.tip_radius + pair.wheel.tip_radius) * along
     half = 0.5 * (pair.centre_distance + pair.pinion.tip_radius + pair.wheel.tip_radius) + 0.15 * pair.face_width
     side, axis = (-1.0 if mesh.coast else 1.0) * across, np.array([0.0, 0.0, 1.0])
     close, deep = 0.45 * pair.face_width + 2.6 * pair.pinion.module, 0.9 * pair.pinion.module * along
-    whole = Sight("The pair in mesh", (0.015, 0.12, 0.36, 0.74), (0, 1), middle, 0.45 * across + 0.25 * along + 0.9 * axis, 1.01 * half)
-    pinion = Sight("Pinion alone", (0.385, 0.12, 0.265, 0.74), (0,), pitch + deep, 0.7 * side - 0.7 * along + 0.45 * axis, close)
-    wheel = Sight("Wheel alone", (0.66, 0.12, 0.265, 0.74), (1,), pitch - deep, -0.7 * side + 0.7 * along + 0.45 * axis, close)
+    whole = Sight(
+        "The pair in mesh",
+        (0.015, 0.12, 0.36, 0.74),
+        (0, 1),
+        middle,
+        0.45 * across + 0.25 * along + 0.9 * axis,
+        1.01 * half,
+    )
+    pinion = Sight(
+        "Pinion alone", (0.385, 0.12, 0.265, 0.74), (0,), pitch + deep, 0.7 * side - 0.7 * along + 0.45 * axis, close
+    )
+    wheel = Sight(
+        "Wheel alone", (0.66, 0.12, 0.265, 0.74), (1,), pitch - deep, -0.7 * side + 0.7 * along + 0.45 * axis, close
+    )
     return whole, pinion, wheel
 
 
@@ -111,24 +135,31 @@ def root_tension(mesh: GearsInSpace) -> Chart:
         tension = gear.principal[..., gear.in_root].max(axis=(0, 2))
         curves.append(Curve(name, gear.points[0, :, 0, 2], tension, colour, mode=MARKED_LINES))
     return Chart(
-        f"Largest tension in the roots along the face at mesh phase {mesh.mesh_phase:.3f}", curves, ACROSS, "Largest principal stress (MPa)",
-        y_range=(0.0, 1.08 * max(float(curve.y.max()) for curve in curves) or 1.0), note="At the nodes of the bodies' mesh, the loaded teeth and those beside them.",
+        f"Largest tension in the roots along the face at mesh phase {mesh.mesh_phase:.3f}", curves, ACROSS,
+        "Largest principal stress (MPa)",
+        y_range=(0.0, 1.08 * max(float(curve.y.max()) for curve in curves) or 1.0),
+        note="At the nodes of the bodies' mesh, the loaded teeth and those beside them.",
     )  # fmt: skip
 
 
 def _upright(pair) -> tuple[np.ndarray, np.ndarray]:
-    """Unit vectors (3,) across the line of centres, in the sense of the line of action, and along it from the wheel's to the pinion's centre."""
+    """Unit vectors (3,) across the line of centres, in the sense of the line of action, and along it from the wheel's
+    to the pinion's centre."""
     centre = np.array([pair.line_of_action_length, -(pair.pinion.base_radius + pair.wheel.base_radius)])
     along = -centre / np.linalg.norm(centre)
     return np.array([along[1], -along[0], 0.0]), np.append(along, 0.0)
 
 
-def _rendered(mesh: GearsInSpace, sight: Sight, scale: float, limit: float, tiles: Sequence[PressedTiles], highest: float) -> np.ndarray:
+def _rendered(
+    mesh: GearsInSpace, sight: Sight, scale: float, limit: float, tiles: Sequence[PressedTiles], highest: float
+) -> np.ndarray:
     """The image of a panel."""
     try:
         import pyvista
     except ImportError as error:
-        raise ComputationError("a picture of gears in three dimensions needs pyvista, which is not installed") from error
+        raise ComputationError(
+            "a picture of gears in three dimensions needs pyvista, which is not installed"
+        ) from error
     ensure_display(pyvista.vtk_version_info)
     if hasattr(pyvista, "vtk_verbosity"):
         # Without a display VTK warns before it draws in memory; versions before 0.45 of pyvista leave it to its own.
@@ -145,7 +176,9 @@ def _rendered(mesh: GearsInSpace, sight: Sight, scale: float, limit: float, tile
         plotter.camera.focal_point = sight.focus
         plotter.camera.position = sight.focus + 10.0 * sight.half * direction
         plotter.camera.up = _upright(mesh.pair)[1]
-        plotter.camera.parallel_scale = sight.half * max(1.0, size[1] / size[0]) if len(sight.gears) == 1 else sight.half
+        plotter.camera.parallel_scale = (
+            sight.half * max(1.0, size[1] / size[0]) if len(sight.gears) == 1 else sight.half
+        )
         plotter.reset_camera_clipping_range()
         return plotter.screenshot(return_img=True)
     finally:
@@ -153,7 +186,8 @@ def _rendered(mesh: GearsInSpace, sight: Sight, scale: float, limit: float, tile
 
 
 def _add_gear(plotter, gear: TeethInSpace, scale: float, limit: float, tiles: PressedTiles, highest: float) -> None:
-    """One gear: stress on its recovered teeth but on their flanks that carry, there the contact pressure; the other teeth and all edges."""
+    """One gear: stress on its recovered teeth but on their flanks that carry, there the contact pressure; the other
+    teeth and all edges."""
     from pyvista import PolyData
 
     moved = gear.points + scale * gear.displacement
@@ -164,15 +198,25 @@ def _add_gear(plotter, gear: TeethInSpace, scale: float, limit: float, tiles: Pr
     plotter.add_mesh(stressed, scalars="stress", cmap=COLOURS, clim=(0.0, limit), show_scalar_bar=False, **LIGHT)
     plotter.add_mesh(PolyData.from_regular_faces(points, sides[flank]), color=FLANK, **LIGHT)
     if len(tiles.pressure):
-        pressed = PolyData.from_regular_faces(tiles.corners.reshape(-1, 3), np.arange(4 * len(tiles.pressure)).reshape(-1, 4))
+        pressed = PolyData.from_regular_faces(
+            tiles.corners.reshape(-1, 3), np.arange(4 * len(tiles.pressure)).reshape(-1, 4)
+        )
         pressed.cell_data["pressure"] = tiles.pressure
-        plotter.add_mesh(pressed, scalars="pressure", cmap=PRESSURES, clim=(0.0, highest), show_scalar_bar=False, lighting=False)
+        plotter.add_mesh(
+            pressed, scalars="pressure", cmap=PRESSURES, clim=(0.0, highest), show_scalar_bar=False, lighting=False
+        )
     drawn = [PolyData.from_regular_faces(points, sides)]
     if len(gear.others):
         drawn.append(PolyData.from_regular_faces(gear.others.reshape(-1, 3), surface(gear.others, gear)))
         plotter.add_mesh(drawn[-1], color=UNLOADED, **LIGHT)
     for each in drawn:
-        plotter.add_mesh(each.clean().extract_feature_edges(40.0, boundary_edges=False, manifold_edges=False, non_manifold_edges=False), color=EDGES, line_width=1.5)
+        plotter.add_mesh(
+            each.clean().extract_feature_edges(
+                40.0, boundary_edges=False, manifold_edges=False, non_manifold_edges=False
+            ),
+            color=EDGES,
+            line_width=1.5,
+        )
 
 
 def _words(figure: Figure, mesh: GearsInSpace, dataset: xr.Dataset, scale: float) -> None:
@@ -180,7 +224,14 @@ def _words(figure: Figure, mesh: GearsInSpace, dataset: xr.Dataset, scale: float
     index = int(np.argmin(np.abs(stored["contact_mesh_phase"].values - mesh.mesh_phase)))
     name = "coast_normal_force" if mesh.coast else "normal_force"
     roots = [f"{name_of_gear} {_largest_tension(gear)}" for name_of_gear, gear in zip(NAMES, mesh.gears)]
-    figure.text(0.015, 0.073, f"Displacements × {scale:g}. Mesh force {float(stored[name].values[index]):.0f} N. Largest tension in the roots: {', '.join(roots)}.", fontsize=12, color=DARK)
+    figure.text(
+        0.015,
+        0.073,
+        f"Displacements × {scale:g}. Mesh force {float(stored[name].values[index]):.0f} N. Largest tension in the"
+        f" roots: {', '.join(roots)}.",
+        fontsize=12,
+        color=DARK,
+    )
     figure.text(0.015, 0.018, CAPTION, fontsize=11, color=GREY, linespacing=1.4)
 
 

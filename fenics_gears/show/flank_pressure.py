@@ -25,7 +25,8 @@ NEAREST = 3
 
 @dataclass(frozen=True)
 class PressedTiles:
-    """Quadrangles (n, 4, 3), mm, in the frame of the line of action, each with the pressure (n,), MPa, of a contact node in its slice."""
+    """Quadrangles (n, 4, 3), mm, in the frame of the line of action, each with the pressure (n,), MPa, of a contact
+    node in its slice."""
 
     corners: np.ndarray
     pressure: np.ndarray
@@ -52,7 +53,9 @@ def pressed_tiles(mesh: GearsInSpace, dataset: xr.Dataset, gear: int, scale: flo
     def corners(edge: np.ndarray, z: np.ndarray) -> np.ndarray:
         # Along the line of contact a node's roll angle changes as that of the contact does.
         touching = contact_roll(z)
-        return np.column_stack([_placed(pair, gear, mesh.coast, edge[pressed] + touching - contact_roll(middles[slices]), touching), z])
+        return np.column_stack(
+            [_placed(pair, gear, mesh.coast, edge[pressed] + touching - contact_roll(middles[slices]), touching), z]
+        )
 
     around = [(low, ends[slices]), (high, ends[slices]), (high, ends[slices + 1]), (low, ends[slices + 1])]
     points = np.stack([corners(*each) for each in around], axis=1)
@@ -69,7 +72,10 @@ def _placed(pair: GearPair, gear: int, coast: bool, rolls: np.ndarray, touching:
     if not coast:
         return points
     # Coast flanks are the mirror image at the line of centres.
-    along = np.array([pair.line_of_action_length, -(pair.pinion.base_radius + pair.wheel.base_radius)]) / pair.centre_distance
+    along = (
+        np.array([pair.line_of_action_length, -(pair.pinion.base_radius + pair.wheel.base_radius)])
+        / pair.centre_distance
+    )
     return 2.0 * np.outer(points @ along, along) - points
 
 
@@ -78,5 +84,7 @@ def _displacement(mesh: GearsInSpace, gear: int, points: np.ndarray) -> np.ndarr
     teeth = mesh.gears[gear]
     distance, node = cKDTree(teeth.points.reshape(-1, 3)).query(points.reshape(-1, 3), NEAREST)
     weight = 1.0 / np.maximum(distance, 1e-9)
-    found = (weight[..., None] * teeth.displacement.reshape(-1, 3)[node]).sum(axis=1) / weight.sum(axis=1, keepdims=True)
+    found = (weight[..., None] * teeth.displacement.reshape(-1, 3)[node]).sum(axis=1) / weight.sum(
+        axis=1, keepdims=True
+    )
     return found.reshape(points.shape)

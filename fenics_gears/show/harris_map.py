@@ -17,27 +17,46 @@ from fenics_gears.show.panels import DARK, shades
 from fenics_gears.show.units import digits, factor, in_unit
 
 CYCLES, MOST_NAMED = 2.0, 20
-# Room for the loads' words right of the curves, in mesh cycles, and the least distance of two of them, in parts of the chart's height.
+# Room for the loads' words right of the curves, in mesh cycles, and the least distance of two of them, in parts of the
+# chart's height.
 ROOM, APART = 0.245, 0.042
 
 
 def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "", note: str = "") -> Chart:
-    """The chart of a transmission error with the dimensions `load` (a torque, or a power in kW) and `mesh_phase` (mesh cycles), in um along the line of action.
+    """The chart of a transmission error with the dimensions `load` (a torque, or a power in kW) and `mesh_phase` (mesh
+    cycles), in um along the line of action.
 
-    result: a variable in a unit of length; or a dataset with `transmission_error` in a unit of length, or in rad of the wheel beside the
-    attribute `base_radius_wheel` (mm). The coordinate `load` has units. Curves of one mesh cycle are drawn twice; of more than two the first two
-    are drawn; a load without a result (not a number) has no curve. Raises ComputationError for a result without these dimensions and units.
+    result: a variable in a unit of length; or a dataset with `transmission_error` in a unit of length, or in rad of the
+        wheel beside the
+    attribute `base_radius_wheel` (mm). The coordinate `load` has units. Curves of one mesh cycle are drawn twice; of
+    more than two the first two are drawn; a load without a result (not a number) has no curve. Raises ComputationError
+    for a result without these dimensions and units.
     """
     error = result["transmission_error"] if isinstance(result, xr.Dataset) else result
     if not {"load", "mesh_phase"} <= set(error.coords) or set(error.dims) != {"load", "mesh_phase"}:
-        raise ComputationError(f"a Harris map needs the dimensions load and mesh_phase with their coordinates; there are {', '.join(map(str, error.dims)) or 'none'}")
+        raise ComputationError(
+            "a Harris map needs the dimensions load and mesh_phase with their coordinates; there are"
+            f" {', '.join(map(str, error.dims)) or 'none'}"
+        )
     error = error.transpose("load", "mesh_phase").sortby("load").dropna("load", how="all")
     values, unit = _micrometres(error, result.attrs), _unit_of(error["load"])
     loads = in_unit(error["load"], unit)
     phase = error["mesh_phase"].values
-    curves = [Curve(f"{digits(load)} {unit}", *_two_cycles(phase, each), colour, listed=False) for load, each, colour in zip(loads, values, shades(len(loads)))]
+    curves = [
+        Curve(f"{digits(load)} {unit}", *_two_cycles(phase, each), colour, listed=False)
+        for load, each, colour in zip(loads, values, shades(len(loads)))
+    ]
     drawn = [*curves, *_names(curves)]
-    return Chart(caption, drawn, "Mesh phase (mesh cycles)", "Transmission error along the line of action (µm)", note, 520, least=LEAST_LENGTH, x_range=(0.0, CYCLES + ROOM))
+    return Chart(
+        caption,
+        drawn,
+        "Mesh phase (mesh cycles)",
+        "Transmission error along the line of action (µm)",
+        note,
+        520,
+        least=LEAST_LENGTH,
+        x_range=(0.0, CYCLES + ROOM),
+    )
 
 
 def _unit_of(loads: xr.DataArray) -> str:
@@ -67,7 +86,14 @@ def _two_cycles(phase: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.n
 
 def _names(curves: list[Curve]) -> list[Curve]:
     """Each curve's load right of its end; of very many curves only some have it."""
-    named = [curves[place] for place in np.unique(np.linspace(0, len(curves) - 1, min(len(curves), MOST_NAMED)).round().astype(int))] if curves else []
+    named = (
+        [
+            curves[place]
+            for place in np.unique(np.linspace(0, len(curves) - 1, min(len(curves), MOST_NAMED)).round().astype(int))
+        ]
+        if curves
+        else []
+    )
     if not named:
         return []
     every = np.concatenate([curve.y for curve in curves])
@@ -81,4 +107,13 @@ def words_apart(ends: Sequence[tuple[float, float, str]], apart: float, beside: 
     heights = np.array([height for _, height, _ in ends])
     for place in range(1, len(heights)):
         heights[place] = max(heights[place], heights[place - 1] + apart)
-    return Curve("words", np.array([x for x, _, _ in ends]), heights, DARK, mode=WORDS, listed=False, words=[words for *_, words in ends], beside=beside)
+    return Curve(
+        "words",
+        np.array([x for x, _, _ in ends]),
+        heights,
+        DARK,
+        mode=WORDS,
+        listed=False,
+        words=[words for *_, words in ends],
+        beside=beside,
+    )

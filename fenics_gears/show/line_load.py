@@ -24,24 +24,34 @@ def line_loads(run: Run) -> list[Chart]:
     if name not in run.dataset or run.dataset.sizes["contact_time"] < 2 or run.pair is None:
         return []
     part = run.last_fields
-    loads, phase = in_unit(part[name].transpose("contact_time", "slot", "face_position"), "N/mm"), part["contact_mesh_phase"].values
+    loads, phase = (
+        in_unit(part[name].transpose("contact_time", "slot", "face_position"), "N/mm"),
+        part["contact_mesh_phase"].values,
+    )
     if not loads.any():
         return []
     slices, z = slice_ends(run.dataset), part["face_position"].values
-    return [_of_mesh(side, loads, phase, slices), _of_pair(run, side, loads, phase, slices), _over_face(run, side, loads, z)]
+    return [
+        _of_mesh(side, loads, phase, slices),
+        _of_pair(run, side, loads, phase, slices),
+        _over_face(run, side, loads, z),
+    ]
 
 
 def _of_mesh(side: str, loads: np.ndarray, phase: np.ndarray, slices: np.ndarray) -> Chart:
     total = loads.sum(axis=1)
     return Chart(
-        f"Line load of the mesh{' on its coast flanks' if side else ''}: tooth pairs summed", [], MESH_CYCLES, "Place on the face (mm)", x_range=(float(phase[0]), float(phase[-1])),
+        f"Line load of the mesh{' on its coast flanks' if side else ''}: tooth pairs summed", [], MESH_CYCLES,
+        "Place on the face (mm)", x_range=(float(phase[0]), float(phase[-1])),
         y_range=(float(slices[0]), float(slices[-1])), field=_field(phase, slices, total), height=300, linked=TIME,
-        note="Along the contact normal, per mm of face width; places along the axes from the middle of the common face.",
+        note="Along the contact normal, per mm of face width; places along the axes from the middle of the common "
+            "face.",
     )  # fmt: skip
 
 
 def _of_pair(run: Run, side: str, loads: np.ndarray, phase: np.ndarray, slices: np.ndarray) -> Chart:
-    """Line load from the start to the end of contact, put together of all pairs, so that a single mesh cycle is enough; of unlike pairs the largest."""
+    """Line load from the start to the end of contact, put together of all pairs, so that a single mesh cycle is enough;
+    of unlike pairs the largest."""
     pair, numbers = run.pair, run.last_fields["contact_pair_number"]
     entered = numbers.values - numbers.attrs["number_at_phase_0"]
     step = float(np.diff(phase).min())
@@ -51,16 +61,37 @@ def _of_pair(run: Run, side: str, loads: np.ndarray, phase: np.ndarray, slices: 
     own = np.zeros((int(since[known].max()) - first + 1, loads.shape[2]))
     np.maximum.at(own, since[known] - first, loads[known])
     # Phases of the steps are those of the last one and whole steps before it.
-    start, pitch, end = sorted(passing(pair, position, side) for position in (pair.path_start, pair.pitch_point, pair.path_end))
-    places = step * (first + np.arange(len(own))) + float(phase[-1]) - step * round(float(phase[-1]) / step) - (start - pair.path_start) / pair.base_pitch
+    start, pitch, end = sorted(
+        passing(pair, position, side) for position in (pair.path_start, pair.pitch_point, pair.path_end)
+    )
+    places = (
+        step * (first + np.arange(len(own)))
+        + float(phase[-1])
+        - step * round(float(phase[-1]) / step)
+        - (start - pair.path_start) / pair.base_pitch
+    )
     ends = np.array([slices[0], slices[-1]])
     lines = [
-        Curve(words, (position - start - pair.slope * ends) / pair.base_pitch, ends, DARK, dash, 1.0, listed=position < end)
-        for words, position, dash in (("start and end of contact", start, "dash"), ("pitch point", pitch, "dot"), ("", end, "dash"))
+        Curve(
+            words,
+            (position - start - pair.slope * ends) / pair.base_pitch,
+            ends,
+            DARK,
+            dash,
+            1.0,
+            listed=position < end,
+        )
+        for words, position, dash in (
+            ("start and end of contact", start, "dash"),
+            ("pitch point", pitch, "dot"),
+            ("", end, "dash"),
+        )
     ]
     return Chart(
-        "Line load of a tooth pair from the start to the end of its contact", lines, "Time (mesh cycles since contact starts in the middle of the face)",
-        "Place on the face (mm)", x_range=(float(places[0]) - 0.5 * step, float(places[-1]) + 0.5 * step), y_range=(float(ends[0]), float(ends[1])),
+        "Line load of a tooth pair from the start to the end of its contact", lines,
+        "Time (mesh cycles since contact starts in the middle of the face)",
+        "Place on the face (mm)", x_range=(float(places[0]) - 0.5 * step, float(places[-1]) + 0.5 * step),
+        y_range=(float(ends[0]), float(ends[1])),
         field=_field(places, slices, own), height=300,
         note="Put together of all pairs, the largest of unlike ones. Lines: of rigid gears without modifications.",
     )  # fmt: skip

@@ -34,7 +34,8 @@ def stored_place(mesh: GearsInMesh | GearsInSpace, dataset: xr.Dataset) -> int:
 
 
 def loaded_contact(mesh: GearsInMesh, dataset: xr.Dataset) -> LoadedContact | None:
-    """The contact of the tooth pair with the largest normal force, on the flanks that carry more; None where nothing touches."""
+    """The contact of the tooth pair with the largest normal force, on the flanks that carry more; None where nothing
+    touches."""
     index, pair = stored_place(mesh, dataset), mesh.pair
     coast, dataset = mesh.coast, contact_times(dataset)
     forces = np.nan_to_num(dataset["pair_coast_normal_force" if coast else "pair_normal_force"].values[index])
@@ -42,7 +43,9 @@ def loaded_contact(mesh: GearsInMesh, dataset: xr.Dataset) -> LoadedContact | No
     if forces[slot] <= 0.0:
         return None
     prefix = "coast_" if coast else ""
-    pressure, rolls = (dataset[prefix + name].values[index, slot] for name in ("contact_pressure", "contact_roll_angle"))
+    pressure, rolls = (
+        dataset[prefix + name].values[index, slot] for name in ("contact_pressure", "contact_roll_angle")
+    )
     numbers = dataset["contact_pair_number"]
     entered = int(numbers.values[index, slot]) - numbers.attrs["number_at_phase_0"]
     xi = pair.path_start + (mesh.mesh_phase - entered) * pair.base_pitch

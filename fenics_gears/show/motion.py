@@ -1,4 +1,5 @@
-"""Charts of motion: transmission error over a few and over all mesh cycles, shafts, and load and speed where they vary."""
+"""Charts of motion: transmission error over a few and over all mesh cycles, shafts, and load and speed where they
+vary."""
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ def motion_charts(run: Run) -> list[Chart]:
 
 
 def error_values(run: Run) -> tuple[np.ndarray, str]:
-    """Transmission error (time,) and its unit: micrometres on the wheel's base circle, microradians where that is not known."""
+    """Transmission error (time,) and its unit: micrometres on the wheel's base circle, microradians where that is not
+    known."""
     if np.isfinite(run.micrometres):
         return run.values("transmission_error", "rad") * run.micrometres, "µm"
     return run.values("transmission_error", "µrad"), "µrad"
@@ -34,10 +36,15 @@ def transmission_error(run: Run) -> Chart:
     note, second, place = "", None, ""
     if unit == "µm":
         turned = factor("rad", "µrad") / run.micrometres
-        note = f"Length on the wheel's base circle; 1 µm is {turned:.4g} µrad of the wheel. Positive where the wheel lags."
+        note = (
+            f"Length on the wheel's base circle; 1 µm is {turned:.4g} µrad of the wheel. Positive where the wheel lags."
+        )
         second, place = Second("Angle of the wheel (µrad)", turned), " on the wheel's base circle"
     least = LEAST_SHARE * float(np.abs(values).max())
-    caption, curves = f"{ERROR}{place}: {_peak_to_peak(run, values, unit)}", [("transmission error", values, PALETTE[0])]
+    caption, curves = (
+        f"{ERROR}{place}: {_peak_to_peak(run, values, unit)}",
+        [("transmission error", values, PALETTE[0])],
+    )
     return over_time(run, caption, f"{ERROR} ({unit})", curves, least=least, note=note, second=second, height=380)
 
 
@@ -59,8 +66,20 @@ def error_by_cycle(run: Run) -> list[Chart]:
     middle, title = run.cycle_axis
     edges = np.array([(values[each].min(), values[each].max()) for each in run.whole_cycles]).T
     mean = np.array([values[each].mean() for each in run.whole_cycles])
-    curves = [Curve("from least to largest of a mesh cycle", middle, edges, PALETTE[0], width=1.0, mode=BAND), Curve("mean of a mesh cycle", middle, mean, DARK)]
-    return [Chart(f"{ERROR} over all {len(middle)} mesh cycles", curves, title, f"{ERROR} ({unit})", least=LEAST_SHARE * float(np.abs(values).max()), height=280)]
+    curves = [
+        Curve("from least to largest of a mesh cycle", middle, edges, PALETTE[0], width=1.0, mode=BAND),
+        Curve("mean of a mesh cycle", middle, mean, DARK),
+    ]
+    return [
+        Chart(
+            f"{ERROR} over all {len(middle)} mesh cycles",
+            curves,
+            title,
+            f"{ERROR} ({unit})",
+            least=LEAST_SHARE * float(np.abs(values).max()),
+            height=280,
+        )
+    ]
 
 
 def wheels_shaft(run: Run) -> list[Chart]:
@@ -70,7 +89,9 @@ def wheels_shaft(run: Run) -> list[Chart]:
         return []
     values = run.values(name, "µm")[:, run.dataset["gear"].values.tolist().index("wheel")]
     caption = f"Displacement of the wheel's shaft {words} the line of action"
-    return [over_time(run, caption, "Displacement (µm)", [("wheel", values, PALETTE[1])], least=LEAST_LENGTH, height=240)]
+    return [
+        over_time(run, caption, "Displacement (µm)", [("wheel", values, PALETTE[1])], least=LEAST_LENGTH, height=240)
+    ]
 
 
 def _shafts(run: Run) -> list[Chart]:
@@ -79,15 +100,46 @@ def _shafts(run: Run) -> list[Chart]:
     # Without friction gears that do not tilt stay on the line of action.
     if not {"friction_force", "tilt_x"} & set(run.dataset):
         del sides["centre_y"]
-    centres = [of_variables(run, f"{caption} {words} the line of action", "Displacement", "µm", {name: ""}, least=LEAST_LENGTH) for name, words in sides.items()]
+    centres = [
+        of_variables(run, f"{caption} {words} the line of action", "Displacement", "µm", {name: ""}, least=LEAST_LENGTH)
+        for name, words in sides.items()
+    ]
     alone: dict[str, Any] = {"colours": PALETTE[3:], "height": 300}
     return [
         *sum(centres, []),
-        *of_variables(run, "Displacement of the gears along their axes", "Displacement", "µm", {"axial_position": ""}, least=LEAST_LENGTH),
-        *of_variables(run, "Tilt of the gears about the line of action", "Tilt", "µrad", {"tilt_x": ""}, least=LEAST_ANGLE),
-        *of_variables(run, "Tilt of the gears in the plane of action", "Tilt", "µrad", {"tilt_y": ""}, least=LEAST_ANGLE),
-        *of_variables(run, "Rotation of the hubs from their nominal motion", "Rotation", "µrad", {"rotation": ""}, least=LEAST_ANGLE),
-        *of_variables(run, "Rotation of the output shaft's end", "Rotation", "µrad", {"shaft_end_rotation": "rotation"}, least=LEAST_ANGLE, **alone),
-        *of_variables(run, "Torque on the wheel's shaft", "Torque", "N m", {"wheel_couple": "torque"}, least=1e-6, **alone),
+        *of_variables(
+            run,
+            "Displacement of the gears along their axes",
+            "Displacement",
+            "µm",
+            {"axial_position": ""},
+            least=LEAST_LENGTH,
+        ),
+        *of_variables(
+            run, "Tilt of the gears about the line of action", "Tilt", "µrad", {"tilt_x": ""}, least=LEAST_ANGLE
+        ),
+        *of_variables(
+            run, "Tilt of the gears in the plane of action", "Tilt", "µrad", {"tilt_y": ""}, least=LEAST_ANGLE
+        ),
+        *of_variables(
+            run,
+            "Rotation of the hubs from their nominal motion",
+            "Rotation",
+            "µrad",
+            {"rotation": ""},
+            least=LEAST_ANGLE,
+        ),
+        *of_variables(
+            run,
+            "Rotation of the output shaft's end",
+            "Rotation",
+            "µrad",
+            {"shaft_end_rotation": "rotation"},
+            least=LEAST_ANGLE,
+            **alone,
+        ),
+        *of_variables(
+            run, "Torque on the wheel's shaft", "Torque", "N m", {"wheel_couple": "torque"}, least=1e-6, **alone
+        ),
         *of_variables(run, "Mesh frequency", "Mesh frequency", "Hz", {"mesh_frequency": "mesh frequency"}, **alone),
     ]

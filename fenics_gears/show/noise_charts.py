@@ -1,4 +1,5 @@
-"""Charts of noise figures (`results.noise`): levels over mesh orders with their sidebands, mesh orders over a speed ramp."""
+"""Charts of noise figures (`results.noise`): levels over mesh orders with their sidebands, mesh orders over a speed
+ramp."""
 
 from __future__ import annotations
 
@@ -16,7 +17,11 @@ LEAST_RATIO = 1e-8
 
 def noise_charts(found: xr.Dataset) -> list[Chart]:
     """A chart for each signal."""
-    return [_followed(found, name) if "part" in found.dims else _levels(found, name) for name in SIGNALS if f"{name}_level" in found]
+    return [
+        _followed(found, name) if "part" in found.dims else _levels(found, name)
+        for name in SIGNALS
+        if f"{name}_level" in found
+    ]
 
 
 def _titles(name: str) -> tuple[str, str]:
@@ -32,19 +37,41 @@ def _levels(found: xr.Dataset, name: str) -> Chart:
     caption, title = _titles(name)
     if f"{name}_sideband_ratio" in found:
         ratios = found[f"{name}_sideband_ratio"].sel(harmonic=slice(1, ORDERS_SHOWN))
-        beside = [f"{int(ratio['harmonic'])}\u00a0×\u00a0{10.0 * np.log10(float(ratio)):+.1f}\u00a0dB" for ratio in ratios if ratio > LEAST_RATIO]
+        beside = [
+            f"{int(ratio['harmonic'])}\u00a0×\u00a0{10.0 * np.log10(float(ratio)):+.1f}\u00a0dB"
+            for ratio in ratios
+            if ratio > LEAST_RATIO
+        ]
         caption += f"; energy of the sidebands over that of their mesh order: {', '.join(beside)}" if beside else ""
     curves = [
         Curve("between mesh orders", *stems(orders[seen & ~mesh], levels[seen & ~mesh], foot - 1.0), GREY, width=0.8),
         Curve("mesh orders", *stems(orders[seen & mesh], levels[seen & mesh], foot - 1.0), PALETTE[0], width=2.6),
-        Curve("levels", orders[seen & mesh], levels[seen & mesh], DARK, mode=WORDS, listed=False, words=[f"{each:.1f} dB" for each in levels[seen & mesh]]),
+        Curve(
+            "levels",
+            orders[seen & mesh],
+            levels[seen & mesh],
+            DARK,
+            mode=WORDS,
+            listed=False,
+            words=[f"{each:.1f} dB" for each in levels[seen & mesh]],
+        ),
     ]
-    return Chart(caption, [curve for curve in curves if len(curve.x)], "Mesh order", title, height=420, x_range=(0.0, ORDERS_SHOWN), y_range=(foot, top + 5.0))
+    return Chart(
+        caption,
+        [curve for curve in curves if len(curve.x)],
+        "Mesh order",
+        title,
+        height=420,
+        x_range=(0.0, ORDERS_SHOWN),
+        y_range=(foot, top + 5.0),
+    )
 
 
 def stems(places: np.ndarray, heights: np.ndarray, foot: float) -> tuple[np.ndarray, np.ndarray]:
     """A line that goes up and down at each place (n,) from its foot."""
-    return np.repeat(places, 3), np.stack([np.full(len(places), foot), heights, np.full(len(places), foot)], axis=1).ravel()
+    return np.repeat(places, 3), np.stack(
+        [np.full(len(places), foot), heights, np.full(len(places), foot)], axis=1
+    ).ravel()
 
 
 def _followed(found: xr.Dataset, name: str) -> Chart:

@@ -1,4 +1,5 @@
-"""Pictures and the summary of an optimisation: how the search went, the Pareto front, each variable and each tolerance, Harris maps."""
+"""Pictures and the summary of an optimisation: how the search went, the Pareto front, each variable and each tolerance,
+Harris maps."""
 
 from __future__ import annotations
 
@@ -46,7 +47,11 @@ def goals_of(evaluations, goal: Goal) -> np.ndarray:
 
 
 def _shown(outcome: Outcome, goal: Goal, values: np.ndarray) -> np.ndarray:
-    ends = [each for each in (outcome.before.goals.get(goal.name, np.nan), outcome.chosen.goals[goal.name]) if np.isfinite(each)]
+    ends = [
+        each
+        for each in (outcome.before.goals.get(goal.name, np.nan), outcome.chosen.goals[goal.name])
+        if np.isfinite(each)
+    ]
     return np.where(values <= MOST_TIMES * max(ends), values, np.nan)
 
 
@@ -60,12 +65,20 @@ def search_chart(outcome: Outcome, goal: Goal) -> Chart:
         Curve("least so far", numbers, _shown(outcome, goal, least), PALETTE[0], width=2.2),
         *_before_line(outcome, goal, numbers[[0, -1]]),
     ]
-    return Chart(f"{sentence(called(goal.name))} of the designs", curves, "Design, in the order in which they were tried", title(goal.name, goal.unit), _note(outcome))
+    return Chart(
+        f"{sentence(called(goal.name))} of the designs",
+        curves,
+        "Design, in the order in which they were tried",
+        title(goal.name, goal.unit),
+        _note(outcome),
+    )
 
 
 def _before_line(outcome: Outcome, goal: Goal, ends) -> list[Curve]:
     value = outcome.before.goals.get(goal.name)
-    return [] if value is None else [Curve(BEFORE, np.asarray(ends, dtype=float), np.full(2, value), PALETTE[1], "dash")]
+    return (
+        [] if value is None else [Curve(BEFORE, np.asarray(ends, dtype=float), np.full(2, value), PALETTE[1], "dash")]
+    )
 
 
 def _note(outcome: Outcome) -> str:
@@ -84,8 +97,23 @@ def front_chart(outcome: Outcome) -> Chart:
         Curve(BEST, x[[outcome.best]], y[[outcome.best]], PALETTE[2], mode=MARKERS),
     ]
     if outcome.before.goals:
-        curves.append(Curve(BEFORE, np.array([outcome.before.goals[one.name]]), np.array([outcome.before.goals[other.name]]), PALETTE[1], mode=MARKERS))
-    return Chart("Goals against each other", curves, title(one.name, one.unit), title(other.name, other.unit), _note(outcome), 380)
+        curves.append(
+            Curve(
+                BEFORE,
+                np.array([outcome.before.goals[one.name]]),
+                np.array([outcome.before.goals[other.name]]),
+                PALETTE[1],
+                mode=MARKERS,
+            )
+        )
+    return Chart(
+        "Goals against each other",
+        curves,
+        title(one.name, one.unit),
+        title(other.name, other.unit),
+        _note(outcome),
+        380,
+    )
 
 
 def variable_chart(outcome: Outcome, variable: Variable, goal: Goal) -> Chart:
@@ -95,18 +123,47 @@ def variable_chart(outcome: Outcome, variable: Variable, goal: Goal) -> Chart:
     scatters = " without scatter" if outcome.design.tolerances.scatters else ""
     curves = [
         Curve("designs", x, _shown(outcome, goal, goals_of(outcome.tried, goal)), GREY, mode=MARKERS),
-        Curve(f"{BEST}{scatters}, this variable alone changed", np.array(places), goals_of(evaluations, goal), PALETTE[0], mode=MARKERS if variable.words else MARKED_LINES),
-        Curve(BEST, np.array([outcome.chosen.values[variable.name]]), np.array([outcome.chosen.goals[goal.name]]), PALETTE[2], mode=MARKERS),
+        Curve(
+            f"{BEST}{scatters}, this variable alone changed",
+            np.array(places),
+            goals_of(evaluations, goal),
+            PALETTE[0],
+            mode=MARKERS if variable.words else MARKED_LINES,
+        ),
+        Curve(
+            BEST,
+            np.array([outcome.chosen.values[variable.name]]),
+            np.array([outcome.chosen.goals[goal.name]]),
+            PALETTE[2],
+            mode=MARKERS,
+        ),
     ]
-    return Chart(f"{sentence(called(goal.name))} over {called(variable.name)}", curves, title(variable.name, variable.unit), title(goal.name, goal.unit))
+    return Chart(
+        f"{sentence(called(goal.name))} over {called(variable.name)}",
+        curves,
+        title(variable.name, variable.unit),
+        title(goal.name, goal.unit),
+    )
 
 
 def tolerance_rows(outcome: Outcome, goal: Goal) -> list[tuple[str, str, str, str, str]]:
-    """Of each scatter its limit, and the goal of the chosen design at the lower limit, without scatter, at the upper one; the largest change first."""
+    """Of each scatter its limit, and the goal of the chosen design at the lower limit, without scatter, at the upper
+    one; the largest change first."""
     rows = []
     for scatter in outcome.design.tolerances.scatters if outcome.limits else ():
         low, nominal, high = outcome.limits[scatter.name][goal.name]
-        rows.append((max(abs(low - nominal), abs(high - nominal)), (called(scatter.name), f"± {scatter.limit:.4g} {scatter.unit}".strip(), f"{low:.4g}", f"{nominal:.4g}", f"{high:.4g}")))
+        rows.append(
+            (
+                max(abs(low - nominal), abs(high - nominal)),
+                (
+                    called(scatter.name),
+                    f"± {scatter.limit:.4g} {scatter.unit}".strip(),
+                    f"{low:.4g}",
+                    f"{nominal:.4g}",
+                    f"{high:.4g}",
+                ),
+            )
+        )
     return [row for _, row in sorted(rows, key=lambda each: -each[0])]
 
 
@@ -117,7 +174,10 @@ def harris_charts(outcome: Outcome) -> list[Chart]:
         return []
     scene, _ = scene_of_tree("", outcome.design.before, outcome.design.directory)
     found.attrs["base_radius_wheel"] = gear_pair(scene.gears).wheel.base_radius
-    charts = [harris_map(found.sel(choice=choice).drop_vars("choice"), f"Harris map, {words}") for choice, words in (("before", BEFORE), ("best", BEST))]
+    charts = [
+        harris_map(found.sel(choice=choice).drop_vars("choice"), f"Harris map, {words}")
+        for choice, words in (("before", BEFORE), ("best", BEST))
+    ]
     every = np.concatenate([curve.y for chart in charts for curve in chart.curves])
     room = 0.04 * np.ptp(every)
     return [replace(chart, y_range=(float(every.min() - room), float(every.max() + room))) for chart in charts]
@@ -126,9 +186,21 @@ def harris_charts(outcome: Outcome) -> list[Chart]:
 def write_pictures(outcome: Outcome) -> list[Path]:
     """Draw the search or the Pareto front, the variables and the Harris maps as PNG, and return the files."""
     design, first = outcome.design, outcome.design.goals[0]
-    charts = {"search": [search_chart(outcome, goal) for goal in design.goals]} | ({"pareto_front": [front_chart(outcome)]} if len(design.goals) > 1 else {})
-    charts |= {"variables": [variable_chart(outcome, variable, first) for variable in design.variables], "harris_map": harris_charts(outcome)}
-    return save_figures({f"{name}.png": picture(heading("Optimisation", design.title), drawn) for name, drawn in charts.items() if drawn}, outcome.directory)
+    charts = {"search": [search_chart(outcome, goal) for goal in design.goals]} | (
+        {"pareto_front": [front_chart(outcome)]} if len(design.goals) > 1 else {}
+    )
+    charts |= {
+        "variables": [variable_chart(outcome, variable, first) for variable in design.variables],
+        "harris_map": harris_charts(outcome),
+    }
+    return save_figures(
+        {
+            f"{name}.png": picture(heading("Optimisation", design.title), drawn)
+            for name, drawn in charts.items()
+            if drawn
+        },
+        outcome.directory,
+    )
 
 
 def goal_words(outcome: Outcome, goal: Goal, evaluation: Evaluation) -> str:
@@ -139,7 +211,10 @@ def goal_words(outcome: Outcome, goal: Goal, evaluation: Evaluation) -> str:
     if not tolerances.scatters:
         return f"{evaluation.goals[goal.name]:.4g}"
     values = evaluation.of_samples[goal.name]
-    mean, quantile = f"mean {np.mean(values):.4g}", f"{100 * tolerances.quantile:g} % below {np.quantile(values, tolerances.quantile):.4g}"
+    mean, quantile = (
+        f"mean {np.mean(values):.4g}",
+        f"{100 * tolerances.quantile:g} % below {np.quantile(values, tolerances.quantile):.4g}",
+    )
     return ", ".join((quantile, mean) if tolerances.judged == QUANTILE else (mean, quantile))
 
 
@@ -155,8 +230,24 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
     """Rows of label, value, unit: what was tried and computed, the goals before and after, and the chosen values."""
     failed = sum(bool(each.failure) for each in outcome.tried)
     rate = f", {outcome.computed / outcome.seconds:.3g} runs per second" if outcome.computed and outcome.seconds else ""
-    rows = [("designs", f"{len(outcome.tried)}" + (f", {failed} failed" if failed else ""), ""), ("runs", f"{outcome.computed} computed{rate}, {outcome.kept} kept from before", "")]
-    compared = {f", {BEFORE}": outcome.before, f", {BEST}": outcome.chosen} | dict(zip((f" under new samples, {BEFORE}", f" under new samples, {BEST}"), outcome.fresh))
-    rows += [(f"{called(goal.name)}{words}", goal_words(outcome, goal, each), goal.unit.removeprefix("1")) for goal in outcome.design.goals for words, each in compared.items()]
-    rows += [(called(each.name), f"{outcome.chosen.values[each.name]}" if each.words else f"{outcome.chosen.values[each.name]:.4g}", each.unit) for each in outcome.design.variables]
+    rows = [
+        ("designs", f"{len(outcome.tried)}" + (f", {failed} failed" if failed else ""), ""),
+        ("runs", f"{outcome.computed} computed{rate}, {outcome.kept} kept from before", ""),
+    ]
+    compared = {f", {BEFORE}": outcome.before, f", {BEST}": outcome.chosen} | dict(
+        zip((f" under new samples, {BEFORE}", f" under new samples, {BEST}"), outcome.fresh)
+    )
+    rows += [
+        (f"{called(goal.name)}{words}", goal_words(outcome, goal, each), goal.unit.removeprefix("1"))
+        for goal in outcome.design.goals
+        for words, each in compared.items()
+    ]
+    rows += [
+        (
+            called(each.name),
+            f"{outcome.chosen.values[each.name]}" if each.words else f"{outcome.chosen.values[each.name]:.4g}",
+            each.unit,
+        )
+        for each in outcome.design.variables
+    ]
     return [*rows, ("remark", no_gain(outcome), "")] if no_gain(outcome) else rows

@@ -1,4 +1,5 @@
-"""Charts of orders: spectra of transmission error and mesh force by their source, and the mesh orders from cycle to cycle."""
+"""Charts of orders: spectra of transmission error and mesh force by their source, and the mesh orders from cycle to
+cycle."""
 
 from __future__ import annotations
 
@@ -11,7 +12,17 @@ from fenics_gears.effects import common_period
 from fenics_gears.results.contact_variables import largest_normal_force, mesh_force
 from fenics_gears.results.noise import LEAST_VARIATION
 from fenics_gears.results.pairs import shown
-from fenics_gears.results.spectrum import BOTH, HUNTING, MESH, PINION, WHEEL, OrderLines, known_orders, order_lines, origin
+from fenics_gears.results.spectrum import (
+    BOTH,
+    HUNTING,
+    MESH,
+    PINION,
+    WHEEL,
+    OrderLines,
+    known_orders,
+    order_lines,
+    origin,
+)
 from fenics_gears.show.chart import BARS, Chart, Curve, Flag
 from fenics_gears.show.motion import error_values
 from fenics_gears.show.panels import GREY, PALETTE
@@ -23,7 +34,12 @@ MESH_ORDERS_SHOWN, DECADES, LEAST_AMPLITUDE = 4.5, 3, 1e-4
 # Lines below this part of the largest are the solver's tolerance.
 LEAST_PART = 1e-5
 COLOURS = {MESH: PALETTE[0], PINION: PALETTE[1], WHEEL: PALETTE[2], BOTH: PALETTE[5], HUNTING: GREY}
-ERROR, FORCE, BETWEEN, OF_ERROR = "Transmission error", "Mesh force", "between mesh orders", "Orders of the transmission error"
+ERROR, FORCE, BETWEEN, OF_ERROR = (
+    "Transmission error",
+    "Mesh force",
+    "between mesh orders",
+    "Orders of the transmission error",
+)
 
 
 @dataclass(frozen=True)
@@ -46,7 +62,8 @@ def signals_of(run: Run) -> dict[str, tuple[np.ndarray, str]]:
 
 
 def order_spectrum(run: Run) -> Chart | None:
-    """Amplitudes of the transmission error over orders of the pinion's shaft; None for a record shorter than its turn."""
+    """Amplitudes of the transmission error over orders of the pinion's shaft; None for a record shorter than its
+    turn."""
     if "transmission_error" not in run.dataset or run.scene is None:
         return None
     # Where cycles differ, all settled ones are analysed; where they are alike, only those that are shown.
@@ -67,7 +84,14 @@ def order_spectrum(run: Run) -> Chart | None:
         curves = _by_origin(lines, kinds, seen, 0.004 * highest, 0.0025 * highest)
     else:
         caption += f" (Hann's window; repeats after {lcm(*teeth)})"
-        curves = [Curve("amplitude", lines.orders[lines.orders <= highest], lines.amplitudes[lines.orders <= highest], PALETTE[0])]
+        curves = [
+            Curve(
+                "amplitude",
+                lines.orders[lines.orders <= highest],
+                lines.amplitudes[lines.orders <= highest],
+                PALETTE[0],
+            )
+        ]
     return Chart(
         caption, curves, "Order (events a turn of the pinion)", f"Amplitude ({unit})", logarithmic="y", height=500,
         x_range=(0.0, highest), y_range=(bottom, 1.5 * top), flags=_flags(lines, teeth[0], known, bottom, highest),
@@ -75,20 +99,36 @@ def order_spectrum(run: Run) -> Chart | None:
 
 
 def _flags(lines: OrderLines, teeth: int, known: list[tuple[float, str]], bottom: float, highest: float) -> list[Flag]:
-    """Mesh orders, orders that one cause is known for, and a turn of the pinion beside the mesh order where it stands out."""
-    flags = [Flag(each * teeth, lines.at(each * teeth), "mesh" if each == 1 else f"{each} × mesh", PALETTE[0]) for each in range(1, int(highest / teeth) + 1)]
+    """Mesh orders, orders that one cause is known for, and a turn of the pinion beside the mesh order where it stands
+    out."""
+    flags = [
+        Flag(each * teeth, lines.at(each * teeth), "mesh" if each == 1 else f"{each} × mesh", PALETTE[0])
+        for each in range(1, int(highest / teeth) + 1)
+    ]
     flags += [Flag(order, lines.at(order), words) for order, words in known]
     sides = {teeth - 1.0: "mesh − 1", teeth + 1.0: "mesh + 1"} if lines.exact else {}
-    return flags + [Flag(order, lines.at(order), words, COLOURS[PINION]) for order, words in sides.items() if lines.at(order) > bottom]
+    return flags + [
+        Flag(order, lines.at(order), words, COLOURS[PINION])
+        for order, words in sides.items()
+        if lines.at(order) > bottom
+    ]
 
 
 def _by_origin(lines: OrderLines, kinds: np.ndarray, seen: np.ndarray, wide: float, narrow: float) -> list[Curve]:
     """Bars in the colour of their source."""
     colours = {**COLOURS, BETWEEN: GREY}
     return [
-        Curve(kind, lines.orders[seen & (kinds == kind)], lines.amplitudes[seen & (kinds == kind)], colour, width=wide if kind == MESH else narrow, mode=BARS)
-        for kind, colour in colours.items() if (seen & (kinds == kind)).any()
-    ]  # fmt: skip
+        Curve(
+            kind,
+            lines.orders[seen & (kinds == kind)],
+            lines.amplitudes[seen & (kinds == kind)],
+            colour,
+            width=wide if kind == MESH else narrow,
+            mode=BARS,
+        )
+        for kind, colour in colours.items()
+        if (seen & (kinds == kind)).any()
+    ]
 
 
 def mesh_order_chart(run: Run, name: str, unit: str, found: Spectrum) -> Chart:
@@ -97,15 +137,26 @@ def mesh_order_chart(run: Run, name: str, unit: str, found: Spectrum) -> Chart:
     shown = (lines.orders <= MESH_ORDERS) & (lines.amplitudes > LEAST_PART * lines.amplitudes.max(initial=0.0))
     spacing = lines.orders[0] if len(lines.orders) else 1.0
     width = min(0.12, 0.8 * spacing)
-    sides = ", drive flanks positive, coast flanks negative" if "coast_normal_force" in run.dataset and name == FORCE else ""
+    sides = (
+        ", drive flanks positive, coast flanks negative"
+        if "coast_normal_force" in run.dataset and name == FORCE
+        else ""
+    )
     note = f"Amplitudes of the harmonics, without the mean{sides}; {found.record}.{_beyond(lines)}"
     return Chart(
-        name, _by_origin(lines, found.origins, shown, width, width), "Mesh order (events a mesh cycle)", f"Amplitude ({unit})", note=note, height=320, x_range=(0.0, MESH_ORDERS)
+        name,
+        _by_origin(lines, found.origins, shown, width, width),
+        "Mesh order (events a mesh cycle)",
+        f"Amplitude ({unit})",
+        note=note,
+        height=320,
+        x_range=(0.0, MESH_ORDERS),
     )
 
 
 def spectrum(run: Run, values: np.ndarray) -> Spectrum:
-    """The mesh orders of values (time,): of whole hunting tooth periods where these are stored at a steady speed, so that what comes with a
+    """The mesh orders of values (time,): of whole hunting tooth periods where these are stored at a steady speed, so
+    that what comes with a
     turn of either gear stands apart; else of whole mesh cycles."""
     scene = run.scene
     if scene is not None and scene.speed_ramp is None:
@@ -114,12 +165,18 @@ def spectrum(run: Run, values: np.ndarray) -> Spectrum:
         if found is not None and found.exact:
             periods = int(run.cycles * (1 + 1e-9)) // lcm(*teeth)
             record = f"of {periods} hunting tooth period{'s' if periods > 1 else ''} ({lcm(*teeth)} mesh cycles each)"
-            return Spectrum(replace(found, orders=found.orders / teeth[0]), np.array([origin(order, teeth) for order in found.orders]), record)
+            return Spectrum(
+                replace(found, orders=found.orders / teeth[0]),
+                np.array([origin(order, teeth) for order in found.orders]),
+                record,
+            )
     lines = order_lines(values, run.cycles, (1, 1))
     origins = np.where(np.abs(lines.orders - np.round(lines.orders)) < 1e-6, MESH, BETWEEN)
     whole = int(run.cycles * (1 + 1e-9))
     words = (
-        f"of {whole} whole mesh cycle{'s' if whole > 1 else ''}" if lines.exact else f"of {run.cycles:.4g} mesh cycles in Hann's window, where a line spreads over its neighbours"
+        f"of {whole} whole mesh cycle{'s' if whole > 1 else ''}"
+        if lines.exact
+        else f"of {run.cycles:.4g} mesh cycles in Hann's window, where a line spreads over its neighbours"
     )
     return Spectrum(lines, origins, words)
 
@@ -129,11 +186,16 @@ def _beyond(lines: OrderLines) -> str:
     if not len(lines.orders):
         return ""
     order = lines.orders[np.argmax(lines.amplitudes)]
-    return f" The largest of all is at order {order:.4g}, beyond the picture: {lines.amplitudes.max():.4g}." if order > MESH_ORDERS else ""
+    return (
+        f" The largest of all is at order {order:.4g}, beyond the picture: {lines.amplitudes.max():.4g}."
+        if order > MESH_ORDERS
+        else ""
+    )
 
 
 def orders_by_cycle(run: Run, signals: dict[str, tuple[np.ndarray, str]]) -> list[Chart]:
-    """Amplitudes of the first mesh orders in each mesh cycle of a long record, over its mesh frequency where that changes."""
+    """Amplitudes of the first mesh orders in each mesh cycle of a long record, over its mesh frequency where that
+    changes."""
     cycles = run.whole_cycles
     if len(cycles) < CYCLES_TO_FOLLOW or cycles[0].stop - 1 < 2 * FOLLOWED_ORDERS:
         return []
@@ -141,6 +203,9 @@ def orders_by_cycle(run: Run, signals: dict[str, tuple[np.ndarray, str]]) -> lis
     charts = []
     for name, (values, unit) in signals.items():
         each = [order_lines(values[cycle], 1.0, (1, 1)).amplitudes[:FOLLOWED_ORDERS] for cycle in cycles]
-        curves = [Curve(f"order {order}", middle, part, colour) for order, (part, colour) in enumerate(zip(np.array(each).T, PALETTE), 1)]
+        curves = [
+            Curve(f"order {order}", middle, part, colour)
+            for order, (part, colour) in enumerate(zip(np.array(each).T, PALETTE), 1)
+        ]
         charts.append(Chart(f"{name}: mesh orders cycle by cycle", curves, title, f"Amplitude ({unit})"))
     return charts

@@ -53,11 +53,14 @@ def shades(count: int) -> list[str]:
     """Colours of curves in an order, the last one darkest; without the palest, which are no colours of a line."""
     ends = np.array([[int(colour[place : place + 2], 16) for place in (1, 3, 5)] for colour in LOW_TO_HIGH])
     places = np.linspace(0.87 * (len(ends) - 1), 0.0, count) if count > 1 else np.zeros(count)
-    return ["#" + "".join(f"{round(np.interp(place, range(len(ends)), part)):02X}" for part in ends.T) for place in places]
+    return [
+        "#" + "".join(f"{round(np.interp(place, range(len(ends)), part)):02X}" for part in ends.T) for place in places
+    ]
 
 
 def limits(values: np.ndarray, least: float) -> tuple[float, float]:
-    """Ends of an axis around the finite values; not closer than ``least``, so that rounding errors do not fill a panel."""
+    """Ends of an axis around the finite values; not closer than ``least``, so that rounding errors do not fill a
+    panel."""
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
     half = 0.5 * max(1.12 * (high - low), least)
@@ -67,4 +70,6 @@ def limits(values: np.ndarray, least: float) -> tuple[float, float]:
 def legend(axes, columns: int, location: str = "lower right") -> None:
     """Legend above the panel, where no curve can be; the demonstrations' pictures use it."""
     side = 1.0 if location.endswith("right") else 0.0
-    axes.legend(loc=location, bbox_to_anchor=(side, 1.0), ncol=columns, borderaxespad=0.1, handlelength=1.6, columnspacing=1.4)
+    axes.legend(
+        loc=location, bbox_to_anchor=(side, 1.0), ncol=columns, borderaxespad=0.1, handlelength=1.6, columnspacing=1.4
+    )

@@ -64,7 +64,9 @@ def _of_face(run: Run) -> dict[str, tuple[str, Callable[[Run], Iterable[Chart]]]
     from fenics_gears.show.contact_pattern import contact_patterns
     from fenics_gears.show.line_load import line_loads
 
-    return dict(zip(FACE_PICTURE_FILES, (("Contact pattern", contact_patterns), ("Line load along the face", line_loads))))
+    return dict(
+        zip(FACE_PICTURE_FILES, (("Contact pattern", contact_patterns), ("Line load along the face", line_loads)))
+    )
 
 
 ROWS_AT_ONCE = 16
@@ -73,8 +75,9 @@ ROWS_AT_ONCE = 16
 def draw_run(dataset: xr.Dataset, directory: str | Path, shared: bool = False) -> list[Path]:
     """Draw all pictures for which the result has data, as PNG, and return the files.
 
-    They appear in ``directory`` together, when all are drawn. `shared`: with a copy of this process, see `system.copied_process`.
-    Raises ComputationError where fewer than two steps are stored, a variable's units do not fit it, or the directory cannot be written.
+    They appear in ``directory`` together, when all are drawn. `shared`: with a copy of this process, see
+    `system.copied_process`. Raises ComputationError where fewer than two steps are stored, a variable's units do not
+    fit it, or the directory cannot be written.
     """
     drawn, written = _drawn(dataset), []
     with written_aside(Path(directory), written) as aside:
@@ -91,7 +94,10 @@ def _drawn(dataset: xr.Dataset) -> dict[str, tuple[str, list[Chart], str]]:
     """Heading, charts and colour of each picture that there is, by file name."""
     run = Run(dataset)
     _check_steps(run)
-    drawn = {name: (_heading(run, subject), list(charts(run)), DARK if run.complete else WARNING) for name, (subject, charts) in (PICTURES | _of_face(run)).items()}
+    drawn = {
+        name: (_heading(run, subject), list(charts(run)), DARK if run.complete else WARNING)
+        for name, (subject, charts) in (PICTURES | _of_face(run)).items()
+    }
     return {name: what for name, what in drawn.items() if what[1]}
 
 
@@ -120,12 +126,16 @@ def _check_steps(run: Run) -> None:
     stored = "no step is stored" if run.steps == 0 else "only one step is stored"
     remedy = "Run the scene again."
     if not run.complete:
-        remedy = "The run ended before or just as its recorded mesh cycles began. Run the scene again, or record more of its cycles."
+        remedy = (
+            "The run ended before or just as its recorded mesh cycles began. Run the scene again, or record more of its"
+            " cycles."
+        )
     raise ComputationError(f"There is nothing to draw: {stored}, and a curve needs two. {remedy}")
 
 
 def draw_study(file: Path) -> list[Path]:
-    """Draw what a study's cases are compared by over its parameters, as PNG beside its file, and return the files; none where no case has a result."""
+    """Draw what a study's cases are compared by over its parameters, as PNG beside its file, and return the files; none
+    where no case has a result."""
     from fenics_gears.show.cases import Cases
     from fenics_gears.show.study_charts import result_charts
     from fenics_gears.studies.combine import load_combined
@@ -133,7 +143,13 @@ def draw_study(file: Path) -> list[Path]:
     cases = Cases(load_combined(file), file)
     title = str(cases.dataset.attrs.get("title", "")) or file.parent.name
     charts = result_charts(cases)
-    return save_figures({f"{name}.png": picture(heading("Study", title, chart.caption, chart.note), [replace(chart, caption="")]) for name, chart in charts.items()}, file.parent)
+    return save_figures(
+        {
+            f"{name}.png": picture(heading("Study", title, chart.caption, chart.note), [replace(chart, caption="")])
+            for name, chart in charts.items()
+        },
+        file.parent,
+    )
 
 
 def save_figures(figures: dict[str, Figure], directory: Path) -> list[Path]:
@@ -157,7 +173,8 @@ def save_figure(figure: Figure, path: Path | BinaryIO) -> None:
 
 
 def png(pixels: np.ndarray, dots_per_inch: float) -> bytes:
-    """Pixels (height, width, 4) as PNG. Rows are not filtered: of curves on white paper that makes the file no smaller, and takes twice as long."""
+    """Pixels (height, width, 4) as PNG. Rows are not filtered: of curves on white paper that makes the file no smaller,
+    and takes twice as long."""
     height, width, _ = pixels.shape
     # The same few rows again and again: fresh memory for a second copy of a picture is slower than the copying.
     rows, packer, packed = np.zeros((ROWS_AT_ONCE, 1 + 4 * width), dtype=np.uint8), zlib.compressobj(1), []
@@ -170,5 +187,8 @@ def png(pixels: np.ndarray, dots_per_inch: float) -> bytes:
         b"IHDR": struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0), b"pHYs": struct.pack(">IIB", dots, dots, 1),
         b"IDAT": b"".join([*packed, packer.flush()]), b"IEND": b"",
     }  # fmt: skip
-    chunks = [struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data)) for name, data in parts.items()]
+    chunks = [
+        struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+        for name, data in parts.items()
+    ]
     return b"\x89PNG\r\n\x1a\n" + b"".join(chunks)

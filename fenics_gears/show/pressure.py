@@ -1,4 +1,5 @@
-"""Charts of the contact pressure: its largest value over time, and the pressure of the contact nodes as a map over flank and time."""
+"""Charts of the contact pressure: its largest value over time, and the pressure of the contact nodes as a map over
+flank and time."""
 
 from __future__ import annotations
 
@@ -25,19 +26,33 @@ _DEGREES = factor("rad", "deg")
 
 def has_pressure(run: Run) -> bool:
     """Whether the result has contact fields."""
-    return "contact_pressure" in run.dataset and "contact_roll_angle" in run.dataset and run.dataset.sizes["contact_time"] > 1
+    return (
+        "contact_pressure" in run.dataset
+        and "contact_roll_angle" in run.dataset
+        and run.dataset.sizes["contact_time"] > 1
+    )
 
 
 def largest_pressures(run: Run) -> list[Chart]:
-    """Largest contact pressure away from edges and kinks at every step, and those at either; none of results without them."""
-    names = {"largest_contact_pressure": "away from edges and kinks", "largest_edge_pressure": "at edges", "largest_kink_pressure": "at kinks of relief"}
-    names = {name: words for name, words in names.items() if name == "largest_contact_pressure" or name in run.dataset and run.dataset[name].any()}
+    """Largest contact pressure away from edges and kinks at every step, and those at either; none of results without
+    them."""
+    names = {
+        "largest_contact_pressure": "away from edges and kinks",
+        "largest_edge_pressure": "at edges",
+        "largest_kink_pressure": "at kinks of relief",
+    }
+    names = {
+        name: words
+        for name, words in names.items()
+        if name == "largest_contact_pressure" or name in run.dataset and run.dataset[name].any()
+    }
     note = "Averaged over five contact nodes." + (APART_NOTE if len(names) > 1 else "")
     return of_variables(run, "Largest contact pressure", "Pressure", "MPa", names, note=note, height=300)
 
 
 def pressure_maps(run: Run) -> list[Chart]:
-    """Pressure over mesh cycles and the pinion's roll angle, for each side of the teeth that carries; of the drive flanks where none does."""
+    """Pressure over mesh cycles and the pinion's roll angle, for each side of the teeth that carries; of the drive
+    flanks where none does."""
     if not has_pressure(run):
         return []
     cells = {side: run.fields(side) for side in SIDES if f"{side}contact_pressure" in run.dataset}
@@ -45,12 +60,17 @@ def pressure_maps(run: Run) -> list[Chart]:
     return [_map(run, side, *cells[side], named=len(cells) > 1) for side in loaded]
 
 
-def _map(run: Run, side: str, pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, number: np.ndarray, named: bool) -> Chart:
+def _map(
+    run: Run, side: str, pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, number: np.ndarray, named: bool
+) -> Chart:
     field = pressure_field(pressure, place, phase)
     highest = float(np.nanmax(field.values, initial=0.0))
     caption = "Contact pressure of single nodes" + (f" on the {SIDES[side]}" if named else "")
     if run.is_over_face:
-        caption += f", in the slice at {float(in_middle_slice(run.dataset)['face_position']):.2f} mm from the middle of the face"
+        caption += (
+            f", in the slice at {float(in_middle_slice(run.dataset)['face_position']):.2f} mm from the middle of the"
+            " face"
+        )
     if highest > field.limit * (1 + 1e-9):
         # Of cycles that repeat, the last.
         step = np.flatnonzero(pressure.max(axis=(1, 2)) >= highest * (1.0 - SAME))[-1]
@@ -60,11 +80,15 @@ def _map(run: Run, side: str, pressure: np.ndarray, place: np.ndarray, phase: np
         pair = run.pair
         roll = float(pair.pinion_roll_angle(pair.pitch_point)) * _DEGREES
         curves.append(Curve("pitch point", np.array(window), np.array([roll, roll]), DARK, "dash", 1.0))
-        ratio, length = pair.pinion.base_radius / pair.wheel.base_radius, pair.line_of_action_length / pair.wheel.base_radius
+        ratio, length = (
+            pair.pinion.base_radius / pair.wheel.base_radius,
+            pair.line_of_action_length / pair.wheel.base_radius,
+        )
         second = Second("Roll angle on the wheel's flank (deg)", -ratio, length * _DEGREES)
     heights = (float(field.y[0]), float(field.y[-1]))
     return Chart(
-        caption, [*curves, *_names(pressure, place, phase, number, window)], MESH_CYCLES, "Roll angle on the pinion's flank (deg)",
+        caption, [*curves, *_names(pressure, place, phase, number, window)], MESH_CYCLES,
+        "Roll angle on the pinion's flank (deg)",
         x_range=window, y_range=heights, field=field, second=second, height=480, linked=TIME, note=_peaks(run),
     )  # fmt: skip
 
@@ -74,19 +98,32 @@ def _peaks(run: Run) -> str:
     attributes = run.dataset.attrs
     if "peak_contact_pressure" not in attributes:
         return ""
-    words = f"The peak contact pressure of the settled run, averaged over five nodes, is {digits(attributes['peak_contact_pressure'])} MPa"
+    words = (
+        "The peak contact pressure of the settled run, averaged over five nodes, is"
+        f" {digits(attributes['peak_contact_pressure'])} MPa"
+    )
     places = {"edge": "at edges", "kink": "at kinks of relief"}
-    apart = [f"{digits(attributes[f'peak_{name}_pressure'])} MPa {at}" for name, at in places.items() if f"peak_{name}_pressure" in attributes]
+    apart = [
+        f"{digits(attributes[f'peak_{name}_pressure'])} MPa {at}"
+        for name, at in places.items()
+        if f"peak_{name}_pressure" in attributes
+    ]
     return f"{words} away from edges and kinks, {' and '.join(apart)}." if apart else f"{words}."
 
 
 def pressure_field(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray) -> Field:
-    """The largest pressure (MPa) in each cell of a raster over steps and flank, from pressure and roll angle (step, pair, node) and the
-    steps' mesh cycles (step,): each node under pressure reaches half-way to its neighbours and to the steps before and after."""
+    """The largest pressure (MPa) in each cell of a raster over steps and flank, from pressure and roll angle (step,
+    pair, node) and the
+    steps' mesh cycles (step,): each node under pressure reaches half-way to its neighbours and to the steps before and
+    after."""
     low, high = node_edges(place)
     known = (pressure > 0.0) & np.isfinite(low) & np.isfinite(high)
     finite = place[np.isfinite(place)]
-    rows = np.linspace(finite.min() - 0.5, finite.max() + 0.5, ROWS + 1) if finite.size else np.linspace(0.0, 1.0, ROWS + 1)
+    rows = (
+        np.linspace(finite.min() - 0.5, finite.max() + 0.5, ROWS + 1)
+        if finite.size
+        else np.linspace(0.0, 1.0, ROWS + 1)
+    )
     group = -(-len(phase) // MOST_COLUMNS)
     middle = 0.5 * (phase[1:] + phase[:-1])
     columns = np.append(np.append(phase[0], middle)[::group], phase[-1])
@@ -99,7 +136,14 @@ def pressure_field(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray) -
     np.maximum.at(values, (np.clip(row, 0, ROWS - 1), step), pressure[known][each])
     found = pressure[known]
     highest = float(found.max(initial=0.0)) or 1.0
-    return Field(columns, rows, np.where(np.isfinite(values), values, np.nan), "Contact pressure (MPa)", colour_limit(found, highest), COLOURS)
+    return Field(
+        columns,
+        rows,
+        np.where(np.isfinite(values), values, np.nan),
+        "Contact pressure (MPa)",
+        colour_limit(found, highest),
+        COLOURS,
+    )
 
 
 def colour_limit(pressures: np.ndarray, highest: float) -> float:
@@ -109,7 +153,8 @@ def colour_limit(pressures: np.ndarray, highest: float) -> float:
 
 
 def node_edges(place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Lower and upper edge of each node's cell, both of the shape of ``place``; a node without a neighbour mirrors the other edge."""
+    """Lower and upper edge of each node's cell, both of the shape of ``place``; a node without a neighbour mirrors the
+    other edge."""
     missing = np.full(place.shape[:-1] + (1,), np.nan)
     half = 0.5 * np.diff(place, axis=-1)
     back, forth = np.concatenate([missing, half], axis=-1), np.concatenate([half, missing], axis=-1)
@@ -118,7 +163,9 @@ def node_edges(place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return edges.min(axis=0), edges.max(axis=0)
 
 
-def _names(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, number: np.ndarray, window: tuple[float, float]) -> list[Curve]:
+def _names(
+    pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, number: np.ndarray, window: tuple[float, float]
+) -> list[Curve]:
     """The number of each pair above its band's end, where the band is long enough to leave it room."""
     top = np.where(pressure > 0.0, place, -np.inf).max(axis=2)
     words, x, y = [], [], []
@@ -130,4 +177,8 @@ def _names(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, number: n
             words.append(f"pair {pair}")
             x.append(phase[steps[nearest]])
             y.append(top[steps[nearest], rows[nearest]])
-    return [Curve("pairs", np.array(x), np.array(y), DARK, mode=WORDS, listed=False, words=words, beside="top left")] if words else []
+    return (
+        [Curve("pairs", np.array(x), np.array(y), DARK, mode=WORDS, listed=False, words=words, beside="top left")]
+        if words
+        else []
+    )

@@ -1,6 +1,7 @@
 """A stored run for charts, pictures and the report: the cycles shown, curves of tooth pairs, contact fields.
 
-What `contact_pattern`, `line_load` and `loaded_contact` do not read by themselves of the layout of a result (docs/result.md) is read here.
+What `contact_pattern`, `line_load` and `loaded_contact` do not read by themselves of the layout of a result
+(docs/result.md) is read here.
 """
 
 from __future__ import annotations
@@ -21,7 +22,10 @@ from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import LOAD_WORDS, Scene
 from fenics_gears.show.units import digits, factor, in_unit
 
-NO_SCENE = "The scene in this file is none of this version of the program, so that this section cannot be made; run the scene again."
+NO_SCENE = (
+    "The scene in this file is none of this version of the program, so that this section cannot be made; run the scene"
+    " again."
+)
 TOO_FEW = "Fewer than two steps are stored; a curve needs two."
 # Most mesh cycles side by side in a chart. Of longer records the last ones are shown, and all of them cycle by cycle.
 MOST_CYCLES = 4.0
@@ -35,7 +39,8 @@ ALONG_THE_FACE = ("lead_modifications", "misalignment")
 class Run:
     """A result, the file it was read from, and the settings of its report.
 
-    at: mesh cycles after the first stored step at which the stress picture is drawn, None for where the largest force is; stress: whether
+    at: mesh cycles after the first stored step at which the stress picture is drawn, None for where the largest force
+        is; stress: whether
     it is drawn at all.
     """
 
@@ -139,11 +144,18 @@ class Run:
     def varies(self, values: np.ndarray) -> bool:
         """Whether the settled mesh cycles of values (time,) differ."""
         first = float(self.settled.phase[0])
-        ends = np.array([(values[each].min(), values[each].max()) for each in self.whole_cycles if self.phase[each][0] >= first - 1e-9])
+        ends = np.array(
+            [
+                (values[each].min(), values[each].max())
+                for each in self.whole_cycles
+                if self.phase[each][0] >= first - 1e-9
+            ]
+        )
         return len(ends) > 1 and bool(np.ptp(ends, axis=0).max() > ALIKE * np.ptp(ends))
 
     def of_pairs(self, name: str, unit: str, **place) -> list[tuple[str, np.ndarray, int]]:
-        """Curves of a variable of the tooth pairs that carry in the cycles shown: words for it, values (time,), not a number where the
+        """Curves of a variable of the tooth pairs that carry in the cycles shown: words for it, values (time,), not a
+        number where the
         pair has none, and its number."""
         part = np.flatnonzero(self.in_window)
         values = in_unit(self.dataset[name].sel(place).transpose("time", "slot"), unit)
@@ -169,8 +181,9 @@ class Run:
         return self.dataset.isel(contact_time=phase >= phase[-1] - MOST_CYCLES - 1e-9)
 
     def fields(self, side: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Contact pressure (MPa) and the pinion's roll angle (deg) of the contact nodes, both (step, slot, node), in the middle of the face if they
-        are resolved over it; the steps' mesh cycles (step,) and the pairs' numbers (step, slot), in the last cycles whose fields are stored; side:
+        """Contact pressure (MPa) and the pinion's roll angle (deg) of the contact nodes, both (step, slot, node), in
+        the middle of the face if they are resolved over it; the steps' mesh cycles (step,) and the pairs' numbers
+        (step, slot), in the last cycles whose fields are stored; side:
         how the result's variables of that side begin."""
         part = in_middle_slice(self.last_fields)
         order = ("contact_time", "slot", "contact_node")
@@ -196,7 +209,8 @@ def scene_of(dataset: xr.Dataset) -> Scene | None:
 
 
 def conditions(scene: Scene) -> str:
-    """Load, speed, friction, modifications, errors and ripple of a scene: what tells apart two pictures of the same gears."""
+    """Load, speed, friction, modifications, errors and ripple of a scene: what tells apart two pictures of the same
+    gears."""
     ramp = "" if scene.speed_ramp is None else f" to {scene.speed_ramp.end_frequency:g}"
     speed = "quasi-static" if scene.inertia is None else f"{scene.motion.mesh_frequency:g}{ramp} Hz mesh frequency"
     return f"{load_in_words(scene)}, {speed}, {design(scene)}"
@@ -211,7 +225,16 @@ def load_in_words(scene: Scene) -> str:
 
 def design(scene: Scene) -> str:
     """Friction, modifications, errors and ripple of a scene, whatever its load and speed."""
-    friction = "no friction" if scene.friction is None else "friction " + (scene.friction.formula and f"after {scene.friction.formula}" or f"coefficient {scene.friction.coefficient:g}")
+    friction = (
+        "no friction"
+        if scene.friction is None
+        else "friction "
+        + (
+            scene.friction.formula
+            and f"after {scene.friction.formula}"
+            or f"coefficient {scene.friction.coefficient:g}"
+        )
+    )
     helix = f", helix angle {scene.gears.helix_angle * factor('rad', 'deg'):g}°" if scene.gears.helix_angle else ""
     shaping = (each for each in effects_on(scene) if each.removal or each.gaps or each.section in ALONG_THE_FACE)
     shapes = helix + "".join(f", {each.section.replace('_', ' ')}" for each in shaping)

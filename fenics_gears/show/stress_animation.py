@@ -29,13 +29,23 @@ def check_suffix(path: Path) -> None:
     if path.suffix not in SUFFIXES:
         raise SceneError(f"{path}: a moving picture is a .gif or a .mp4 file; give --output such a name")
     if path.suffix == ".mp4" and shutil.which("ffmpeg") is None:
-        raise SceneError(f"{path}: there is no ffmpeg on PATH, which writes .mp4 files. Install it (Debian: ffmpeg), or name a .gif file.")
+        raise SceneError(
+            f"{path}: there is no ffmpeg on PATH, which writes .mp4 files. Install it (Debian: ffmpeg), or name a .gif"
+            " file."
+        )
 
 
-def animate(runs, dataset: xr.Dataset, path: Path, frames: Callable[[list], Callable[..., Figure]], report: Callable[[int, int], None]) -> None:
+def animate(
+    runs,
+    dataset: xr.Dataset,
+    path: Path,
+    frames: Callable[[list], Callable[..., Figure]],
+    report: Callable[[int, int], None],
+) -> None:
     """Write the moving picture of a run's stresses; `report(done, all)` is called for every frame.
 
-    frames: given some of the meshes that `runs` has, it fixes colours and scale and returns what draws a mesh. The first and the last stored step are the same position in the mesh where whole cycles
+    frames: given some of the meshes that `runs` has, it fixes colours and scale and returns what draws a mesh. The
+        first and the last stored step are the same position in the mesh where whole cycles
     are stored, so that the last is left out and the turn has no seam.
     """
     steps = frame_steps(dataset)
@@ -65,14 +75,26 @@ def _image(figure: Figure) -> np.ndarray:
 def _write_gif(frames: list[np.ndarray], path: Path) -> None:
     from PIL import Image
 
-    # One palette for all frames, or flat colours would flicker; made of the colours of stress and greys, since one made from the frames
-    # would spend itself on the pale bodies.
-    colours = np.vstack([COLOURS(np.linspace(0.0, 1.0, STRESS_COLOURS))[:, :3], np.linspace(0.0, 1.0, 256 - STRESS_COLOURS)[:, None] * np.ones(3)])
+    # One palette for all frames, or flat colours would flicker; made of the colours of stress and greys, since one made
+    # from the frames would spend itself on the pale bodies.
+    colours = np.vstack(
+        [
+            COLOURS(np.linspace(0.0, 1.0, STRESS_COLOURS))[:, :3],
+            np.linspace(0.0, 1.0, 256 - STRESS_COLOURS)[:, None] * np.ones(3),
+        ]
+    )
     palette = Image.new("P", (1, 1))
     palette.putpalette(np.round(255.0 * colours).astype(np.uint8).tobytes())
     images = [Image.fromarray(frame) for frame in frames]
     quantised = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
-    quantised[0].save(path, save_all=True, append_images=quantised[1:], duration=round(1000 / FRAMES_PER_SECOND), loop=0, optimize=False)
+    quantised[0].save(
+        path,
+        save_all=True,
+        append_images=quantised[1:],
+        duration=round(1000 / FRAMES_PER_SECOND),
+        loop=0,
+        optimize=False,
+    )
 
 
 def _write_mp4(frames: list[np.ndarray], path: Path) -> None:
@@ -81,6 +103,10 @@ def _write_mp4(frames: list[np.ndarray], path: Path) -> None:
         "ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}",
         "-r", str(FRAMES_PER_SECOND), "-i", "-", "-pix_fmt", "yuv420p", "-f", "mp4", str(path),
     ]  # fmt: skip
-    done = subprocess.run(command, input=b"".join(frame[:height, :width].tobytes() for frame in frames), capture_output=True)
+    done = subprocess.run(
+        command, input=b"".join(frame[:height, :width].tobytes() for frame in frames), capture_output=True
+    )
     if done.returncode:
-        raise ComputationError(f"{path}: ffmpeg could not write the moving picture: {done.stderr.decode(errors='replace').strip()}")
+        raise ComputationError(
+            f"{path}: ffmpeg could not write the moving picture: {done.stderr.decode(errors='replace').strip()}"
+        )

@@ -31,18 +31,25 @@ from fenics_gears.simulation.run_stresses import GearsInMesh
 if TYPE_CHECKING:
     from fenics_gears.simulation.face_stresses import GearsInSpace
 
-# Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots are.
+# Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots
+# are.
 COLOURS = LinearSegmentedColormap.from_list("stress", [
-    (0.0, "#F1F3F5"), (0.1, "#B4D0E8"), (0.24, "#539FD0"), (0.4, "#35A388"), (0.58, "#F0D24A"), (0.79, "#EB7A2F"), (1.0, "#A90E18"),
+    (0.0, "#F1F3F5"), (0.1, "#B4D0E8"), (0.24, "#539FD0"), (0.4, "#35A388"), (0.58, "#F0D24A"), (0.79, "#EB7A2F"),
+    (1.0, "#A90E18"),
 ])  # fmt: skip
 # Triangles of a gear in a panel, at least: with fewer their edges are seen in the colours.
 LEAST_TRIANGLES = 20_000
-# The colours end at this multiple of the largest stress in the fillets: what touches would else leave no colour for the roots.
+# The colours end at this multiple of the largest stress in the fillets: what touches would else leave no colour for the
+# roots.
 ROOTS_IN_COLOURS = 3.0
 # In millimetres of flank around the most loaded contact, in Hertz half-widths.
 CLOSE_UP_HALF_WIDTHS = 5.0
 # What a picture names of the pressure at its time.
-PRESSURES = {"largest_contact_pressure": "largest contact pressure", "largest_edge_pressure": "pressure at an edge", "largest_kink_pressure": "pressure at a kink of relief"}
+PRESSURES = {
+    "largest_contact_pressure": "largest contact pressure",
+    "largest_edge_pressure": "pressure at an edge",
+    "largest_kink_pressure": "pressure at a kink of relief",
+}
 # Inches at 100 dots of a frame of a moving picture.
 FRAME_WIDTH = 9.6
 # Radii, points: of a bore that a gear's name fits into with its arrow, and of that arrow.
@@ -64,7 +71,8 @@ class View:
 
 
 def colour_limit(meshes: list[GearsInMesh]) -> float:
-    """Stress (MPa) at which the colours end: the largest, or a multiple of that in the fillets where contact exceeds it by far."""
+    """Stress (MPa) at which the colours end: the largest, or a multiple of that in the fillets where contact exceeds it
+    by far."""
     peak = max(float(body.von_mises.max()) for mesh in meshes for body in mesh.gears)
     roots = max(_stress_of_roots(mesh) for mesh in meshes)
     return rounded_up(min(peak, ROOTS_IN_COLOURS * roots) if roots > 0.0 else peak)
@@ -89,21 +97,35 @@ def _stress_of_roots(mesh: GearsInMesh) -> float:
 
 def still(mesh: GearsInMesh, dataset: xr.Dataset, scale: float | None = None) -> Figure:
     """The picture of one time; `scale` of the displacements, the largest suitable one unless given."""
-    return stress_picture(mesh, dataset, scale=automatic_scale([mesh]) if scale is None else scale, limit=colour_limit([mesh]))
+    return stress_picture(
+        mesh, dataset, scale=automatic_scale([mesh]) if scale is None else scale, limit=colour_limit([mesh])
+    )
 
 
 def frames(dataset: xr.Dataset, scale: float | None, sampled: list[GearsInMesh]) -> Callable[[GearsInMesh], Figure]:
     """What draws the frames of a moving picture, with the colours and the scale that suit some of its meshes."""
     limit, scale = colour_limit(sampled), automatic_scale(sampled) if scale is None else scale
     beyond = any(exceeds(mesh, limit) for mesh in sampled)
-    return lambda mesh: stress_picture(mesh, dataset, scale=scale, limit=limit, close_up=False, width=FRAME_WIDTH, beyond=beyond)
+    return lambda mesh: stress_picture(
+        mesh, dataset, scale=scale, limit=limit, close_up=False, width=FRAME_WIDTH, beyond=beyond
+    )
 
 
 @styled
-def stress_picture(mesh: GearsInMesh, dataset: xr.Dataset, *, scale: float, limit: float, close_up: bool = True, width: float = 16.0, beyond: bool = False) -> Figure:
+def stress_picture(
+    mesh: GearsInMesh,
+    dataset: xr.Dataset,
+    *,
+    scale: float,
+    limit: float,
+    close_up: bool = True,
+    width: float = 16.0,
+    beyond: bool = False,
+) -> Figure:
     """Both gears, their teeth in contact enlarged, and with `close_up` the most loaded contact itself.
 
-    scale: of the displacement. limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there whether this mesh exceeds it
+    scale: of the displacement. limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there whether
+        this mesh exceeds it
     or not. width: inches of a figure 16 to 9.
     """
     figure = Figure(figsize=(16.0, 9.0), dpi=100.0 * width / 16.0)
@@ -155,7 +177,13 @@ def contact_view(contact: LoadedContact) -> View:
 def _moved(mesh: GearsInMesh, point: np.ndarray, scale: float) -> np.ndarray:
     """How far the bodies at a point of the picture are drawn from where they are at scale 1."""
     nearest = [np.argmin(((shown_points(mesh, gear, 0.0) - point) ** 2).sum(axis=1)) for gear in (0, 1)]
-    return np.mean([shown_points(mesh, gear, scale)[node] - shown_points(mesh, gear, 1.0)[node] for gear, node in enumerate(nearest)], axis=0)
+    return np.mean(
+        [
+            shown_points(mesh, gear, scale)[node] - shown_points(mesh, gear, 1.0)[node]
+            for gear, node in enumerate(nearest)
+        ],
+        axis=0,
+    )
 
 
 def fitted(view: View, width: float, height: float) -> View:
@@ -174,7 +202,9 @@ def _panel(figure: Figure, place, wanted: View, mesh: GearsInMesh, scale: float,
             x, y, stress = _triangles(points, cells, body.von_mises).reshape(-1, 3).T
             # `tripcolor` does the same and takes three times as long, for the edges of all triangles.
             triangles = Triangulation(x, y, np.arange(len(x)).reshape(-1, 3))
-            axes.add_collection(TriMesh(triangles, array=stress, cmap=COLOURS, norm=Normalize(0.0, limit)), autolim=False)
+            axes.add_collection(
+                TriMesh(triangles, array=stress, cmap=COLOURS, norm=Normalize(0.0, limit)), autolim=False
+            )
             # Sides apart from each other in one line.
             x, y = np.insert(points[sides], 2, np.nan, axis=1).reshape(-1, 2).T
             axes.plot(x, y, color=DARK, linewidth=0.9, solid_capstyle="round")
@@ -188,9 +218,12 @@ def _panel(figure: Figure, place, wanted: View, mesh: GearsInMesh, scale: float,
 
 
 def _triangles(points: np.ndarray, cells: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Cells as triangles (k, 3, 3), at each corner x, y and value; divided until there are many, since colours are blended between corners."""
+    """Cells as triangles (k, 3, 3), at each corner x, y and value; divided until there are many, since colours are
+    blended between corners."""
     # Four corners are two triangles.
-    corners = np.column_stack([points, values])[np.vstack([cells[:, [0, second, second + 1]] for second in range(1, cells.shape[1] - 1)])]
+    corners = np.column_stack([points, values])[
+        np.vstack([cells[:, [0, second, second + 1]] for second in range(1, cells.shape[1] - 1)])
+    ]
     while len(corners) < LEAST_TRIANGLES:
         a, b, c = corners.transpose(1, 0, 2)
         ab, bc, ca = 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a)
@@ -215,16 +248,34 @@ def _line_of_action(axes: Axes, mesh: GearsInMesh, coast: bool, labelled: bool) 
     for colour, wider in (("white", 1.6), (DARK, 0.0)):
         axes.plot(*ends.T, color=colour, linewidth=1.0 + wider, solid_capstyle="butt", linestyle="-")
         axes.plot(*path.T, color=colour, linewidth=2.4 + wider, solid_capstyle="butt")
-    axes.plot(*pitch, "o", markersize=8 if labelled else 5, markerfacecolor="white", markeredgecolor="black", markeredgewidth=1.4)
+    axes.plot(
+        *pitch,
+        "o",
+        markersize=8 if labelled else 5,
+        markerfacecolor="white",
+        markeredgecolor="black",
+        markeredgewidth=1.4,
+    )
     if labelled:
         side = -1 if coast else 1
         _note(axes, "pitch point", pitch, (side * 14, 16))
-        _note(axes, "line of action", frame(np.array([pair.path_start - 0.12 * pair.base_pitch, height])), (side * 12, 30))
+        _note(
+            axes, "line of action", frame(np.array([pair.path_start - 0.12 * pair.base_pitch, height])), (side * 12, 30)
+        )
 
 
 def _note(axes: Axes, words: str, point, offset) -> None:
     box = {"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": "#BBBBBB", "alpha": 0.92}
-    axes.annotate(words, point, xytext=offset, textcoords="offset points", fontsize=11.5, color=DARK, bbox=box, ha="left" if offset[0] > 0 else "right")
+    axes.annotate(
+        words,
+        point,
+        xytext=offset,
+        textcoords="offset points",
+        fontsize=11.5,
+        color=DARK,
+        bbox=box,
+        ha="left" if offset[0] > 0 else "right",
+    )
 
 
 def _name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
@@ -242,11 +293,14 @@ def _name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
         tip = np.radians(end if turns > 0 else start)
         head = centre + radius * np.array([np.cos(tip), np.sin(tip)])
         back = centre + radius * np.array([np.cos(tip - turns * 0.06), np.sin(tip - turns * 0.06)])
-        axes.add_patch(FancyArrowPatch(back, head, arrowstyle="-|>", mutation_scale=14, color=DARK, shrinkA=0, shrinkB=0))
+        axes.add_patch(
+            FancyArrowPatch(back, head, arrowstyle="-|>", mutation_scale=14, color=DARK, shrinkA=0, shrinkB=0)
+        )
 
 
 def _place_of_name(gear, point: float) -> tuple[np.ndarray, str, str]:
-    """Where a gear's name stands from its centre (mm), with its alignment: in the bore, above it in the body, or left of the teeth."""
+    """Where a gear's name stands from its centre (mm), with its alignment: in the bore, above it in the body, or left
+    of the teeth."""
     if gear.bore_radius >= LEAST_BORE * point:
         return np.zeros(2), "center", "center"
     if gear.root_radius - gear.bore_radius > 2.0 * LEAST_BORE * point:
@@ -259,7 +313,9 @@ def _frame_in(axes: Axes, enlarged: Axes, moved: np.ndarray | None = None) -> No
     (left, right), (bottom, top) = enlarged.get_xlim(), enlarged.get_ylim()
     x, y = (0.0, 0.0) if moved is None else moved
     for colour, width in (("black", 2.6), ("white", 1.2)):
-        axes.add_patch(Rectangle((left + x, bottom + y), right - left, top - bottom, fill=False, edgecolor=colour, linewidth=width))
+        axes.add_patch(
+            Rectangle((left + x, bottom + y), right - left, top - bottom, fill=False, edgecolor=colour, linewidth=width)
+        )
 
 
 def _length_bar(axes: Axes) -> None:
@@ -271,12 +327,23 @@ def _length_bar(axes: Axes) -> None:
     x, y = left + 0.06 * (right - left), bottom + 0.06 * (top - bottom)
     axes.plot([x, x + length], [y, y], color="black", linewidth=5.0, solid_capstyle="butt")
     axes.plot([x, x + length], [y, y], color="white", linewidth=2.5, solid_capstyle="butt")
-    axes.text(x, y + 0.03 * (top - bottom), f"{length:g} mm", fontsize=11.0, color="black", path_effects=[withStroke(linewidth=3.0, foreground="white")])
+    axes.text(
+        x,
+        y + 0.03 * (top - bottom),
+        f"{length:g} mm",
+        fontsize=11.0,
+        color="black",
+        path_effects=[withStroke(linewidth=3.0, foreground="white")],
+    )
 
 
 def _numbers(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, place) -> None:
     index, dataset = stored_place(mesh, dataset), contact_times(dataset)
-    values = {name: float(dataset[name].values[index]) for name in ("normal_force", "coast_normal_force", *PRESSURES) if name in dataset}
+    values = {
+        name: float(dataset[name].values[index])
+        for name in ("normal_force", "coast_normal_force", *PRESSURES)
+        if name in dataset
+    }
     peaks = [float(body.von_mises.max()) for body in mesh.gears]
     lines = [
         f"mesh force {max(values['normal_force'], values.get('coast_normal_force', 0.0)):.0f} N",
@@ -294,11 +361,19 @@ def exceeds(mesh: GearsInMesh, limit: float) -> bool:
 
 
 def colour_bar(
-    figure: Figure, limit: float, beyond: bool, words: str = "von Mises stress (MPa)", place: tuple[float, float] = (0.08, 0.72), colours: LinearSegmentedColormap = COLOURS
+    figure: Figure,
+    limit: float,
+    beyond: bool,
+    words: str = "von Mises stress (MPa)",
+    place: tuple[float, float] = (0.08, 0.72),
+    colours: LinearSegmentedColormap = COLOURS,
 ) -> None:
-    """Colours up to a limit, MPa, with an arrow there where some is `beyond`; `place`: lower end and height in the figure."""
+    """Colours up to a limit, MPa, with an arrow there where some is `beyond`; `place`: lower end and height in the
+    figure."""
     axes = figure.add_axes((0.931, place[0], 0.013, place[1]))
-    bar = figure.colorbar(ScalarMappable(Normalize(0.0, limit), colours), cax=axes, extend="max" if beyond else "neither")
+    bar = figure.colorbar(
+        ScalarMappable(Normalize(0.0, limit), colours), cax=axes, extend="max" if beyond else "neither"
+    )
     bar.set_label(words, labelpad=8.0)
     axes.grid(False)
 
@@ -308,11 +383,25 @@ def heading(figure: Figure, mesh: GearsInMesh | GearsInSpace, dataset: xr.Datase
     title = " ".join(str(dataset.attrs.get("title", "")).split())
     complete = bool(dataset.attrs.get("complete", 1))
     scene = scene_of(dataset)
-    figure.text(0.015, 0.955, f"Stress in the gears: {title}", fontsize=18, color=DARK if complete else WARNING, parse_math=False)
+    figure.text(
+        0.015,
+        0.955,
+        f"Stress in the gears: {title}",
+        fontsize=18,
+        color=DARK if complete else WARNING,
+        parse_math=False,
+    )
     timed = f", time {_time(mesh.time)}" if scene is None or scene.motion.speed_given else ""
     said = f"mesh phase {mesh.mesh_phase:.3f} (mesh cycles since the start){timed}"
     words = f"{conditions(scene)}  ·  {said}" if scene is not None else said
-    figure.text(0.015, 0.917, words if complete else f"{words}  ·  INCOMPLETE RUN", fontsize=13, color=DARK if complete else WARNING, parse_math=False)
+    figure.text(
+        0.015,
+        0.917,
+        words if complete else f"{words}  ·  INCOMPLETE RUN",
+        fontsize=13,
+        color=DARK if complete else WARNING,
+        parse_math=False,
+    )
 
 
 def _time(seconds: float) -> str:

@@ -1,4 +1,5 @@
-"""The stored mesh cycles for ParaView: a .vtu file for each step, and the .pvd file that lists them with their times."""
+"""The stored mesh cycles for ParaView: a .vtu file for each step, and the .pvd file that lists them with their
+times."""
 
 from __future__ import annotations
 
@@ -19,11 +20,18 @@ if TYPE_CHECKING:
     from fenics_gears.simulation.face_stresses import FaceStresses
 
 
-def save_series(runs: RunStresses | FaceStresses, dataset: xr.Dataset, collection: Path, report: Callable[[int, int], None], save=None) -> None:
-    """Write a .pvd file and the .vtu files that it lists, beside it and named after it; `report(done, all)` is called for each.
+def save_series(
+    runs: RunStresses | FaceStresses,
+    dataset: xr.Dataset,
+    collection: Path,
+    report: Callable[[int, int], None],
+    save=None,
+) -> None:
+    """Write a .pvd file and the .vtu files that it lists, beside it and named after it; `report(done, all)` is called
+    for each.
 
-    The steps are those of the moving picture, their times in s as the run has them. save: writes what `runs` has at a step to a file; in the plane
-    unless given. Raises what `save_vtu` raises.
+    The steps are those of the moving picture, their times in s as the run has them. save: writes what `runs` has at a
+    step to a file; in the plane unless given. Raises what `save_vtu` raises.
     """
     # To look at; files of half the size.
     save = save or partial(save_vtu, precision=np.float32)

@@ -1,4 +1,5 @@
-"""Results over a study's parameters: lines over the field with most values, one for each combination of the others; a map for many."""
+"""Results over a study's parameters: lines over the field with most values, one for each combination of the others; a
+map for many."""
 
 from __future__ import annotations
 
@@ -18,7 +19,11 @@ HEIGHT = 340
 
 def result_charts(cases: Cases) -> dict[str, Chart]:
     """A chart for each of the numbers that cases are compared by, by the number's name."""
-    return {key: _result_chart(cases, values, unit, name) for key, (values, unit, name) in cases.measures.items() if np.isfinite(values).any()}
+    return {
+        key: _result_chart(cases, values, unit, name)
+        for key, (values, unit, name) in cases.measures.items()
+        if np.isfinite(values).any()
+    }
 
 
 def _result_chart(cases: Cases, values: np.ndarray, unit: str, name: str) -> Chart:
@@ -30,7 +35,11 @@ def _result_chart(cases: Cases, values: np.ndarray, unit: str, name: str) -> Cha
 def effort_charts(cases: Cases) -> list[Chart]:
     """Wall time and Newton iterations of the cases."""
     of = {"wall_time": ("s", "Wall time of a case"), "newton_iterations": ("", "Newton iterations of a case")}
-    return [over_parameter(cases, cases.numbers(name), unit, words) for name, (unit, words) in of.items() if np.isfinite(cases.numbers(name)).any()]
+    return [
+        over_parameter(cases, cases.numbers(name), unit, words)
+        for name, (unit, words) in of.items()
+        if np.isfinite(cases.numbers(name)).any()
+    ]
 
 
 def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note: str = "") -> Chart:
@@ -39,7 +48,13 @@ def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note:
     others = [field for field in cases.fields if field is not axis and not _zipped(cases)]
     lines = _lines(cases, axis, others)
     y_title = f"{name} ({unit})" if unit else name
-    if len(lines) > MOST_LINES and len(others) == 1 and axis.numeric and others[0].numeric and np.isfinite(others[0].values).all():
+    if (
+        len(lines) > MOST_LINES
+        and len(others) == 1
+        and axis.numeric
+        and others[0].numeric
+        and np.isfinite(others[0].values).all()
+    ):
         return _map(axis, others[0], values, y_title, name, note)
     if len(lines) > MOST_LINES:
         kept = np.unique(np.linspace(0, len(lines) - 1, MOST_LINES).round().astype(int))
@@ -52,7 +67,15 @@ def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note:
         note = f"{note} {together} changes along with it.".strip()
     mode = MARKED_LINES if max(map(len, (places for _, places in lines)), default=0) <= MARKED_POINTS else LINES
     curves = [
-        Curve(words, axis.values[places], values[places], PALETTE[turn % len(PALETTE)], DASHES[turn // len(PALETTE)], mode=mode) for turn, (words, places) in enumerate(lines)
+        Curve(
+            words,
+            axis.values[places],
+            values[places],
+            PALETTE[turn % len(PALETTE)],
+            DASHES[turn // len(PALETTE)],
+            mode=mode,
+        )
+        for turn, (words, places) in enumerate(lines)
     ]
     divided = "x" if logarithmic(axis) else ""
     return Chart(f"{name} over {axis.called}", curves, axis.title, y_title, note, HEIGHT, logarithmic=divided)
@@ -61,7 +84,9 @@ def over_parameter(cases: Cases, values: np.ndarray, unit: str, name: str, note:
 def main_field(cases: Cases) -> SweptField:
     """The swept field with most different numbers; with most different words where none has numbers."""
     numeric = [field for field in cases.fields if field.numeric]
-    return max(numeric or cases.fields, key=lambda field: len({value for value in field.values.tolist() if value == value}))
+    return max(
+        numeric or cases.fields, key=lambda field: len({value for value in field.values.tolist() if value == value})
+    )
 
 
 def logarithmic(field: SweptField) -> bool:
@@ -86,7 +111,10 @@ def _lines(cases: Cases, axis: SweptField, others: list[SweptField]) -> list[tup
         if not axis.numeric or np.isfinite(axis.values[case]):
             groups.setdefault(", ".join(field.setting(case) for field in others), []).append(case)
     in_order = [(words, np.array(places)) for words, places in groups.items()]
-    return [(words or "cases", places[np.argsort(axis.values[places], kind="stable")] if axis.numeric else places) for words, places in in_order]
+    return [
+        (words or "cases", places[np.argsort(axis.values[places], kind="stable")] if axis.numeric else places)
+        for words, places in in_order
+    ]
 
 
 def _map(axis: SweptField, other: SweptField, values: np.ndarray, title: str, name: str, note: str) -> Chart:
@@ -101,10 +129,23 @@ def _map(axis: SweptField, other: SweptField, values: np.ndarray, title: str, na
     drawn = Field(edges[0], edges[1], grid, title, float(np.nanmax(values)), LOW_TO_HIGH)
     ends = [(float(each[0]), float(each[-1])) for each in edges]
     words = f"{note} {'Blank where a case has no result.' if np.isnan(grid).any() else ''}".strip()
-    return Chart(f"{name} over {axis.called} and {other.called}", [], axis.title, other.title, words, 420, x_range=ends[0], y_range=ends[1], logarithmic=divided, field=drawn)
+    return Chart(
+        f"{name} over {axis.called} and {other.called}",
+        [],
+        axis.title,
+        other.title,
+        words,
+        420,
+        x_range=ends[0],
+        y_range=ends[1],
+        logarithmic=divided,
+        field=drawn,
+    )
 
 
 def _edges(places: np.ndarray) -> np.ndarray:
     """Half-way between places (n,), and as far beyond the first and the last."""
     half = 0.5 * np.diff(places) if len(places) > 1 else np.array([0.5])
-    return np.concatenate([[places[0] - half[0]], places[:-1] + half if len(places) > 1 else [], [places[-1] + half[-1]]])
+    return np.concatenate(
+        [[places[0] - half[0]], places[:-1] + half if len(places) > 1 else [], [places[-1] + half[-1]]]
+    )

@@ -14,7 +14,10 @@ def ticks(ends: Sequence[float], most: float, logarithmic: bool = False) -> np.n
     if logarithmic:
         places, beyond = LogLocator(subs=(1.0,) if high > 100.0 * low else (1.0, 2.0, 5.0)).tick_values(low, high), 0.0
     else:
-        places, beyond = MaxNLocator(max(2, min(10, int(most))), steps=[1, 2, 2.5, 5, 10]).tick_values(low, high), 1e-9 * (high - low)
+        places, beyond = (
+            MaxNLocator(max(2, min(10, int(most))), steps=[1, 2, 2.5, 5, 10]).tick_values(low, high),
+            1e-9 * (high - low),
+        )
     return places[(places >= low - beyond) & (places <= high + beyond)]
 
 

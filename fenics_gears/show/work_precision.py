@@ -1,4 +1,5 @@
-"""The picture of `gears accuracy`: error against time of whole settings and cheaper models, and of every setting's values alone."""
+"""The picture of `gears accuracy`: error against time of whole settings and cheaper models, and of every setting's
+values alone."""
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ LEAST_SHOWN = 1e-6
 
 @styled
 def work_precision(report: AccuracyReport) -> Figure:
-    """Left: whole settings with the front labelled, the scene's own, cheaper models. Right: each setting alone, the others fine."""
+    """Left: whole settings with the front labelled, the scene's own, cheaper models. Right: each setting alone, the
+    others fine."""
     figure = Figure(figsize=(15.0, 9.2), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1, rect=(0, 0.09, 1, 0.91))
     whole, alone = figure.subplots(1, 2, gridspec_kw={"width_ratios": (1.35, 1.0)})
@@ -36,14 +38,55 @@ def _whole(axes: Axes, report: AccuracyReport) -> None:
     front = report.front
     others = [each for each in report.settings if each.name not in (OWN, DEFAULTS) and each not in front]
     if others:
-        axes.plot([each.times.total for each in others], [each.total_error for each in others], "o", color=GREY, markersize=5, label="other settings: another is quicker and more accurate")
-    axes.plot([each.times.total for each in front], [each.total_error for each in front], "-o", color=PALETTE[0], label="Pareto front: none is quicker and as accurate")
-    axes.plot(report.own.times.total, report.own.total_error, "*", color=PALETTE[1], markersize=16, label="the scene's own settings")
+        axes.plot(
+            [each.times.total for each in others],
+            [each.total_error for each in others],
+            "o",
+            color=GREY,
+            markersize=5,
+            label="other settings: another is quicker and more accurate",
+        )
+    axes.plot(
+        [each.times.total for each in front],
+        [each.total_error for each in front],
+        "-o",
+        color=PALETTE[0],
+        label="Pareto front: none is quicker and as accurate",
+    )
+    axes.plot(
+        report.own.times.total,
+        report.own.total_error,
+        "*",
+        color=PALETTE[1],
+        markersize=16,
+        label="the scene's own settings",
+    )
     if report.defaults:
-        axes.plot(report.defaults.times.total, report.defaults.total_error, "P", color=PALETTE[3], markersize=11, label="the default settings")
+        axes.plot(
+            report.defaults.times.total,
+            report.defaults.total_error,
+            "P",
+            color=PALETTE[3],
+            markersize=11,
+            label="the default settings",
+        )
     for place, each in enumerate(report.models):
-        axes.plot(each.times.total, each.total_error, MARKS[place + 1], color=PALETTE[2], markersize=8, label=f"model: {each.name}")
-    axes.axhspan(LEAST_SHOWN, max(report.floor, LEAST_SHOWN), color=GREY, alpha=0.15, linewidth=0, label="less than the reference's own uncertainty")
+        axes.plot(
+            each.times.total,
+            each.total_error,
+            MARKS[place + 1],
+            color=PALETTE[2],
+            markersize=8,
+            label=f"model: {each.name}",
+        )
+    axes.axhspan(
+        LEAST_SHOWN,
+        max(report.floor, LEAST_SHOWN),
+        color=GREY,
+        alpha=0.15,
+        linewidth=0,
+        label="less than the reference's own uncertainty",
+    )
     _logarithmic(axes, [*report.settings, *report.models], report.floor)
     _labels(axes, front)
     axes.set_title("Total error (sum of the errors of all settings, or difference from the reference)")
@@ -54,10 +97,18 @@ def _labels(axes: Axes, front: tuple[WholeResult, ...]) -> None:
     """Numbers at the points, and what they are in the corner that a falling front leaves free."""
     lines = []
     for number, each in enumerate(front, 1):
-        axes.annotate(str(number), (each.times.total, each.total_error), xytext=(6, 5), textcoords="offset points", fontsize=11, color=PALETTE[0])
+        axes.annotate(
+            str(number),
+            (each.times.total, each.total_error),
+            xytext=(6, 5),
+            textcoords="offset points",
+            fontsize=11,
+            color=PALETTE[0],
+        )
         lines.append(f"{number}  {each.setting.words if each.setting else each.name}; limited by {limits_it(each)}")
     axes.text(
-        0.985, 0.985, "\n".join(lines), transform=axes.transAxes, ha="right", va="top", fontsize=8.0, color=DARK, linespacing=1.5,
+        0.985, 0.985, "\n".join(lines), transform=axes.transAxes, ha="right", va="top", fontsize=8.0, color=DARK,
+        linespacing=1.5,
         bbox={"facecolor": "white", "edgecolor": "#E3E3E3", "alpha": 0.9, "pad": 5.0},
     )  # fmt: skip
 
@@ -74,15 +125,29 @@ def _logarithmic(axes: Axes, results, floor: float) -> None:
 
 def _alone(axes: Axes, report: AccuracyReport) -> None:
     for place, result in enumerate(report.refinements):
-        points = [(each.times.total, judged(each.errors)) for each in result.levels if judged(each.errors) > LEAST_SHOWN]
+        points = [
+            (each.times.total, judged(each.errors)) for each in result.levels if judged(each.errors) > LEAST_SHOWN
+        ]
         if not points:
             continue
         order, expected = result.order("T_E"), result.refinement.expected
         aside = f" ({result.refinement.why})" if result.refinement.name == CONDENSATION else ""
-        note = aside if expected is None else f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
+        note = (
+            aside
+            if expected is None
+            else f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
+        )
         style = "-" if expected is not None else ":"
         colour = PALETTE[place % len(PALETTE)]
-        axes.plot(*zip(*points), style, marker=MARKS[place], color=colour, markersize=5.5, linewidth=1.3, label=result.refinement.name + note)
+        axes.plot(
+            *zip(*points),
+            style,
+            marker=MARKS[place],
+            color=colour,
+            markersize=5.5,
+            linewidth=1.3,
+            label=result.refinement.name + note,
+        )
     axes.set_xscale("log")
     axes.set_yscale("log")
     _percent_over_seconds(axes)
@@ -110,9 +175,13 @@ def _percent_over_seconds(axes: Axes) -> None:
 def _heading(figure: Figure, report: AccuracyReport) -> None:
     title = textwrap.shorten(" ".join(report.scene.title.split()), 80, placeholder=" …")
     figure.suptitle(
-        f"What accuracy costs in time: {title}\n{conditions(report.scene)}", x=0.008, ha="left", fontsize=14, color=DARK, parse_math=False,
+        f"What accuracy costs in time: {title}\n{conditions(report.scene)}", x=0.008, ha="left", fontsize=14,
+        color=DARK, parse_math=False,
     )  # fmt: skip
     where = report.machine
     sentence = "\n".join(textwrap.wrap(in_one_sentence(report), 165))
-    measured = f"{where['processor']}, load {where['load']}; threads: {where['threads']}; {where['versions']}; timed runs: {report.own.times.rounds}"
+    measured = (
+        f"{where['processor']}, load {where['load']}; threads: {where['threads']}; {where['versions']}; timed runs:"
+        f" {report.own.times.rounds}"
+    )
     figure.text(0.008, 0.012, f"{sentence}\n{measured}", fontsize=10, color=DARK, parse_math=False)

@@ -15,7 +15,9 @@ from fenics_gears.system.progress import Progress
 Compliances = tuple[FlankCompliance, FlankCompliance]
 
 
-def elastic_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[Compliances, Cycle]:
+def elastic_route(
+    model: Model, progress: Progress, cache: Cache | None, job: Job | None = None
+) -> tuple[Compliances, Cycle]:
     """Flank compliance of both gears, and the contact operators of a mesh cycle on them."""
     compliances = gear_compliances(model, progress, cache)
     return compliances, mesh_cycle(model, compliances)
@@ -38,7 +40,13 @@ def gear_compliance(model: Model, name: str, reach: Reach, cache: Cache | None) 
     # Imported here: rigid flanks have none.
     from fenics_gears.elasticity.gear_compliance import flank_compliance
 
-    return flank_compliance(getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation(("pinion", "wheel").index(name)), reach, cache)
+    return flank_compliance(
+        getattr(model.pair, name),
+        model.scene.gears.material_of(name),
+        model.resolution.discretisation(("pinion", "wheel").index(name)),
+        reach,
+        cache,
+    )
 
 
 def mesh_cycle(model: Model, compliances: Compliances) -> Cycle:

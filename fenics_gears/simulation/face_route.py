@@ -20,7 +20,8 @@ Bodies = tuple[FaceCompliance, FaceCompliance]
 
 
 def face_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[tuple, Cycle]:
-    """Flank compliance of both gears' sections, their bodies, and the contact operators of a mesh cycle on them. job: whose ranks share the work on each body."""
+    """Flank compliance of both gears' sections, their bodies, and the contact operators of a mesh cycle on them. job:
+    whose ranks share the work on each body."""
     sections = gear_compliances(model, progress, cache)
     bodies = gear_bodies(model, progress, cache, job)
     return (*sections, *bodies), face_cycle(model, sections, bodies)

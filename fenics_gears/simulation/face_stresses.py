@@ -1,4 +1,5 @@
-"""Both gears of a run over the face at a stored time: place, displacement and stress of the teeth in mesh, in three dimensions."""
+"""Both gears of a run over the face at a stored time: place, displacement and stress of the teeth in mesh, in three
+dimensions."""
 
 from __future__ import annotations
 
@@ -29,12 +30,16 @@ ON_CIRCLE = 1e-6
 
 @dataclass(frozen=True)
 class TeethInSpace:
-    """Sectors of one gear at a stored time in the frame of the line of action, z along the axes from the middle of the common face.
+    """Sectors of one gear at a stored time in the frame of the line of action, z along the axes from the middle of the
+    common face.
 
-    sectors: numbers of those recovered. Nodes by sector, height and the section's node: points (s, h, n, 3), mm, without load; displacement of the same
-    shape, mm, from where the hub is held; stress (s, h, n, 3, 3), MPa. others: points (t, h, n, 3) of all other sectors. cells: (m, 6), of the section,
-    triangles of second order; subcells, outline: (j, 3) triangles and (k, 2) sides of the section's boundary, of first order, without those on
-    the cuts. in_root, on_flank: (n,), whether a node lies in a fillet or below, and whether it is on the involute that carries.
+    sectors: numbers of those recovered. Nodes by sector, height and the section's node: points (s, h, n, 3), mm,
+        without load; displacement of the same
+    shape, mm, from where the hub is held; stress (s, h, n, 3, 3), MPa. others: points (t, h, n, 3) of all other
+    sectors. cells: (m, 6), of the section, triangles of second order; subcells, outline: (j, 3) triangles and (k, 2)
+    sides of the section's boundary, of first order, without those on
+    the cuts. in_root, on_flank: (n,), whether a node lies in a fillet or below, and whether it is on the involute that
+    carries.
     """
 
     sectors: tuple[int, ...]
@@ -72,7 +77,8 @@ class GearsInSpace:
 
 
 class FaceStresses(RunStresses):
-    """Displacement and stress of the teeth in mesh at any step of a result over the face whose contact fields are stored. Use it as `RunStresses`."""
+    """Displacement and stress of the teeth in mesh at any step of a result over the face whose contact fields are
+    stored. Use it as `RunStresses`."""
 
     def _cycle(self, cache: Cache) -> Cycle:
         sections, bodies = (of(self.model, SilentProgress(), cache) for of in (gear_compliances, gear_bodies))
@@ -80,14 +86,21 @@ class FaceStresses(RunStresses):
 
     def _recovery(self, gear: int) -> FaceRecovery:
         pair, scene = self.model.pair, self.model.scene
-        return FaceRecovery((pair.pinion, pair.wheel)[gear], scene.gears.materials[gear], face_discretisation(self.model, gear), scene.coast_flanks is not None)
+        return FaceRecovery(
+            (pair.pinion, pair.wheel)[gear],
+            scene.gears.materials[gear],
+            face_discretisation(self.model, gear),
+            scene.coast_flanks is not None,
+        )
 
     def at(self, index: int) -> GearsInSpace:
         """Both gears at a stored step. Raises SceneError where they stand further than a pitch from their places."""
         self._check_place(index)
         stored = stored_forces(self.result, self.model, self.cycle, index)
         phase, time = (float(self.result[name].values[index]) for name in ("mesh_phase", "time"))
-        return GearsInSpace(time, phase, (self._gear(0, stored), self._gear(1, stored)), self.model.pair, stored.on_coast_flanks)
+        return GearsInSpace(
+            time, phase, (self._gear(0, stored), self._gear(1, stored)), self.model.pair, stored.on_coast_flanks
+        )
 
     def _gear(self, gear: int, stored: StoredForces) -> TeethInSpace:
         recovery, face = self.recoveries[gear], self.model.face
@@ -99,9 +112,18 @@ class FaceStresses(RunStresses):
         centre, angles = standing(self.model.pair, gear, stored.phase)
         z = recovery.heights + face.middles[gear]
         # How a section's frame stands at each height, by sector (teeth, h, 3, 3).
-        turns = np.stack([[rotation(angle + (1.0, -1.0)[gear] * face.slope / data.base_radius * height, 3) for height in z] for angle in angles])
+        turns = np.stack(
+            [
+                [rotation(angle + (1.0, -1.0)[gear] * face.slope / data.base_radius * height, 3) for height in z]
+                for angle in angles
+            ]
+        )
         section = np.column_stack([recovery.points, np.zeros(len(recovery.points))])
-        places = np.einsum("thij,nj->thni", turns, section) + np.append(centre, 0.0) + z[:, None, None] * np.array([0.0, 0.0, 1.0])
+        places = (
+            np.einsum("thij,nj->thni", turns, section)
+            + np.append(centre, 0.0)
+            + z[:, None, None] * np.array([0.0, 0.0, 1.0])
+        )
         own = np.array(sectors) % data.teeth
         radius = np.linalg.norm(recovery.points, axis=1)
         outline = outer_sides(recovery.body.section, recovery.body.mesh)
@@ -131,4 +153,9 @@ def _on_flank(gear: Gear, points: np.ndarray, outline: np.ndarray, coast: bool) 
     outer[np.unique(outline)] = True
     own_side = ahead(points) * ahead(middle) * (-1.0 if coast else 1.0) > 0.0
     # The form circle and the tip's edge belong to it.
-    return outer & own_side & (radius > gear.form_radius - ON_CIRCLE * gear.module) & (radius < gear.tip_form_radius + ON_CIRCLE * gear.module)
+    return (
+        outer
+        & own_side
+        & (radius > gear.form_radius - ON_CIRCLE * gear.module)
+        & (radius < gear.tip_form_radius + ON_CIRCLE * gear.module)
+    )

@@ -1,4 +1,5 @@
-"""Cheaper models of the mesh with the same drivetrain: a stiffness table, and stiffness by ISO 6336-1 (`[accuracy] model`)."""
+"""Cheaper models of the mesh with the same drivetrain: a stiffness table, and stiffness by ISO 6336-1 (`[accuracy]
+model`)."""
 
 from __future__ import annotations
 
@@ -27,7 +28,9 @@ MOST_PHASES = 200
 DEFLECTION_WITHOUT_LOAD = 1e-3
 
 
-def table_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[Compliances, Cycle]:
+def table_route(
+    model: Model, progress: Progress, cache: Cache | None, job: Job | None = None
+) -> tuple[Compliances, Cycle]:
     """Flank compliance of both gears, and the springs that a table of their full contact gives."""
     compliances = gear_compliances(model, progress, cache)
     progress.stage("tabulate the mesh stiffness")
@@ -40,8 +43,11 @@ def iso_route(model: Model, progress: Progress, cache: Cache | None, job: Job | 
     return (), deviating(model, iso_cycle(model))
 
 
-def table_cycle(model: Model, compliances: Compliances, loads: tuple[float, ...] = LOADS) -> tuple[Compliances, SpringCycle]:
-    """The mesh cycle of a stiffness table of the full contact; the compliances' `time_condense` has what the table took.
+def table_cycle(
+    model: Model, compliances: Compliances, loads: tuple[float, ...] = LOADS
+) -> tuple[Compliances, SpringCycle]:
+    """The mesh cycle of a stiffness table of the full contact; the compliances' `time_condense` has what the table
+    took.
 
     `loads`: in parts of the force that the scene transmits.
     """
@@ -64,10 +70,11 @@ def table_cycle(model: Model, compliances: Compliances, loads: tuple[float, ...]
 
 
 def iso_cycle(model: Model) -> SpringCycle:
-    """The mesh cycle of pairs as stiff as ISO 6336-1 has them, on the theoretical path of contact: two levels, by how many pairs are on it.
+    """The mesh cycle of pairs as stiff as ISO 6336-1 has them, on the theoretical path of contact: two levels, by how
+    many pairs are on it.
 
-    Of n pairs in mesh each has c' (0.75 n + 0.25)/n, so that the mean over the path is c_gamma_alpha. Material removed from the flanks
-    opens the pairs.
+    Of n pairs in mesh each has c' (0.75 n + 0.25)/n, so that the mean over the path is c_gamma_alpha. Material removed
+    from the flanks opens the pairs.
     """
     line_load = abs(model.scene.load.wheel_torque) / model.pair.wheel.base_radius / model.scene.gears.face_width
     single = pair_stiffness(model.scene.gears, line_load)
@@ -78,7 +85,9 @@ def iso_cycle(model: Model) -> SpringCycle:
         for flank in flanks:
             gaps = _gaps_on_path(model, flank, phase)
             each = single * mesh_factor(len(gaps)) / max(len(gaps), 1)
-            found += [PairSprings(index, flank, np.zeros(1), np.array([gap]), np.array([each])) for index, gap in gaps.items()]
+            found += [
+                PairSprings(index, flank, np.zeros(1), np.array([gap]), np.array([each])) for index, gap in gaps.items()
+            ]
         return found
 
     return _cycle(model, springs, 1)

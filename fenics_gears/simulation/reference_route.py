@@ -1,4 +1,5 @@
-"""The route of `condensation = "every step"`: both gears meshed anew at every position of a mesh cycle, as the paper does it.
+"""The route of `condensation = "every step"`: both gears meshed anew at every position of a mesh cycle, as the paper
+does it.
 
 Slow; the published method, and the yardstick of the fast route, with which it shares no interpolation.
 """

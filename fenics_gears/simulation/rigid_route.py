@@ -25,6 +25,11 @@ def rigid_cycle(model: Model) -> Cycle:
     resolution = model.resolution
     coast = model.scene.coast_flanks is not None
     cycle = kind(
-        model.pair, model.removal, resolution.contact_grid, resolution.steps_per_mesh_cycle, model.drivetrain.indices, coast
+        model.pair,
+        model.removal,
+        resolution.contact_grid,
+        resolution.steps_per_mesh_cycle,
+        model.drivetrain.indices,
+        coast,
     )
     return deviating(model, cycle)

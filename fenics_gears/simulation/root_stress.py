@@ -1,4 +1,5 @@
-"""``[output] root_stress``: the matrices of both gears from flank forces to root stress, by which a march records it."""
+"""``[output] root_stress``: the matrices of both gears from flank forces to root stress, by which a march records
+it."""
 
 from __future__ import annotations
 

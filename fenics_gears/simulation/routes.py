@@ -24,9 +24,11 @@ Preparation = Callable[[Model, Progress, Cache | None], Prepared]
 
 @dataclass(frozen=True)
 class Route:
-    """A way to the contact equations: the function `module:function` that takes (model, progress, cache, job) and returns gears and cycle.
+    """A way to the contact equations: the function `module:function` that takes (model, progress, cache, job) and
+    returns gears and cycle.
 
-    `condensed_once`: its gears are flank compliances that other runs can share; `stresses`: stresses can be recovered in them.
+    `condensed_once`: its gears are flank compliances that other runs can share; `stresses`: stresses can be recovered
+        in them.
     """
 
     function: str
@@ -35,7 +37,9 @@ class Route:
 
     def __call__(self, model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> Prepared:
         module, _, function = self.function.partition(":")
-        return getattr(importlib.import_module(f"fenics_gears.simulation.{module}"), function)(model, progress, cache, job)
+        return getattr(importlib.import_module(f"fenics_gears.simulation.{module}"), function)(
+            model, progress, cache, job
+        )
 
 
 RIGID = Route("rigid_route:rigid_route")

@@ -27,11 +27,13 @@ from fenics_gears.system.progress import SilentProgress
 
 @dataclass(frozen=True)
 class GearInSpace:
-    """One gear at a stored time, in the frame of the line of action: x along it from T1, the pinion's centre at the origin.
+    """One gear at a stored time, in the frame of the line of action: x along it from T1, the pinion's centre at the
+    origin.
 
-    points: (n, 2), mm, where the nodes are without load. cells: (m, 3) or (m, 4) of first order. outline: (k, 2) sides of the
-    boundary. elastic, displacement: (n, 2), mm, from where the hub is held, and from the nominal motion. stress: (n, 4), MPa: xx, yy,
-    xy and zz of plane strain.
+    points: (n, 2), mm, where the nodes are without load. cells: (m, 3) or (m, 4) of first order. outline: (k, 2) sides
+        of the
+    boundary. elastic, displacement: (n, 2), mm, from where the hub is held, and from the nominal motion. stress: (n,
+    4), MPa: xx, yy, xy and zz of plane strain.
     """
 
     points: np.ndarray
@@ -53,7 +55,8 @@ class GearInSpace:
 class GearsInMesh:
     """Pinion and wheel at a stored time; `coast`: whether the coast flanks carry more than the drive flanks.
 
-    `approach`: mm along their line of action that the hubs' motion brings the flanks together that carry more; coast flanks stand apart by
+    `approach`: mm along their line of action that the hubs' motion brings the flanks together that carry more; coast
+        flanks stand apart by
     the backlash before it.
     """
 
@@ -66,7 +69,8 @@ class GearsInMesh:
 
 
 class RunStresses:
-    """Displacement and stress of both gears at any step of a result whose contact fields are stored. Use it in a `with`, or `close` it.
+    """Displacement and stress of both gears at any step of a result whose contact fields are stored. Use it in a
+    `with`, or `close` it.
 
     scene: the one that was run. Raises SceneError where the run has no elastic teeth, or met its contact by remeshing.
     """
@@ -112,8 +116,9 @@ class RunStresses:
         error, pitch = abs(float(self.result["transmission_error"].values[index])), self.model.pair.wheel.angular_pitch
         if error > pitch:
             raise SceneError(
-                f"the transmission error at mesh phase {float(self.result['mesh_phase'].values[index]):.3f} is {error:.3g} rad, more than the pitch of "
-                f"the wheel's teeth ({pitch:.3g} rad): gears that have gone through each other are not drawn; the run's warnings say why"
+                f"the transmission error at mesh phase {float(self.result['mesh_phase'].values[index]):.3f} is"
+                f" {error:.3g} rad, more than the pitch of the wheel's teeth ({pitch:.3g} rad): gears that have gone"
+                " through each other are not drawn; the run's warnings say why"
             )
 
     def _gear(self, gear: int, stored: StoredForces, motion: np.ndarray) -> GearInSpace:
@@ -128,20 +133,31 @@ class RunStresses:
         across = self.model.scene.gears.materials[gear].poissons_ratio * (stress[:, 0] + stress[:, 1])
         rigid = motion[:2] + motion[2] * np.column_stack([-about_centre[:, 1], about_centre[:, 0]])
         cells, outline = whole_cells(recovery)
-        return GearInSpace(centre + about_centre, cells, outline, centre, elastic, elastic + rigid, np.column_stack([stress, across]))
+        return GearInSpace(
+            centre + about_centre, cells, outline, centre, elastic, elastic + rigid, np.column_stack([stress, across])
+        )
 
     def _check(self) -> None:
         if self.model.scene.tooth_elasticity is None:
-            raise SceneError("the run's flanks are rigid: there are no stresses. Add the section [gears.material] to the scene and run it again.")
+            raise SceneError(
+                "the run's flanks are rigid: there are no stresses. Add the section [gears.material] to the scene and"
+                " run it again."
+            )
         if not self.model.scene.resolves_contact:
             raise SceneError(
-                f'the run has a mesh of springs (accuracy.model = "{self.model.scene.accuracy.model}"): there are no stresses. '
-                'Run the scene with "elastic".'
+                f'the run has a mesh of springs (accuracy.model = "{self.model.scene.accuracy.model}"): there are no'
+                ' stresses. Run the scene with "elastic".'
             )
         if any(effect.elasticity is not None for effect in effects_on(self.model.scene)):
-            raise SceneError("stresses are recovered from gears of equal sectors; this run has gears meshed as a whole ([body_meshes]).")
+            raise SceneError(
+                "stresses are recovered from gears of equal sectors; this run has gears meshed as a whole"
+                " ([body_meshes])."
+            )
         if self.model.resolution.condensation != ONCE:
-            raise SceneError('stresses are recovered from runs with [accuracy] condensation = "once"; this one has "every step". Run the scene with "once".')
+            raise SceneError(
+                'stresses are recovered from runs with [accuracy] condensation = "once"; this one has "every step". Run'
+                ' the scene with "once".'
+            )
 
 
 def recovery_of(model: Model, gear: int) -> GearRecovery:
@@ -155,7 +171,8 @@ def recovery_of(model: Model, gear: int) -> GearRecovery:
 
 
 def standing(pair: GearPair, gear: int, phase: float) -> tuple[np.ndarray, np.ndarray]:
-    """Centre (2,), mm, and angles (teeth,), rad, of a gear's sectors in the frame of the line of action, at a phase of the mesh cycle.
+    """Centre (2,), mm, and angles (teeth,), rad, of a gear's sectors in the frame of the line of action, at a phase of
+    the mesh cycle.
 
     Sector 0 has the tooth of pair 0, which reached the start of contact last.
     """
@@ -164,7 +181,9 @@ def standing(pair: GearPair, gear: int, phase: float) -> tuple[np.ndarray, np.nd
         return np.zeros(2), contact / pair.pinion.base_radius + pair.pinion.angular_pitch * np.arange(pair.pinion.teeth)
     radii = pair.pinion.base_radius + pair.wheel.base_radius
     first = np.pi + (pair.line_of_action_length - contact) / pair.wheel.base_radius
-    return np.array([pair.line_of_action_length, -radii]), first + pair.wheel.angular_pitch * np.arange(pair.wheel.teeth)
+    return np.array([pair.line_of_action_length, -radii]), first + pair.wheel.angular_pitch * np.arange(
+        pair.wheel.teeth
+    )
 
 
 def hub_motion(result: xr.Dataset, index: int) -> np.ndarray:
@@ -177,7 +196,8 @@ def hub_motion(result: xr.Dataset, index: int) -> np.ndarray:
 
 
 def whole_cells(recovery: GearRecovery) -> tuple[np.ndarray, np.ndarray]:
-    """First-order cells of all sectors, one sector's nodes after the other's, and sides (k, 2) of the gear's own boundary."""
+    """First-order cells of all sectors, one sector's nodes after the other's, and sides (k, 2) of the gear's own
+    boundary."""
     nodes = recovery.interior.nodes
     outline, count = outer_sides(nodes, recovery.interior.mesh), len(nodes.points)
     first = count * np.arange(recovery.gear.teeth)[:, None, None]

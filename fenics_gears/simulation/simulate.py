@@ -38,14 +38,17 @@ def simulate(
     job: Job | None = None,
     journal: Place | None = None,
 ) -> xr.Dataset:
-    """Run a scene whose settings are decided and return its result (docs/result.md); `studies.simulate` chooses them by a target first.
+    """Run a scene whose settings are decided and return its result (docs/result.md); `studies.simulate` chooses them by
+    a target first.
 
-    `preparation`: what comes before the march, `prepared` unless given; a study keeps what its runs share. `job`: of rank 0,
+    `preparation`: what comes before the march, `prepared` unless given; a study keeps what its runs share. `job`: of
+        rank 0,
     whose ranks share the bodies over the face and the remeshing of `condensation = "every step"`.
-    `journal`: where a march that lasts longer than a few seconds is written down as it goes (`results.journal`); the caller removes it.
+    `journal`: where a march that lasts longer than a few seconds is written down as it goes (`results.journal`); the
+        caller removes it.
     Ctrl-C during the march returns what was done, with the attribute `complete` 0. Raises GeometryError before any
-    computation, ComputationError where the run does not fit into the memory it may take; and when a stage fails, with what was done before as
-    its attribute `partial`.
+    computation, ComputationError where the run does not fit into the memory it may take; and when a stage fails, with
+    what was done before as its attribute `partial`.
     """
     try:
         return _simulated(scene, progress or SilentProgress(), cache or user_cache(), preparation, job, journal)
@@ -54,7 +57,14 @@ def simulate(
         give_back()
 
 
-def _simulated(scene: Scene, progress: Progress, cache: Cache, preparation: Preparation | None, job: Job | None, journal: Place | None) -> xr.Dataset:
+def _simulated(
+    scene: Scene,
+    progress: Progress,
+    cache: Cache,
+    preparation: Preparation | None,
+    job: Job | None,
+    journal: Place | None,
+) -> xr.Dataset:
     model = model_of(scene)
     for_operators = memory_for_operators(model, 1 if job is None else job.size)
     gears, cycle = (preparation or functools.partial(prepared, job=job))(model, progress, cache)
@@ -68,7 +78,8 @@ def _simulated(scene: Scene, progress: Progress, cache: Cache, preparation: Prep
 
 
 def memory_for_operators(model: Model, ranks: int = 1) -> float:
-    """Bytes that contact operators may take beside all else; raises ComputationError where a run does not fit without keeping any."""
+    """Bytes that contact operators may take beside all else; raises ComputationError where a run does not fit without
+    keeping any."""
     allowed, cost = allowed_memory(), expected_cost(model, ranks)
     if said := too_large(model, cost, allowed):
         raise ComputationError(said)
@@ -76,7 +87,8 @@ def memory_for_operators(model: Model, ranks: int = 1) -> float:
 
 
 def root_stress_of(model: Model, cycle, progress: Progress, cache: Cache):
-    """What the recorder needs for root stresses where they are asked for; None for routes without stresses, such as rigid flanks."""
+    """What the recorder needs for root stresses where they are asked for; None for routes without stresses, such as
+    rigid flanks."""
     if not (model.scene.output.root_stress and route_of(model).stresses):
         return None
     from fenics_gears.simulation.root_stress import root_stress
@@ -118,7 +130,8 @@ def _varying_load(model: Model, step: float | None) -> str:
 
 
 def _with_dynamic_factors(recorder: Recorder, result: xr.Dataset, progress: Progress) -> xr.Dataset:
-    """The result with its dynamic factors, which need a second, quasi-static run; only for complete runs with inertia."""
+    """The result with its dynamic factors, which need a second, quasi-static run; only for complete runs with
+    inertia."""
     if recorder.model.scene.inertia is None or not result.attrs["complete"]:
         return result
     from fenics_gears.simulation import dynamic_factor

@@ -53,7 +53,10 @@ def stored_index(result: xr.Dataset, mesh_phase: float) -> int:
     since = phases - phases[0]
     spacing = np.diff(since).max(initial=0.0)
     if not -spacing <= mesh_phase <= since[-1] + spacing:
-        raise SceneError(f"--at {mesh_phase:g}: the run has stored mesh cycles 0 to {since[-1]:g}, counted from its first stored step")
+        raise SceneError(
+            f"--at {mesh_phase:g}: the run has stored mesh cycles 0 to {since[-1]:g}, counted from its first stored"
+            " step"
+        )
     return int(np.argmin(np.abs(since - mesh_phase)))
 
 
@@ -67,7 +70,10 @@ def stored_forces(result: xr.Dataset, model: Model, cycle: Cycle, index: int) ->
     numbers = result["contact_pair_number"]
     slot = {int(number): i for i, number in enumerate(numbers.values[index])}
     first = numbers.attrs["number_at_phase_0"]
-    forces = tuple(_forces_of(result, model, pair, index, slot.get(int(cycle.pair_number(step, pair.place.index)) + first)) for pair in pairs)
+    forces = tuple(
+        _forces_of(result, model, pair, index, slot.get(int(cycle.pair_number(step, pair.place.index)) + first))
+        for pair in pairs
+    )
     return StoredForces(index, step % cycle.steps / cycle.steps, pairs, forces)
 
 
@@ -77,16 +83,21 @@ def _forces_of(result: xr.Dataset, model: Model, pair: ToothPair, index: int, sl
     # Over a face each slice has its own nodes.
     place = (index, slot) if model.face is None else (index, slot, pair.place.slice)
     rolls = np.empty(0) if slot is None else result[f"{side}contact_roll_angle"].values[place]
-    if np.count_nonzero(~np.isnan(rolls)) != count or np.abs(rolls[:count] - pair.pinion_roll).max(initial=0.0) > SAME_OFFSETS:
+    if (
+        np.count_nonzero(~np.isnan(rolls)) != count
+        or np.abs(rolls[:count] - pair.pinion_roll).max(initial=0.0) > SAME_OFFSETS
+    ):
         raise ComputationError(
-            "the stored contact nodes are not those of the scene that the result carries; stresses are recovered from runs whose scene is "
-            "the one in their file, with [accuracy] condensation = \"once\". Run the scene again."
+            "the stored contact nodes are not those of the scene that the result carries; stresses are recovered from"
+            ' runs whose scene is the one in their file, with [accuracy] condensation = "once". Run the scene again.'
         )
     kinds = [f"{side}contact_pressure"]
     if model.scene.friction is not None:
         kinds.append(f"{side}contact_traction")
     missing = [name for name in kinds if name not in result]
     if missing:
-        raise ComputationError(f"the result has no {', '.join(missing)}, which the stresses need; run the scene again with this version")
+        raise ComputationError(
+            f"the result has no {', '.join(missing)}, which the stresses need; run the scene again with this version"
+        )
     area = pair.lengths * (model.pair.face_width if model.face is None else model.face.contact_widths[pair.place.slice])
     return np.concatenate([result[name].values[place][:count] * area for name in kinds])

@@ -19,7 +19,8 @@ NOT_ENDED = "not ended"
 
 
 def unfinished(directory: Path, progress: Progress | None = None, cache: Cache | None = None) -> xr.Dataset:
-    """The result as it would be if the run had been interrupted after the last step of its journal; `complete` 0, `stopped` NOT_ENDED.
+    """The result as it would be if the run had been interrupted after the last step of its journal; `complete` 0,
+    `stopped` NOT_ENDED.
 
     The gears are those of the cache, or condensed again. Raises ComputationError where the journal cannot be read.
     """
@@ -32,14 +33,16 @@ def unfinished(directory: Path, progress: Progress | None = None, cache: Cache |
     equations = model.equations_of_motion
     march = March(equations.friction, equations.drivetrain.stiffness, **recorded.march)
     result = result_of(recorder, march, gears, 0.0, NOT_ENDED)
-    return result.assign_attrs(warnings="\n".join([_missing(result, recorded.steps), *result.attrs["warnings"].splitlines()]))
+    return result.assign_attrs(
+        warnings="\n".join([_missing(result, recorded.steps), *result.attrs["warnings"].splitlines()])
+    )
 
 
 def _missing(result: xr.Dataset, steps: int) -> str:
     there, last = result.attrs["steps"], result.isel(time=-1)
     of = result.attrs["steps_per_mesh_cycle"]
     return (
-        f"the run has not come to its end (its process was killed, or still runs): {there} of its {steps} steps are there, up to "
-        f"{float(last['time']):.4g} s (mesh cycle {float(last['mesh_phase']):.2f} of {steps / of:g}); what comes after them is missing, and all "
-        "numbers are of these steps"
+        f"the run has not come to its end (its process was killed, or still runs): {there} of its {steps} steps are"
+        f" there, up to {float(last['time']):.4g} s (mesh cycle {float(last['mesh_phase']):.2f} of {steps / of:g});"
+        " what comes after them is missing, and all numbers are of these steps"
     )

@@ -1,7 +1,7 @@
 """Compile the hot kernels, or load them from disk, before the clock of the march starts.
 
-`python -m fenics_gears.simulation.warm_up` compiles all of them into numba's files on disk: the launcher calls it as the last step of the set-up
-and after each change of their sources, so that runs only load them.
+`python -m fenics_gears.simulation.warm_up` compiles all of them into numba's files on disk: the launcher calls it as
+the last step of the set-up and after each change of their sources, so that runs only load them.
 """
 
 from __future__ import annotations

@@ -19,7 +19,9 @@ RANGE_KEYS = ("start", "stop", "count", "step", "spacing")
 SPACINGS = ("linear", "logarithmic")
 MOST_VALUES = 100_000
 # "50 .. 500 N m in 10", "... in 10, logarithmic", "50 .. 500 N m by 50 N m".
-RANGE_IN_WORDS = re.compile(r"(?P<start>.+?)\s*\.\.\s*(?P<stop>.+?)(?:\s+in\s+(?P<count>\d+)(?P<spacing>\s*,?\s*logarithmic)?|\s+by\s+(?P<step>.+?))?")
+RANGE_IN_WORDS = re.compile(
+    r"(?P<start>.+?)\s*\.\.\s*(?P<stop>.+?)(?:\s+in\s+(?P<count>\d+)(?P<spacing>\s*,?\s*logarithmic)?|\s+by\s+(?P<step>.+?))?"
+)
 
 
 class AxisError(ValueError):
@@ -30,7 +32,8 @@ class AxisError(ValueError):
 class Axis:
     """A swept field: its path in the scene and its values as TOML has them.
 
-    `name`: of the coordinate; `unit`: of the coordinate's numbers, the one that the first value is written in, empty where the
+    `name`: of the coordinate; `unit`: of the coordinate's numbers, the one that the first value is written in, empty
+        where the
     values are bare numbers or texts.
     """
 
@@ -71,7 +74,10 @@ def values_of(path: Path, written: Any) -> tuple[Any, ...]:
     elif isinstance(written, list):
         values = tuple(written)
     else:
-        raise AxisError("is one value. Allowed: a list of values, or a range such as { start = ..., stop = ..., count = 20 }. A field of one value belongs in [set].")
+        raise AxisError(
+            "is one value. Allowed: a list of values, or a range such as { start = ..., stop = ..., count = 20 }. A"
+            " field of one value belongs in [set]."
+        )
     if not values:
         raise AxisError("is an empty list. Allowed: at least one value.")
     if len(values) > MOST_VALUES:
@@ -82,7 +88,8 @@ def values_of(path: Path, written: Any) -> tuple[Any, ...]:
 
 
 def values_in_words(written: str) -> tuple[str, ...]:
-    """The values that a word of the command line stands for: "437 N m" for one, "50 .. 500 N m in 10" for a range. Raises AxisError.
+    """The values that a word of the command line stands for: "437 N m" for one, "50 .. 500 N m in 10" for a range.
+    Raises AxisError.
 
     >>> values_in_words("100 .. 300 N m by 100 N m")
     ('100 N m', '200 N m', '300 N m')
@@ -91,9 +98,16 @@ def values_in_words(written: str) -> tuple[str, ...]:
         return (written.strip(),)
     found = RANGE_IN_WORDS.fullmatch(written.strip())
     if found is None or not (found["count"] or found["step"]):
-        raise AxisError('is a range without the number of its values. Allowed: such as "50 .. 500 N m in 10", "50 .. 500 N m in 10, logarithmic", "50 .. 500 N m by 50 N m".')
+        raise AxisError(
+            'is a range without the number of its values. Allowed: such as "50 .. 500 N m in 10", "50 .. 500 N m in 10,'
+            ' logarithmic", "50 .. 500 N m by 50 N m".'
+        )
     unit = units.unit_of(found["stop"])
-    ends = {name: found[name] if units.unit_of(found[name]) else f"{found[name]} {unit}" for name in ("start", "stop", "step") if found[name]}
+    ends = {
+        name: found[name] if units.unit_of(found[name]) else f"{found[name]} {unit}"
+        for name in ("start", "stop", "step")
+        if found[name]
+    }
     counted = {"count": int(found["count"]), "spacing": SPACINGS[bool(found["spacing"])]} if found["count"] else {}
     return tuple(map(str, _range({**ends, **counted})))
 
@@ -103,8 +117,8 @@ def _check(path: Path, value: Any) -> None:
         return
     hint = did_you_mean(value, (ABSENT, PRESENT)) if isinstance(value, str) else ""
     raise AxisError(
-        f'holds {as_written(value)}, but [{".".join(path)}] is a section.{hint} Allowed: "{ABSENT}" (without the section), '
-        f'"{PRESENT}" (as the scene has it), or a table of its fields, such as {{ ... = ... }}.'
+        f'holds {as_written(value)}, but [{".".join(path)}] is a section.{hint} Allowed: "{ABSENT}" (without the'
+        f' section), "{PRESENT}" (as the scene has it), or a table of its fields, such as {{ ... = ... }}.'
     )
 
 
@@ -129,7 +143,10 @@ def _range(table: Mapping[str, Any]) -> tuple[Any, ...]:
     """The values of { start, stop, count } or { start, stop, step }, both ends included where the step allows."""
     for name in table:
         if name not in RANGE_KEYS:
-            raise AxisError(f'has "{name}", which no range has.{did_you_mean(name, RANGE_KEYS)} Allowed: start, stop, and count or step; spacing.')
+            raise AxisError(
+                f'has "{name}", which no range has.{did_you_mean(name, RANGE_KEYS)} Allowed: start, stop, and count or'
+                " step; spacing."
+            )
     for name in ("start", "stop"):
         if name not in table:
             raise AxisError(f"has no {name}. Allowed: start, stop, and count or step.")
@@ -141,7 +158,11 @@ def _range(table: Mapping[str, Any]) -> tuple[Any, ...]:
         raise AxisError(f'has the spacing {as_written(spacing)}.{hint} Allowed: "linear", "logarithmic".')
     given = {name: table[name] for name in ("start", "stop", "step") if name in table}
     ends, unit = _ends(given)
-    numbers = _stepped(ends[0], ends[1], ends[2], spacing) if "step" in table else _counted(ends[0], ends[1], table["count"], spacing)
+    numbers = (
+        _stepped(ends[0], ends[1], ends[2], spacing)
+        if "step" in table
+        else _counted(ends[0], ends[1], table["count"], spacing)
+    )
     if unit:
         return tuple(f"{number:.12g} {unit}" for number in numbers)
     whole = isinstance(table["start"], int) and isinstance(table["stop"], int) and np.all(numbers == np.round(numbers))
@@ -155,7 +176,10 @@ def _ends(given: Mapping[str, Any]) -> tuple[list[float], str]:
     else:
         for name, value in given.items():
             if not isinstance(value, str):
-                raise AxisError(f"has {name} = {as_written(value)} beside a text with a unit. Allowed: all with units, or all bare numbers.")
+                raise AxisError(
+                    f"has {name} = {as_written(value)} beside a text with a unit. Allowed: all with units, or all bare"
+                    " numbers."
+                )
         try:
             quantities = [units.quantity(value) for value in given.values()]
         except units.QuantityError as error:

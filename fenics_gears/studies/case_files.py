@@ -1,4 +1,5 @@
-"""The files of a study's cases: a NetCDF file for each, or a text on why it failed. A later run of the study finds them by their content."""
+"""The files of a study's cases: a NetCDF file for each, or a text on why it failed. A later run of the study finds them
+by their content."""
 
 from __future__ import annotations
 
@@ -25,7 +26,9 @@ ENDING, FAILED_ENDING = ".nc", ".failed.txt"
 
 def save_case(run: xr.Dataset, case: Case, directory: Path) -> CaseRecord:
     """Write the run of a case and return its record; a note on an earlier failure goes."""
-    results.save(run.assign_attrs(case_key=case.key, case_values=json.dumps(case.values)), directory / f"{case.name}{ENDING}")
+    results.save(
+        run.assign_attrs(case_key=case.key, case_values=json.dumps(case.values)), directory / f"{case.name}{ENDING}"
+    )
     (directory / f"{case.name}{FAILED_ENDING}").unlink(missing_ok=True)
     return record_of(run)
 
@@ -70,7 +73,8 @@ def _undamaged(path: Path, case: Case) -> CaseRecord | None:
 
 @contextlib.contextmanager
 def sole_writer(directory: Path, inside: str = "cases") -> Iterator[None]:
-    """Lock the study's directory for this process, make the folder `inside` it, and remove half-written files of a study that was killed.
+    """Lock the study's directory for this process, make the folder `inside` it, and remove half-written files of a
+    study that was killed.
 
     Raises ComputationError where another study is writing there, or nothing can be written.
     """
@@ -83,7 +87,10 @@ def sole_writer(directory: Path, inside: str = "cases") -> Iterator[None]:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise ComputationError(f"{directory}: another study is writing there. Wait for it, or choose another directory with --output DIR.") from None
+            raise ComputationError(
+                f"{directory}: another study is writing there. Wait for it, or choose another directory with --output"
+                " DIR."
+            ) from None
         except OSError as error:
             LOGGER.debug("%s: no locks on this file system: %s", directory, error)
         for left in (directory / "cases").glob(".*.part"):
@@ -94,7 +101,8 @@ def sole_writer(directory: Path, inside: str = "cases") -> Iterator[None]:
 
 
 def changed_since(study: Study, directory: Path) -> str:
-    """A sentence where the study was last run here by a version of the program with other numbers, or with another base scene; else empty.
+    """A sentence where the study was last run here by a version of the program with other numbers, or with another base
+    scene; else empty.
 
     Writes `study.json` with the present ones, which also lists which file holds which case.
     """
@@ -104,7 +112,12 @@ def changed_since(study: Study, directory: Path) -> str:
         before, numbers = index.get("base_scene"), index.get("numbers_version")
     except (OSError, ValueError, AttributeError):
         before = numbers = None
-    index = {"title": study.title, "base_scene": study.base_key, "numbers_version": NUMBERS_VERSION, "cases": {case.name: case.values for case in study.cases}}
+    index = {
+        "title": study.title,
+        "base_scene": study.base_key,
+        "numbers_version": NUMBERS_VERSION,
+        "cases": {case.name: case.values for case in study.cases},
+    }
     write_whole(path, lambda aside: aside.write_text(json.dumps(index, indent=1, ensure_ascii=False), encoding="utf-8"))
     if before is None or before == study.base_key:
         return ""

@@ -39,7 +39,8 @@ NUMBERS = {
 }
 # Curves of the last cycles, taken where a run has them.
 CURVES = (
-    "transmission_error", "centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y", "shaft_end_rotation", "normal_force", "friction_force", "mesh_stiffness",
+    "transmission_error", "centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y", "shaft_end_rotation",
+    "normal_force", "friction_force", "mesh_stiffness",
 )  # fmt: skip
 
 
@@ -47,8 +48,10 @@ CURVES = (
 class CaseRecord:
     """Numbers and curves of one run.
 
-    `numbers`: by name, also those of `STUDIED` that the run has; `curves`: (steps,) or (steps, 2), in the units of the run; `mesh_phase`
-    (steps,): mesh cycles since the first recorded step; `labels`: units and long name of each curve; `warnings`: those of the run.
+    `numbers`: by name, also those of `STUDIED` that the run has; `curves`: (steps,) or (steps, 2), in the units of the
+        run; `mesh_phase`
+    (steps,): mesh cycles since the first recorded step; `labels`: units and long name of each curve; `warnings`: those
+    of the run.
     """
 
     numbers: dict[str, float]
@@ -79,14 +82,18 @@ def record_of(run: xr.Dataset) -> CaseRecord:
 def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[int, str]) -> xr.Dataset:
     """The dataset of the cases so far; NaN where a case has no result or lacks a number.
 
-    The dimensions are the swept fields, or `case` where they are varied together. `failed` is 1 for cases that failed and
-    `failure` says why; curves are there when every case has the same steps.
+    The dimensions are the swept fields, or `case` where they are varied together. `failed` is 1 for cases that failed
+    and `failure` says why; curves are there when every case has the same steps.
     """
-    result = xr.Dataset(coords={name: coordinate for axis in study.axes for name, coordinate in [_coordinate(axis, study)]})
+    result = xr.Dataset(
+        coords={name: coordinate for axis in study.axes for name, coordinate in [_coordinate(axis, study)]}
+    )
     if study.combine == "zip":
         result = result.assign_coords(case=("case", np.arange(len(study.cases)), {"long_name": "case"}))
     for name, (of_case, missing, attributes) in _variables(study, records, failures).items():
-        values = np.array([of_case.get(i, missing) for i in range(len(study.cases))], dtype=type(missing) if missing != "" else object)
+        values = np.array(
+            [of_case.get(i, missing) for i in range(len(study.cases))], dtype=type(missing) if missing != "" else object
+        )
         result[name] = (study.dimensions, values.reshape(study.shape), attributes)
     curves, why_not = _curves(study, records)
     result = result.assign(curves)
@@ -104,12 +111,22 @@ def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[
     )
 
 
-def _variables(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[int, str]) -> dict[str, tuple[dict, Any, dict]]:
+def _variables(
+    study: Study, records: Mapping[int, CaseRecord], failures: Mapping[int, str]
+) -> dict[str, tuple[dict, Any, dict]]:
     """By name the values of the cases that have one, what stands for the others, and the attributes."""
     known = {name for record in records.values() for name in record.numbers}
-    numbers = NUMBERS | {each.name: (each.units, each.meaning) for each in RESULT_ATTRIBUTES if each.name in known and each.name in STUDIED}
+    numbers = NUMBERS | {
+        each.name: (each.units, each.meaning)
+        for each in RESULT_ATTRIBUTES
+        if each.name in known and each.name in STUDIED
+    }
     found: dict[str, tuple[dict, Any, dict]] = {
-        name: ({i: each.numbers[name] for i, each in records.items() if name in each.numbers}, np.nan, {"units": units, "long_name": words})
+        name: (
+            {i: each.numbers[name] for i, each in records.items() if name in each.numbers},
+            np.nan,
+            {"units": units, "long_name": words},
+        )
         for name, (units, words) in numbers.items()
     }
     without_meaning = {i: int(NO_MEANING in each.warnings) for i, each in records.items()}
@@ -123,7 +140,8 @@ def _variables(study: Study, records: Mapping[int, CaseRecord], failures: Mappin
 
 
 def save_study(dataset: xr.Dataset, directory: Path) -> Path:
-    """Write the combined dataset, aside first and with a digest at its end. Raises ComputationError where it cannot be written."""
+    """Write the combined dataset, aside first and with a digest at its end. Raises ComputationError where it cannot be
+    written."""
     return write_whole(directory / STUDY_FILE, lambda aside: save(dataset, aside))
 
 
@@ -131,7 +149,9 @@ def load_combined(path: Path) -> xr.Dataset:
     """Read a study's dataset into memory. Raises ComputationError when the file is none of this program, or damaged."""
     result = read(path)
     if "peak_to_peak_transmission_error" not in result or "study" not in result.attrs:
-        raise ComputationError(f"{path}: holds no study of this program (no peak_to_peak_transmission_error, no study text)")
+        raise ComputationError(
+            f"{path}: holds no study of this program (no peak_to_peak_transmission_error, no study text)"
+        )
     return result
 
 
@@ -148,13 +168,18 @@ def _curves(study: Study, records: Mapping[int, CaseRecord]) -> tuple[dict[str, 
     if not records:
         return {}, "none: no case has a result"
     phase = next(iter(records.values())).mesh_phase
-    if any(len(each.mesh_phase) != len(phase) or not np.allclose(each.mesh_phase, phase, rtol=0, atol=1e-9) for each in records.values()):
+    if any(
+        len(each.mesh_phase) != len(phase) or not np.allclose(each.mesh_phase, phase, rtol=0, atol=1e-9)
+        for each in records.values()
+    ):
         return {}, "none: the cases have different time steps or recorded cycles; see the files of the cases"
     names = [name for name in CURVES if any(name in each.curves for each in records.values())]
     shapes = {name: next(each.curves[name].shape for each in records.values() if name in each.curves) for name in names}
     if len(study.cases) * sum(int(np.prod(shape)) for shape in shapes.values()) > MOST_CURVE_VALUES:
         return {}, "none: too many values; see the files of the cases"
-    curves: dict[str, tuple] = {"mesh_phase": ("mesh_phase", phase, {"units": "1", "long_name": "mesh cycles since the first recorded step"})}
+    curves: dict[str, tuple] = {
+        "mesh_phase": ("mesh_phase", phase, {"units": "1", "long_name": "mesh cycles since the first recorded step"})
+    }
     for name in names:
         values = np.full((len(study.cases), *shapes[name]), np.nan)
         for index, record in records.items():

@@ -31,7 +31,9 @@ def why_unknown(path: Path) -> str | None:
     if not hint:
         homes = [name for name in dotted if name.split(".")[-1] == path[-1]]
         hint = f" Did you mean {' or '.join(homes)}?" if homes else ""
-    return f"is no section or field of a scene.{hint}" + ("" if hint else f" Sections: {', '.join(p[0] for p in known_paths() if len(p) == 1)}.")
+    return f"is no section or field of a scene.{hint}" + (
+        "" if hint else f" Sections: {', '.join(p[0] for p in known_paths() if len(p) == 1)}."
+    )
 
 
 def changed(tree: Mapping[str, Any], path: Path, value: Any) -> dict[str, Any]:
@@ -67,14 +69,20 @@ def with_section(tree: Mapping[str, Any], path: Path) -> dict[str, Any]:
 
 
 def allowed_at(path: Path) -> tuple[Allowed | None, float, float]:
-    """What a field allows and its least and largest number in N, mm, s, rad; None for a section. Fields without bounds have infinite ones."""
+    """What a field allows and its least and largest number in N, mm, s, rad; None for a section. Fields without bounds
+    have infinite ones."""
     section: Any = SceneText
     for name in path[:-1]:
         section = section_within(section, name)
     allowed, info = allowed_in(section, path[-1]), section.model_fields[path[-1]]
     if isinstance(allowed, AllowedEither):
         return allowed, min(low for low, _ in allowed.ranges.values()), max(high for _, high in allowed.ranges.values())
-    limits = {key: getattr(item, key) for item in info.metadata for key in ("ge", "gt", "le", "lt") if getattr(item, key, None) is not None}
+    limits = {
+        key: getattr(item, key)
+        for item in info.metadata
+        for key in ("ge", "gt", "le", "lt")
+        if getattr(item, key, None) is not None
+    }
     return allowed, limits.get("ge", limits.get("gt", -math.inf)), limits.get("le", limits.get("lt", math.inf))
 
 
@@ -82,4 +90,9 @@ def is_numeric(path: Path) -> bool:
     """Whether a field takes a number, with a unit or without, that need not be whole."""
     allowed, lowest, _ = allowed_at(path)
     whole = allowed is not None and "whole number" in allowed.description
-    return allowed is not None and not isinstance(allowed, AllowedList) and not whole and (allowed.kind is not None or math.isfinite(lowest))
+    return (
+        allowed is not None
+        and not isinstance(allowed, AllowedList)
+        and not whole
+        and (allowed.kind is not None or math.isfinite(lowest))
+    )

@@ -1,4 +1,5 @@
-"""What runs of one process share in memory: the gears condensed last, and the contact operators of the last mesh cycle."""
+"""What runs of one process share in memory: the gears condensed last, and the contact operators of the last mesh
+cycle."""
 
 from __future__ import annotations
 
@@ -20,13 +21,14 @@ NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
 
 
 class GearStore:
-    """Keeps the gears used last and, with `cycles`, the last mesh cycle, so that a frequency sweep builds its operators once.
+    """Keeps the gears used last and, with `cycles`, the last mesh cycle, so that a frequency sweep builds its operators
+    once.
 
-    Two runs share gears that are the same bodies at the same resolution, and a mesh cycle when gears, flanks, contact grid,
-    steps, moving coordinates and the presence of friction are the same: speed, masses, springs, torque and coefficient may differ.
-    Where only reliefs differ they share its operators, and each relief has gaps of its own.
-    Shared gears keep the times that condensing them took; with a shared mesh cycle these times are zero. `most`: how many gears are kept,
-    None for all.
+    Two runs share gears that are the same bodies at the same resolution, and a mesh cycle when gears, flanks, contact
+    grid, steps, moving coordinates and the presence of friction are the same: speed, masses, springs, torque and
+    coefficient may differ. Where only reliefs differ they share its operators, and each relief has gaps of its own.
+    Shared gears keep the times that condensing them took; with a shared mesh cycle these times are zero. `most`: how
+    many gears are kept, None for all.
     """
 
     def __init__(self, most: int | None = 2, cycles: bool = True):
@@ -44,12 +46,17 @@ class GearStore:
             return self._made(model, progress, cache)
         key, shared = operators_key(model), True
         if key != self._operators_key:
-            self._operators_key = self._operators = self._cycle_key = self._cycle = None  # frees its memory before the next is made
+            self._operators_key = self._operators = self._cycle_key = self._cycle = (
+                None  # frees its memory before the next is made
+            )
             unrelieved = replace(model, removal=(None, None)) if differs_in_gaps_alone(model) else model
             self._operators, self._operators_key, shared = self._made(unrelieved, progress, cache), key, False
         compliances, cycle = self._operators
         if cycle_key(model) != self._cycle_key:
-            self._cycle, self._cycle_key = relieved(cycle, model) if differs_in_gaps_alone(model) else cycle, cycle_key(model)
+            self._cycle, self._cycle_key = (
+                relieved(cycle, model) if differs_in_gaps_alone(model) else cycle,
+                cycle_key(model),
+            )
         if shared:
             compliances = tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in compliances)
         return compliances, self._cycle
@@ -98,7 +105,13 @@ def own_gear_store() -> GearStore:
 def gear_key(model: Model, name: str, reach: Reach) -> tuple:
     """What a gear's flank compliance depends on."""
     own = tuple(getattr(getattr(model.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
-    return getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.discretisation(GEARS.index(name)), reach, own
+    return (
+        getattr(model.pair, name),
+        model.scene.gears.material_of(name),
+        model.resolution.discretisation(GEARS.index(name)),
+        reach,
+        own,
+    )
 
 
 def body_key(model: Model, name: str, reach: Reach) -> tuple:
@@ -106,13 +119,22 @@ def body_key(model: Model, name: str, reach: Reach) -> tuple:
     # Imported here: plane scenes have none.
     from fenics_gears.model.face_resolution import face_discretisation
 
-    return getattr(model.pair, name), model.scene.gears.material_of(name), face_discretisation(model, GEARS.index(name)), reach
+    return (
+        getattr(model.pair, name),
+        model.scene.gears.material_of(name),
+        face_discretisation(model, GEARS.index(name)),
+        reach,
+    )
 
 
 def differs_in_gaps_alone(model: Model) -> bool:
-    """Whether a scene with reliefs has the contact operators of one without: along the line of action, on teeth that are all alike."""
+    """Whether a scene with reliefs has the contact operators of one without: along the line of action, on teeth that
+    are all alike."""
     scene = model.scene
-    others = (scene.corner_contact, *(getattr(scene, effect.section) for effect in EFFECTS if effect.gaps or effect.elasticity))
+    others = (
+        scene.corner_contact,
+        *(getattr(scene, effect.section) for effect in EFFECTS if effect.gaps or effect.elasticity),
+    )
     return model.removal != (None, None) and route_of(model) is CONDENSED and all(each is None for each in others)
 
 
@@ -126,12 +148,29 @@ def relieved(cycle: Cycle, model: Model) -> Cycle:
 def operators_key(model: Model) -> tuple:
     """What the contact operators of a mesh cycle depend on, their gaps apart where reliefs change nothing else."""
     scene, resolution = model.scene, model.resolution
-    accuracy = resolution.condensation, resolution.discretisation(0), resolution.discretisation(1), resolution.contact_grid, resolution.steps_per_mesh_cycle
-    in_operators = (scene.corner_contact, *(getattr(scene, effect.section) for effect in EFFECTS if effect.gaps or effect.elasticity))
+    accuracy = (
+        resolution.condensation,
+        resolution.discretisation(0),
+        resolution.discretisation(1),
+        resolution.contact_grid,
+        resolution.steps_per_mesh_cycle,
+    )
+    in_operators = (
+        scene.corner_contact,
+        *(getattr(scene, effect.section) for effect in EFFECTS if effect.gaps or effect.elasticity),
+    )
     apart = model.removal == (None, None) or differs_in_gaps_alone(model)
     springs = scene.accuracy.model, None if scene.resolves_contact else scene.load
     own = None if apart else _reliefs(scene)
-    return scene.gears, in_operators, scene.coast_flanks is not None, (accuracy, springs, _over_face(model)), own, tuple(model.drivetrain.indices), scene.friction is not None
+    return (
+        scene.gears,
+        in_operators,
+        scene.coast_flanks is not None,
+        (accuracy, springs, _over_face(model)),
+        own,
+        tuple(model.drivetrain.indices),
+        scene.friction is not None,
+    )
 
 
 def _over_face(model: Model) -> tuple | None:

@@ -1,4 +1,5 @@
-"""Remarks on sizes of the gears that a study leaves as they are although a designer would change them with a swept one; curves do not show it."""
+"""Remarks on sizes of the gears that a study leaves as they are although a designer would change them with a swept one;
+curves do not show it."""
 
 from __future__ import annotations
 
@@ -15,12 +16,20 @@ IN_WORDS = str.maketrans("._", "  ")
 
 
 def kept_sizes(axes: Iterable[Axis], derived: Iterable[Derived] = ()) -> list[str]:
-    """A sentence for each swept size of the gears, on the diameters, profile shifts and the centre distance that stay the same in all cases.
+    """A sentence for each swept size of the gears, on the diameters, profile shifts and the centre distance that stay
+    the same in all cases.
 
     derived: what the scenes leave out, which follows the swept size.
     """
     swept, follow = {axis.dotted for axis in axes}, {each.name for each in derived}
-    kept = {name: [each for each in _bound_to(name) if each not in swept and each[len("gears.") :].translate(IN_WORDS) not in follow] for name in sorted(swept)}
+    kept = {
+        name: [
+            each
+            for each in _bound_to(name)
+            if each not in swept and each[len("gears.") :].translate(IN_WORDS) not in follow
+        ]
+        for name in sorted(swept)
+    }
     return [_sentence(name, sizes) for name, sizes in kept.items() if sizes]
 
 
@@ -38,6 +47,6 @@ def _bound_to(name: str) -> list[str]:
 def _sentence(name: str, kept: list[str]) -> str:
     listed = kept[0] if len(kept) == 1 else f"{', '.join(kept[:-1])} and {kept[-1]}"
     return (
-        f"{name} is swept and {listed} {'is' if len(kept) == 1 else 'are'} kept, so that contact ratio, tip clearance and backlash change with it; "
-        'sweep them along (combine = "zip") for gears that are designed anew'
+        f"{name} is swept and {listed} {'is' if len(kept) == 1 else 'are'} kept, so that contact ratio, tip clearance"
+        ' and backlash change with it; sweep them along (combine = "zip") for gears that are designed anew'
     )

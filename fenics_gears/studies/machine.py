@@ -1,4 +1,5 @@
-"""What `gears accuracy` and `gears effects` share: the machine on which times were measured, and the CSV file of the numbers."""
+"""What `gears accuracy` and `gears effects` share: the machine on which times were measured, and the CSV file of the
+numbers."""
 
 from __future__ import annotations
 
@@ -16,7 +17,12 @@ PACKAGES = ("numpy", "numba", "fenics-dolfinx", "petsc4py")
 
 def machine() -> dict[str, str]:
     """Processor, how busy it is, threads, versions, in words."""
-    return {"processor": processor(), "load": load(), "threads": "1 in the march, " + threads() + " elsewhere", "versions": versions()}
+    return {
+        "processor": processor(),
+        "load": load(),
+        "threads": "1 in the march, " + threads() + " elsewhere",
+        "versions": versions(),
+    }
 
 
 def processor() -> str:
@@ -31,7 +37,8 @@ def processor() -> str:
 
 
 def load() -> str:
-    """Processes that wanted a core in the last minute, this one included; times mean little where there were more than cores."""
+    """Processes that wanted a core in the last minute, this one included; times mean little where there were more than
+    cores."""
     try:
         return f"{os.getloadavg()[0]:.1f}"
     except OSError:
@@ -47,7 +54,8 @@ def threads() -> str:
 
 
 def versions(packages: Sequence[str] = PACKAGES) -> str:
-    """Versions of this program, Python and packages, those that compute unless others are named; one that is not installed is left out."""
+    """Versions of this program, Python and packages, those that compute unless others are named; one that is not
+    installed is left out."""
     found = [f"fenics_gears {fenics_gears.__version__}", f"Python {platform.python_version()}"]
     for package in packages:
         try:
@@ -58,7 +66,8 @@ def versions(packages: Sequence[str] = PACKAGES) -> str:
 
 
 def write_lines(file: Path, lines: Sequence[Mapping[str, object]], machine: Mapping[str, str]) -> None:
-    """Write a line for each of `lines` to a CSV file, each with the machine's words; a name that a line lacks is empty in it."""
+    """Write a line for each of `lines` to a CSV file, each with the machine's words; a name that a line lacks is empty
+    in it."""
     columns = dict.fromkeys(name for line in (*lines, machine) for name in line)
     with open(file, "w", encoding="utf-8", newline="") as opened:
         writer = csv.DictWriter(opened, list(columns), restval="")

@@ -1,7 +1,8 @@
 """Many tasks over the processes of one MPI job, or one after another in a process that runs alone.
 
-Alone, MPI is never touched. Under `mpirun -n N`, ranks 1 to N-1 are workers of mpi4py.futures; rank 0 hands out tasks from the first
-on by mpi4py's own thread, and itself takes back and computes tasks from the last on, so that all N processes compute.
+Alone, MPI is never touched. Under `mpirun -n N`, ranks 1 to N-1 are workers of mpi4py.futures; rank 0 hands out tasks
+from the first on by mpi4py's own thread, and itself takes back and computes tasks from the last on, so that all N
+processes compute.
 """
 
 from __future__ import annotations
@@ -41,7 +42,8 @@ class Together:
         self._executor, self.size = executor, size
 
     def run(self, function: Task, tasks: Sequence[Any], finished: Finished, tick: Callable[[], None]) -> None:
-        """Compute every task; ``tick`` is called often and may raise KeyboardInterrupt, which ends the ranks after their present task."""
+        """Compute every task; ``tick`` is called often and may raise KeyboardInterrupt, which ends the ranks after
+        their present task."""
         done: queue.SimpleQueue = queue.SimpleQueue()
         futures = [self._executor.submit(function, task) for task in tasks]
         for index, future in enumerate(futures):

@@ -23,7 +23,8 @@ LOGGER = logging.getLogger(__name__)
 
 @dataclass
 class Outcome:
-    """Results of a study so far, and why cases failed, by the case's index; `kept`: how many results were there before."""
+    """Results of a study so far, and why cases failed, by the case's index; `kept`: how many results were there
+    before."""
 
     study: Study
     file: Path | None = None
@@ -36,7 +37,8 @@ class Outcome:
 def run_study(path: Path, output: Path | None, progress: Progress, quiet: bool = False) -> Outcome | None:
     """Run what is missing of a study and write its dataset; None on every rank of an MPI job but 0.
 
-    output: the study's directory, `results/<name of the study file>` where None. Raises SceneError, before anything is computed or
+    output: the study's directory, `results/<name of the study file>` where None. Raises SceneError, before anything is
+        computed or
     written, where the study is wrong; ComputationError where its directory cannot be used.
     """
     with ranks() as team:
@@ -47,7 +49,8 @@ def run_study(path: Path, output: Path | None, progress: Progress, quiet: bool =
 
 
 def run_with(team: Alone | Together, study: Study, directory: Path, progress: Progress, quiet: bool = False) -> Outcome:
-    """Run what is missing of a study in its directory, with the processes of rank 0's team. Raises ComputationError where the directory cannot be used."""
+    """Run what is missing of a study in its directory, with the processes of rank 0's team. Raises ComputationError
+    where the directory cannot be used."""
     check_writable(directory, STUDY_FILE, "study.json")
     with sole_writer(directory):
         return _run(study, directory, team, progress, quiet)
@@ -74,11 +77,16 @@ def _run(study: Study, directory: Path, team: Alone | Together, progress: Progre
 def _opening(study: Study, kept: int, missing: int, changed: str, size: int) -> str:
     """One line on how many cases are there and to be computed."""
     of_it = f"{kept} kept, {missing} to be computed" if kept else f"{missing} to be computed"
-    return f"{study.title}: {len(study.cases)} cases, {of_it}" + (f", by {size} processes." if size > 1 else ".") + (changed and f" {changed}")
+    return (
+        f"{study.title}: {len(study.cases)} cases, {of_it}"
+        + (f", by {size} processes." if size > 1 else ".")
+        + (changed and f" {changed}")
+    )
 
 
 def condense_gears(missing: list[Case], team: Alone | Together, progress: Interruption) -> None:
-    """Condense every gear of the study once, a process a gear; a gear that fails fails again, with its reason, in its cases."""
+    """Condense every gear of the study once, a process a gear; a gear that fails fails again, with its reason, in its
+    cases."""
     tasks = gear_tasks(missing)
     if not tasks:
         return
@@ -95,7 +103,9 @@ def condense_gears(missing: list[Case], team: Alone | Together, progress: Interr
     progress.update(done, len(tasks))
 
 
-def _compute(missing: list[Case], directory: Path, team: Alone | Together, outcome: Outcome, progress: Interruption) -> None:
+def _compute(
+    missing: list[Case], directory: Path, team: Alone | Together, outcome: Outcome, progress: Interruption
+) -> None:
     """Run every missing case; results and failures go into ``outcome`` as they come."""
     if not missing:
         return
@@ -103,7 +113,9 @@ def _compute(missing: list[Case], directory: Path, team: Alone | Together, outco
 
     def count() -> None:
         failed = len(outcome.failures)
-        progress.update(len(outcome.records) - outcome.kept + failed, len(missing), f"{failed} failed" if failed else "")
+        progress.update(
+            len(outcome.records) - outcome.kept + failed, len(missing), f"{failed} failed" if failed else ""
+        )
 
     def finished(index: int, result: CaseRecord | str | Exception) -> None:
         case = missing[index]

@@ -1,4 +1,5 @@
-"""`simulate` as users call it: run a scene; where it has a target, choose its settings first and add the estimated error to the result."""
+"""`simulate` as users call it: run a scene; where it has a target, choose its settings first and add the estimated
+error to the result."""
 
 from __future__ import annotations
 
@@ -20,7 +21,10 @@ if TYPE_CHECKING:
     from fenics_gears.results.journal import Place
 
 # The remedy where a warning recommends a setting, for settings may not stand beside a target.
-OTHER_SETTINGS = "a warning names settings of [accuracy]: take a smaller target, or the chosen settings, which the result's scene has, and change them"
+OTHER_SETTINGS = (
+    "a warning names settings of [accuracy]: take a smaller target, or the chosen settings, which the result's scene"
+    " has, and change them"
+)
 
 
 def simulate(
@@ -34,31 +38,44 @@ def simulate(
 ) -> xr.Dataset:
     """Run a scene and return its result, an `xarray.Dataset` (docs/result.md).
 
-    Its variables, over time, tooth pairs and contact nodes, have their units as `attrs["units"]`: rotations and the transmission error are in rad,
-    displacements in mm, forces in N, pressures and stresses in MPa, torques and energies in N mm, times in s. Numbers of the whole run, such as
-    `mean_transmission_error` (rad), the warnings, and the text of the scene that was run are in `result.attrs`.
+    Its variables, over time, tooth pairs and contact nodes, have their units as `attrs["units"]`: rotations and the
+    transmission error are in rad, displacements in mm, forces in N, pressures and stresses in MPa, torques and energies
+    in N mm, times in s. Numbers of the whole run, such as `mean_transmission_error` (rad), the warnings, and the text
+    of the scene that was run are in `result.attrs`.
 
-    With `[accuracy] target` settings are chosen first, by trial runs. The result then has the attributes `target`, `estimated_error`, and
-    `estimated_error: ...` by setting, all in parts of 1, `time_choose` (s), `target_runs`, `target_remarks`; the scene that it carries has the
+    With `[accuracy] target` settings are chosen first, by trial runs. The result then has the attributes `target`,
+    `estimated_error`, and
+    `estimated_error: ...` by setting, all in parts of 1, `time_choose` (s), `target_runs`, `target_remarks`; the scene
+        that it carries has the
     settings in place of the target, so that it repeats the run.
 
     scene: from `load_scene` or `build_scene`, as it is or changed by `dataclasses.replace`.
     progress: is told the stages and how far they are (`system.progress`); nothing is shown unless given.
     cache: where condensed gears are kept (`elasticity.cache.Cache`); that of the user unless given.
-    preparation, comm, journal: for programs that make many runs or share one over MPI; see `simulation.simulate.simulate`.
+    preparation, comm, journal: for programs that make many runs or share one over MPI; see
+        `simulation.simulate.simulate`.
 
-    Raises GeometryError before any computation where the gears are impossible; ComputationError where the run does not fit into the memory that it
-    may take, or a stage fails: steps that were computed before are then in its attribute `partial`; TargetNotReached where no settings keep the target.
+    Raises GeometryError before any computation where the gears are impossible; ComputationError where the run does not
+    fit into the memory that it
+    may take, or a stage fails: steps that were computed before are then in its attribute `partial`; TargetNotReached
+        where no settings keep the target.
     Ctrl-C during the march returns the steps computed so far, with the attribute `complete` 0.
 
     >>> from fenics_gears import load_scene, simulate
     >>> result = simulate(load_scene("demos/lundvall2004.toml"))
     >>> result.transmission_error.dims, result.transmission_error.attrs["units"]
     (('time',), 'rad')
-    >>> print(f'{result.transmission_error.max().item() * result.attrs["base_radius_wheel"]:.2f} mm along the line of action at most')
+    >>> print(f'{result.transmission_error.max().item() * result.attrs["base_radius_wheel"]:.2f} mm along the line of
+    action at most')
     0.16 mm along the line of action at most
     """
-    arguments = {"progress": progress or SilentProgress(), "cache": cache, "preparation": preparation, "job": job, "journal": journal}
+    arguments = {
+        "progress": progress or SilentProgress(),
+        "cache": cache,
+        "preparation": preparation,
+        "job": job,
+        "journal": journal,
+    }
     target = scene.accuracy.target
     if target is None:
         return simulation.simulate(scene, **arguments)

@@ -15,7 +15,8 @@ from fenics_gears.studies.axis import Axis
 class Case:
     """One run of a study.
 
-    `index`: its place, the last swept field changes fastest; `values`: of the swept fields, in words; `key`: hash of all that its result
+    `index`: its place, the last swept field changes fastest; `values`: of the swept fields, in words; `key`: hash of
+        all that its result
     depends on.
     """
 
@@ -38,7 +39,8 @@ class Case:
 class Study:
     """A validated study: all its scenes are right.
 
-    `combine`: "product" (one dimension for each axis) or "zip" (one dimension, `case`); `text` and `scene_text`: the files it was
+    `combine`: "product" (one dimension for each axis) or "zip" (one dimension, `case`); `text` and `scene_text`: the
+        files it was
     read from; `base_key`: the base scene's hash.
     """
 
@@ -63,7 +65,8 @@ class Study:
 
 
 def scene_key(scene: Scene) -> str:
-    """Hash of all that a scene's result depends on: its values, however they are written, and the version of the program's numbers."""
+    """Hash of all that a scene's result depends on: its values, however they are written, and the version of the
+    program's numbers."""
     said: dict[str, Any] = asdict(scene)
     for words in ("title", "name", "derived", "written", "folder"):
         del said[words]

@@ -80,14 +80,21 @@ def load_study(path: str | Path) -> Study:
     text = text_of(path, "study")
     tree = parsed(text, str(path))
     if "gears" in tree and "sweep" not in tree:
-        raise SceneError(f"{path}: is a scene, not a study; `gears run {path}` runs it. Nothing was computed or written.")
+        raise SceneError(
+            f"{path}: is a scene, not a study; `gears run {path}` runs it. Nothing was computed or written."
+        )
     # A swept field has one name here, whether its dots are written bare or within quotes.
-    lines = {(name[0], ".".join(name[1:])) if len(name) > 1 else name: line for name, line in line_numbers(text).items()}
+    lines = {
+        (name[0], ".".join(name[1:])) if len(name) > 1 else name: line for name, line in line_numbers(text).items()
+    }
     return study_of(tree, path, text, str(path), lines)
 
 
-def study_of(tree: Mapping[str, Any], path: Path, text: str, source: str, lines: Mapping[tuple[str, ...], int]) -> Study:
-    """The study of a parsed file; `path` from whose folder the base scene is named and whose stem is the study's name, `source` and `lines` for messages."""
+def study_of(
+    tree: Mapping[str, Any], path: Path, text: str, source: str, lines: Mapping[tuple[str, ...], int]
+) -> Study:
+    """The study of a parsed file; `path` from whose folder the base scene is named and whose stem is the study's name,
+    `source` and `lines` for messages."""
     mistakes = Mistakes(source, lines)
     _check_keys(tree, mistakes)
     changes = _changes(tree, mistakes)
@@ -123,14 +130,32 @@ def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:
         if key in tree and not isinstance(tree[key], str):
             mistakes.add((key,), as_written(tree[key]), "is not a text.")
     if "scene" not in tree:
-        mistakes.add(("scene",), None, 'is missing. Allowed: the file of the base scene, from this file\'s folder on, such as "lundvall2004.toml".')
+        mistakes.add(
+            ("scene",),
+            None,
+            "is missing. Allowed: the file of the base scene, from this file's folder on, such as"
+            ' "lundvall2004.toml".',
+        )
     if isinstance(tree.get("combine"), str) and tree["combine"] not in COMBINATIONS:
-        mistakes.add(("combine",), as_written(tree["combine"]), f'is not known.{did_you_mean(tree["combine"], COMBINATIONS)} Allowed: "product", "zip".')
+        mistakes.add(
+            ("combine",),
+            as_written(tree["combine"]),
+            f'is not known.{did_you_mean(tree["combine"], COMBINATIONS)} Allowed: "product", "zip".',
+        )
     for key in ("set", "sweep"):
         if key in tree and not isinstance(tree[key], Mapping):
-            mistakes.add((key,), as_written(tree[key]), f"is not a section. Write a line [{key}], and below it fields of the scene.")
+            mistakes.add(
+                (key,),
+                as_written(tree[key]),
+                f"is not a section. Write a line [{key}], and below it fields of the scene.",
+            )
     if not tree.get("sweep"):
-        mistakes.add(("sweep",), None, 'is missing. Add the section [sweep] with at least one field, such as motion.mesh_frequency = ["100 Hz", "200 Hz"].')
+        mistakes.add(
+            ("sweep",),
+            None,
+            'is missing. Add the section [sweep] with at least one field, such as motion.mesh_frequency = ["100 Hz",'
+            ' "200 Hz"].',
+        )
 
 
 def _changes(tree: Mapping[str, Any], mistakes: Mistakes) -> Changes:
@@ -153,7 +178,11 @@ def left_out(tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[fields.Path, 
     """The paths that `without` names."""
     names = tree.get("without", [])
     if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
-        mistakes.add(("without",), as_written(names), 'is not a list of names. Allowed: sections and fields to leave out, such as ["inertia", "damping"].')
+        mistakes.add(
+            ("without",),
+            as_written(names),
+            'is not a list of names. Allowed: sections and fields to leave out, such as ["inertia", "damping"].',
+        )
         return ()
     for name in names:
         if problem := fields.why_unknown(tuple(name.split("."))):
@@ -161,8 +190,11 @@ def left_out(tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[fields.Path, 
     return tuple(tuple(name.split(".")) for name in names)
 
 
-def entries(tree: Mapping[str, Any], table: str, mistakes: Mistakes, own: Collection[str] = ()) -> list[tuple[fields.Path, Any]]:
-    """Paths and values below [set], [sweep] or another `table` less its `own` keys, however the dotted path is spelt: quoted, bare, or as a table of its own."""
+def entries(
+    tree: Mapping[str, Any], table: str, mistakes: Mistakes, own: Collection[str] = ()
+) -> list[tuple[fields.Path, Any]]:
+    """Paths and values below [set], [sweep] or another `table` less its `own` keys, however the dotted path is spelt:
+    quoted, bare, or as a table of its own."""
     found: list[tuple[fields.Path, Any]] = []
 
     def walk(home: fields.Path, values: Mapping[str, Any]) -> None:
@@ -175,7 +207,14 @@ def entries(tree: Mapping[str, Any], table: str, mistakes: Mistakes, own: Collec
             else:
                 found.append((path, value))
 
-    walk((), {key: value for key, value in tree[table].items() if key not in own} if isinstance(tree.get(table), Mapping) else {})
+    walk(
+        (),
+        (
+            {key: value for key, value in tree[table].items() if key not in own}
+            if isinstance(tree.get(table), Mapping)
+            else {}
+        ),
+    )
     return found
 
 
@@ -187,7 +226,12 @@ def _axes(swept: list[tuple[fields.Path, tuple[Any, ...]]]) -> tuple[Axis, ...]:
     """The axes, each named by the last part of its path where that is unique."""
     last = [path[-1] for path, _ in swept]
     return tuple(
-        Axis(path, values, path[-1] if last.count(path[-1]) == 1 and path[-1] not in TAKEN else "_".join(path), unit_of(values))
+        Axis(
+            path,
+            values,
+            path[-1] if last.count(path[-1]) == 1 and path[-1] not in TAKEN else "_".join(path),
+            unit_of(values),
+        )
         for path, values in swept
     )
 
@@ -197,7 +241,11 @@ def _check_overlaps(without, fixed, axes: tuple[Axis, ...], mistakes: Mistakes) 
     for path in swept:
         for other in swept:
             if other != path and other == path[: len(other)]:
-                mistakes.add(("sweep", ".".join(path)), None, f"lies in [{'.'.join(other)}], which is swept too. Sweep one of the two.")
+                mistakes.add(
+                    ("sweep", ".".join(path)),
+                    None,
+                    f"lies in [{'.'.join(other)}], which is swept too. Sweep one of the two.",
+                )
         # A section is named in [set] so that "present" has it.
         if fixed.get(path, {}) != {}:
             mistakes.add(("set", ".".join(path)), None, "is swept too. Leave it out of [set].")
@@ -205,7 +253,9 @@ def _check_overlaps(without, fixed, axes: tuple[Axis, ...], mistakes: Mistakes) 
             mistakes.add(("sweep", ".".join(path)), None, "is swept twice.")
     for path in without:
         if path in fixed or path in swept:
-            mistakes.add(("without",), f'"{".".join(path)}"', "is set or swept as well. Leave it out of one of the two.")
+            mistakes.add(
+                ("without",), f'"{".".join(path)}"', "is set or swept as well. Leave it out of one of the two."
+            )
 
 
 def _check_sizes(axes: tuple[Axis, ...], combine: str, mistakes: Mistakes) -> None:
@@ -219,7 +269,7 @@ def _check_sizes(axes: tuple[Axis, ...], combine: str, mistakes: Mistakes) -> No
 
 
 def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: str, mistakes: Mistakes) -> None:
-    """"present" needs a section that the scene, with what is set, has."""
+    """ "present" needs a section that the scene, with what is set, has."""
     values = [(("sweep", axis.dotted), axis.path, axis.values) for axis in changes.axes]
     values += [(("set", ".".join(path)), path, (value,)) for path, value in changes.fixed.items()]
     for place, path, listed in values:
@@ -227,10 +277,16 @@ def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: 
         for name in path:
             home = home.get(name) if isinstance(home, Mapping) else None
         if home is None and any(value == fields.PRESENT for value in listed):
-            mistakes.add(place, f'"{fields.PRESENT}"', f"means the section as {scene_file} has it, but that has none. Write its fields as a table.")
+            mistakes.add(
+                place,
+                f'"{fields.PRESENT}"',
+                f"means the section as {scene_file} has it, but that has none. Write its fields as a table.",
+            )
 
 
-def _cases(path: Path, directory: Path, changes: Changes, scene_tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[Case, ...]:
+def _cases(
+    path: Path, directory: Path, changes: Changes, scene_tree: Mapping[str, Any], mistakes: Mistakes
+) -> tuple[Case, ...]:
     """All cases, validated; a mistake that many cases share is reported once. `directory`: of the base scene."""
     cases: list[Case] = []
     by_key: dict[str, Case] = {}
@@ -268,13 +324,18 @@ def scene_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> tuple[
 
 
 def _in_study(field: fields.Path, written, message: str, changes: Changes, where: list[str], points: int) -> tuple:
-    """A mistake in the scenes of some cases as a mistake of the study file, at the line that causes it where there is one."""
+    """A mistake in the scenes of some cases as a mistake of the study file, at the line that causes it where there is
+    one."""
     named = [("sweep", axis.path) for axis in changes.axes] + [("set", path) for path in changes.fixed]
     for table, path in named:
         length = min(len(path), len(field))
         if field and path[:length] == field[:length]:
             return (table, ".".join(max(path, field, key=len))), written, message
-    first = f"{'only ' if points == 1 else ''}with {where[0]}" if len(where) == 1 else f"in {len(where)} of {points} cases, first with {where[0]}"
+    first = (
+        f"{'only ' if points == 1 else ''}with {where[0]}"
+        if len(where) == 1
+        else f"in {len(where)} of {points} cases, first with {where[0]}"
+    )
     if not field:
         return ("sweep",), "", f"{message} ({first})"
     return field, written, f"{message} (a field of the base scene, as this study changes it; {first})"

@@ -43,14 +43,21 @@ def _transmission_errors(outcome: Outcome) -> str:
 
 
 def last_words(outcome: Outcome, again: str = "the study") -> str:
-    """What is not as it should be: failures, an interruption; empty where all is well. again: what is to be run again."""
+    """What is not as it should be: failures, an interruption; empty where all is well. again: what is to be run
+    again."""
     lines = []
     if outcome.failures:
-        lines.append(f"{len(outcome.failures)} of {len(outcome.study.cases)} cases failed; run {again} again to try them again. Why, and their scenes:")
+        lines.append(
+            f"{len(outcome.failures)} of {len(outcome.study.cases)} cases failed; run {again} again to try them again."
+            " Why, and their scenes:"
+        )
         shown = list(outcome.failures)[:MOST_FAILURES]
         lines += [f"  {outcome.file.parent / 'cases' / outcome.study.cases[index].name}.failed.txt" for index in shown]
         lines += ["  ..."] if len(outcome.failures) > MOST_FAILURES else []
     if outcome.interrupted:
         missing = len(outcome.study.cases) - len(outcome.records)
-        lines.append(f"Interrupted. What was done is kept; run {again} again for the missing {missing} of {len(outcome.study.cases)} cases.")
+        lines.append(
+            f"Interrupted. What was done is kept; run {again} again for the missing {missing} of"
+            f" {len(outcome.study.cases)} cases."
+        )
     return "\n".join(lines)

@@ -30,7 +30,8 @@ SECTION, BODY, ROOT_STRESS = "section", "body", "root stress"
 
 @dataclass(frozen=True)
 class GearTask:
-    """A gear to be condensed: the "pinion" or the "wheel" of a scene, over the teeth within `reach`; its plane section, its body over the face, or its root stress."""
+    """A gear to be condensed: the "pinion" or the "wheel" of a scene, over the teeth within `reach`; its plane section,
+    its body over the face, or its root stress."""
 
     scene: Scene
     name: str
@@ -53,7 +54,9 @@ def gear_tasks(cases: list[Case]) -> list[GearTask]:
         for name in GEARS:
             for part, key in _keys(model, name, reaches[cycle]):
                 # Young's modulus is a factor, so the cache keeps one entry for all its values.
-                tasks[part].setdefault((key[0], key[1].poissons_ratio, *key[2:]), GearTask(case.scene, name, reaches[cycle], part))
+                tasks[part].setdefault(
+                    (key[0], key[1].poissons_ratio, *key[2:]), GearTask(case.scene, name, reaches[cycle], part)
+                )
     return [task for of_part in tasks.values() for task in of_part.values()]
 
 
@@ -64,11 +67,15 @@ def _keys(model: Model, name: str, reach: Reach) -> Iterator[tuple[str, tuple]]:
         yield BODY, body_key(model, name, reach)
     if model.scene.output.root_stress and route_of(model).stresses:
         face = None if model.face is None else (model.face.slices, model.pair.common_face, model.pair.gear_middles)
-        yield ROOT_STRESS, (*(gear_key if face is None else body_key)(model, name, reach), face, model.scene.coast_flanks is not None)
+        yield (
+            ROOT_STRESS,
+            (*(gear_key if face is None else body_key)(model, name, reach), face, model.scene.coast_flanks is not None),
+        )
 
 
 def in_order_of_sharing(cases: list[Case]) -> list[Case]:
-    """The cases in their order, but those that share contact operators next to each other, and of these those with the same gaps."""
+    """The cases in their order, but those that share contact operators next to each other, and of these those with the
+    same gaps."""
     groups: dict[tuple, dict[tuple, list[Case]]] = {}
     for case in cases:
         model = model_of(case.scene)
@@ -86,7 +93,8 @@ def condense(task: GearTask, tick: Tick | None = None) -> None:
 
 
 def run_case(directory: Path, case: Case, tick: Tick | None = None) -> CaseRecord | str:
-    """Run a case and write its file, or why it failed, into a directory; return its record, or that reason. Raises KeyboardInterrupt where Ctrl-C
+    """Run a case and write its file, or why it failed, into a directory; return its record, or that reason. Raises
+    KeyboardInterrupt where Ctrl-C
     ended it."""
     begun = time.perf_counter()
     try:

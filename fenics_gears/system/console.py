@@ -76,7 +76,10 @@ def _print(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Seque
     widths = [max(map(len, column)) for column in columns]
     print(heading)
     for line in (*headings, *rows):
-        cells = (cell.ljust(width) if place < left else cell.rjust(width) for place, (cell, width) in enumerate(zip(line, widths)))
+        cells = (
+            cell.ljust(width) if place < left else cell.rjust(width)
+            for place, (cell, width) in enumerate(zip(line, widths))
+        )
         print("  " + "  ".join(cells).rstrip())
     print()
 
@@ -89,7 +92,9 @@ def _print_rich(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[
 
     table = Table(box=None, show_header=any(headings), pad_edge=False, padding=(0, 2, 0, 0))
     for place, words in enumerate(headings):
-        table.add_column(Text("\n".join(words)), justify="left" if place < left else "right", no_wrap=place == 0, overflow="fold")
+        table.add_column(
+            Text("\n".join(words)), justify="left" if place < left else "right", no_wrap=place == 0, overflow="fold"
+        )
     for row in rows:
         table.add_row(*map(Text, row))
     console = Console(highlight=False)

@@ -1,4 +1,5 @@
-"""Tasks of a copy of this process, which has all that is imported and computed: half of the work, on a second processor, or what may end a process."""
+"""Tasks of a copy of this process, which has all that is imported and computed: half of the work, on a second
+processor, or what may end a process."""
 
 from __future__ import annotations
 
@@ -15,9 +16,11 @@ MPI = {"mpi4py.MPI", "petsc4py.PETSc"}
 
 
 def do_all(tasks: Sequence[Task], shared: bool) -> None:
-    """Do tasks that write files, one after the other; if `shared`, the first, third and so on in a copy of this process where there may be one.
+    """Do tasks that write files, one after the other; if `shared`, the first, third and so on in a copy of this process
+    where there may be one.
 
-    What the copy does not finish is done here, and fails here if it fails. Shared only where all threads of the process are this program's own:
+    What the copy does not finish is done here, and fails here if it fails. Shared only where all threads of the process
+    are this program's own:
     others might hold what the copy then waits for.
     """
     copied = tasks[::2] if shared and len(tasks) > 1 and _may_copy() else ()
@@ -36,7 +39,8 @@ def do_all(tasks: Sequence[Task], shared: bool) -> None:
 
 
 def survives(task: Task) -> bool:
-    """Whether a copy of this process comes through a task to its end, or to an error; taken for granted where there may be no copy."""
+    """Whether a copy of this process comes through a task to its end, or to an error; taken for granted where there may
+    be no copy."""
 
     def in_silence() -> None:
         # What a library that ends the process says, and Python's own handler of its signal.
@@ -49,17 +53,20 @@ def survives(task: Task) -> bool:
 
 
 def _may_copy() -> bool:
-    """Whether a processor is idle, without which a copy takes longer than it saves, and MPI, which allows none, is not loaded."""
+    """Whether a processor is idle, without which a copy takes longer than it saves, and MPI, which allows none, is not
+    loaded."""
     processors = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 1
     return processors > 1 and os.getloadavg()[0] < processors - 0.5 and not MPI & set(sys.modules)
 
 
 def _copy_doing(tasks: Sequence[Task]) -> int | None:
-    """The number of a copy that does the tasks, ends with 0 when they are done, and says nothing; None where the system gives none."""
+    """The number of a copy that does the tasks, ends with 0 when they are done, and says nothing; None where the system
+    gives none."""
     here, failed = os.getpid(), 1
     try:
         with warnings.catch_warnings():
-            # Python 3.12 warns of threads: BLAS ends its own before the copy is made, and those of a progress bar hold nothing that the copy uses.
+            # Python 3.12 warns of threads: BLAS ends its own before the copy is made, and those of a progress bar hold
+            # nothing that the copy uses.
             warnings.simplefilter("ignore", DeprecationWarning)
             copy = os.fork()
         if not copy:

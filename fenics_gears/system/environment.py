@@ -56,7 +56,8 @@ def local_ranks(environment=os.environ):
 
 
 def on_terminal_of_its_own(environment=os.environ):
-    """Whether this process's terminal is nobody's: Open MPI and MPICH start each process on a pseudo-terminal, whatever mpirun itself writes to."""
+    """Whether this process's terminal is nobody's: Open MPI and MPICH start each process on a pseudo-terminal, whatever
+    mpirun itself writes to."""
     return any(name in environment for name in RANK_COUNTS[:2])
 
 

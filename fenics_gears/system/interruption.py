@@ -1,4 +1,5 @@
-"""When Ctrl-C takes effect: in a counted stage between its parts, elsewhere at once, and not while a result is written."""
+"""When Ctrl-C takes effect: in a counted stage between its parts, elsewhere at once, and not while a result is
+written."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
-"""The MPI job that this process belongs to, if any: rank 0 leads, the others carry out together with it what it asks for.
+"""The MPI job that this process belongs to, if any: rank 0 leads, the others carry out together with it what it asks
+for.
 
-An error of any rank is an error of all. A rank that fails while others wait for it inside a library, as MUMPS does, can reach them no
-other way than by MPI's Abort. A process that runs alone never touches MPI.
+An error of any rank is an error of all. A rank that fails while others wait for it inside a library, as MUMPS does, can
+reach them no other way than by MPI's Abort. A process that runs alone never touches MPI.
 """
 
 from __future__ import annotations
@@ -22,13 +23,15 @@ from fenics_gears.system import environment
 
 LOGGER = logging.getLogger(__name__)
 
-# Seconds: for which a failed rank waits for the others, in case that they have failed too, and between looks for messages.
+# Seconds: for which a failed rank waits for the others, in case that they have failed too, and between looks for
+# messages.
 PATIENCE, BETWEEN_LOOKS = 5.0, 0.005
 END = None
 
 
 def communicator():
-    """COMM_WORLD of a job of several processes (`mpirun -n N`), None where this process was started alone. The first call of each rank waits for the others.
+    """COMM_WORLD of a job of several processes (`mpirun -n N`), None where this process was started alone. The first
+    call of each rank waits for the others.
 
     Raises ComputationError where several processes were started that mpi4py cannot join.
     """
@@ -42,12 +45,15 @@ def _joined(started: int) -> tuple[Any, int]:
     try:
         from mpi4py import MPI
     except ImportError as error:
-        raise ComputationError(f"This is one of {started} processes, but mpi4py cannot be loaded ({error}). Install it, or start one process.") from error
+        raise ComputationError(
+            f"This is one of {started} processes, but mpi4py cannot be loaded ({error}). Install it, or start one"
+            " process."
+        ) from error
     world = MPI.COMM_WORLD
     if world.size != started:
         raise ComputationError(
-            f"{started} processes were started, but mpi4py sees {world.size}: mpirun and mpi4py belong to different MPI installations. "
-            "Use the mpirun of the MPI that mpi4py was built with."
+            f"{started} processes were started, but mpi4py sees {world.size}: mpirun and mpi4py belong to different MPI"
+            " installations. Use the mpirun of the MPI that mpi4py was built with."
         )
     here = world.Split_type(MPI.COMM_TYPE_SHARED)
     count = here.size
@@ -56,7 +62,8 @@ def _joined(started: int) -> tuple[Any, int]:
 
 
 def ranks_on_machine() -> int:
-    """Processes of the job on this machine: as MPI counts them once the job has been joined, before as the environment says."""
+    """Processes of the job on this machine: as MPI counts them once the job has been joined, before as the environment
+    says."""
     return _joined(environment.started_ranks())[1] if _joined.cache_info().currsize else environment.local_ranks()
 
 
@@ -69,7 +76,8 @@ class Job:
         self._talk = world.Dup()
 
     def together(self, work: Callable[..., Any], *arguments: Any, **here: Any) -> list[Any]:
-        """What `work(*arguments, communicator)` returns on each rank, all of them carrying it out at the same time; `here` is given to rank 0's call alone.
+        """What `work(*arguments, communicator)` returns on each rank, all of them carrying it out at the same time;
+        `here` is given to rank 0's call alone.
 
         Raises the error of rank 0, else that of another, with its number.
         """
@@ -111,7 +119,8 @@ class Job:
         raise next(iter(failures.values()))
 
     def _failures(self, error: Exception | None) -> dict[int, GearsError]:
-        """The errors of all ranks, by rank. Where another rank does not come here soon after this one has failed, all end."""
+        """The errors of all ranks, by rank. Where another rank does not come here soon after this one has failed, all
+        end."""
         counted, begun = array("i", [0]), time.monotonic()
         request = self._talk.Iallreduce(array("i", [error is not None]), counted)
         while not request.Test():
@@ -128,7 +137,8 @@ def together(job: Job | None, work: Callable[..., Any], *arguments: Any, **here:
 
 
 def led(command: Callable[[Job | None], int]) -> int:
-    """The exit code of a command that rank 0 carries out, with the job, or None where this process is alone. The other ranks follow; theirs is 0."""
+    """The exit code of a command that rank 0 carries out, with the job, or None where this process is alone. The other
+    ranks follow; theirs is 0."""
     world = communicator()
     if world is None:
         return command(None)
@@ -147,7 +157,8 @@ def led(command: Callable[[Job | None], int]) -> int:
 
 @contextlib.contextmanager
 def ending_all(world, kind: type[BaseException] = BaseException) -> Iterator[None]:
-    """An error of this kind, in a rank for which others may wait, ends all ranks of the job with its words and its exit code."""
+    """An error of this kind, in a rank for which others may wait, ends all ranks of the job with its words and its exit
+    code."""
     try:
         yield
     except kind as error:

@@ -1,4 +1,5 @@
-"""Memory that a run may take, as much as `--memory` or FENICS_GEARS_MEMORY says, else a share of what the machine has free; and giving it back."""
+"""Memory that a run may take, as much as `--memory` or FENICS_GEARS_MEMORY says, else a share of what the machine has
+free; and giving it back."""
 
 from __future__ import annotations
 
@@ -26,17 +27,21 @@ def size_in_bytes(size: str, name: str, example: str) -> float:
     """Bytes of a size such as "8 GB"; raises SceneError, which names where it was given."""
     found = re.fullmatch(r"\s*(\d+(?:\.\d*)?)\s*([MGT]B)\s*", size)
     if not found:
-        raise SceneError(f'{name} = {size!r} is no size. Allowed: a number of {", ".join(BYTES)} from 0 MB on, such as "{example}".')
+        raise SceneError(
+            f'{name} = {size!r} is no size. Allowed: a number of {", ".join(BYTES)} from 0 MB on, such as "{example}".'
+        )
     return float(found[1]) * BYTES[found[2]]
 
 
 def allowed_memory() -> float:
-    """Bytes that a run may take; processes of an MPI job on one machine share what is free. Raises SceneError for a size that is none."""
+    """Bytes that a run may take; processes of an MPI job on one machine share what is free. Raises SceneError for a
+    size that is none."""
     return _named_or(free_memory)
 
 
 def usual_memory() -> float:
-    """The same by what the machine, or this container, has in all: what is decided by it is decided alike whatever else runs. Raises SceneError as `allowed_memory`."""
+    """The same by what the machine, or this container, has in all: what is decided by it is decided alike whatever else
+    runs. Raises SceneError as `allowed_memory`."""
     return _named_or(lambda: min(_of_machine("MemTotal"), _of_container(used=False)))
 
 
@@ -48,7 +53,8 @@ def _named_or(of_machine: Callable[[], float]) -> float:
 def give_back() -> None:
     """Give memory that was freed, but that the C library keeps, back to the system where it is much.
 
-    Libraries free arrays of all sizes in the middle of glibc's heap, which shrinks from its end alone. Other C libraries have no such call, nor need it.
+    Libraries free arrays of all sizes in the middle of glibc's heap, which shrinks from its end alone. Other C
+    libraries have no such call, nor need it.
     """
     library = _c_library()
     if library is not None and library.mallinfo2().fordblks > MOST_KEPT:
@@ -69,7 +75,21 @@ def _c_library():
 class _HeapInformation(ctypes.Structure):
     """What mallinfo2(3) tells, bytes; `fordblks` are free."""
 
-    _fields_ = [(name, ctypes.c_size_t) for name in ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks", "fordblks", "keepcost")]
+    _fields_ = [
+        (name, ctypes.c_size_t)
+        for name in (
+            "arena",
+            "ordblks",
+            "smblks",
+            "hblks",
+            "hblkhd",
+            "usmblks",
+            "fsmblks",
+            "uordblks",
+            "fordblks",
+            "keepcost",
+        )
+    ]
 
 
 def free_memory() -> float:

@@ -1,4 +1,5 @@
-"""The directory a run writes to: every file is written aside and then renamed, so that a final name never holds half a file."""
+"""The directory a run writes to: every file is written aside and then renamed, so that a final name never holds half a
+file."""
 
 from __future__ import annotations
 
@@ -61,7 +62,8 @@ def _is_there(path: Path) -> bool:
 
 @contextlib.contextmanager
 def written_aside(directory: Path, written: list[Path]) -> Iterator[Path]:
-    """A directory to write files into; at the end they move to ``directory``, and their final names are added to ``written``.
+    """A directory to write files into; at the end they move to ``directory``, and their final names are added to
+    ``written``.
 
     Files that exist under these names are replaced. What was written before an exception is not moved.
     Raises ComputationError where the disk is full or the directory cannot be written.
@@ -108,7 +110,8 @@ def _is_alive(process: int) -> bool:
 
 
 def write_whole(file: Path, write: Callable[[Path], object]) -> Path:
-    """Write a file, and what belongs beside it, by `write(path)`: its name holds the whole file or none. Raises as `written_aside` does."""
+    """Write a file, and what belongs beside it, by `write(path)`: its name holds the whole file or none. Raises as
+    `written_aside` does."""
     with written_aside(file.parent, []) as aside:
         write(aside / file.name)
     return file

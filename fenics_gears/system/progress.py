@@ -1,6 +1,7 @@
 """Progress of a computation: a bar on a terminal, timed lines elsewhere, nothing when asked to be quiet.
 
-The computation calls ``stage`` once per stage and ``update`` as often as is cheap; the display decides how often to show it.
+The computation calls ``stage`` once per stage and ``update`` as often as is cheap; the display decides how often to
+show it.
 """
 
 from __future__ import annotations
@@ -10,8 +11,8 @@ import time
 from typing import Protocol, TextIO
 
 SECONDS_BETWEEN_LINES = 5.0
-# A stage begins with what takes longest, such as compiling, or a first mesh cycle whose operators are made. The time left is said once a tenth is done, or once a
-# minute is over, by the pace of its later half.
+# A stage begins with what takes longest, such as compiling, or a first mesh cycle whose operators are made. The time
+# left is said once a tenth is done, or once a minute is over, by the pace of its later half.
 ENOUGH_DONE, ENOUGH_SECONDS = 0.1, 60.0
 
 
@@ -28,7 +29,8 @@ class Progress(Protocol):
         """Begin the stage of that name, for instance "condense pinion"; the one before it is over."""
 
     def update(self, done: int, total: int, note: str = "") -> None:
-        """Say that ``done`` of ``total`` parts of the present stage are done; ``note``: what else there is to say, such as "2 failed"."""
+        """Say that ``done`` of ``total`` parts of the present stage are done; ``note``: what else there is to say, such
+        as "2 failed"."""
 
     def close(self) -> None:
         """End the last stage."""
@@ -76,7 +78,10 @@ class LineProgress:
             return
         self._spoken, elapsed = now, now - self._begun
         said = f", {note}" if note else ""
-        self._print(f"{self._name or 'work'}: {done} of {total} ({100 * done // total} %){said} after {seconds_in_words(elapsed)}{self._left(now, done, total)}")
+        self._print(
+            f"{self._name or 'work'}: {done} of {total} ({100 * done // total} %){said} after"
+            f" {seconds_in_words(elapsed)}{self._left(now, done, total)}"
+        )
 
     def _left(self, now: float, done: int, total: int) -> str:
         """The time left in words; nothing where it is not known."""
@@ -105,7 +110,14 @@ class BarProgress:
     """A bar with the time left for each stage, drawn by rich on a terminal."""
 
     def __init__(self, console):
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+        from rich.progress import (
+            BarColumn,
+            MofNCompleteColumn,
+            Progress,
+            TextColumn,
+            TimeElapsedColumn,
+            TimeRemainingColumn,
+        )
         from rich.text import Text
 
         class Remaining(TimeRemainingColumn):
@@ -155,7 +167,9 @@ class BarProgress:
             self._bars.update(self._task, total=1, completed=1)
         if self._task is not None:
             self._bars.stop_task(self._task)
-            self.finished.append((self._name, self._bars.tasks[self._task].finished_time or self._bars.tasks[self._task].elapsed))
+            self.finished.append(
+                (self._name, self._bars.tasks[self._task].finished_time or self._bars.tasks[self._task].elapsed)
+            )
         self._task = None
 
 

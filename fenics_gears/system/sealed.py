@@ -1,7 +1,7 @@
 """Files that end with a digest of all bytes before it; it is checked before anything else reads the file.
 
-HDF5 can end the whole process at one wrong bit of a damaged file. It ignores bytes after its own end, so other programs still read a
-sealed file.
+HDF5 can end the whole process at one wrong bit of a damaged file. It ignores bytes after its own end, so other programs
+still read a sealed file.
 """
 
 from __future__ import annotations
@@ -35,7 +35,8 @@ def seal_of(file: BinaryIO, length: int) -> bytes:
 
 
 def unsealed(path: Path) -> BinaryIO:
-    """A sealed file, open at its beginning. Raises ValueError where it is not what was written, OSError where it cannot be read."""
+    """A sealed file, open at its beginning. Raises ValueError where it is not what was written, OSError where it cannot
+    be read."""
     check_file(path, sys.maxsize)
     file = open(path, "rb")
     try:

@@ -14,7 +14,8 @@ FIRST_WITHOUT_DISPLAY = (9, 4)
 
 
 def ensure_display(vtk_version: tuple[int, ...]) -> None:
-    """Nothing where VTK of this version needs no display or there is one; else Xvfb is started, which ends with this process.
+    """Nothing where VTK of this version needs no display or there is one; else Xvfb is started, which ends with this
+    process.
 
     Raises ComputationError where Xvfb is missing or does not start: VTK would abort the process.
     """
@@ -22,10 +23,15 @@ def ensure_display(vtk_version: tuple[int, ...]) -> None:
         return
     if shutil.which("Xvfb") is None:
         raise ComputationError(
-            f"VTK {'.'.join(map(str, vtk_version))} draws teeth in three dimensions on a display only, and there is none. Install Xvfb (Debian: xvfb), or VTK 9.4 or later"
+            f"VTK {'.'.join(map(str, vtk_version))} draws teeth in three dimensions on a display only, and there is"
+            " none. Install Xvfb (Debian: xvfb), or VTK 9.4 or later"
         )
     read, write = os.pipe()
-    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1600x1200x24", "-nolisten", "tcp"], pass_fds=[write], stderr=subprocess.DEVNULL)
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1600x1200x24", "-nolisten", "tcp"],
+        pass_fds=[write],
+        stderr=subprocess.DEVNULL,
+    )
     # VTK holds its connection until the process ends, and would end the process with it.
     atexit.register(server.terminate)
     os.close(write)

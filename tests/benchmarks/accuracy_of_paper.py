@@ -1,8 +1,10 @@
-"""What accuracy of the paper's scene costs, into docs/accuracy.md and docs/performance.md: `python -m tests.benchmarks.accuracy_of_paper`.
+"""What accuracy of the paper's scene costs, into docs/accuracy.md and docs/performance.md: `python -m
+tests.benchmarks.accuracy_of_paper`.
 
-Runs what `gears accuracy` runs on demos/lundvall2004.toml quasi-static and at 200 Hz, with friction and without; writes each one's
-tables between its two markers, its picture to docs/pictures/ and all its numbers beside it as CSV; then, of all four together, a picture and
-a table into docs/performance.md, and the orders of all four into docs/accuracy.md. Times are this machine's; errors must not change. Names of scenes as arguments run those alone.
+Runs what `gears accuracy` runs on demos/lundvall2004.toml quasi-static and at 200 Hz, with friction and without; writes
+each one's tables between its two markers, its picture to docs/pictures/ and all its numbers beside it as CSV; then, of
+all four together, a picture and a table into docs/performance.md, and the orders of all four into docs/accuracy.md.
+Times are this machine's; errors must not change. Names of scenes as arguments run those alone.
 """
 
 from __future__ import annotations
@@ -45,19 +47,28 @@ def markers(name: str) -> tuple[str, str]:
 
 def section(name: str, report: AccuracyReport) -> str:
     """The sentence, the picture, both tables and the remarks."""
-    own = [("|".join(["", *cells, ""])) for cells in ((_with_units(*table.headings(report))), *table.table_rows(report))]
+    own = ["|".join(["", *cells, ""]) for cells in ((_with_units(*table.headings(report))), *table.table_rows(report))]
     own.insert(1, "|---" * len(table.headings(report)[0]) + "|")
-    whole = [("|".join(["", *cells, ""])) for cells in (_with_units(*table.whole_headings(report)), *table.whole_rows(report))]
+    whole = [
+        "|".join(["", *cells, ""]) for cells in (_with_units(*table.whole_headings(report)), *table.whole_rows(report))
+    ]
     whole.insert(1, "|---" * len(table.whole_headings(report)[0]) + "|")
     where = report.machine
     measured = (
-        f"{table.timed(report)} {where['processor']}, load {where['load']}; threads: {where['threads']}; {where['versions']}."
+        f"{table.timed(report)} {where['processor']}, load {where['load']}; threads: {where['threads']};"
+        f" {where['versions']}."
     )
-    remarks = [f"* {remark}" for remark in (*table.remarks(report), *(f"not run: {what}: {why}" for what, why in report.failures))]
+    remarks = [
+        f"* {remark}"
+        for remark in (*table.remarks(report), *(f"not run: {what}: {why}" for what, why in report.failures))
+    ]
     return "\n".join([
         f"**{table.in_one_sentence(report)}**", "", f"![](pictures/accuracy_{name}.png)", "",
-        f"Combinations of settings, and cheaper models; \\* on the Pareto front. All numbers: [accuracy_{name}.csv](pictures/accuracy_{name}.csv).", "",
-        *(line.replace(" *|", " \\*|") for line in whole), "", f"Each setting alone, the others at {report.fine.words}:", "", *own, "", *remarks, "", measured,
+        f"Combinations of settings, and cheaper models; \\* on the Pareto front. All numbers: "
+        f"[accuracy_{name}.csv](pictures/accuracy_{name}.csv).",
+        "",
+        *(line.replace(" *|", " \\*|") for line in whole), "",
+        f"Each setting alone, the others at {report.fine.words}:", "", *own, "", *remarks, "", measured,
     ])  # fmt: skip
 
 
@@ -74,9 +85,22 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", default=list(all_scenes), help="of scenes; all unless given")
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--timing-seconds", type=float, default=300.0, help="for each scene, on single settings run again for their times")
-    parser.add_argument("--write-again", action="store_true", help="all pictures, and the table of docs/performance.md, from what is saved, without measuring")
-    parser.add_argument("--times-again", action="store_true", help="time the combinations and models that are saved, and keep all errors")
+    parser.add_argument(
+        "--timing-seconds",
+        type=float,
+        default=300.0,
+        help="for each scene, on single settings run again for their times",
+    )
+    parser.add_argument(
+        "--write-again",
+        action="store_true",
+        help="all pictures, and the table of docs/performance.md, from what is saved, without measuring",
+    )
+    parser.add_argument(
+        "--times-again",
+        action="store_true",
+        help="time the combinations and models that are saved, and keep all errors",
+    )
     options = parser.parse_args()
     for name in options.names:
         print(name, flush=True)
@@ -88,7 +112,9 @@ def main() -> None:
         if options.times_again:
             report = timed_again(saved_report(all_scenes[name], saved), options.rounds, progress)
         else:
-            report = measure(all_scenes[name], progress, rounds=options.rounds, seconds_on_single=options.timing_seconds)
+            report = measure(
+                all_scenes[name], progress, rounds=options.rounds, seconds_on_single=options.timing_seconds
+            )
         progress.close()
         save_figure(work_precision(report), saved.with_suffix(".png"))
         table.write_csv(report, saved)
@@ -107,18 +133,23 @@ def timed_again(report: AccuracyReport, rounds: int, progress: Progress) -> Accu
             progress.update(turn * len(chosen) + place, rounds * len(chosen), each.name)
             scene = replace(scene_of(report.scene, each.name, each.setting), output=Output())
             times[each.name] = times[each.name].and_also(run_sharing(scene, shared_gears())[0])
-    settings, models = (tuple(replace(each, times=times[each.name]) for each in group) for group in (report.settings, report.models))
+    settings, models = (
+        tuple(replace(each, times=times[each.name]) for each in group) for group in (report.settings, report.models)
+    )
     return replace(report, settings=settings, models=models, rounds=rounds, machine=machine())
 
 
 def write_overview() -> None:
-    """All scenes together, from what is saved of them, into docs/performance.md; the orders of all into docs/accuracy.md."""
+    """All scenes together, from what is saved of them, into docs/performance.md; the orders of all into
+    docs/accuracy.md."""
     from fenics_gears.show.plots import save_figure
 
     found = {name: overview(PICTURES / f"accuracy_{name}.csv") for name in TITLES}
     save_figure(overview_picture(found), PICTURES / "accuracy.png")
     write_section(OVERVIEW, *markers("of the paper's scene"), overview_section(found))
-    write_section(PAGE, *markers("orders"), orders_section({name: PICTURES / f"accuracy_{name}.csv" for name in TITLES}))
+    write_section(
+        PAGE, *markers("orders"), orders_section({name: PICTURES / f"accuracy_{name}.csv" for name in TITLES})
+    )
 
 
 if __name__ == "__main__":

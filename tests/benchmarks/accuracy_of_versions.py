@@ -1,8 +1,10 @@
-"""Error against time of the same settings in two versions of the program: `python -m tests.benchmarks.accuracy_of_versions OTHER_CHECKOUT [SCENE ...]`.
+"""Error against time of the same settings in two versions of the program: `python -m
+tests.benchmarks.accuracy_of_versions OTHER_CHECKOUT [SCENE ...]`.
 
-Runs SETTINGS of the paper's scene (scenes as in `accuracy_of_paper`) in this checkout and in another one, in turns and without the cache, and compares both
-with this version's reference. Errors are those of T_E (L2 at common steps, mean removed) and of T_EPP. Writes the picture
-docs/pictures/accuracy_versions.png, the numbers beside it, and the section of docs/accuracy.md.
+Runs SETTINGS of the paper's scene (scenes as in `accuracy_of_paper`) in this checkout and in another one, in turns and
+without the cache, and compares both with this version's reference. Errors are those of T_E (L2 at common steps, mean
+removed) and of T_EPP. Writes the picture docs/pictures/accuracy_versions.png, the numbers beside it, and the section of
+docs/accuracy.md.
 """
 
 from __future__ import annotations
@@ -40,11 +42,13 @@ from fenics_gears.system.progress import LineProgress
 
 HERE = Path(__file__).resolve().parents[2]
 FILE = PICTURES / "accuracy_versions"
-# Flank elements in a half-width, steps per mesh cycle; all with half the default contact window, in which all contact is.
+# Flank elements in a half-width, steps per mesh cycle; all with half the default contact window, in which all contact
+# is.
 ELEMENTS, STEP_COUNTS, WINDOW = (1.0, 2.0, 4.0), (20, 40, 80, 160, 320), 0.5
 TARGETS = (0.01, 0.005, 0.002, 0.001)
 OLD, NEW = "before", "now"
-# Runs in either checkout. Settings come by standard input; prints the curve (mm), T_EPP (mm) and the time (s) of each. The first run, which compiles, is not counted.
+# Runs in either checkout. Settings come by standard input; prints the curve (mm), T_EPP (mm) and the time (s) of each.
+# The first run, which compiles, is not counted.
 RUN = """
 import json, sys
 from dataclasses import replace
@@ -63,7 +67,8 @@ for place, accuracy in enumerate([given["settings"][0], *given["settings"]]):
     curve = [radius * each for each in run["transmission_error"].values[-steps:].tolist()]
     height = radius * run.attrs["peak_to_peak_transmission_error"]
     if place:
-        print(json.dumps([curve, height, sum(run.attrs[f"time_{stage}"] for stage in ("mesh", "condense", "march"))]), flush=True)
+        time = sum(run.attrs[f"time_{stage}"] for stage in ("mesh", "condense", "march"))
+        print(json.dumps([curve, height, time]), flush=True)
 """
 
 
@@ -88,7 +93,10 @@ class Point:
 def settings(scene: Scene, window: float) -> list[Setting]:
     """Every number of elements with every number of steps; `window`: the default one, mm."""
     flanks = [half_width(scene) / each for each in ELEMENTS]
-    return [Setting("P2", flank, NODE_SPACING * flank, WINDOW * window, 1.0, steps) for flank, steps in product(flanks, STEP_COUNTS)]
+    return [
+        Setting("P2", flank, NODE_SPACING * flank, WINDOW * window, 1.0, steps)
+        for flank, steps in product(flanks, STEP_COUNTS)
+    ]
 
 
 def reference(scene: Scene) -> tuple[dict[str, np.ndarray], float, float]:
@@ -104,13 +112,20 @@ def reference(scene: Scene) -> tuple[dict[str, np.ndarray], float, float]:
 def run(checkout: Path, name: str, chosen: list[Setting], module: float) -> list[tuple[np.ndarray, float, float]]:
     """Curve (n,), mm, T_EPP, mm, and time, s, of settings, by a checkout."""
     given = {
-        "scene": str(HERE / "demos" / "lundvall2004.toml"), "quasi_static": name.startswith("quasi_static"), "frictionless": name.endswith("frictionless"),
+        "scene": str(HERE / "demos" / "lundvall2004.toml"), "quasi_static": name.startswith("quasi_static"),
+        "frictionless": name.endswith("frictionless"),
         "settings": [asdict(each.accuracy(module)) for each in chosen],
     }  # fmt: skip
     with tempfile.TemporaryDirectory() as directory:
         environment = {**os.environ, "PYTHONPATH": str(checkout)}
         ran = subprocess.run(
-            [sys.executable, "-P", "-c", RUN], input=json.dumps(given), capture_output=True, text=True, check=True, env=environment, cwd=directory
+            [sys.executable, "-P", "-c", RUN],
+            input=json.dumps(given),
+            capture_output=True,
+            text=True,
+            check=True,
+            env=environment,
+            cwd=directory,
         )
     return [(np.array(curve), height, time) for curve, height, time in map(json.loads, ran.stdout.splitlines())]
 
@@ -129,7 +144,16 @@ def points(name: str, other: Path, rounds: int) -> tuple[list[Point], float]:
         for place, (setting, (curve, height, _)) in enumerate(zip(chosen, ran)):
             answer = {CURVE: curve - curve.mean(), SPAN: np.array([height])}
             median = statistics.median(each[place] for each in times[version])
-            found.append(Point(name, version, setting.words, *(distance(answer, exact, measure) for measure in (CURVE, SPAN)), median, rounds))
+            found.append(
+                Point(
+                    name,
+                    version,
+                    setting.words,
+                    *(distance(answer, exact, measure) for measure in (CURVE, SPAN)),
+                    median,
+                    rounds,
+                )
+            )
     return found, uncertainty
 
 
@@ -142,7 +166,11 @@ def front(found: list[Point], name: str, version: str) -> list[Point]:
 def cost(found: list[Point], name: str, version: str, target: float) -> str:
     """What a target costs in words."""
     reached = [each for each in front(found, name, version) if each.error <= target]
-    return f"{seconds(reached[0].time)} s" if reached else f"not reached, {percent(front(found, name, version)[-1].error)} % at best"
+    return (
+        f"{seconds(reached[0].time)} s"
+        if reached
+        else f"not reached, {percent(front(found, name, version)[-1].error)} % at best"
+    )
 
 
 @styled
@@ -152,9 +180,21 @@ def picture(found: list[Point], floors: dict[str, float], where: dict[str, str])
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.12, rect=(0, 0.06, 1, 0.94))
     for axes, (name, floor) in zip(figure.subplots(1, len(floors), squeeze=False, sharey=True).ravel(), floors.items()):
         for version, colour, mark in ((OLD, GREY, "s"), (NEW, PALETTE[0], "o")):
-            own, best = [each for each in found if (each.scene, each.version) == (name, version)], front(found, name, version)
-            axes.plot([each.time for each in own], [each.error for each in own], mark, color=colour, markersize=5, alpha=0.45)
-            axes.plot([each.time for each in best], [each.error for each in best], "-" + mark, color=colour, markersize=7, label=version)
+            own, best = (
+                [each for each in found if (each.scene, each.version) == (name, version)],
+                front(found, name, version),
+            )
+            axes.plot(
+                [each.time for each in own], [each.error for each in own], mark, color=colour, markersize=5, alpha=0.45
+            )
+            axes.plot(
+                [each.time for each in best],
+                [each.error for each in best],
+                "-" + mark,
+                color=colour,
+                markersize=7,
+                label=version,
+            )
         axes.axhspan(1e-6, floor, color=GREY, alpha=0.15, linewidth=0, label="less than the reference's uncertainty")
         axes.set_xscale("log")
         axes.set_yscale("log")
@@ -167,23 +207,42 @@ def picture(found: list[Point], floors: dict[str, float], where: dict[str, str])
         axes.set_xlabel("Time of a run (s, median; meshing, condensing, time stepping)")
         axes.legend(loc="upper right")
     figure.axes[0].set_ylabel("Relative error (%), the larger of T$_E$ in L$_2$ and T$_{EPP}$")
-    figure.suptitle("The same settings before and now: error against time; lines: Pareto fronts", x=0.01, ha="left", fontsize=14, color=DARK)
-    figure.text(0.01, 0.012, f"{where['processor']}, load {where['load']}; {where['versions']}", fontsize=9.5, color=DARK, parse_math=False)
+    figure.suptitle(
+        "The same settings before and now: error against time; lines: Pareto fronts",
+        x=0.01,
+        ha="left",
+        fontsize=14,
+        color=DARK,
+    )
+    figure.text(
+        0.01,
+        0.012,
+        f"{where['processor']}, load {where['load']}; {where['versions']}",
+        fontsize=9.5,
+        color=DARK,
+        parse_math=False,
+    )
     return figure
 
 
 def section(found: list[Point], floors: dict[str, float], where: dict[str, str], revision: str) -> str:
     """Picture and table."""
-    lines = ["|scene|version|" + "|".join(f"{100 * target:g} % costs" for target in TARGETS) + "|reference uncertain by, %|", "|---" * (len(TARGETS) + 3) + "|"]
+    lines = [
+        "|scene|version|" + "|".join(f"{100 * target:g} % costs" for target in TARGETS) + "|reference uncertain by, %|",
+        "|---" * (len(TARGETS) + 3) + "|",
+    ]
     for name, floor in floors.items():
         for version in (OLD, NEW):
             costs = "|".join(cost(found, name, version, target) if target >= floor else "unknown" for target in TARGETS)
             lines.append(f"|{TITLES[name]}|{version}|{costs}|{percent(floor)}|")
     return "\n".join([
         "![Error against time before and now](pictures/accuracy_versions.png)", "", *lines, "",
-        f"{len(ELEMENTS) * len(STEP_COUNTS)} settings: {', '.join(f'{each:g}' for each in ELEMENTS)} flank elements in a half-width, "
-        f"{', '.join(map(str, STEP_COUNTS))} steps. Errors are distances from the reference, the larger of T_E and T_EPP; before: revision {revision}. "
-        f"Times are medians of {found[0].rounds} in turns. {where['processor']}, load {where['load']}; {where['versions']}. "
+        f"{len(ELEMENTS) * len(STEP_COUNTS)} settings: {', '.join(f'{each:g}' for each in ELEMENTS)} flank elements "
+        f"in a half-width, "
+        f"{', '.join(map(str, STEP_COUNTS))} steps. Errors are distances from the reference, the larger of T_E and "
+        f"T_EPP; before: revision {revision}. "
+        f"Times are medians of {found[0].rounds} in turns. {where['processor']}, load {where['load']}; "
+        f"{where['versions']}. "
         "All numbers: [accuracy_versions.csv](pictures/accuracy_versions.csv).",
     ])  # fmt: skip
 
@@ -195,7 +254,9 @@ def main() -> None:
     parser.add_argument("names", nargs="*", default=["quasi_static_friction", "200_hz_friction"], help="of scenes")
     parser.add_argument("--rounds", type=int, default=5)
     options = parser.parse_args()
-    revision = subprocess.run(["git", "-C", options.other, "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True).stdout.strip()
+    revision = subprocess.run(
+        ["git", "-C", options.other, "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True
+    ).stdout.strip()
     found, floors = [], {}
     for name in options.names:
         more, floors[name] = points(name, options.other.resolve(), options.rounds)

@@ -1,4 +1,5 @@
-"""What accuracy of the paper's scene costs, four times, in one picture and a table of a few lines: from the CSVs of `accuracy_of_paper`."""
+"""What accuracy of the paper's scene costs, four times, in one picture and a table of a few lines: from the CSVs of
+`accuracy_of_paper`."""
 
 from __future__ import annotations
 
@@ -15,7 +16,8 @@ from fenics_gears.studies.accuracy.report import DEFAULTS, OWN
 from fenics_gears.studies.accuracy.table import percent, seconds
 
 TITLES = {
-    "quasi_static_friction": "Quasi-static, with friction", "quasi_static_frictionless": "Quasi-static, without friction",
+    "quasi_static_friction": "Quasi-static, with friction",
+    "quasi_static_frictionless": "Quasi-static, without friction",
     "200_hz_friction": "200 Hz, with friction", "200_hz_frictionless": "200 Hz, without friction",
 }  # fmt: skip
 TARGETS = (0.01, 0.003, 0.001)
@@ -24,7 +26,8 @@ MODEL_MARKS = ("s", "^", "D")
 
 @dataclass(frozen=True)
 class Point:
-    """A whole setting or a cheaper model: its total error, relative, its time (s), whether it is on the Pareto front and what limits it."""
+    """A whole setting or a cheaper model: its total error, relative, its time (s), whether it is on the Pareto front
+    and what limits it."""
 
     name: str
     error: float
@@ -69,21 +72,38 @@ def overview(file: Path) -> Overview:
         lines = list(csv.DictReader(opened))
     points = tuple(
         Point(
-            line["name"], float(line["total_error"]), float(line["time_s"]), line["on_front"] == "1", line["limited_by"], line["kind"] == "model",
+            line["name"], float(line["total_error"]), float(line["time_s"]), line["on_front"] == "1",
+            line["limited_by"], line["kind"] == "model",
         )  # fmt: skip
         for line in lines if line["kind"] in ("setting", "model")
     )  # fmt: skip
     reference = next(line for line in lines if line["kind"] == "reference")
     timed = min(int(line["timed_runs"]) for line in lines if line["kind"] in ("setting", "model"))
-    return Overview(points, float(reference["judged_error"]), {name: lines[0][name] for name in ("processor", "load", "threads", "versions")}, timed)
+    return Overview(
+        points,
+        float(reference["judged_error"]),
+        {name: lines[0][name] for name in ("processor", "load", "threads", "versions")},
+        timed,
+    )
 
 
 def table_lines(found: dict[str, Overview]) -> list[str]:
     """The table of docs/performance.md."""
-    headings = ["scene", *(f"{100 * target:g} % costs" for target in TARGETS), "the scene's own settings", "their largest error", "the default settings", "their largest error"]
+    headings = [
+        "scene",
+        *(f"{100 * target:g} % costs" for target in TARGETS),
+        "the scene's own settings",
+        "their largest error",
+        "the default settings",
+        "their largest error",
+    ]
     lines = [f"| {' | '.join(headings)} |", "|---" * len(headings) + "|"]
     for name, each in found.items():
-        given = [cell for point in (each.own, each.defaults) for cell in (f"{percent(point.error)} % in {seconds(point.time)} s", point.limited_by)]
+        given = [
+            cell
+            for point in (each.own, each.defaults)
+            for cell in (f"{percent(point.error)} % in {seconds(point.time)} s", point.limited_by)
+        ]
         lines.append(f"| {' | '.join([TITLES[name], *(_cost(each, target) for target in TARGETS), *given])} |")
     return lines
 
@@ -119,9 +139,18 @@ def overview_picture(found: dict[str, Overview]) -> Figure:
 def _panel(axes: Axes, found: Overview) -> None:
     others = [each for each in found.points if not (each.pays or each.model or each.name in (OWN, DEFAULTS))]
     if others:
-        axes.plot([each.time for each in others], [each.error for each in others], "o", color=GREY, markersize=5, label="other settings")
+        axes.plot(
+            [each.time for each in others],
+            [each.error for each in others],
+            "o",
+            color=GREY,
+            markersize=5,
+            label="other settings",
+        )
     front = found.front
-    axes.plot([each.time for each in front], [each.error for each in front], "-o", color=PALETTE[0], label="Pareto front")
+    axes.plot(
+        [each.time for each in front], [each.error for each in front], "-o", color=PALETTE[0], label="Pareto front"
+    )
     axes.plot(found.own.time, found.own.error, "*", color=PALETTE[1], markersize=16, label="the scene's own")
     axes.plot(found.defaults.time, found.defaults.error, "P", color=PALETTE[3], markersize=11, label="default settings")
     for mark, each in zip(MODEL_MARKS, (each for each in found.points if each.model)):
@@ -132,10 +161,17 @@ def _panel(axes: Axes, found: Overview) -> None:
     # Errors of the models reach 100 %; above is room for the words.
     axes.set_ylim(1e-4, 80.0)
     for target in TARGETS:
-        axes.axhline(target, color=GREY, linestyle=":", linewidth=1.0, label="targets: " + ", ".join(f"{100 * each:g} %" for each in TARGETS))
+        axes.axhline(
+            target,
+            color=GREY,
+            linestyle=":",
+            linewidth=1.0,
+            label="targets: " + ", ".join(f"{100 * each:g} %" for each in TARGETS),
+        )
     # The corner that a falling front leaves free.
     axes.text(
-        0.98, 0.97, "\n".join(_words(found, target) for target in TARGETS), transform=axes.transAxes, ha="right", va="top", fontsize=10.5,
+        0.98, 0.97, "\n".join(_words(found, target) for target in TARGETS), transform=axes.transAxes, ha="right",
+        va="top", fontsize=10.5,
         color=DARK, linespacing=1.5, bbox={"facecolor": "white", "edgecolor": "#E3E3E3", "alpha": 0.9, "pad": 5.0},
     )  # fmt: skip
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
@@ -146,19 +182,26 @@ def _words(found: Overview, target: float) -> str:
     reached = found.cheapest(target)
     if reached:
         return f"{100 * target:g} %: {seconds(reached.time)} s, limited by the {reached.limited_by}"
-    return f"{100 * target:g} %: " + ("not reached by these settings" if target >= found.floor else "below the reference's uncertainty")
+    return f"{100 * target:g} %: " + (
+        "not reached by these settings" if target >= found.floor else "below the reference's uncertainty"
+    )
 
 
 def orders_section(files: dict[str, Path]) -> str:
-    """A table of the orders of T_E, and the error of T_E at the finest value, of each setting in each scene; `files`: their CSVs."""
+    """A table of the orders of T_E, and the error of T_E at the finest value, of each setting in each scene; `files`:
+    their CSVs."""
     cells: dict[str, dict[str, str]] = {}
     for scene, file in files.items():
         with open(file, encoding="utf-8", newline="") as opened:
-            lines = [line for line in csv.DictReader(opened) if line["kind"] == "single setting" and line["order_expected"]]
+            lines = [
+                line for line in csv.DictReader(opened) if line["kind"] == "single setting" and line["order_expected"]
+            ]
         for line in lines:
             # The finest value comes last.
             error, order = float(line["error_T_E"]), line["order_T_E"]
-            cells.setdefault(line["name"], {})[scene] = f"{f'{float(order):.1f}' if order else 'none'}; {percent(error)}"
+            cells.setdefault(line["name"], {})[scene] = (
+                f"{f'{float(order):.1f}' if order else 'none'}; {percent(error)}"
+            )
             cells[line["name"]]["expected"] = f"{float(line['order_expected']):g}"
     headings = ["setting", "expected", *(TITLES[scene] for scene in files)]
     rows = [[name, row["expected"], *(row.get(scene, "-") for scene in files)] for name, row in cells.items()]
@@ -171,6 +214,8 @@ def overview_section(found: dict[str, Overview]) -> str:
     loads = ", ".join(each.machine["load"] for each in found.values())
     return "\n".join([
         "![What accuracy of the paper's scene costs in time](pictures/accuracy.png)", "", *table_lines(found), "",
-        "Errors are [total errors](accuracy.md#how-errors-are-measured), the larger of those of T_E and of T_EPP. Times are medians of "
-        f"{min(each.timed for each in found.values())} runs. {machine['processor']}, load {loads}; threads: {machine['threads']}; {machine['versions']}.",
+        "Errors are [total errors](accuracy.md#how-errors-are-measured), the larger of those of T_E and of T_EPP. "
+        "Times are medians of "
+        f"{min(each.timed for each in found.values())} runs. {machine['processor']}, load {loads}; threads: "
+        f"{machine['threads']}; {machine['versions']}.",
     ])  # fmt: skip

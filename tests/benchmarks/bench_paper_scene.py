@@ -2,7 +2,8 @@
 
     ./gears test tests/benchmarks/bench_paper_scene.py
 
-Medians of the rounds are what counts; the numbers of one machine are not those of another. Peak memory of the whole process:
+Medians of the rounds are what counts; the numbers of one machine are not those of another. Peak memory of the whole
+process:
 
     /usr/bin/time -v .venv/bin/python -m fenics_gears run demos/lundvall2004.toml
 """

@@ -2,9 +2,11 @@
 
     .venv/bin/python -m tests.benchmarks.compare_routes --elements P2 P1 Q1 --sizes 0.16 0.08 0.04 --steps 100
 
-A line for each element, size and case: distance of the two transmission errors over the last cycle (root mean square and
-largest, of the mean), of their means and of their peak-to-peak values; then seconds of meshing, condensing and marching by either
-route, first case of a size without any cache. With --arms the reference route once more with the base radii as lever arms of normal forces.
+A line for each element, size and case: distance of the two transmission errors over the last cycle (root mean square
+    and
+largest, of the mean), of their means and of their peak-to-peak values; then seconds of meshing, condensing and marching
+by either route, first case of a size without any cache. With --arms the reference route once more with the base radii
+as lever arms of normal forces.
 """
 
 from __future__ import annotations
@@ -26,7 +28,10 @@ from fenics_gears.simulation.warm_up import compile_kernels
 
 SCENE = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
 LENGTH = 1.5
-HEADING = "element size/mm case             rms/mean   max/mean  mean      T_EPP(ref)/urad  T_EPP    fast/s  ref/s  ratio  steps by method"
+HEADING = (
+    "element size/mm case             rms/mean   max/mean  mean      T_EPP(ref)/urad  T_EPP    fast/s  ref/s  ratio "
+    " steps by method"
+)
 
 
 def cases(scene, cycles: int) -> dict:
@@ -47,17 +52,25 @@ def seconds(result) -> float:
 
 
 def distance(fast, reference) -> tuple[float, float, float, float]:
-    """Root mean square and largest difference of T_E, and those of its mean, by its mean; relative difference of T_EPP."""
+    """Root mean square and largest difference of T_E, and those of its mean, by its mean; relative difference of
+    T_EPP."""
     difference = fast.transmission_error.values - reference.transmission_error.values
     mean = reference.transmission_error.values.mean()
     peaks = [np.ptp(result.transmission_error.values) for result in (fast, reference)]
-    return np.sqrt(np.mean(difference**2)) / mean, np.abs(difference).max() / mean, difference.mean() / mean, peaks[0] / peaks[1] - 1.0
+    return (
+        np.sqrt(np.mean(difference**2)) / mean,
+        np.abs(difference).max() / mean,
+        difference.mean() / mean,
+        peaks[0] / peaks[1] - 1.0,
+    )
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--elements", nargs="+", default=["P2"])
-    parser.add_argument("--sizes", nargs="+", type=float, default=[0.16, 0.08, 0.04], help="flank elements and contact nodes, mm")
+    parser.add_argument(
+        "--sizes", nargs="+", type=float, default=[0.16, 0.08, 0.04], help="flank elements and contact nodes, mm"
+    )
     parser.add_argument("--steps", type=int, default=100, help="steps per mesh cycle")
     parser.add_argument("--cycles", type=int, default=30, help="mesh cycles at 200 Hz")
     parser.add_argument("--arms", action="store_true")
@@ -81,14 +94,18 @@ def compare(element: str, size: float, options, cache: Cache) -> None:
         reference = simulate(slow_scene, cache=cache)
         report(element, size, name, fast, reference)
         if options.arms:
-            report(element, size, f"{name}, rb", fast, simulate(slow_scene, cache=cache, preparation=with_involute_arms))
+            report(
+                element, size, f"{name}, rb", fast, simulate(slow_scene, cache=cache, preparation=with_involute_arms)
+            )
 
 
 def report(element: str, size: float, name: str, fast, reference) -> None:
     rms, largest, mean, peaks = distance(fast, reference)
     peak = reference.attrs["peak_to_peak_transmission_error"] * 1e6
     costs = seconds(fast), seconds(reference)
-    rungs = {key.split(": ")[1]: int(count) for key, count in reference.attrs.items() if key.startswith("steps_by_rung")}
+    rungs = {
+        key.split(": ")[1]: int(count) for key, count in reference.attrs.items() if key.startswith("steps_by_rung")
+    }
     print(
         f"{element:7} {size:<7g} {name:16} {rms:.2e}   {largest:.2e}  {mean:+.2e} {peak:14.2f}   {peaks:+.2e}"
         f" {costs[0]:7.2f} {costs[1]:6.1f} {costs[1] / costs[0]:6.1f}  {rungs}",

@@ -1,8 +1,8 @@
 """Expected cost beside measured, of the examples: `python -m tests.benchmarks.expected_cost [NAME ...]`.
 
-Every demo's scene, the paper's scene with one effect more or less than it has, a pair of 23 and 47 teeth with and without coast flanks, and helical pairs.
-Each runs in a process of its own on one thread with an empty cache; seconds are the processor's, which are those of an idle machine
-whatever else this one does. Memory is the process's peak.
+Every demo's scene, the paper's scene with one effect more or less than it has, a pair of 23 and 47 teeth with and
+without coast flanks, and helical pairs. Each runs in a process of its own on one thread with an empty cache; seconds
+are the processor's, which are those of an idle machine whatever else this one does. Memory is the process's peak.
 """
 
 from __future__ import annotations
@@ -19,7 +19,13 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 PAPER = ROOT / "demos" / "lundvall2004.toml"
-DEMOS = (PAPER, *(ROOT / "demos" / name for name in ("flank_errors/flank_errors.toml", "cracked_tooth/cracked_tooth.toml", "speed_ramp/up.toml")))
+DEMOS = (
+    PAPER,
+    *(
+        ROOT / "demos" / name
+        for name in ("flank_errors/flank_errors.toml", "cracked_tooth/cracked_tooth.toml", "speed_ramp/up.toml")
+    ),
+)
 STAGES = ("condensing", "marching", "memory")
 
 LARGER_PAIR = """
@@ -44,9 +50,21 @@ pressure_angle = "20 deg"
 helix_angle = "15 deg"
 centre_distance = "86.9632 mm"
 face_width = "20 mm"
-pinion = { teeth = 24, profile_shift = 0, tip_diameter = "80.54 mm", root_diameter = "67.04 mm", bore_diameter = "30 mm" }
-wheel = { teeth = 32, profile_shift = 0, tip_diameter = "105.387 mm", root_diameter = "91.887 mm", bore_diameter = "40 mm" }
-material = { youngs_modulus = "210 GPa", poissons_ratio = 0.3 }
+[gears.pinion]
+teeth = 24
+profile_shift = 0
+tip_diameter = "80.54 mm"
+root_diameter = "67.04 mm"
+bore_diameter = "30 mm"
+[gears.wheel]
+teeth = 32
+profile_shift = 0
+tip_diameter = "105.387 mm"
+root_diameter = "91.887 mm"
+bore_diameter = "40 mm"
+[gears.material]
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
 [load]
 wheel_torque = "300 N m"
 [motion]
@@ -61,15 +79,30 @@ def cases() -> dict[str, str]:
 
     paper = PAPER.read_text(encoding="utf-8")
     found = {path.stem: path.read_text(encoding="utf-8") for path in DEMOS}
-    found |= {f"paper - {name}": _without(paper, *names) for name, *names in (("friction", "friction"), ("inertia", "inertia", "damping"), ("shafts", "shafts"))}
+    found |= {
+        f"paper - {name}": _without(paper, *names)
+        for name, *names in (("friction", "friction"), ("inertia", "inertia", "damping"), ("shafts", "shafts"))
+    }
     bare = _without(paper, "friction", "inertia", "damping", "shafts", "bearings")
     found |= {"paper, bare": bare, "paper, rigid flanks": _without(bare, "gears.material", "accuracy")}
-    more = [name for name in EXAMPLES if f"[{name}]" not in paper and name not in ("tooth_elasticity", "body_meshes", "speed_ramp")]
+    more = [
+        name
+        for name in EXAMPLES
+        if f"[{name}]" not in paper and name not in ("tooth_elasticity", "body_meshes", "speed_ramp")
+    ]
     found |= {f"paper + {name}": f"{paper}\n{EXAMPLES[name]}" for name in more}
     found["paper, ISO 6336"] = _without(paper, "accuracy") + '\n[accuracy]\nmodel = "ISO 6336-1"\n'
-    found["paper, its own condensation"] = _without(bare, "accuracy") + '\n[accuracy]\ncondensation = "every step"\ncontact_nodes = 11\nsteps_per_mesh_cycle = 10\n'
-    found |= {"helical": HELICAL_PAIR, "helical, 10 slices, friction": HELICAL_PAIR + "[accuracy]\nslices = 10\n[friction]\ncoefficient = 0.06\n"}
-    found["helical, coarse body, 40 slices"] = HELICAL_PAIR + '[accuracy]\nslices = 40\nlayers = 4\nbody_element_size = "1.8 mm"\nsteps_per_mesh_cycle = 40\n'
+    found["paper, its own condensation"] = (
+        _without(bare, "accuracy")
+        + '\n[accuracy]\ncondensation = "every step"\ncontact_nodes = 11\nsteps_per_mesh_cycle = 10\n'
+    )
+    found |= {
+        "helical": HELICAL_PAIR,
+        "helical, 10 slices, friction": HELICAL_PAIR + "[accuracy]\nslices = 10\n[friction]\ncoefficient = 0.06\n",
+    }
+    found["helical, coarse body, 40 slices"] = (
+        HELICAL_PAIR + '[accuracy]\nslices = 40\nlayers = 4\nbody_element_size = "1.8 mm"\nsteps_per_mesh_cycle = 40\n'
+    )
     return found | {"23/47": LARGER_PAIR, "23/47 + coast_flanks": LARGER_PAIR + "[coast_flanks]\n"}
 
 
@@ -105,12 +138,19 @@ def main(names: list[str]) -> None:
     print(f"{'example':30}" + "".join(f"{stage + ', expected for measured':>36}" for stage in STAGES) + "  load")
     for name in names or cases():
         call = [sys.executable, "-P", "-m", "tests.benchmarks.expected_cost", "--measure", name]
-        ended = subprocess.run(call, env={**os.environ, "OMP_NUM_THREADS": "1"}, capture_output=True, text=True, check=False)
+        ended = subprocess.run(
+            call, env={**os.environ, "OMP_NUM_THREADS": "1"}, capture_output=True, text=True, check=False
+        )
         if ended.returncode:
             print(f"{name:30} {ended.stderr.strip().splitlines()[-1]}")
             continue
         found = json.loads(ended.stdout.splitlines()[-1])
-        print(f"{name:30}" + "".join(_cell(found[f"expected {stage}"], found[stage], stage) for stage in STAGES) + f"  {os.getloadavg()[0]:.1f}", flush=True)
+        print(
+            f"{name:30}"
+            + "".join(_cell(found[f"expected {stage}"], found[stage], stage) for stage in STAGES)
+            + f"  {os.getloadavg()[0]:.1f}",
+            flush=True,
+        )
 
 
 def _cell(expected: float, measured: float, stage: str) -> str:

@@ -1,6 +1,6 @@
 """CPU time of each study of the paper's gallery, of its figures and of its claims, one after the other in this process.
 
-    python -m tests.benchmarks.gallery_times DIR [NAME ...]      DIR: an empty folder; NAME: studies with this in their name only
+python -m tests.benchmarks.gallery_times DIR [NAME ...]   DIR: an empty folder; NAME: part of a study's name
 """
 
 from __future__ import annotations

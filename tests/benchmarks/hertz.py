@@ -1,7 +1,7 @@
 """Flanks pressed together at the pitch point against Hertz, into docs/accuracy.md: `python -m tests.benchmarks.hertz`.
 
-The paper's pair under a quarter of its load, where the contact is small beside the tooth. Errors against the exact solution, and their orders
-from one setting to the next; nothing is extrapolated.
+The paper's pair under a quarter of its load, where the contact is small beside the tooth. Errors against the exact
+solution, and their orders from one setting to the next; nothing is extrapolated.
 """
 
 from __future__ import annotations
@@ -40,7 +40,10 @@ def orders(errors) -> list[str]:
 def table(heading: list[str], names: list[str], columns: list[list[float]]) -> list[str]:
     """Lines of a table: for each column errors in percent, and their orders in brackets."""
     lines = [f"|{'|'.join(heading)}|", "|---" * len(heading) + "|"]
-    told = [[f"{100 * error:+.2f}" + (f" ({order})" if order else "") for error, order in zip(column, orders(column))] for column in columns]
+    told = [
+        [f"{100 * error:+.2f}" + (f" ({order})" if order else "") for error, order in zip(column, orders(column))]
+        for column in columns
+    ]
     return lines + [f"|{'|'.join([name, *cells])}|" for name, *cells in zip(names, *told)]
 
 
@@ -51,20 +54,41 @@ def section() -> str:
     gears = {n: hertz.compliances(width / n) for n in FLANK_ELEMENTS}
     finest = gears[FLANK_ELEMENTS[-1]]
     nodes = [hertz.errors(finest, width / n) for n in CONTACT_NODES]
-    alone = [[hertz.flank_error(getattr(hertz.pair, name), gears[n][i]) for n in FLANK_ELEMENTS] for i, name in enumerate(("pinion", "wheel"))]
+    alone = [
+        [hertz.flank_error(getattr(hertz.pair, name), gears[n][i]) for n in FLANK_ELEMENTS]
+        for i, name in enumerate(("pinion", "wheel"))
+    ]
     both = [hertz.errors(gears[n], width / n) for n in FLANK_ELEMENTS[1:]]
     of = lambda found: [[each[name] for each in found] for name in QUANTITIES]  # noqa: E731
     words = [f"{name}, %" for name in QUANTITIES]
-    return "\n".join([
-        f"Half-width {width:.3f} mm, relative radius {hertz.radius:.2f} mm, {hertz.line_load:.0f} N/mm. Approach: its change between this load and {SMALLER:g} of it. "
-        "The tables give errors, and in brackets the order from the line above.", "",
-        f"Contact nodes refined, with {FLANK_ELEMENTS[-1]} flank elements in a half-width:", "",
-        *table(["contact nodes in a half-width", *words], [f"{n}" for n in CONTACT_NODES], of(nodes)), "",
-        "Flank elements refined, each flank under Hertz's pressure, without contact nodes:", "",
-        *table(["flank elements in a half-width", "approach, pinion, %", "approach, wheel, %"], [f"{n}" for n in FLANK_ELEMENTS], alone), "",
-        "Both refined together:", "",
-        *table(["flank elements and contact nodes in a half-width", *words], [f"{n}" for n in FLANK_ELEMENTS[1:]], of(both)),
-    ])  # fmt: skip
+    return "\n".join(
+        [
+            f"Half-width {width:.3f} mm, relative radius {hertz.radius:.2f} mm, {hertz.line_load:.0f} N/mm. Approach: "
+            f"its "
+            f"change between this load and {SMALLER:g} of it. "
+            "The tables give errors, and in brackets the order from the line above.",
+            "",
+            f"Contact nodes refined, with {FLANK_ELEMENTS[-1]} flank elements in a half-width:",
+            "",
+            *table(["contact nodes in a half-width", *words], [f"{n}" for n in CONTACT_NODES], of(nodes)),
+            "",
+            "Flank elements refined, each flank under Hertz's pressure, without contact nodes:",
+            "",
+            *table(
+                ["flank elements in a half-width", "approach, pinion, %", "approach, wheel, %"],
+                [f"{n}" for n in FLANK_ELEMENTS],
+                alone,
+            ),
+            "",
+            "Both refined together:",
+            "",
+            *table(
+                ["flank elements and contact nodes in a half-width", *words],
+                [f"{n}" for n in FLANK_ELEMENTS[1:]],
+                of(both),
+            ),
+        ]
+    )
 
 
 def main() -> None:

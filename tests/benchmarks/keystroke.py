@@ -1,8 +1,10 @@
-"""From keystroke to result: wall and CPU time of `gears --help`, of a refused scene, and of a run with warm caches, of two checkouts in turn.
+"""From keystroke to result: wall and CPU time of `gears --help`, of a refused scene, and of a run with warm caches, of
+two checkouts in turn.
 
     python -m tests.benchmarks.keystroke [OTHER_CHECKOUT] [--turns 5] [--scene demos/lundvall2004.toml]
 
-Prints medians of the turns. Both checkouts must be set up (`./gears --set-up-only`). CPU time is that of the launcher and all that it starts.
+Prints medians of the turns. Both checkouts must be set up (`./gears --set-up-only`). CPU time is that of the launcher
+and all that it starts.
 """
 
 from __future__ import annotations
@@ -23,7 +25,12 @@ def calls(scene: Path, directory: Path) -> dict[str, list[str]]:
     wrong = directory / "wrong.toml"
     wrong.write_text(scene.read_text(encoding="utf-8").replace("teeth = ", "teeth = -", 1), encoding="utf-8")
     run = ["run", str(scene), "-o", str(directory / "result")]
-    return {"--help": ["--help"], "refused scene": ["run", str(wrong)], "run": run, "run --no-pictures": [*run, "--no-pictures"]}
+    return {
+        "--help": ["--help"],
+        "refused scene": ["run", str(wrong)],
+        "run": run,
+        "run --no-pictures": [*run, "--no-pictures"],
+    }
 
 
 def measured(checkout: Path, arguments: list[str]) -> tuple[float, float]:

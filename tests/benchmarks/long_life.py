@@ -1,4 +1,5 @@
-"""Memory of a process that simulates different pairs one after the other: `python -m tests.benchmarks.long_life plane 100` (or `face 20`).
+"""Memory of a process that simulates different pairs one after the other: `python -m tests.benchmarks.long_life plane
+100` (or `face 20`).
 
 Prints what the process holds after each tenth pair, MB, and the processor's seconds so far.
 """
@@ -20,9 +21,11 @@ OVER_FACE = {"misalignment": {"in_plane": "10 um"}}
 
 
 def pair(number: int, over_face: bool):
-    """The scene of one of many pairs, none like another: their numbers of teeth, pressure angles and modules go round at different paces."""
+    """The scene of one of many pairs, none like another: their numbers of teeth, pressure angles and modules go round
+    at different paces."""
     gears = {
-        "module": f"{2.0 + 0.5 * (number % 5)} mm", "pressure_angle": f"{20 + number % 4} deg", "face_width": "16 mm", "material": STEEL,
+        "module": f"{2.0 + 0.5 * (number % 5)} mm", "pressure_angle": f"{20 + number % 4} deg", "face_width": "16 mm",
+        "material": STEEL,
         "pinion": _gear(18 + number % 23), "wheel": _gear(31 + number % 37),
     }  # fmt: skip
     torque = {"wheel_torque": f"{100 + number} N m"}

@@ -1,9 +1,11 @@
-"""What the arithmetic and the memory traffic of a step of the march would take at the processor's best, beside what each part takes.
+"""What the arithmetic and the memory traffic of a step of the march would take at the processor's best, beside what
+each part takes.
 
-    python -m tests.benchmarks.roofline [SCENE]               # the paper's scene unless given; prints the table of docs/performance.md
+    python -m tests.benchmarks.roofline [SCENE]   # the paper's scene unless given; writes docs/performance.md's table
 
-Parts are timed one by one, each over all steps of the run in one call of compiled code, with what the march itself found; CPU time, best of the rounds.
-Operations are counted from the sizes that these steps have; traffic is the entries of compliance that are read, eight bytes each.
+Parts are timed one by one, each over all steps of the run in one call of compiled code, with what the march itself
+found; CPU time, best of the rounds. Operations are counted from the sizes that these steps have; traffic is the entries
+of compliance that are read, eight bytes each.
 """
 
 from __future__ import annotations
@@ -18,7 +20,16 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import COMPLIANCE, GAP, JACOBIAN, PREVIOUS_COMPLIANCE, PREVIOUS_JACOBIAN, RIGID_SLIP, matrix_at, vector_at
+from fenics_gears.contact.addresses import (
+    COMPLIANCE,
+    GAP,
+    JACOBIAN,
+    PREVIOUS_COMPLIANCE,
+    PREVIOUS_JACOBIAN,
+    RIGID_SLIP,
+    matrix_at,
+    vector_at,
+)
 from fenics_gears.contact.laws import OPEN, STICK
 from fenics_gears.contact.newton import measure, relative_displacement, solve_sets
 from fenics_gears.dynamics.compiled_march import slip_at_start, solve_steps
@@ -44,8 +55,10 @@ def _systems(table, starts, kinds, stiffness, loads, friction, slips, status, fo
         n, m, k = starts[s + 1] - starts[s], kinds * (starts[s + 1] - starts[s]), len(stiffness)
         found, coordinates = np.zeros(m), np.zeros(k)
         solve_sets(
-            stiffness, loads[s], matrix_at(table[s, COMPLIANCE], m, m), matrix_at(table[s, JACOBIAN], m, k), vector_at(table[s, GAP], n),
-            slips[starts[s] : starts[s] + (n if kinds == 2 else 0)], friction, status[starts[s] : starts[s + 1]], found, coordinates,
+            stiffness, loads[s], matrix_at(table[s, COMPLIANCE], m, m), matrix_at(table[s, JACOBIAN], m, k),
+            vector_at(table[s, GAP], n),
+            slips[starts[s] : starts[s] + (n if kinds == 2 else 0)], friction, status[starts[s] : starts[s + 1]], found,
+            coordinates,
         )  # fmt: skip
 
 
@@ -55,7 +68,15 @@ def _displacements(table, starts, kinds, forces, positions):
     for s in range(1, len(table)):
         m, k = kinds * (starts[s + 1] - starts[s]), positions.shape[1]
         found, now = np.empty(m), slice(kinds * starts[s], kinds * starts[s + 1])
-        relative_displacement(found, 0, m, matrix_at(table[s, COMPLIANCE], m, m), matrix_at(table[s, JACOBIAN], m, k), forces[now], positions[s])
+        relative_displacement(
+            found,
+            0,
+            m,
+            matrix_at(table[s, COMPLIANCE], m, m),
+            matrix_at(table[s, JACOBIAN], m, k),
+            forces[now],
+            positions[s],
+        )
         total += found[0]
     return total
 
@@ -66,7 +87,8 @@ def _slips(table, starts, forces, positions, slips):
         n, k = starts[s + 1] - starts[s], positions.shape[1]
         before = forces[2 * starts[s - 1] : 2 * starts[s]]
         slips[starts[s] : starts[s + 1]] = slip_at_start(
-            vector_at(table[s, RIGID_SLIP], n), matrix_at(table[s, PREVIOUS_JACOBIAN], n, k), matrix_at(table[s, PREVIOUS_COMPLIANCE], len(before), n),
+            vector_at(table[s, RIGID_SLIP], n), matrix_at(table[s, PREVIOUS_JACOBIAN], n, k),
+            matrix_at(table[s, PREVIOUS_COMPLIANCE], len(before), n),
             positions[s - 1], before,
         )  # fmt: skip
 
@@ -78,8 +100,10 @@ def _measures(table, starts, kinds, stiffness, loads, friction, slips, status, f
         n, m, k = starts[s + 1] - starts[s], kinds * (starts[s + 1] - starts[s]), len(stiffness)
         now = slice(kinds * starts[s], kinds * starts[s + 1])
         measure(
-            residual, stiffness, loads[s], matrix_at(table[s, COMPLIANCE], m, m), matrix_at(table[s, JACOBIAN], m, k), vector_at(table[s, GAP], n),
-            slips[starts[s] : starts[s] + (n if kinds == 2 else 0)], friction, status[starts[s] : starts[s + 1]], forces[now], positions[s], displacement[now],
+            residual, stiffness, loads[s], matrix_at(table[s, COMPLIANCE], m, m), matrix_at(table[s, JACOBIAN], m, k),
+            vector_at(table[s, GAP], n),
+            slips[starts[s] : starts[s] + (n if kinds == 2 else 0)], friction, status[starts[s] : starts[s + 1]],
+            forces[now], positions[s], displacement[now],
         )  # fmt: skip
 
 
@@ -112,7 +136,11 @@ def main() -> None:
         steps = steps.followed_by(block)
     count, k, kinds = len(steps), len(marcher.drivetrain.coordinates), steps.kinds
     positions, loads = steps.states[:, 0].copy(), np.tile(marcher.drivetrain.load, (count, 1))
-    slips, effective, friction = np.zeros(len(steps.status)), np.ascontiguousarray(marcher.dynamic.stiffness), marcher.friction
+    slips, effective, friction = (
+        np.zeros(len(steps.status)),
+        np.ascontiguousarray(marcher.dynamic.stiffness),
+        marcher.friction,
+    )
     of_step = np.repeat(np.arange(count), np.diff(steps.starts))
     n = np.diff(steps.starts).astype(float)
     closed = np.bincount(of_step[steps.status != OPEN], minlength=count).astype(float)
@@ -123,20 +151,55 @@ def main() -> None:
     table, starts = steps.table, steps.starts
     rows = []
     if kinds == 2:
-        rows.append(("slip before the step", seconds(lambda: _slips(table, starts, steps.forces, positions, slips)), 2 * n * (loaded + k), n * loaded))
+        rows.append(
+            (
+                "slip before the step",
+                seconds(lambda: _slips(table, starts, steps.forces, positions, slips)),
+                2 * n * (loaded + k),
+                n * loaded,
+            )
+        )
     arguments = table, starts, kinds, effective, loads, friction, slips, steps.status, steps.forces
     per_iteration = [
-        ("Newton's matrix and its solution", seconds(lambda: _systems(*arguments)), 2 * size**2 + 4 * size * closed * (kinds - 1) + 2 / 3 * size**3 + 2 * size**2, kinds * closed * size),
-        ("displacements", seconds(lambda: _displacements(table, starts, kinds, steps.forces, positions)), 2 * m * (k + loaded), m * loaded),
-        ("residuals", seconds(lambda: _measures(*arguments, steps.displacement, positions)), 6 * k * k + 4 * k * loaded + 8 * n, 0 * n),
+        (
+            "Newton's matrix and its solution",
+            seconds(lambda: _systems(*arguments)),
+            2 * size**2 + 4 * size * closed * (kinds - 1) + 2 / 3 * size**3 + 2 * size**2,
+            kinds * closed * size,
+        ),
+        (
+            "displacements",
+            seconds(lambda: _displacements(table, starts, kinds, steps.forces, positions)),
+            2 * m * (k + loaded),
+            m * loaded,
+        ),
+        (
+            "residuals",
+            seconds(lambda: _measures(*arguments, steps.displacement, positions)),
+            6 * k * k + 4 * k * loaded + 8 * n,
+            0 * n,
+        ),
     ]
-    rows += [(name, spent * float(iterations.mean()), operations * iterations, entries * iterations) for name, spent, operations, entries in per_iteration]
+    rows += [
+        (name, spent * float(iterations.mean()), operations * iterations, entries * iterations)
+        for name, spent, operations, entries in per_iteration
+    ]
     solved = steps.between(0, count)
     durations = np.full(count, model.time_step)
     march = seconds(lambda: solve_steps(solved, 1, count, marcher._motion, durations, loads))
     rows += [
-        ("contact work", seconds(lambda: contact_work(steps)), 3 * closed**2 * kinds**2 + 2 * m * k, 2 * (kinds * closed) ** 2),
-        ("mesh stiffness", seconds(lambda: stiffness_curves(steps)), 2 / 3 * closed**3 + 4 * closed**2 + 2 * n * loaded, closed**2 + n * loaded),
+        (
+            "contact work",
+            seconds(lambda: contact_work(steps)),
+            3 * closed**2 * kinds**2 + 2 * m * k,
+            2 * (kinds * closed) ** 2,
+        ),
+        (
+            "mesh stiffness",
+            seconds(lambda: stiffness_curves(steps)),
+            2 / 3 * closed**3 + 4 * closed**2 + 2 * n * loaded,
+            closed**2 + n * loaded,
+        ),
         ("energy of the teeth", seconds(lambda: energy_of_teeth(steps)), 4 * loaded**2, loaded**2),
     ]
 
@@ -147,12 +210,24 @@ def main() -> None:
         recorder.finish()
 
     gflops, bandwidth = peaks()
-    print(f"{count} steps of {n.mean():.1f} contact nodes, {closed.mean():.1f} closed, {k} centre coordinates, {iterations.mean():.2f} iterations; {gflops:.0f} Gflop/s, {bandwidth:.1f} GB/s\n")
-    print("| part | operations | bytes of compliance | us a step | Gflop/s | at the processor's best, us |\n|---|---|---|---|---|---|")
+    print(
+        f"{count} steps of {n.mean():.1f} contact nodes, {closed.mean():.1f} closed, {k} centre coordinates,"
+        f" {iterations.mean():.2f} iterations; {gflops:.0f} Gflop/s, {bandwidth:.1f} GB/s\n"
+    )
+    print(
+        "| part | operations | bytes of compliance | us a step | Gflop/s | at the processor's best, us"
+        " |\n|---|---|---|---|---|---|"
+    )
     for name, spent, operations, entries in rows:
         work, traffic, each = float(operations.mean()), 8 * float(entries.mean()), spent / count * 1e6
-        print(f"| {name} | {work:,.0f} | {traffic:,.0f} | {each:.1f} | {work / each * 1e-3:.2f} | {max(work / gflops, traffic / bandwidth) * 1e-3:.2f} |")
-    print(f"| **all of the march** | | | {march / count * 1e6:.1f} | | |\n| **recording, with the last three and numpy's** | | | {seconds(recorded) / count * 1e6:.1f} | | |")
+        print(
+            f"| {name} | {work:,.0f} | {traffic:,.0f} | {each:.1f} | {work / each * 1e-3:.2f} |"
+            f" {max(work / gflops, traffic / bandwidth) * 1e-3:.2f} |"
+        )
+    print(
+        f"| **all of the march** | | | {march / count * 1e6:.1f} | | |\n| **recording, with the last three and"
+        f" numpy's** | | | {seconds(recorded) / count * 1e6:.1f} | | |"
+    )
 
 
 if __name__ == "__main__":

@@ -2,9 +2,10 @@
 
     python -m tests.benchmarks.same_results OLD_CHECKOUT [SCENE ...]
 
-Prints, for each scene, the variables and attributes that differ most, relative to the largest value of that variable; what is nothing but round-off
-(the defect of the energy account, displacements below 1e-12 mm) by what it is the difference of. Wall times and versions are left out. Exit
-code 1 where anything differs by more than 1e-12 or is missing.
+Prints, for each scene, the variables and attributes that differ most, relative to the largest value of that variable;
+what is nothing but round-off (the defect of the energy account, displacements below 1e-12 mm) by what it is the
+difference of. Wall times and versions are left out. Exit code 1 where anything differs by more than 1e-12 or is
+missing.
 """
 
 from __future__ import annotations
@@ -28,7 +29,12 @@ from fenics_gears.results import save
 save(simulate(load_scene(sys.argv[1])), sys.argv[2])
 """
 # Differences of large numbers, and what they are differences of.
-DIFFERENCES = {"energy_defect": "work_input", "work_contact_changes": "work_input", "drive_flank_opening": 1e-3, "centre_y": "centre_x"}
+DIFFERENCES = {
+    "energy_defect": "work_input",
+    "work_contact_changes": "work_input",
+    "drive_flank_opening": 1e-3,
+    "centre_y": "centre_x",
+}
 PRINTED = 4
 VARIES = ("time_", "wall_time", "fenics_gears_version")
 
@@ -37,14 +43,17 @@ def result_of(checkout: Path, scene: Path, directory: Path) -> xr.Dataset:
     """The result of a scene file, computed by a checkout."""
     target = directory / f"{abs(hash((checkout, scene)))}.nc"
     environment = {**os.environ, "PYTHONPATH": str(checkout), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-    subprocess.run([sys.executable, "-P", "-c", RUN, str(scene), str(target)], check=True, env=environment, cwd=directory)
+    subprocess.run(
+        [sys.executable, "-P", "-c", RUN, str(scene), str(target)], check=True, env=environment, cwd=directory
+    )
     sys.path.insert(0, str(HERE))
     with xr.open_dataset(target, engine="h5netcdf") as opened:
         return opened.load()
 
 
 def differences(old: xr.Dataset, new: xr.Dataset) -> dict[str, float]:
-    """Largest difference of each variable and numeric attribute, relative to its largest value; infinite where one is missing."""
+    """Largest difference of each variable and numeric attribute, relative to its largest value; infinite where one is
+    missing."""
     found = {}
     for name in sorted({*old.variables, *new.variables}):
         if name not in old.variables or name not in new.variables:
@@ -90,7 +99,11 @@ def main(arguments: list[str]) -> int:
             found = differences(old, new)
             most = sorted(found.items(), key=lambda each: -each[1])[:PRINTED]
             failed |= most[0][1] > TOLERANCE
-            print(f"{scene.name}: {len(found)} values, largest differences " + ", ".join(f"{name} {value:.1e}" for name, value in most), flush=True)
+            print(
+                f"{scene.name}: {len(found)} values, largest differences "
+                + ", ".join(f"{name} {value:.1e}" for name, value in most),
+                flush=True,
+            )
     return int(failed)
 
 

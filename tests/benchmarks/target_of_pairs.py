@@ -1,9 +1,11 @@
-"""`[accuracy] target` on eight pairs and ten at random: true errors and times beside the cheapest settings that reach the target, written into docs/accuracy.md.
+"""`[accuracy] target` on eight pairs and ten at random: true errors and times beside the cheapest settings that reach
+the target, written into docs/accuracy.md.
 
     python -m tests.benchmarks.target_of_pairs [--only NAME]
 
-True errors are distances from a reference (`target_reference`). The cheapest settings are looked for among all `MESHES` and `STEPS`, lucky ones whose
-errors cancel included. Times are those of the processor (`time.process_time`), which other work on the machine changes little.
+True errors are distances from a reference (`target_reference`). The cheapest settings are looked for among all `MESHES`
+and `STEPS`, lucky ones whose errors cancel included. Times are those of the processor (`time.process_time`), which
+other work on the machine changes little.
 """
 
 from __future__ import annotations
@@ -34,7 +36,21 @@ from fenics_gears.system.progress import SilentProgress
 ROOT = Path(__file__).resolve().parents[2]
 TARGETS = (0.05, 0.01, 0.002)
 MESHES, STEPS = (4.0, 3.0, 2.0, 1.4, 1.0, 0.7), (20, 40, 80, 160, 320)
-HEADINGS = ("pair", "target, %", "chosen", "estimated, %", "true, %", "time, s", "choosing, in runs", "trial runs", "cheapest found", "its error, %", "its time, s", "ratio", "without luck")
+HEADINGS = (
+    "pair",
+    "target, %",
+    "chosen",
+    "estimated, %",
+    "true, %",
+    "time, s",
+    "choosing, in runs",
+    "trial runs",
+    "cheapest found",
+    "its error, %",
+    "its time, s",
+    "ratio",
+    "without luck",
+)
 
 # Seconds, true error, setting.
 Found = tuple[float, float, Setting]
@@ -42,7 +58,8 @@ Found = tuple[float, float, Setting]
 
 @dataclass(frozen=True)
 class Row:
-    """A pair and a target: what was chosen and what it is worth, in which time, beside the cheapest that reaches the target, if any was found.
+    """A pair and a target: what was chosen and what it is worth, in which time, beside the cheapest that reaches the
+    target, if any was found.
 
     `dependable`: the cheapest that reaches it together with all that are finer.
     """
@@ -66,7 +83,13 @@ class Row:
         beside = ("none", "", "", "", "")
         if self.cheapest:
             seconds, error, setting = self.cheapest
-            beside = setting.words, f"{100.0 * error:.2g}", f"{seconds:.2g}", f"{self.ratio(self.cheapest):.2g}", f"{self.ratio(self.dependable):.2g}" if self.dependable else ""
+            beside = (
+                setting.words,
+                f"{100.0 * error:.2g}",
+                f"{seconds:.2g}",
+                f"{self.ratio(self.cheapest):.2g}",
+                f"{self.ratio(self.dependable):.2g}" if self.dependable else "",
+            )
         errors = (f"{100.0 * value:.2g}" for value in (self.chosen.estimated_error, self.true))
         times = f"{self.seconds:.2g}", f"{self.choosing / self.seconds:.2g}", str(self.chosen.runs)
         return (self.pair, f"{100.0 * self.target:g}", self.chosen.setting.words, *errors, *times, *beside)
@@ -85,7 +108,8 @@ def true_error(found: Answer, known: Reference) -> float:
 
 
 def searched(scene: Scene, known: Reference) -> list[Found]:
-    """All that are searched, the quickest first; gears of a mesh are condensed once, and their time counts for each number of steps."""
+    """All that are searched, the quickest first; gears of a mesh are condensed once, and their time counts for each
+    number of steps."""
     found = []
     counts = STEPS if scene.friction is not None or scene.inertia is not None else STEPS[:1]
     for mesh in MESHES:
@@ -108,7 +132,8 @@ def is_finer(one: Found, other: Found) -> bool:
 
 
 def rows_of(name: str, scene: Scene, not_reached: list[str]) -> tuple[list[Row], Reference]:
-    """All targets of a pair, and the reference that they are judged by; adds to `not_reached` what the program itself says is not."""
+    """All targets of a pair, and the reference that they are judged by; adds to `not_reached` what the program itself
+    says is not."""
     known, rows = reference(scene), []
     print(f"{name}: reference uncertain by {100.0 * known.uncertainty:.2g} %", flush=True)
     candidates = searched(scene, known)
@@ -121,7 +146,9 @@ def rows_of(name: str, scene: Scene, not_reached: list[str]) -> tuple[list[Row],
             continue
         (run, _), seconds = timed(lambda: run_sharing(chosen.setting.of(scene), shared_gears()))
         cheapest = [each for each in candidates if each[1] <= target]
-        dependable = [each for each in cheapest if all(other in cheapest for other in candidates if is_finer(other, each))]
+        dependable = [
+            each for each in cheapest if all(other in cheapest for other in candidates if is_finer(other, each))
+        ]
         best = next(iter(cheapest), None), next(iter(dependable), None)
         rows.append(Row(name, target, chosen, true_error(judged_answer(run), known), seconds, choosing, *best))
         print("  " + " | ".join(rows[-1].cells[1:]), flush=True)
@@ -133,18 +160,28 @@ def page(rows: list[Row], references: dict[str, Reference], not_reached: list[st
     lines = [f"|{'|'.join(HEADINGS)}|", "|" + "---|" * len(HEADINGS), *(f"|{'|'.join(row.cells)}|" for row in rows)]
     uncertain = "; ".join(f"{name}: {100.0 * each.uncertainty:.2g} %" for name, each in references.items())
     where, within = machine(), sum(row.true <= row.target for row in rows)
-    ratios, dependable = ([row.ratio(each) for row, each in zip(rows, found)] for found in ([row.cheapest for row in rows], [row.dependable for row in rows]))
+    ratios, dependable = (
+        [row.ratio(each) for row, each in zip(rows, found)]
+        for found in ([row.cheapest for row in rows], [row.dependable for row in rows])
+    )
     choosing = [row.choosing / row.seconds for row in rows]
     refused = "".join(f"\n\nRefused: {each}" for each in not_reached)
     return (
-        f"**Of {len(rows)} targets {within} are reached. Choosing takes {median(choosing):.2g} runs at the chosen settings (median), at most {max(choosing):.2g}. "
-        f"The chosen settings take {median(ratios):.2g} times as long as the cheapest found (median), at most {max(ratios):.2g} times; {sum(each > 2.0 for each in ratios)} take more "
-        f"than twice as long. Without luck it is {median(dependable):.2g} times (median), at most {max(dependable):.2g}.**\n\n"
-        "Settings are the element, the size of flank elements, the number of contact nodes, the steps per mesh cycle, and the size of body elements relative to the default (body x4). "
-        f"The cheapest settings are the quickest of {len(MESHES)} meshes, each with {len(STEPS)} numbers of steps where these matter, that reach the target by their true error, in which "
-        "single errors may cancel by chance; 'none': the chosen settings are finer than all of these. 'Without luck': the ratio to the cheapest that reaches the target together with "
-        "all searched ones that are finer.\n\n" + "\n".join(lines) + refused + f"\n\nUncertainty of the references: {uncertain}. Pairs are quasi-static unless a frequency is "
-        f"named. Times are the processor's, without the cache, of single runs; load {where['load']}, {where['processor']}, {where['versions']}."
+        f"**Of {len(rows)} targets {within} are reached. Choosing takes {median(choosing):.2g} runs at the chosen"
+        f" settings (median), at most {max(choosing):.2g}. The chosen settings take {median(ratios):.2g} times as long"
+        f" as the cheapest found (median), at most {max(ratios):.2g} times; {sum(each > 2.0 for each in ratios)} take"
+        f" more than twice as long. Without luck it is {median(dependable):.2g} times (median), at most"
+        f" {max(dependable):.2g}.**\n\nSettings are the element, the size of flank elements, the number of contact"
+        " nodes, the steps per mesh cycle, and the size of body elements relative to the default (body x4). The"
+        f" cheapest settings are the quickest of {len(MESHES)} meshes, each with {len(STEPS)} numbers of steps where"
+        " these matter, that reach the target by their true error, in which single errors may cancel by chance;"
+        " 'none': the chosen settings are finer than all of these. 'Without luck': the ratio to the cheapest that"
+        " reaches the target together with all searched ones that are finer.\n\n"
+        + "\n".join(lines)
+        + refused
+        + f"\n\nUncertainty of the references: {uncertain}. Pairs are quasi-static unless a frequency is named. Times"
+        f" are the processor's, without the cache, of single runs; load {where['load']}, {where['processor']},"
+        f" {where['versions']}."
     )
 
 
@@ -162,7 +199,12 @@ def main() -> None:
         found, references[name] = rows_of(name, scene, not_reached)
         rows += found
         if options.only is None:
-            write_section(ROOT / "docs/accuracy.md", "<!-- target: begin -->", "<!-- target: end -->", page(rows, references, not_reached))
+            write_section(
+                ROOT / "docs/accuracy.md",
+                "<!-- target: begin -->",
+                "<!-- target: end -->",
+                page(rows, references, not_reached),
+            )
             with (ROOT / "docs/pictures/target_of_pairs.csv").open("w", newline="") as file:
                 csv.writer(file).writerows([HEADINGS, *(row.cells for row in rows)])
 

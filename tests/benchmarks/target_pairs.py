@@ -1,7 +1,8 @@
-"""Gear pairs on which `[accuracy] target` is judged: the paper's, equal, slow, of high contact ratio, of large profile shift, and ten at random.
+"""Gear pairs on which `[accuracy] target` is judged: the paper's, equal, slow, of high contact ratio, of large profile
+shift, and ten at random.
 
-The first five have tip relief, as such gears are made, neither friction nor inertia; the paper's own tips, whose sharp edges press, follow, without
-friction, with friction, and at 200 Hz.
+The first five have tip relief, as such gears are made, neither friction nor inertia; the paper's own tips, whose sharp
+edges press, follow, without friction, with friction, and at 200 Hz.
 """
 
 from dataclasses import replace
@@ -31,14 +32,19 @@ SETTLING = 30
 RELIEF_STIFFNESS = 12.0
 
 
-def rack_gear(module: float, teeth: int, shift: float, addendum: float = 1.0, dedendum: float = 1.25, rounding: float = 0.38) -> GearData:
+def rack_gear(
+    module: float, teeth: int, shift: float, addendum: float = 1.0, dedendum: float = 1.25, rounding: float = 0.38
+) -> GearData:
     """A gear cut by a rack; addendum, dedendum and rounding in modules."""
     tip, root = module * (teeth + 2.0 * (shift + addendum)), module * (teeth + 2.0 * (shift - dedendum))
     return GearData(teeth, shift, tip, root, 0.6 * root, rounding)
 
 
-def rack_pair(module: float, teeth: tuple[int, int], shifts=(0.0, 0.0), face_width: float = 15.0, material=None, **rack) -> GearPairData:
-    """A pair at the centre distance without backlash and a little more (DIN 3960: involute of the working pressure angle)."""
+def rack_pair(
+    module: float, teeth: tuple[int, int], shifts=(0.0, 0.0), face_width: float = 15.0, material=None, **rack
+) -> GearPairData:
+    """A pair at the centre distance without backlash and a little more (DIN 3960: involute of the working pressure
+    angle)."""
     pinion, wheel = (rack_gear(module, count, shift, **rack) for count, shift in zip(teeth, shifts))
     along = _involute(PRESSURE_ANGLE) + 2.0 * sum(shifts) / sum(teeth) * tan(PRESSURE_ANGLE)
     working = brentq(lambda angle: _involute(angle) - along, 1e-3, 1.2)
@@ -69,7 +75,8 @@ def pairs(paper: Scene) -> dict[str, Scene]:
 
 
 def random_pairs(dynamic: Scene, count: int, seed: int = 2026) -> dict[str, Scene]:
-    """Pairs at random: teeth, profile shifts, module, load, relief, friction, and a mesh frequency with the paper's inertia and damping."""
+    """Pairs at random: teeth, profile shifts, module, load, relief, friction, and a mesh frequency with the paper's
+    inertia and damping."""
     random, found = np.random.default_rng(seed), {}
     while len(found) < count:
         pinion = int(random.integers(14, 41))
@@ -77,7 +84,11 @@ def random_pairs(dynamic: Scene, count: int, seed: int = 2026) -> dict[str, Scen
         module = float(random.choice([1.5, 2.0, 3.0, 4.0, 6.0]))
         shifts = tuple(round(float(each), 2) for each in (random.uniform(0.0, 0.5), random.uniform(-0.1, 0.4)))
         line_load = round(random.uniform(20.0, 100.0) * module, -1)
-        relieved, friction, vibrates = bool(random.integers(2)), float(random.choice([0.0, 0.05, 0.1])), bool(random.integers(2))
+        relieved, friction, vibrates = (
+            bool(random.integers(2)),
+            float(random.choice([0.0, 0.05, 0.1])),
+            bool(random.integers(2)),
+        )
         frequency = float(random.choice([100.0, 200.0, 400.0]))
         gears = rack_pair(module, teeth, shifts, 10.0 * module, dynamic.gears.material)
         try:
@@ -85,8 +96,17 @@ def random_pairs(dynamic: Scene, count: int, seed: int = 2026) -> dict[str, Scen
         except GeometryError:
             continue
         relief = _relief(gears, round(1e-3 * line_load / RELIEF_STIFFNESS, 4)) if relieved else None
-        scene = replace(scene, tip_relief=relief, friction=Friction(friction) if friction else None, motion=Motion(frequency, SETTLING, 1))
-        words = [f"{teeth[0]}/{teeth[1]}, shifts {shifts[0]:g} and {shifts[1]:g}", f"{line_load:g} N/mm", "relief" if relieved else "sharp tips"]
+        scene = replace(
+            scene,
+            tip_relief=relief,
+            friction=Friction(friction) if friction else None,
+            motion=Motion(frequency, SETTLING, 1),
+        )
+        words = [
+            f"{teeth[0]}/{teeth[1]}, shifts {shifts[0]:g} and {shifts[1]:g}",
+            f"{line_load:g} N/mm",
+            "relief" if relieved else "sharp tips",
+        ]
         words += [f"friction {friction:g}"] * bool(friction) + [f"{frequency:g} Hz"] * vibrates
         found[", ".join(words)] = scene if vibrates else _quasi_static(scene)
     return found
@@ -102,7 +122,12 @@ def _loaded(scene: Scene, gears: GearPairData, line_load: float = LINE_LOAD) -> 
 
 
 def _relief(gears: GearPairData, depth: float = RELIEF) -> TipRelief:
-    return TipRelief(*(Relief(depth, None, LINEAR, gear.tip_diameter - RELIEVED * gears.module) for gear in (gears.pinion, gears.wheel)))
+    return TipRelief(
+        *(
+            Relief(depth, None, LINEAR, gear.tip_diameter - RELIEVED * gears.module)
+            for gear in (gears.pinion, gears.wheel)
+        )
+    )
 
 
 def _involute(angle: float) -> float:

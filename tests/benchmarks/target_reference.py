@@ -1,4 +1,5 @@
-"""The reference that settings are judged by: a fine mesh carried on to its limit by order 2, and what many steps add to a coarser one."""
+"""The reference that settings are judged by: a fine mesh carried on to its limit by order 2, and what many steps add to
+a coarser one."""
 
 from dataclasses import dataclass, replace
 
@@ -15,7 +16,8 @@ FINE, COARSER, FEW, MANY = 0.5, 1.0, 120, 960
 
 @dataclass(frozen=True)
 class Reference:
-    """The judged measures at the limit, and the largest relative uncertainty: as much as the mesh's limit is away from its fine run."""
+    """The judged measures at the limit, and the largest relative uncertainty: as much as the mesh's limit is away from
+    its fine run."""
 
     answer: Answer
     uncertainty: float

@@ -48,7 +48,8 @@ def small_result(complete=1):
 
 @pytest.fixture
 def simulation(monkeypatch, tmp_path):
-    """A module in the place of the simulation, whose ``outcome`` is returned or raised; the test runs in an empty directory."""
+    """A module in the place of the simulation, whose ``outcome`` is returned or raised; the test runs in an empty
+    directory."""
     monkeypatch.chdir(tmp_path)
     stand_in = types.ModuleType("fenics_gears.studies.simulate")
     stand_in.outcome, stand_in.calls = small_result(), []
@@ -112,7 +113,8 @@ def test_quiet_says_nothing(simulation, capsys, tmp_path):
 
 
 def test_a_result_without_meaning_has_an_exit_code_of_its_own(simulation, capsys, tmp_path):
-    """Authority: docs/troubleshooting.md; a script sees that the gears jammed, and the result is kept with the reason."""
+    """Authority: docs/troubleshooting.md; a script sees that the gears jammed, and the result is kept with the
+    reason."""
     said = f"{NO_MEANING}: the gears would have gone through each other"
     simulation.outcome = small_result().assign_attrs(warnings=f"{said}\nanother")
     assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 4
@@ -132,7 +134,9 @@ def test_a_run_without_pictures(simulation, capsys, tmp_path):
 def on_a_terminal(command, more):
     """What a command writes to a terminal of its own."""
     ours, its = os.openpty()
-    running = subprocess.Popen(command, stdout=its, stderr=subprocess.DEVNULL, env={**environment(), "TERM": "xterm", **more})
+    running = subprocess.Popen(
+        command, stdout=its, stderr=subprocess.DEVNULL, env={**environment(), "TERM": "xterm", **more}
+    )
     os.close(its)
     written = b""
     with contextlib.suppress(OSError):  # what a terminal says when nobody writes to it any more
@@ -152,14 +156,19 @@ def test_a_study_is_told_from_a_scene(capsys, tmp_path, monkeypatch):
     Path("study.toml").write_text(f'scene = "{DEMO}"\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\n')
     for command in ("check", "run"):
         assert main([command, "study.toml"]) == 2
-        assert capsys.readouterr().err == "study.toml: is a study, not a scene; `gears study study.toml` runs it. Nothing was computed or written.\n"
+        assert (
+            capsys.readouterr().err
+            == "study.toml: is a study, not a scene; `gears study study.toml` runs it. Nothing was computed or"
+            " written.\n"
+        )
     assert main(["study", str(DEMO)]) == 2
     assert f"is a scene, not a study; `gears run {DEMO}` runs it" in capsys.readouterr().err
     assert files(tmp_path) == ["study.toml"]
 
 
 def test_what_goes_into_a_log_is_plain():
-    """Authority: ECMA-48's control sequences begin with ESC. mpirun starts its processes on a terminal of their own, also where a pipe or a file
+    """Authority: ECMA-48's control sequences begin with ESC. mpirun starts its processes on a terminal of their own,
+    also where a pipe or a file
     has what it writes; a terminal without mpirun has colours, so that the test can fail."""
     assert "\x1b" in on_a_terminal(CHECK, {})
     piped = subprocess.run(CHECK, capture_output=True, text=True, check=True).stdout
@@ -170,7 +179,9 @@ def test_what_goes_into_a_log_is_plain():
 
 def test_what_mpirun_pipes_on_is_plain():
     """Authority: the same, of the real mpirun."""
-    written = subprocess.run([*mpirun(1), *CHECK], stdout=subprocess.PIPE, text=True, check=True, env=environment()).stdout
+    written = subprocess.run(
+        [*mpirun(1), *CHECK], stdout=subprocess.PIPE, text=True, check=True, env=environment()
+    ).stdout
     assert "Gear pair" in written and "\x1b" not in written
     assert not any(line.endswith(" ") for line in written.splitlines())
 
@@ -196,7 +207,8 @@ def test_ctrl_c_keeps_what_was_done(simulation, capsys, tmp_path):
 
 
 def test_ctrl_c_waits_for_the_end_of_a_step(simulation, tmp_path):
-    """Authority: issue 2; a real signal in the middle of a step ends the march between two steps, and the handler is given back."""
+    """Authority: issue 2; a real signal in the middle of a step ends the march between two steps, and the handler is
+    given back."""
     before = signal.getsignal(signal.SIGINT)
     steps = []
 
@@ -258,7 +270,8 @@ def test_ctrl_c_before_the_first_step_writes_nothing(simulation, capsys, tmp_pat
 
 
 def test_ctrl_c_before_the_recorded_cycles_says_so(simulation, capsys, tmp_path):
-    """Authority: docs/promises.md; a run without a step is kept, marked incomplete, and not summed up as if it had some."""
+    """Authority: docs/promises.md; a run without a step is kept, marked incomplete, and not summed up as if it had
+    some."""
     simulation.outcome = small_result(complete=0).isel(time=slice(0, 0))
     assert main(["run", str(DEMO), "--output", "here"]) == 130
     output = capsys.readouterr()
@@ -286,7 +299,9 @@ def test_a_failed_computation_keeps_what_was_done(simulation, capsys, tmp_path, 
         ("\n[accuracy]", '\n[tip_relief.pinion]\ndepth = "31 um"\nstart = "300 deg"\n[accuracy]', ["pinion", "300"]),
     ],
 )
-def test_impossible_gears_are_refused_before_anything_is_computed_or_written(simulation, capsys, tmp_path, old, new, fragments):
+def test_impossible_gears_are_refused_before_anything_is_computed_or_written(
+    simulation, capsys, tmp_path, old, new, fragments
+):
     """Authority: docs/promises.md; exit code 2, the file is named, nothing written."""
     text = DEMO.read_text(encoding="utf-8")
     assert old in text
@@ -345,7 +360,8 @@ def test_plot_of_something_else_is_refused(simulation, capsys, tmp_path, content
 
 
 def test_check_prints_the_pair_and_the_effects_and_writes_nothing(simulation, capsys, tmp_path):
-    """Authority: the values the paper prints (model.md, section 1); docs/promises.md, effects on and off with what each adds."""
+    """Authority: the values the paper prints (model.md, section 1); docs/promises.md, effects on and off with what each
+    adds."""
     assert main(["check", str(DEMO)]) == 0
     output = capsys.readouterr().out
     for printed in ("22.44 deg", "13.28 mm", "1.47", "29.61 deg", "27.64 deg", "20.95 mm"):
@@ -360,7 +376,10 @@ def test_check_prints_the_pair_and_the_effects_and_writes_nothing(simulation, ca
     assert files(tmp_path) == []
 
 
-@pytest.mark.parametrize("arguments", [[], ["measure", "x.toml"], ["study"], ["run"], ["run", "x.toml", "--fast"], ["run", "x.toml", "-v", "-q"]])
+@pytest.mark.parametrize(
+    "arguments",
+    [[], ["measure", "x.toml"], ["study"], ["run"], ["run", "x.toml", "--fast"], ["run", "x.toml", "-v", "-q"]],
+)
 def test_a_wrong_call_has_exit_code_2(arguments, capsys):
     """Authority: docs/promises.md's exit codes; commands that come later are not offered."""
     with pytest.raises(SystemExit) as leaving:
@@ -378,7 +397,8 @@ def test_version(capsys):
 
 
 def test_a_command_leaves_no_settings_behind(monkeypatch, capsys):
-    """Definition: a process that goes on, such as a notebook, is as before; the command itself looks for garbage rarely and keeps to its memory."""
+    """Definition: a process that goes on, such as a notebook, is as before; the command itself looks for garbage rarely
+    and keeps to its memory."""
     seen = {}
 
     def run_python(options):
@@ -396,10 +416,15 @@ def test_a_command_leaves_no_settings_behind(monkeypatch, capsys):
 def test_python_has_the_program_and_runs_in_the_folder_of_the_call(tmp_path):
     """Authority: the README; what stands beside the script can be imported too, and arguments are the script's."""
     (tmp_path / "beside.py").write_text("NAME = 'beside'\n", encoding="utf-8")
-    said = "import sys, os, beside, fenics_gears\nprint(beside.NAME, sys.argv[1:], os.getcwd(), callable(fenics_gears.load_scene), 'simulate' in dir(fenics_gears))\nsys.exit(7)\n"
+    said = (
+        "import sys, os, beside, fenics_gears\nprint(beside.NAME, sys.argv[1:], os.getcwd(),"
+        " callable(fenics_gears.load_scene), 'simulate' in dir(fenics_gears))\nsys.exit(7)\n"
+    )
     (tmp_path / "first.py").write_text(said, encoding="utf-8")
     call = [sys.executable, "-P", "-m", "fenics_gears", "python", "first.py", "-v", "x"]
-    run = subprocess.run(call, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(CHECKOUT)}, capture_output=True, text=True)
+    run = subprocess.run(
+        call, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(CHECKOUT)}, capture_output=True, text=True
+    )
     assert (run.returncode, run.stdout) == (7, f"beside ['-v', 'x'] {tmp_path} True True\n"), run.stderr
 
 
@@ -420,7 +445,9 @@ def test_the_test_command_runs_pytest_on_the_checkout(tmp_path):
     """Authority: docs/promises.md; options go to pytest, paths count from the checkout."""
     environment = {**os.environ, "PYTHONPATH": str(CHECKOUT)}
     call = [sys.executable, "-m", "fenics_gears", "test", "--collect-only", "-q"]
-    run = subprocess.run([*call, "tests/effects/test_list_of_effects.py"], cwd=tmp_path, env=environment, capture_output=True, text=True)
+    run = subprocess.run(
+        [*call, "tests/effects/test_list_of_effects.py"], cwd=tmp_path, env=environment, capture_output=True, text=True
+    )
     assert run.returncode == 0
     assert "test_list_of_effects.py" in run.stdout and "test_cli.py" not in run.stdout
 

@@ -17,7 +17,11 @@ def run(tmp_path):
 
     def variable(dims, unit):
         sizes = {"time": steps, "gear": 2, "pair": 3}
-        return dims, numbers.normal(size=[sizes[dim] for dim in dims]) * 10.0 ** numbers.integers(-9, 9), {"units": unit, "long_name": "anything"}
+        return (
+            dims,
+            numbers.normal(size=[sizes[dim] for dim in dims]) * 10.0 ** numbers.integers(-9, 9),
+            {"units": unit, "long_name": "anything"},
+        )
 
     dataset = xr.Dataset(
         {
@@ -26,22 +30,40 @@ def run(tmp_path):
             "pair_normal_force": variable(("time", "pair"), "N"),
             "newton_iterations": (("time",), np.arange(steps), {"units": "1"}),
         },
-        {"time": ("time", 0.1 + 1e-5 * np.arange(steps), {"units": "s"}), "mesh_phase": ("time", np.linspace(0, 1, steps), {"units": "1"}),
-         "gear": ["pinion", "wheel"], "pair": [4, 5, 6]},
+        {
+            "time": ("time", 0.1 + 1e-5 * np.arange(steps), {"units": "s"}),
+            "mesh_phase": ("time", np.linspace(0, 1, steps), {"units": "1"}),
+            "gear": ["pinion", "wheel"],
+            "pair": [4, 5, 6],
+        },
         {"complete": 1, "scene": "title = 'synthetic'"},
-    )  # fmt: skip
+    )
     results.save(dataset, tmp_path / "run.nc")
     return tmp_path, dataset
 
 
 def test_table_is_the_result(run, capsys):
-    """Read by pandas: heads with units, a line for each step, all curves over time and over gears to the digits that are written."""
+    """Read by pandas: heads with units, a line for each step, all curves over time and over gears to the digits that
+    are written."""
     directory, dataset = run
     assert main(["export", str(directory)]) == 0 and capsys.readouterr().out.strip() == str(directory / "curves.csv")
     table = pandas.read_csv(directory / "curves.csv")
-    heads = ["time [s]", "mesh_phase", "transmission_error [rad]", "rotation pinion [rad]", "rotation wheel [rad]", "newton_iterations"]
+    heads = [
+        "time [s]",
+        "mesh_phase",
+        "transmission_error [rad]",
+        "rotation pinion [rad]",
+        "rotation wheel [rad]",
+        "newton_iterations",
+    ]
     assert list(table.columns) == heads and len(table) == dataset.sizes["time"]
-    expected = [dataset.time, dataset.mesh_phase, dataset.transmission_error, *dataset.rotation.transpose("gear", "time"), dataset.newton_iterations]
+    expected = [
+        dataset.time,
+        dataset.mesh_phase,
+        dataset.transmission_error,
+        *dataset.rotation.transpose("gear", "time"),
+        dataset.newton_iterations,
+    ]
     np.testing.assert_allclose(table.to_numpy().T, np.array([each.values for each in expected]), rtol=1e-11, atol=0)
 
 

@@ -26,16 +26,39 @@ def test_scene_is_written_beside_nothing_else_and_can_be_checked(here, paper_sce
     assert "component 5 (cylindrical_gear 'pinion') drives component 6 (cylindrical_gear 'wheel')" in said
     assert "Next: gears check lundvall2004.toml" in said and "motion.mesh_cycles = 1" in said
     assert load_scene("lundvall2004.toml").gears == paper_scene.gears
-    fields = [line for line in (here / "lundvall2004.toml").read_text(encoding="utf-8").splitlines() if " = " in line and line[0] not in "#t["]
+    fields = [
+        line
+        for line in (here / "lundvall2004.toml").read_text(encoding="utf-8").splitlines()
+        if " = " in line and line[0] not in "#t["
+    ]
     assert len(fields) > 15 and all("  # " in line for line in fields)
     assert main(["check", "lundvall2004.toml"]) == 0
 
 
 def test_options(here, capsys):
     """Another name, another load; --quiet tells nothing."""
-    assert main(["import", "lundvall2004.rexs", "-o", "new/pair.toml", "--wheel-torque", "500 N m", "--pinion-speed", "3000 rpm", "--quiet"]) == 0
+    assert (
+        main(
+            [
+                "import",
+                "lundvall2004.rexs",
+                "-o",
+                "new/pair.toml",
+                "--wheel-torque",
+                "500 N m",
+                "--pinion-speed",
+                "3000 rpm",
+                "--quiet",
+            ]
+        )
+        == 0
+    )
     scene = load_scene("new/pair.toml")
-    assert scene.load.wheel_torque == 500e3 and scene.motion.mesh_frequency == pytest.approx(800.0) and capsys.readouterr().out == ""
+    assert (
+        scene.load.wheel_torque == 500e3
+        and scene.motion.mesh_frequency == pytest.approx(800.0)
+        and capsys.readouterr().out == ""
+    )
 
 
 def test_a_scene_is_never_overwritten(here, capsys):
@@ -49,7 +72,10 @@ def test_a_scene_is_never_overwritten(here, capsys):
     "change, words",
     [
         ((rexs.PINION, "number_of_teeth", 2), ["gears.pinion.teeth = 2", "The pinion is component 5"]),
-        ((rexs.PINION, "root_diameter", 50.0, "mm"), ["file.rexs as a scene: pinion: ", "root_diameter", "The pinion is component 5"]),
+        (
+            (rexs.PINION, "root_diameter", 50.0, "mm"),
+            ["file.rexs as a scene: pinion: ", "root_diameter", "The pinion is component 5"],
+        ),
         ((rexs.STAGE, "center_distance", 70.0, "mm"), ["file.rexs as a scene: pair: ", "Nothing was written."]),
         ((rexs.PINION, "normal_module", 4.5, "kg"), ["normal_module = 4.5 kg is a mass"]),
     ],

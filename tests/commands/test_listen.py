@@ -20,7 +20,10 @@ def run(values, time, phase=None, **attributes):
             "normal_force": ("time", values, {"units": "N", "long_name": "mesh force"}),
             "transmission_error": ("time", 1e-7 * values, {"units": "rad", "long_name": "transmission error"}),
         },
-        {"time": ("time", time, {"units": "s"}), "mesh_phase": ("time", MESH * time if phase is None else phase, {"units": "1"})},
+        {
+            "time": ("time", time, {"units": "s"}),
+            "mesh_phase": ("time", MESH * time if phase is None else phase, {"units": "1"}),
+        },
         {"complete": 1, "scene": "title = 'synthetic'", **attributes},
     )
 
@@ -28,7 +31,9 @@ def run(values, time, phase=None, **attributes):
 def steady(*tones, cycles=3, steps=300):
     """Tones (frequency, amplitude) over whole mesh cycles, on a mean of 5000 N."""
     time = np.arange(cycles * steps + 1) / (steps * MESH)
-    return run(5000.0 + sum(amplitude * np.cos(2.0 * np.pi * frequency * time + 0.3) for frequency, amplitude in tones), time)
+    return run(
+        5000.0 + sum(amplitude * np.cos(2.0 * np.pi * frequency * time + 0.3) for frequency, amplitude in tones), time
+    )
 
 
 def lines(samples):
@@ -38,7 +43,8 @@ def lines(samples):
 
 
 def test_tones_are_heard_at_their_frequency_and_amplitude():
-    """Exact: two harmonics of the mesh, whose cycles are repeated without a seam, and nothing else, the mean among it. The filter's passband is even
+    """Exact: two harmonics of the mesh, whose cycles are repeated without a seam, and nothing else, the mean among it.
+    The filter's passband is even
     within 0.02 dB, 0.2 %."""
     amplitudes = lines(sound(steady((MESH, 100.0), (12 * MESH, 10.0)), "normal_force", 2.0).samples)
     assert amplitudes[400] == pytest.approx(100.0, rel=2e-3) and amplitudes[4800] == pytest.approx(10.0, rel=2e-3)
@@ -47,13 +53,15 @@ def test_tones_are_heard_at_their_frequency_and_amplitude():
 
 
 def test_what_the_file_cannot_hold_is_filtered_out():
-    """Exact: a tone of 30 kHz, above half the rate of 48 kHz, would be heard at 18 kHz; it is 54 dB down, and a tone of 2 kHz beside it is not changed."""
+    """Exact: a tone of 30 kHz, above half the rate of 48 kHz, would be heard at 18 kHz; it is 54 dB down, and a tone of
+    2 kHz beside it is not changed."""
     amplitudes = lines(sound(steady((5 * MESH, 10.0), (75 * MESH, 10.0), steps=3000), "normal_force", 2.0).samples)
     assert amplitudes[2000] == pytest.approx(10.0, rel=2e-3) and amplitudes[18000] < 0.02
 
 
 def test_a_ramp_is_heard_as_it_runs():
-    """Exact: a mesh frequency that rises evenly from 200 to 1000 Hz in 2 s; the frequency at an instant is the phase's derivative."""
+    """Exact: a mesh frequency that rises evenly from 200 to 1000 Hz in 2 s; the frequency at an instant is the phase's
+    derivative."""
     phase = np.arange(0.0, 1200.0 + 1e-9, 1.0 / 80.0)
     time = (-200.0 + np.sqrt(200.0**2 + 2.0 * 400.0 * phase)) / 400.0
     heard = sound(run(3000.0 + 50.0 * np.sin(2.0 * np.pi * phase), time, phase), "normal_force", 0.5).samples
@@ -79,7 +87,10 @@ def test_the_file_plays_at_the_scale_that_is_said(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (["--curve", "loudness"], "--curve loudness: is no curve of this run. Allowed: normal_force, transmission_error."),
+        (
+            ["--curve", "loudness"],
+            "--curve loudness: is no curve of this run. Allowed: normal_force, transmission_error.",
+        ),
         (["--full-scale", "3 mm"], "allowed is a force greater than zero"),
         (["--full-scale", "3 parrots"], "parrots"),
         (["--seconds", "0"], "allowed are 0.1 to 600 seconds"),

@@ -1,4 +1,5 @@
-"""Each command that writes refuses, before it computes, a place that cannot take its result. Authority: hard case 26."""
+"""Each command that writes refuses, before it computes, a place that cannot take its result. Authority: hard case
+26."""
 
 import argparse
 import os
@@ -12,7 +13,7 @@ from fenics_gears.commands import picture
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import SceneError
 
-SCENE = GREEK + '[friction]\ncoefficient = 0.1\n'
+SCENE = GREEK + "[friction]\ncoefficient = 0.1\n"
 STUDY = 'scene = "pair.toml"\n[sweep]\nfriction.coefficient = [0.1, 0.2]\n'
 DESIGN = """
 scene = "pair.toml"
@@ -41,7 +42,10 @@ def test_a_folder_under_the_results_name(tmp_path, monkeypatch, capsys, call):
     taken.mkdir(parents=True)
     words = [word.replace("100N", "100 N m") for word in call.split()]
     assert main([*words, "--output", "out"]) == 2
-    assert f"{taken} is no file; the result needs this name. Remove it, or choose another directory" in capsys.readouterr().err
+    assert (
+        f"{taken} is no file; the result needs this name. Remove it, or choose another directory"
+        in capsys.readouterr().err
+    )
     assert list(Path("out").rglob("*")) == [taken]
 
 

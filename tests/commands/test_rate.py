@@ -22,7 +22,8 @@ def run(tmp_path_factory, paper_scene):
 
 
 def test_rows_have_both_columns(run, capsys):
-    """Contact stress by formula and by the run's pressure agree within a tenth on the paper's pair, whose teeth are as the standard has them; safety is limit over stress in both columns."""
+    """Contact stress by formula and by the run's pressure agree within a tenth on the paper's pair, whose teeth are as
+    the standard has them; safety is limit over stress in both columns."""
     assert COARSE and main(["rate", str(run), "--flank-limit", "1300 MPa"]) == 0
     assert "sigma_H, contact stress of the pinion, MPa" in capsys.readouterr().out
     with open(run / "rating.csv", encoding="utf-8") as file:
@@ -70,7 +71,12 @@ def test_misalignment_over_the_face_is_counted_and_told(tmp_path, capsys):
     result = run_of(model, on_stand_in_bodies(model)).result
     # By hand, ISO 1328-1: slopes of 8.61 and 8.82 um.
     for more, standard, computed, said in (
-        ('[misalignment]\nin_plane = "12 um"\n[lead_modifications.pinion]\nhelix_slope = "-5 um"\n', 7.0, 7.0, "is of the scene's misalignment and helix slopes"),
+        (
+            '[misalignment]\nin_plane = "12 um"\n[lead_modifications.pinion]\nhelix_slope = "-5 um"\n',
+            7.0,
+            7.0,
+            "is of the scene's misalignment and helix slopes",
+        ),
         (CROWNED, 12.33, 0.0, "is of helix slopes of tolerance class 6 (method C), which this run has not"),
     ):
         results.save(result.assign_attrs(scene=helical_scene(more).text), tmp_path / "run.nc")

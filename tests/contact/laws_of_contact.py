@@ -13,11 +13,7 @@ def project(normal, tangential, u_n, gap, slip, r_n, r_t, friction):
 
 
 def law_residual(
-    forces: np.ndarray,
-    displacement: np.ndarray,
-    gap: np.ndarray,
-    slip_before: np.ndarray | None,
-    friction: float,
+    forces: np.ndarray, displacement: np.ndarray, gap: np.ndarray, slip_before: np.ndarray | None, friction: float
 ) -> dict[str, float]:
     """How far a solution misses the contact laws: penetration and stick slip (mm), tension and cone excess (N).
 

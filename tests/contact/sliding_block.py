@@ -1,4 +1,5 @@
-"""A march without gears: contact nodes that keep their place while the flanks slide over one another at constant speed."""
+"""A march without gears: contact nodes that keep their place while the flanks slide over one another at constant
+speed."""
 
 from __future__ import annotations
 
@@ -16,7 +17,8 @@ from fenics_gears.dynamics.steps import Record
 
 
 class SlidingBlock:
-    """The contact of a step problem at any time; a whole step slides by its `slip_before`. `solved`: length of every step tried."""
+    """The contact of a step problem at any time; a whole step slides by its `slip_before`. `solved`: length of every
+    step tried."""
 
     traits = CycleTraits(divisible=True)
     face = None
@@ -46,7 +48,8 @@ class SlidingBlock:
 
 
 def block_at_rest(problem: StepProblem, status: np.ndarray) -> tuple[Marcher, Record]:
-    """A block whose first step of 1 ms is the problem, by its mass, and its state before: at rest, unloaded, sets `status` (n,)."""
+    """A block whose first step of 1 ms is the problem, by its mass, and its state before: at rest, unloaded, sets
+    `status` (n,)."""
     step, k = 1e-3, len(problem.load)
     mass = 0.25 * step**2 * problem.stiffness
     names = ("rotation_2", "centre_x1", "centre_y1")[:k]

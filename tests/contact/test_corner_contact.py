@@ -31,18 +31,24 @@ def beyond(pair, tip, by):
 @pytest.mark.parametrize("tip", TIPS)
 @pytest.mark.parametrize("by", [0.1, 0.5, 1.0, 2.0])
 def test_the_mate_turned_by_the_gap_touches_the_tip(by, tip, radius, stand_in_flanks, paper_pair):
-    """Brute force: the mate's outline turned until it meets the tip's edge; an involute moves by rb phi along its normal."""
+    """Brute force: the mate's outline turned until it meets the tip's edge; an involute moves by rb phi along its
+    normal."""
     corner, place = corner_contact(paper_pair, radius), beyond(paper_pair, tip, by)
     nodes = corner_pair(stand_in_flanks, FINE, corner, place)
     mate, curves = 1 - tip, placed(paper_pair, corner.edges, place)
     turn = rotation_to_touch(curves[mate], curves[tip], centres(paper_pair)[mate])
-    assert nodes.gap.min() == pytest.approx((paper_pair.pinion, paper_pair.wheel)[mate].base_radius * turn, rel=2e-4, abs=1e-7)
+    assert nodes.gap.min() == pytest.approx(
+        (paper_pair.pinion, paper_pair.wheel)[mate].base_radius * turn, rel=2e-4, abs=1e-7
+    )
 
 
 @pytest.mark.parametrize("by", [0.1, 0.5, 1.0])
 def test_the_wheel_turned_by_the_gap_touches_the_edge_of_an_undercut_flank(by, stand_in_flanks, paper_pair):
-    """Brute force, as for tips: before the path of contact the edge at the form circle of an undercut pinion meets the wheel's flank."""
-    pinion = replace(paper_pair.pinion, teeth=12, profile_shift=0.0, tip_radius=31.5, root_radius=21.375, bore_radius=10.0)
+    """Brute force, as for tips: before the path of contact the edge at the form circle of an undercut pinion meets the
+    wheel's flank."""
+    pinion = replace(
+        paper_pair.pinion, teeth=12, profile_shift=0.0, tip_radius=31.5, root_radius=21.375, bore_radius=10.0
+    )
     pair = replace(paper_pair, pinion=pinion, centre_distance=82.0)
     assert pinion.undercut and pair.path_start > pair.tip_positions[0] + 1.0
     corner, place = corner_contact(pair), drive_place(pair, 0, pair.path_start - by)
@@ -56,7 +62,8 @@ def test_the_wheel_turned_by_the_gap_touches_the_edge_of_an_undercut_flank(by, s
 @pytest.mark.parametrize("error", [0.01, 0.04])
 @pytest.mark.parametrize("tip", TIPS)
 def test_a_pitch_error_lets_the_tip_touch_where_the_outlines_do(tip, error, radius, stand_in_flanks, paper_pair):
-    """Brute force: rigid gears, the mate's tooth `error` mm of base arc ahead; outlines first meet where the gap says."""
+    """Brute force: rigid gears, the mate's tooth `error` mm of base arc ahead; outlines first meet where the gap
+    says."""
     corner, mate = corner_contact(paper_pair, radius), 1 - tip
     base = (paper_pair.pinion, paper_pair.wheel)[mate].base_radius
 
@@ -75,7 +82,8 @@ def test_a_pitch_error_lets_the_tip_touch_where_the_outlines_do(tip, error, radi
 @pytest.mark.parametrize("radius", RADII)
 @pytest.mark.parametrize("tip", TIPS)
 def test_rigid_motions_change_the_gap_as_the_outlines_say(tip, radius, stand_in_flanks, paper_pair):
-    """Brute force: central differences of the least distance between both outlines by all six motions of the centres."""
+    """Brute force: central differences of the least distance between both outlines by all six motions of the
+    centres."""
     corner, place = corner_contact(paper_pair, radius), beyond(paper_pair, tip, 0.9)
     cycle = MeshCycle(stand_in_flanks, GRID, STEPS, ALL, tangential=False, corner=corner)
     pairs = (corner_pair(stand_in_flanks, GRID, corner, place),)
@@ -102,7 +110,8 @@ def test_the_gap_is_the_outlines_distance(tip, stand_in_flanks, paper_pair):
 
 
 def test_on_the_path_of_contact_nothing_changes(stand_in_flanks, paper_pair):
-    """Exact: with sharp tips, pairs between start and end of the path have the same equations with corner contact and without."""
+    """Exact: with sharp tips, pairs between start and end of the path have the same equations with corner contact and
+    without."""
     corner = corner_contact(paper_pair)
     for xi in np.linspace(paper_pair.path_start + 1e-9, paper_pair.path_end - 1e-9, 9):
         place = drive_place(paper_pair, 0, xi)
@@ -117,7 +126,8 @@ def test_on_the_path_of_contact_nothing_changes(stand_in_flanks, paper_pair):
 @pytest.mark.parametrize("radius", RADII)
 @pytest.mark.parametrize("tip", TIPS)
 def test_nothing_jumps_where_the_edge_leaves_the_path(tip, radius, stand_in_flanks, paper_pair):
-    """Limit: either line is the line of action where the edge's arc begins to carry; gap, arms and direction are continuous."""
+    """Limit: either line is the line of action where the edge's arc begins to carry; gap, arms and direction are
+    continuous."""
     corner, gears = corner_contact(paper_pair, radius), (paper_pair.pinion, paper_pair.wheel)
     roll, base = corner.edges[tip].flank_roll, gears[tip].base_radius
     xi = base * roll if tip == 0 else paper_pair.line_of_action_length - base * roll
@@ -153,7 +163,8 @@ def test_compliance_is_symmetric_positive_definite(cycle):
 
 
 def test_action_equals_reaction_off_the_line_of_action(cycle, paper_pair):
-    """Newton's third law, exactly: any nodal forces leave no force on both gears together, and no moment about any point."""
+    """Newton's third law, exactly: any nodal forces leave no force on both gears together, and no moment about any
+    point."""
     radii = np.array([paper_pair.pinion.base_radius, paper_pair.wheel.base_radius])
     for step in corner_steps(cycle):
         operator = cycle.position(step).operator
@@ -162,11 +173,14 @@ def test_action_equals_reaction_off_the_line_of_action(cycle, paper_pair):
         (fx, fy, couple), (gx, gy, other) = on_gears
         apart = centres(paper_pair)[1] - centres(paper_pair)[0]
         assert [fx + gx, fy + gy] == pytest.approx([0.0, 0.0], abs=1e-10 * np.abs(forces).sum())
-        assert couple + other + apart[0] * gy - apart[1] * gx == pytest.approx(0.0, abs=1e-10 * np.abs(forces).sum() * radii.sum())
+        assert couple + other + apart[0] * gy - apart[1] * gx == pytest.approx(
+            0.0, abs=1e-10 * np.abs(forces).sum() * radii.sum()
+        )
 
 
 def test_without_motion_between_steps_the_earlier_displacement_is_the_present_one(stand_in_flanks, paper_pair):
-    """Limit: as the step goes to zero, E tends to the tangential rows of C and previous_jacobian to those of G, to first order."""
+    """Limit: as the step goes to zero, E tends to the tangential rows of C and previous_jacobian to those of G, to
+    first order."""
     differences, corner = [], corner_contact(paper_pair, 0.1)
     for steps in (2000, 4000):
         fine = MeshCycle(stand_in_flanks, GRID, steps, ALL, tangential=True, corner=corner)
@@ -174,17 +188,21 @@ def test_without_motion_between_steps_the_earlier_displacement_is_the_present_on
         operator, before = fine.position(at).operator, fine.position(at - 1).operator
         assert any(pair.place.line for pair in operator.pairs) and before.nodes == operator.nodes
         n = operator.nodes
-        differences.append((
-            np.abs(operator.previous_compliance - operator.compliance[n:]).max() / np.abs(operator.compliance).max(),
-            np.abs(operator.previous_jacobian - operator.jacobian[n:]).max(),
-        ))
+        differences.append(
+            (
+                np.abs(operator.previous_compliance - operator.compliance[n:]).max()
+                / np.abs(operator.compliance).max(),
+                np.abs(operator.previous_jacobian - operator.jacobian[n:]).max(),
+            )
+        )
     coarse, fine = np.array(differences)
     assert np.all(fine < 0.01)
     assert coarse / fine == pytest.approx([2.0, 2.0], rel=0.1)
 
 
 def test_coast_flanks_are_seen_in_the_mirror(paper_pair):
-    """Exact: with both flanks' contact rolls alike, a coast pair's corner line has the drive pair's arms, its axes mirrored."""
+    """Exact: with both flanks' contact rolls alike, a coast pair's corner line has the drive pair's arms, its axes
+    mirrored."""
     corner, place = corner_contact(paper_pair, 0.1), beyond(paper_pair, 0, 0.7)
     coast = replace(coast_place(paper_pair, 0, 0.0), contact_rolls=place.contact_rolls)
     drive_corner, coast_corner = corner_place(paper_pair, corner, place), corner_place(paper_pair, corner, coast)
@@ -194,7 +212,8 @@ def test_coast_flanks_are_seen_in_the_mirror(paper_pair):
 
 
 def test_tips_reach_further_than_a_short_window(paper_pair):
-    """The paper's window of 1.5 mm ends 0.75 mm off the line; a tip edge may touch as far beyond the path as the window is long."""
+    """The paper's window of 1.5 mm ends 0.75 mm off the line; a tip edge may touch as far beyond the path as the window
+    is long."""
     short, corner = ContactGrid(1.5, 20), corner_contact(paper_pair)
     assert pair_reaches(paper_pair, short, corner, beyond(paper_pair, 0, 1.4))
     assert not pair_reaches(paper_pair, short, corner, beyond(paper_pair, 0, 1.6))

@@ -27,7 +27,16 @@ def cycle_of(flanks, helix):
     pair = replace(flanks.pair, helix=helix, axial_offsets=(1.0, -2.0), own_face_widths=(18.0, 20.0))
     face = Face(*even_slices(pair.face_width, SLICES), pair.slope, pair.gear_middles)
     bodies = tuple(stand_in_body(gear, width) for gear, width in zip((pair.pinion, pair.wheel), pair.face_widths))
-    return FaceCycle(replace(flanks, pair=pair), bodies, face, lambda heights, positions: np.zeros(len(heights)), ContactGrid(2.0, 8), STEPS, [5], False)
+    return FaceCycle(
+        replace(flanks, pair=pair),
+        bodies,
+        face,
+        lambda heights, positions: np.zeros(len(heights)),
+        ContactGrid(2.0, 8),
+        STEPS,
+        [5],
+        False,
+    )
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +58,8 @@ def heights(position):
 
 @pytest.mark.parametrize("gear", [0, 1])
 def test_a_spur_gear_that_wobbles_is_eccentric_in_each_slice(spur, gear):
-    """Exact: a section of a spur gear at the height h from mid-width is off its axis by wobble h/width, in the wobble's direction."""
+    """Exact: a section of a spur gear at the height h from mid-width is off its axis by wobble h/width, in the wobble's
+    direction."""
     pair, offsets = spur.pair, [None, None]
     offsets[gear] = Offset(wobble=WOBBLE, wobble_phase=PHASE)
     wobbling = WobblingRunOut(pair, Eccentricity(*offsets), STEPS)
@@ -66,7 +76,8 @@ def test_a_spur_gear_that_wobbles_is_eccentric_in_each_slice(spur, gear):
 
 @pytest.mark.parametrize("gear", [0, 1])
 def test_flanks_of_a_helical_gear_move_with_its_leaning_axis(helical, gear):
-    """Rigid motion: the axis of the teeth leans by wobble over the width; points of the flank move across it and, by their distance from the axis, along it."""
+    """Rigid motion: the axis of the teeth leans by wobble over the width; points of the flank move across it and, by
+    their distance from the axis, along it."""
     pair, offsets, step = helical.pair, [None, None], 23
     offsets[gear] = Offset(wobble=WOBBLE, wobble_phase=PHASE)
     position = helical.position(step)
@@ -78,7 +89,8 @@ def test_flanks_of_a_helical_gear_move_with_its_leaning_axis(helical, gear):
         for arm_1, arm_2 in zip(nodes.pinion_lever_arm, nodes.wheel_lever_arm):
             x, y = ((arm_1, -pair.pinion.base_radius), (-arm_2, pair.wheel.base_radius))[gear]
             z = nodes.place.height - pair.gear_middles[gear]
-            # The axis at z is off by lean z; the end faces tilt against it, so that points ahead in the lean's direction go down.
+            # The axis at z is off by lean z; the end faces tilt against it, so that points ahead in the lean's
+            # direction go down.
             motion = lean * z - np.array([0.0, 0.0, lean[0] * x + lean[1] * y])
             along = motion @ np.array([1.0, 0.0, -pair.slope])
             expected.append(-sense * along)
@@ -93,10 +105,14 @@ def test_a_gear_without_wobble_runs_out_as_before(helical):
     np.testing.assert_array_equal(*both)
 
 
-@pytest.mark.parametrize(("name", "shape"), [("helix_slope", lambda along: along - 0.5), ("helix_form", lambda along: -0.5 * np.cos(2.0 * np.pi * along))])
+@pytest.mark.parametrize(
+    ("name", "shape"),
+    [("helix_slope", lambda along: along - 0.5), ("helix_form", lambda along: -0.5 * np.cos(2.0 * np.pi * along))],
+)
 @pytest.mark.parametrize("gear", [0, 1])
 def test_helix_deviations_are_material_over_the_gears_own_face(helical, name, shape, gear):
-    """Definition: slope rises by its value from the left end of the gear's face to the right one, form is one wave as wide as its value; each tooth has its own."""
+    """Definition: slope rises by its value from the left end of the gear's face to the right one, form is one wave as
+    wide as its value; each tooth has its own."""
     pair, step = helical.pair, 2 * STEPS + 4
     teeth, width, sense = ((pair.pinion.teeth, 18.0, 1), (pair.wheel.teeth, 20.0, 1))[gear]
     values = 0.001 * np.arange(1.0, teeth + 1.0)
@@ -124,7 +140,8 @@ class OnTheLine:
 
 @pytest.mark.parametrize("gear", [0, 1])
 def test_waves_run_along_the_lines_of_contact(helical, gear):
-    """Definition: an undulation around the gear has one phase along a line of contact, that of the turn that brings its points there."""
+    """Definition: an undulation around the gear has one phase along a line of contact, that of the turn that brings its
+    points there."""
     pair, step, waves, amplitude = helical.pair, 6, 40, 0.001
     errors = [GearErrors(), GearErrors()]
     errors[gear] = GearErrors(waviness=Waviness(amplitude, waves, 0.2))
@@ -132,11 +149,17 @@ def test_waves_run_along_the_lines_of_contact(helical, gear):
     found = flank_gaps(FlankErrors(*errors), pair, STEPS, helical.face)(step, position)
     for index in {each.place.index for each in position.pairs}:
         own = [place for place, each in enumerate(position.pairs) if each.place.index == index]
-        line = [each.place.contact_rolls[0] * pair.pinion.base_radius - pair.slope * each.place.height for each in position.pairs if each.place.index == index]
+        line = [
+            each.place.contact_rolls[0] * pair.pinion.base_radius - pair.slope * each.place.height
+            for each in position.pairs
+            if each.place.index == index
+        ]
         assert np.ptp(line) < 1e-12 and len(own) > 1
         tooth = -index % (pair.pinion.teeth, pair.wheel.teeth)[gear]
         if gear == 0:
             angle = waves * (line[0] / pair.pinion.base_radius + tooth * pair.pinion.angular_pitch)
         else:
-            angle = waves * ((pair.line_of_action_length - line[0]) / pair.wheel.base_radius - tooth * pair.wheel.angular_pitch)
+            angle = waves * (
+                (pair.line_of_action_length - line[0]) / pair.wheel.base_radius - tooth * pair.wheel.angular_pitch
+            )
         assert found[own] == pytest.approx(-amplitude * np.cos(angle + 0.2), abs=1e-12)

@@ -44,7 +44,8 @@ def certified(problem, sigma, stiffness=None):
 
 @pytest.mark.parametrize("free", [False, True], ids=["held", "free"])
 def test_a_certified_solution_is_the_only_one(free):
-    """Brute force: with the slip directions given, all 2^4 sets of closed nodes of 1500 problems leave at most one solution where the
+    """Brute force: with the slip directions given, all 2^4 sets of closed nodes of 1500 problems leave at most one
+    solution where the
     certificate says so, and sometimes two where it does not."""
     most = {True: 0, False: 0}
     count = {True: 0, False: 0}
@@ -52,7 +53,8 @@ def test_a_certified_solution_is_the_only_one(free):
         rng = np.random.default_rng(seed)
         problem = random_problem(seed, 4, float(rng.uniform(0.05, 1.5)), coordinates=2, free=free)
         if free:
-            # Arms of friction as gears have them: most of friction's moments are smaller than those of the normal forces.
+            # Arms of friction as gears have them: most of friction's moments are smaller than those of the normal
+            # forces.
             problem.jacobian[4:, 0] *= 0.3
         sigma = rng.choice([-1.0, 1.0], 4)
         says = certified(problem, sigma)
@@ -70,21 +72,29 @@ def test_solutions_judged_together_are_judged_as_each_by_itself(free):
     for _ in range(20):
         solved = []
         for seed in range(6):
-            problem, status = random_problem(seed, 6, friction, coordinates=2, free=free), rng.choice([OPEN, STICK, SLIP_FORWARD, SLIP_BACKWARD], 6)
+            problem, status = (
+                random_problem(seed, 6, friction, coordinates=2, free=free),
+                rng.choice([OPEN, STICK, SLIP_FORWARD, SLIP_BACKWARD], 6),
+            )
             operator = SimpleNamespace(compliance=problem.compliance, jacobian=problem.jacobian)
             normal = rng.uniform(1.0, 2.0, 6)
-            solved += [(operator, status.astype(np.int8), np.concatenate((normal, 0.5 * friction * normal)))] * (1 + seed % 2)
+            solved += [(operator, status.astype(np.int8), np.concatenate((normal, 0.5 * friction * normal)))] * (
+                1 + seed % 2
+            )
         alone = 0
         for operator, status, forces in solved:
             sigma = np.select([status == SLIP_BACKWARD, status == STICK], [-1.0, 0.5], 1.0)
-            alone += not is_only_solution(stiffness, operator.compliance, operator.jacobian, friction, status != OPEN, sigma)
+            alone += not is_only_solution(
+                stiffness, operator.compliance, operator.jacobian, friction, status != OPEN, sigma
+            )
         assert uncertified(stiffness, friction, solved) == alone
         counts.append(alone)
     assert 0 < sum(counts) < 20 * 9
 
 
 def test_a_load_held_by_contact_alone_is_the_limit_of_a_soft_spring():
-    """Known limit: a singular stiffness has the certificate of a spring of 1e-6, and of 1e-9, of the others along the free motion."""
+    """Known limit: a singular stiffness has the certificate of a spring of 1e-6, and of 1e-9, of the others along the
+    free motion."""
     verdicts = set()
     for seed in range(200):
         problem = random_problem(seed, 4, 0.4, coordinates=2, free=True)
@@ -98,7 +108,8 @@ def test_a_load_held_by_contact_alone_is_the_limit_of_a_soft_spring():
 
 
 def one_node(friction, coupling=0.0, load=100.0, stiffness=0.0, arm=0.0, gap=0.0):
-    """One node that slips backward, so far by 1 mm; `arm`: of friction against the load; `coupling`: elastic, normal to tangential."""
+    """One node that slips backward, so far by 1 mm; `arm`: of friction against the load; `coupling`: elastic, normal to
+    tangential."""
     free = stiffness == 0.0
     return StepProblem(
         stiffness=np.array([[stiffness]]),
@@ -122,7 +133,8 @@ def test_friction_against_the_load_raises_the_normal_force(friction):
 
 @pytest.mark.parametrize("friction", [1.0, 1.5, 2.0])
 def test_friction_that_undoes_the_normal_force_locks(friction):
-    """Exact: from mu a = 1 on the node sticks and jams, with the force that the slip asks for, 1 mm over 3e-6 mm/N, not the load."""
+    """Exact: from mu a = 1 on the node sticks and jams, with the force that the slip asks for, 1 mm over 3e-6 mm/N, not
+    the load."""
     problem = one_node(friction, arm=1.0)
     solution = solve_step(problem, all_open(problem))
     assert solution.status[0] == STICK
@@ -142,7 +154,8 @@ def test_friction_that_undoes_the_normal_force_locks(friction):
     ],
 )
 def test_a_step_that_locks_without_a_solution_is_named(seed, nodes, words):
-    """Of 100 000 random problems (test_step_solver) the 18 without a solution say self-locking; two of them, by either reason.
+    """Of 100 000 random problems (test_step_solver) the 18 without a solution say self-locking; two of them, by either
+    reason.
 
     The arms of forces say so by themselves: friction along the slip outweighs the normal forces.
     """
@@ -155,7 +168,8 @@ def test_a_step_that_locks_without_a_solution_is_named(seed, nodes, words):
 
 
 def test_two_solutions_are_not_certified():
-    """Exact: where friction pulls the flanks together by more than the normal force parts them (mu c_nt > c_nn) an open gap of g
+    """Exact: where friction pulls the flanks together by more than the normal force parts them (mu c_nt > c_nn) an open
+    gap of g
     has two solutions, p = 0 and p = g/(mu c_nt - c_nn - 1/k)."""
     problem = one_node(2.0, coupling=1.2, load=0.0, stiffness=1e9, gap=1e-3)
     problem = replace(problem, tolerance=Tolerance.of_load(1e3))
@@ -171,7 +185,8 @@ def test_two_solutions_are_not_certified():
 
 
 def test_an_error_without_a_certificate_says_more_than_one_solution():
-    """Message, on its own: no step of the search needs it, all 18 failures locking. Given to the explanation as failed, problems that
+    """Message, on its own: no step of the search needs it, all 18 failures locking. Given to the explanation as failed,
+    problems that
     have two solutions by enumeration, while no single node locks, are named for that."""
     named = 0
     for seed in range(1500):

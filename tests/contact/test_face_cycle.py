@@ -37,7 +37,9 @@ def face_cycle(model, face, opening=no_opening, grid=GRID, steps=STEPS):
     gears = (model.pair.pinion, model.pair.wheel)
     flanks = Flanks(model.pair, tuple(map(stand_in_compliance, gears)))
     bodies = tuple(stand_in_body(gear, WIDTH) for gear in gears)
-    return FaceCycle(flanks, bodies, face, opening, grid, steps, model.drivetrain.indices, model.scene.friction is not None)
+    return FaceCycle(
+        flanks, bodies, face, opening, grid, steps, model.drivetrain.indices, model.scene.friction is not None
+    )
 
 
 def plane_cycle(model, grid=GRID):
@@ -55,7 +57,8 @@ def errors(records):
 
 @pytest.mark.parametrize("slices", [1, 4])
 def test_a_spur_pair_is_the_plane_one(model, slices):
-    """Identity: where nothing varies along the face, and the body's section is rigid along it, slices are the plane pair side by side."""
+    """Identity: where nothing varies along the face, and the body's section is rigid along it, slices are the plane
+    pair side by side."""
     face, plane = marched(model, face_cycle(model, face_of(slices))), marched(model, plane_cycle(model))
     np.testing.assert_allclose(errors(face), errors(plane), rtol=1e-12)
     record, of_plane = face[7], plane[7]
@@ -67,7 +70,9 @@ def test_a_spur_pair_is_the_plane_one(model, slices):
 def test_a_shorter_window_where_no_edge_is_near_changes_nothing(model):
     """Exact: flanks do not touch outside it, so that the same nodes carry."""
     face = face_of(5, slope=0.2)
-    whole, inner = (marched(model, face_cycle(model, face, grid=grid)) for grid in (GRID, replace(GRID, inner_length=1.6)))
+    whole, inner = (
+        marched(model, face_cycle(model, face, grid=grid)) for grid in (GRID, replace(GRID, inner_length=1.6))
+    )
     assert inner[3].position.operator.nodes < 0.7 * whole[3].position.operator.nodes
     np.testing.assert_allclose(errors(inner), errors(whole), rtol=1e-11)
 
@@ -94,7 +99,8 @@ def _by_slice(record, slices):
 
 
 def test_any_start_and_a_whole_cycle_ahead(model):
-    """Identity: a face so wide that its ends are whole mesh cycles apart has the same pairs at either end, under other numbers."""
+    """Identity: a face so wide that its ends are whole mesh cycles apart has the same pairs at either end, under other
+    numbers."""
     positions = np.array([-7.25, 7.25])
     cycle = face_cycle(model, Face(positions, np.array([0.5, 0.5]), model.pair.base_pitch / np.ptp(positions)))
     by_slice = [[pair for pair in cycle.pairs_at(5) if pair.place.slice == number] for number in (0, 1)]
@@ -104,7 +110,8 @@ def test_any_start_and_a_whole_cycle_ahead(model):
 
 
 def test_torques_are_as_the_tooth_numbers_and_axial_forces_as_the_helix(model):
-    """Statics: without friction T1/rb1 = T2/rb2 = the forces' transverse part; the axial part is its tangent of the base helix angle."""
+    """Statics: without friction T1/rb1 = T2/rb2 = the forces' transverse part; the axial part is its tangent of the
+    base helix angle."""
     if model.scene.friction is not None:
         pytest.skip("without friction")
     cycle = face_cycle(model, face_of(5, slope=0.2))
@@ -112,10 +119,19 @@ def test_torques_are_as_the_tooth_numbers_and_axial_forces_as_the_helix(model):
     operator, pair = record.position.operator, model.pair
     from fenics_gears.contact.operator import COORDINATES, displacement_jacobian
 
-    rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, False, face=cycle.face)
+    rows = displacement_jacobian(
+        operator.pairs, operator.base_radii, operator.normal_lever_arms, False, face=cycle.face
+    )
     reaction = dict(zip(COORDINATES, rows.T @ record.solution.forces))
     transverse = model.scene.load.wheel_torque / pair.wheel.base_radius
-    for name, value in (("rotation_1", 1.0), ("rotation_2", 1.0), ("centre_x1", 1.0), ("centre_x2", -1.0), ("axial_1", -0.2), ("axial_2", 0.2)):
+    for name, value in (
+        ("rotation_1", 1.0),
+        ("rotation_2", 1.0),
+        ("centre_x1", 1.0),
+        ("centre_x2", -1.0),
+        ("axial_1", -0.2),
+        ("axial_2", 0.2),
+    ):
         assert abs(reaction[name]) == pytest.approx(abs(value) * transverse, rel=1e-12), name
     assert reaction["axial_1"] == pytest.approx(-reaction["axial_2"], rel=1e-12)
 

@@ -25,13 +25,23 @@ def groups(random):
 
 def views_of(gear, seen, axes, plane_axes):
     first = seen.firsts[gear]
-    return Views(TEETH, IN_SLICES, seen.widths[gear], seen.places[gear], 3 * (NODES * IN_SLICES + first), 2 * first, axes, plane_axes)
+    return Views(
+        TEETH,
+        IN_SLICES,
+        seen.widths[gear],
+        seen.places[gear],
+        3 * (NODES * IN_SLICES + first),
+        2 * first,
+        axes,
+        plane_axes,
+    )
 
 
 @pytest.mark.parametrize("kinds", [1, 2])
 @pytest.mark.parametrize("whole", [True, False], ids=["symmetric", "rows and columns"])
 def test_products_are_those_of_whole_matrices(kinds, whole):
-    """Brute force: every group's weights over all flank nodes and directions, times the whole blocks less the sections in the same slice."""
+    """Brute force: every group's weights over all flank nodes and directions, times the whole blocks less the sections
+    in the same slice."""
     random = np.random.default_rng(5)
     rows = groups(random)
     columns = rows if whole else groups(random)
@@ -41,15 +51,37 @@ def test_products_are_those_of_whole_matrices(kinds, whole):
     expected = np.zeros((kinds, 12, kinds, 12))
     for gear in range(2):
         blocks, sections = symmetric(random, 3 * NODES * SLICES), symmetric(random, 2 * NODES)
-        axes, plane_axes = random.standard_normal((len(TEETH), kinds, 3)), random.standard_normal((len(TEETH), kinds, 2))
-        add_between_seen(blocks, sections, shares, views_of(gear, seen, axes, plane_axes), views_of(gear, of_columns, axes, plane_axes), whole, between)
+        axes, plane_axes = (
+            random.standard_normal((len(TEETH), kinds, 3)),
+            random.standard_normal((len(TEETH), kinds, 2)),
+        )
+        add_between_seen(
+            blocks,
+            sections,
+            shares,
+            views_of(gear, seen, axes, plane_axes),
+            views_of(gear, of_columns, axes, plane_axes),
+            whole,
+            between,
+        )
         for p, q in np.ndindex(len(TEETH), len(TEETH)):
             number = OFFSETS + TEETH[p] - TEETH[q]
             block = blocks[number].reshape(SLICES, NODES, 3, SLICES, NODES, 3)[IN_SLICES[p], :, :, IN_SLICES[q]]
-            seen_there = np.einsum("ni,da,iajb,eb,mj->dnem", rows[p][gear].weights, axes[p], block, axes[q], columns[q][gear].weights)
+            seen_there = np.einsum(
+                "ni,da,iajb,eb,mj->dnem", rows[p][gear].weights, axes[p], block, axes[q], columns[q][gear].weights
+            )
             if IN_SLICES[p] == IN_SLICES[q]:
                 section = sections[number].reshape(NODES, 2, NODES, 2)
-                plane = np.einsum("ni,da,iajb,eb,mj->dnem", rows[p][gear].weights, plane_axes[p], section, plane_axes[q], columns[q][gear].weights)
+                plane = np.einsum(
+                    "ni,da,iajb,eb,mj->dnem",
+                    rows[p][gear].weights,
+                    plane_axes[p],
+                    section,
+                    plane_axes[q],
+                    columns[q][gear].weights,
+                )
                 seen_there -= shares[IN_SLICES[p]] * plane
             expected[:, 3 * p : 3 * p + 3, :, 3 * q : 3 * q + 3] += seen_there
-    np.testing.assert_allclose(at_contact_nodes(between, seen, of_columns, whole), expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max())
+    np.testing.assert_allclose(
+        at_contact_nodes(between, seen, of_columns, whole), expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max()
+    )

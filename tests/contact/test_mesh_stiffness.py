@@ -23,7 +23,8 @@ LOAD = 7e3
 def statics(operator, load):
     """The static solution under a force (N) along the line of action on the wheel, which turns freely."""
     problem = StepProblem(
-        stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=operator.compliance, jacobian=operator.jacobian, gap=operator.gap,
+        stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=operator.compliance, jacobian=operator.jacobian,
+        gap=operator.gap,
         slip_before=np.empty(0), friction=0.0, free_motion=np.ones(1), tolerance=Tolerance.of_load(load),
     )  # fmt: skip
     return solve_step(problem, cold_start(operator.gap, operator.node_pair))
@@ -46,7 +47,8 @@ def cycle(stand_in_flanks):
 
 @pytest.mark.parametrize("step", [0, 6, 11, 17])
 def test_tangent_is_the_finite_difference_of_load_over_rotation(cycle, step):
-    """Brute force: two static solutions at loads a millionth apart, dF over the difference of the wheel's arc rb2 phi2."""
+    """Brute force: two static solutions at loads a millionth apart, dF over the difference of the wheel's arc rb2
+    phi2."""
     operator = cycle.position(step).operator
     softer, harder = (statics(operator, LOAD * (1.0 + part)) for part in (-1e-6, 1e-6))
     assert np.array_equal(softer.status, harder.status)
@@ -56,7 +58,8 @@ def test_tangent_is_the_finite_difference_of_load_over_rotation(cycle, step):
 
 @pytest.mark.parametrize("step", [0, 11])
 def test_secant_is_the_mean_of_the_tangents_from_no_load_on(cycle, step):
-    """Identity: F/delta is the harmonic mean over the load of dF/ddelta, delta being the integral of dF over it (midpoint rule)."""
+    """Identity: F/delta is the harmonic mean over the load of dF/ddelta, delta being the integral of dF over it
+    (midpoint rule)."""
     operator, parts = cycle.position(step).operator, 400
     found = [stiffness(operator, statics(operator, LOAD * (i + 0.5) / parts)) for i in range(parts)]
     softness = np.mean([1.0 / each.tangent for each in found])
@@ -65,7 +68,8 @@ def test_secant_is_the_mean_of_the_tangents_from_no_load_on(cycle, step):
 
 
 def test_pairs_that_carry(cycle):
-    """Definition of the contact ratio, 1.47: half of the mesh cycle two pairs carry, then one; stiffness falls as the second leaves."""
+    """Definition of the contact ratio, 1.47: half of the mesh cycle two pairs carry, then one; stiffness falls as the
+    second leaves."""
     found = [stiffness(cycle.position(step).operator, statics(cycle.position(step).operator, LOAD)) for step in (4, 15)]
     assert [each.pairs for each in found] == [2, 1]
     assert found[0].secant > 1.2 * found[1].secant and found[0].tangent > 1.2 * found[1].tangent
@@ -73,7 +77,9 @@ def test_pairs_that_carry(cycle):
 
 def test_springs_have_the_stiffness_that_they_are_given(quasi_static_scene):
     """ISO 6336-1: of its model of the mesh, c' b (0.75 n + 0.25) with n pairs in mesh, tangent and secant alike."""
-    scene = replace(quasi_static_scene, friction=None, shafts=None, bearings=None, accuracy=replace(COARSE, model="ISO 6336-1"))
+    scene = replace(
+        quasi_static_scene, friction=None, shafts=None, bearings=None, accuracy=replace(COARSE, model="ISO 6336-1")
+    )
     model = model_of(scene)
     springs, width = iso_cycle(model), scene.gears.face_width
     single = pair_stiffness(scene.gears, scene.load.wheel_torque / model.pair.wheel.base_radius / width)
@@ -87,5 +93,7 @@ def test_springs_have_the_stiffness_that_they_are_given(quasi_static_scene):
 def test_no_stiffness_where_nothing_touches(cycle):
     """Definition."""
     operator = cycle.position(3).operator
-    nothing = SimpleNamespace(forces=np.zeros(operator.nodes), status=np.zeros(operator.nodes, dtype=np.int8), coordinates=np.zeros(1))
+    nothing = SimpleNamespace(
+        forces=np.zeros(operator.nodes), status=np.zeros(operator.nodes, dtype=np.int8), coordinates=np.zeros(1)
+    )
     assert stiffness(operator, nothing) == SimpleNamespace(secant=0.0, tangent=0.0, pairs=0)

@@ -29,7 +29,8 @@ def test_frictionless_step_is_the_minimum_of_the_energy(seed, nodes):
 
 
 def test_frictional_step_against_enumeration_of_all_sets():
-    """Brute force: of all 4^4 sets the solution is one that satisfies every law; with small friction it is the only one."""
+    """Brute force: of all 4^4 sets the solution is one that satisfies every law; with small friction it is the only
+    one."""
     for seed in range(12):
         problem = random_problem(seed, nodes=4, friction=0.05)
         found = []
@@ -78,7 +79,15 @@ def test_friction_tends_to_no_friction():
     """Row 10: the difference to mu = 0 is O(mu)."""
     plain = random_problem(7, friction=0.1)
     frictionless = StepProblem(
-        plain.stiffness, plain.load, plain.compliance[:8, :8], plain.jacobian[:8], plain.gap, np.empty(0), 0.0, np.empty(0), plain.tolerance
+        plain.stiffness,
+        plain.load,
+        plain.compliance[:8, :8],
+        plain.jacobian[:8],
+        plain.gap,
+        np.empty(0),
+        0.0,
+        np.empty(0),
+        plain.tolerance,
     )
     reference = solve_step(frictionless, all_open(frictionless)).forces
     scale = np.abs(reference).max()
@@ -106,7 +115,8 @@ def test_one_contact_node_is_exact():
 
 
 def test_frictionless_cycle_is_solved_one_change_at_a_time():
-    """Contact nodes closer than the elements are nearly dependent and make all-at-once changes cycle; Murty's rule ends, at NNLS's answer."""
+    """Contact nodes closer than the elements are nearly dependent and make all-at-once changes cycle; Murty's rule
+    ends, at NNLS's answer."""
     solved_by_last = 0
     for seed in range(40):
         rng = np.random.default_rng(seed)

@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
-from fenics_gears.contact.node_to_node import NodeResponse, by_direction, loaded_teeth, node_pairs, node_to_node_operator, roll_interpolation
+from fenics_gears.contact.node_to_node import (
+    NodeResponse,
+    by_direction,
+    loaded_teeth,
+    node_pairs,
+    node_to_node_operator,
+    roll_interpolation,
+)
 from fenics_gears.contact.operator import CENTRE_COORDINATES, displacement_jacobian
 from fenics_gears.contact.tooth_pair import drive_place
 from fenics_gears.contact.window import ContactGrid
@@ -17,12 +24,15 @@ NO_REMOVAL = (None, None)
 def pairs_at(pair, phase, grid=GRID, order=1):
     """The tooth pairs 0 and 1 at a phase of the mesh cycle."""
     positions = [(k, pair.path_start + (phase + k) * pair.base_pitch) for k in (0, 1)]
-    return tuple(node_pairs(pair, NO_REMOVAL, grid, order, drive_place(pair, k, xi)) for k, xi in positions if xi < pair.path_end)
+    return tuple(
+        node_pairs(pair, NO_REMOVAL, grid, order, drive_place(pair, k, xi)) for k, xi in positions if xi < pair.path_end
+    )
 
 
 @pytest.mark.parametrize("falling", [False, True])
 def test_interpolation_is_exact_for_linear_fields(falling):
-    """Exact identity: [A.2], [A.3] reproduce a field that is linear in the roll angle; at a known angle the value itself."""
+    """Exact identity: [A.2], [A.3] reproduce a field that is linear in the roll angle; at a known angle the value
+    itself."""
     known = np.array([0.31, 0.35, 0.36, 0.44])
     known = known[::-1] if falling else known
     rolls = np.array([0.31, 0.33, 0.355, 0.36, 0.43, 0.44])
@@ -43,11 +53,15 @@ def test_interpolation_says_what_it_does_not_reach():
 def test_nodes_of_both_gears_lie_on_one_line_along_the_line_of_action(order, paper_pair):
     """Exact geometry: at a contact node both meshes' nodes have the same offset, and [9] is the distance between them.
 
-    A second-order element's middle node lies on the chord, within its sagitta of the flank (Taylor: h^2/(8 rho), with some slant).
+    A second-order element's middle node lies on the chord, within its sagitta of the flank (Taylor: h^2/(8 rho), with
+    some slant).
     """
     pair, nodes = paper_pair, pairs_at(paper_pair, 0.2, order=order)[0]
     points, sagitta = [], 1e-9
-    for gear, rolls, contact in ((pair.pinion, nodes.pinion_roll, nodes.place.contact_rolls[0]), (pair.wheel, nodes.wheel_roll, nodes.place.contact_rolls[1])):
+    for gear, rolls, contact in (
+        (pair.pinion, nodes.pinion_roll, nodes.place.contact_rolls[0]),
+        (pair.wheel, nodes.wheel_roll, nodes.place.contact_rolls[1]),
+    ):
         vertices = canonical_point(gear.base_radius, rolls[::order]) @ rotation(contact).T
         placed = np.empty((len(rolls), 2))
         placed[::order] = vertices
@@ -66,7 +80,8 @@ def test_nodes_of_both_gears_lie_on_one_line_along_the_line_of_action(order, pap
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_forces_of_an_even_pressure(order, paper_pair):
-    """Exact identity: the flank lengths of the nodes integrate what the element's shape functions do, order + 1 polynomials at least."""
+    """Exact identity: the flank lengths of the nodes integrate what the element's shape functions do, order + 1
+    polynomials at least."""
     nodes = pairs_at(paper_pair, 0.5, order=order)[0]
     ends = nodes.offsets[[0, -1]]
     for power in range(order + 1 if order == 1 else 4):
@@ -75,7 +90,8 @@ def test_forces_of_an_even_pressure(order, paper_pair):
 
 
 def test_teeth_and_their_stiffness_are_in_order(paper_pair):
-    """By construction: teeth by rising angle, a pitch apart on either gear; rows come back in the order of the pairs."""
+    """By construction: teeth by rising angle, a pitch apart on either gear; rows come back in the order of the
+    pairs."""
     pairs = pairs_at(paper_pair, 0.1)
     assert len(pairs) == 2
     for gear, body in enumerate((paper_pair.pinion, paper_pair.wheel)):
@@ -106,11 +122,15 @@ def last_displacement(pair, spacing_cells, steps=40):
 
 def test_last_rigid_displacement_of_the_same_material_points(paper_pair):
     """Exact kinematics [A.4]: a rotation moves a point at x by phi x along e_y. Linear interpolation [A.2] is within
-    (spacing of roll angles)^2/8 of the largest second derivative of x/rb by the roll angle, v cos(v_c - v) - sin(v_c - v)."""
+    (spacing of roll angles)^2/8 of the largest second derivative of x/rb by the roll angle, v cos(v_c - v) - sin(v_c -
+    v)."""
     for cells in (12, 24):
         operator, now, before = last_displacement(paper_pair, cells)
         turned = paper_pair.pinion.angular_pitch / 40
-        place = canonical_point(paper_pair.pinion.base_radius, now[0].pinion_roll) @ rotation(now[0].place.contact_rolls[0] - turned).T
+        place = (
+            canonical_point(paper_pair.pinion.base_radius, now[0].pinion_roll)
+            @ rotation(now[0].place.contact_rolls[0] - turned).T
+        )
         exact = place[:, 0] / paper_pair.pinion.base_radius
         bound = np.abs(np.diff(before[0].pinion_roll)).max() ** 2 / 8.0 * (now[0].pinion_roll.max() + 0.05)
         assert 0.1 * bound < np.abs(operator.previous_jacobian[:, 2] - exact).max() < bound
@@ -127,7 +147,9 @@ def test_published_arms_are_heights(paper_pair):
     n = operator.nodes
     assert operator.jacobian[:n, 2] * radius == pytest.approx(-place[:, 1], abs=1e-9)
     assert operator.jacobian[n:, 2] * radius == pytest.approx(place[:, 0], abs=1e-9)
-    involute = displacement_jacobian(now, operator.base_radii, (np.full(n, radius), np.full(n, operator.base_radii[1])), True)
+    involute = displacement_jacobian(
+        now, operator.base_radii, (np.full(n, radius), np.full(n, operator.base_radii[1])), True
+    )
     assert np.abs(operator.jacobian[:n, 2] - involute[:n, 2]).max() == pytest.approx(0.75 / radius, rel=1e-6)
 
 

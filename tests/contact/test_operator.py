@@ -80,7 +80,8 @@ def test_earlier_rigid_motion_is_that_of_the_same_material_points(cycle, paper_p
 
 
 def test_without_motion_between_steps_the_earlier_displacement_is_the_present_one(stand_in_flanks):
-    """Limit: as the step goes to zero, E tends to the tangential rows of C and previous_jacobian to those of G, to first order."""
+    """Limit: as the step goes to zero, E tends to the tangential rows of C and previous_jacobian to those of G, to
+    first order."""
     differences = []
     for steps in (2000, 4000):
         fine = MeshCycle(stand_in_flanks, GRID, steps, ALL, tangential=True)
@@ -90,7 +91,8 @@ def test_without_motion_between_steps_the_earlier_displacement_is_the_present_on
         assert before.nodes == n
         differences.append(
             (
-                np.abs(operator.previous_compliance - operator.compliance[n:]).max() / np.abs(operator.compliance).max(),
+                np.abs(operator.previous_compliance - operator.compliance[n:]).max()
+                / np.abs(operator.compliance).max(),
                 np.abs(operator.previous_jacobian - operator.jacobian[n:]).max(),
             )
         )
@@ -125,13 +127,16 @@ def test_sliding_vanishes_at_the_pitch_point(cycle, paper_pair):
 
 
 def test_rigid_slip_over_a_step_is_exact(cycle, paper_pair):
-    """Exact: slip is the integral of the sliding speed of the two material points, here by 40 Gauss points of their circular motion."""
+    """Exact: slip is the integral of the sliding speed of the two material points, here by 40 Gauss points of their
+    circular motion."""
     advance = paper_pair.pinion.angular_pitch / STEPS
     back, weights = np.polynomial.legendre.leggauss(40)
     back, weights = 0.5 * advance * (back + 1.0), 0.5 * advance * weights
     for step in range(0, STEPS, 3):
         operator = cycle.position(step).operator
-        arm_1, arm_2, offset = (over_nodes(operator.pairs, name) for name in ("pinion_lever_arm", "wheel_lever_arm", "offsets"))
+        arm_1, arm_2, offset = (
+            over_nodes(operator.pairs, name) for name in ("pinion_lever_arm", "wheel_lever_arm", "offsets")
+        )
         height_1, height_2 = operator.base_radii[0] - offset, operator.base_radii[1] + offset
         slip, ratio = 0.0, paper_pair.rotation_ratio
         for angle, weight in zip(back, weights):
@@ -146,7 +151,9 @@ def test_every_pair_that_can_carry_is_there(paper_pair):
     for phase in np.linspace(0.0, 0.99, 34):
         positions = pair_places(paper_pair, GRID, phase)
         assert 1 <= len(positions) <= 3
-        assert np.diff([place.contact_rolls[0] for place in positions]) == pytest.approx(paper_pair.pinion.angular_pitch)
+        assert np.diff([place.contact_rolls[0] for place in positions]) == pytest.approx(
+            paper_pair.pinion.angular_pitch
+        )
 
 
 @pytest.mark.parametrize("coast", [False, True])
@@ -154,7 +161,9 @@ def test_every_pair_that_can_carry_is_there(paper_pair):
 def test_reach_holds_between_steps_too(paper_pair, coast, corner):
     """Brute force: all flanks that touch at any of 16 parts of a step, and those that did up to a step before."""
     corner, steps, parts, found = corner_contact(paper_pair) if corner else None, 20, 16, {}
-    places = {i: pair_places(paper_pair, GRID, i / (steps * parts) % 1.0, coast, corner) for i in range(-parts, steps * parts)}
+    places = {
+        i: pair_places(paper_pair, GRID, i / (steps * parts) % 1.0, coast, corner) for i in range(-parts, steps * parts)
+    }
     for i in range(steps * parts):
         for j in range(i - i % parts - (parts if i % parts == 0 else 0), i + 1):
             passed = 1 if j < 0 else 0

@@ -16,14 +16,17 @@ from fenics_gears.contact.window import ContactGrid
 @pytest.mark.parametrize("coast", [False, True])
 @pytest.mark.parametrize("interpolation", [AVERAGED, COLLOCATED])
 def test_positions_are_those_of_a_mesh_cycle_of_the_same_flanks(paper_pair, coast, interpolation):
-    """Authority: exact identity; whatever the other cycle's own reliefs are, also where operators are made again for want of memory, and between steps."""
+    """Authority: exact identity; whatever the other cycle's own reliefs are, also where operators are made again for
+    want of memory, and between steps."""
     bodies = tuple(stand_in_compliance(gear, coast_flank=coast) for gear in (paper_pair.pinion, paper_pair.wheel))
     flanks, grid = Flanks(paper_pair, bodies, (lambda roll: 0.03 * roll**2, None)), ContactGrid(1.5, 20, interpolation)
     other = replace(flanks, removal=(lambda roll: 0.01 * roll, lambda roll: 0.02 * np.cos(roll)))
     alone, cycle = (MeshCycle(each, grid, 8, [2, 5], tangential=True) for each in (flanks, other))
     cycle.kept.most = 2.5 * cycle.position(0).bytes / 0.7
     relieved = RelievedCycle(cycle, flanks.removal)
-    pairs = [(relieved.position(step), alone.position(step)) for step in (*range(10), *range(8))] + [(relieved.between(2.5, 2.0), alone.between(2.5, 2.0))]
+    pairs = [(relieved.position(step), alone.position(step)) for step in (*range(10), *range(8))] + [
+        (relieved.between(2.5, 2.0), alone.between(2.5, 2.0))
+    ]
     for ours, expected in pairs:
         for name in ("gap", "compliance", "jacobian", "rigid_slip", "previous_compliance", "node_pair"):
             assert np.array_equal(getattr(ours.operator, name), getattr(expected.operator, name)), name

@@ -1,6 +1,7 @@
 """Newton and its fallbacks: each tested by an input on which all methods before it end without a solution.
 
-The seeds are the smallest of 100 000 random problems (1 to 8 nodes, friction 0.1 to 2, with and without a free motion). The methods
+The seeds are the smallest of 100 000 random problems (1 to 8 nodes, friction 0.1 to 2, with and without a free motion).
+The methods
 solved, in their order: 78 697, 13 816, 170, 74, 5733, 123, 1369; nothing solved 18, whose error says self-locking.
 """
 
@@ -20,7 +21,15 @@ from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.newton import CONVERGED
-from fenics_gears.contact.step_solver import HALVED, NEWTON_AND_FALLBACKS, StepProblem, _methods, cold_start, run_newton, solve_step
+from fenics_gears.contact.step_solver import (
+    HALVED,
+    NEWTON_AND_FALLBACKS,
+    StepProblem,
+    _methods,
+    cold_start,
+    run_newton,
+    solve_step,
+)
 from fenics_gears.contact.tresca import frozen_friction
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
@@ -63,10 +72,15 @@ def check_laws(problem, solution):
 
 def outcomes_before(method, problem):
     """How all methods end that are tried before one."""
-    return [attempt()[0][0] for _, attempt in takewhile(lambda each: each[0] != method, _methods(problem, all_open(problem), 40))]
+    return [
+        attempt()[0][0]
+        for _, attempt in takewhile(lambda each: each[0] != method, _methods(problem, all_open(problem), 40))
+    ]
 
 
-@pytest.mark.parametrize("method, problem", NEEDED, ids=[f"{method}, {'free' if data[3] else 'held'}" for method, data in NEEDED])
+@pytest.mark.parametrize(
+    "method, problem", NEEDED, ids=[f"{method}, {'free' if data[3] else 'held'}" for method, data in NEEDED]
+)
 def test_every_method_is_needed_by_some_step(method, problem):
     """Each method solves, to the laws written out, a step on which every method before it was tried and failed."""
     problem = problem_of(*problem)
@@ -85,7 +99,8 @@ def close_nodes(nodes=40, elements=15):
     compliance += 1e-10 * compliance.max() * np.eye(nodes)
     load = 3000.0
     return StepProblem(
-        np.zeros((1, 1)), np.array([load]), compliance, np.ones((nodes, 1)), 2e-3 * (places - 0.5) ** 2, np.zeros(0), 0.0, np.ones(1),
+        np.zeros((1, 1)), np.array([load]), compliance, np.ones((nodes, 1)), 2e-3 * (places - 0.5) ** 2, np.zeros(0),
+        0.0, np.ones(1),
         Tolerance.of_load(load),
     )  # fmt: skip
 
@@ -133,7 +148,8 @@ def test_frozen_friction_is_the_bounded_minimum_of_the_energy(seed, nodes):
 
 
 def test_a_step_without_a_solution_is_divided():
-    """The one held problem of the search that no method solves: as the step of a block with mass it has a solution in two halves."""
+    """The one held problem of the search that no method solves: as the step of a block with mass it has a solution in
+    two halves."""
     problem = problem_of(11490, 6, 1.0, False)
     with pytest.raises(SelfLocking):
         solve_step(problem, all_open(problem))
@@ -146,7 +162,10 @@ def test_a_step_without_a_solution_is_divided():
     assert (middle.step, last.step) == (0.5, 1)
     tangential = problem.jacobian[6:] @ middle.state.position - problem.compliance[6:] @ middle.solution.forces
     second = replace(
-        problem, stiffness=half.stiffness, load=half.load(middle.state, marcher.load(1)), slip_before=0.5 * problem.slip_before - tangential
+        problem,
+        stiffness=half.stiffness,
+        load=half.load(middle.state, marcher.load(1)),
+        slip_before=0.5 * problem.slip_before - tangential,
     )
     check_laws(second, record.solution)
 
@@ -161,7 +180,8 @@ def jammed(scene, pair, flanks, absent, nodes, steps):
 
 @pytest.mark.parametrize("absent, nodes, steps", [(("shafts",), 21, 20), (("bearings",), 13, 28)])
 def test_gears_that_jam_need_divided_steps(absent, nodes, steps, paper_scene, paper_pair, stand_in_flanks):
-    """Two of the marches of the paper's pair on stand-in teeth with a friction coefficient of 5 that need a divided step.
+    """Two of the marches of the paper's pair on stand-in teeth with a friction coefficient of 5 that need a divided
+    step.
 
     Every part of every step obeys the laws written out.
     """
@@ -170,7 +190,9 @@ def test_gears_that_jam_need_divided_steps(absent, nodes, steps, paper_scene, pa
     passed = [part for record in march.records for part in record.parts or (record,)]
     for last, record in zip(passed[:-1], passed[1:]):
         operator, forces = record.position.operator, record.solution.forces
-        tangential = operator.previous_jacobian @ last.state.position - operator.previous_compliance @ last.solution.forces
+        tangential = (
+            operator.previous_jacobian @ last.state.position - operator.previous_compliance @ last.solution.forces
+        )
         displacement = operator.jacobian @ record.state.position - operator.compliance @ forces
         residual = law_residual(forces, displacement, operator.gap, operator.rigid_slip - tangential, 5.0)
         assert max(residual["penetration"], residual["stick_slip"]) <= 1e-7
@@ -202,7 +224,9 @@ class Refusing(MeshCycle):
 
     def solve(self, position, problem, status, last):
         if last is not None and self.length > self.longest:
-            raise ContactNotConverged([("newton", "refused by the test", np.zeros((1, 5)), status[None])], "refused by the test")
+            raise ContactNotConverged(
+                [("newton", "refused by the test", np.zeros((1, 5)), status[None])], "refused by the test"
+            )
         return super().solve(position, problem, status, last)
 
 
@@ -214,7 +238,8 @@ def cycle_of(kind, scene, pair, flanks, steps):
 @pytest.mark.parametrize("changes", [{}, {"inertia": None, "damping": None}], ids=["dynamic", "quasi-static"])
 @pytest.mark.parametrize("longest, parts", [(0.5, 2), (0.25, 4)])
 def test_divided_steps_are_those_of_a_finer_march(longest, parts, changes, paper_scene, paper_pair, stand_in_flanks):
-    """Exact identity: a march whose every step is divided in 2 (4) passes the states of the march with 2 (4) times the steps."""
+    """Exact identity: a march whose every step is divided in 2 (4) passes the states of the march with 2 (4) times the
+    steps."""
     scene, steps = replace(paper_scene, **changes), 10
     coarse, shafts = cycle_of(Refusing, scene, paper_pair, stand_in_flanks, steps)
     coarse.longest = longest
@@ -234,23 +259,31 @@ def test_divided_steps_are_those_of_a_finer_march(longest, parts, changes, paper
 
 
 def test_the_energy_account_follows_the_parts_of_a_step(paper_scene, paper_pair, stand_in_flanks):
-    """Exact identity: the account of a march whose every step is divided in two is that of the march with twice the steps."""
+    """Exact identity: the account of a march whose every step is divided in two is that of the march with twice the
+    steps."""
     coarse, shafts = cycle_of(Refusing, paper_scene, paper_pair, stand_in_flanks, 10)
     fine, _ = cycle_of(MeshCycle, paper_scene, paper_pair, stand_in_flanks, 20)
-    whole, halves = Marcher(fine, EquationsOfMotion(shafts, 5e-5, 0.1)), Marcher(coarse, EquationsOfMotion(shafts, 1e-4, 0.1))
+    whole, halves = (
+        Marcher(fine, EquationsOfMotion(shafts, 5e-5, 0.1)),
+        Marcher(coarse, EquationsOfMotion(shafts, 1e-4, 0.1)),
+    )
     start = whole.start()
     records = [[replace(start, position=cycle.position(0))] for cycle in (coarse, fine)]
     for march, marcher, steps in zip(records, (halves, whole), (20, 40)):
         for step in range(1, steps + 1):
             march.append(marcher.step(marcher.dynamic, march[-1], step))
-    divided, exact = (account(shafts, SteadyClock(step), Steps.of(march), np.zeros(len(march))) for march, step in zip(records, (1e-4, 5e-5)))
+    divided, exact = (
+        account(shafts, SteadyClock(step), Steps.of(march), np.zeros(len(march)))
+        for march, step in zip(records, (1e-4, 5e-5))
+    )
     for name in ("rotation", "load", "damping", "friction", "changes"):
         expected = getattr(exact, name)[::2]
         assert getattr(divided, name) == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(exact.load).max()), name
 
 
 def test_a_step_that_no_division_solves_says_so(paper_scene, paper_pair, stand_in_flanks):
-    """Never silence: the whole step's error, with the shortest step's attempt after its own; time and step are the whole step's."""
+    """Never silence: the whole step's error, with the shortest step's attempt after its own; time and step are the
+    whole step's."""
     cycle, shafts = cycle_of(Refusing, paper_scene, paper_pair, stand_in_flanks, 10)
     marcher = Marcher(cycle, EquationsOfMotion(shafts, 1e-4, 0.1))
     cycle.longest = 1.0

@@ -14,8 +14,14 @@ from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 STEPS, GRID, ROTATIONS = 12, ContactGrid(3.0, 15), [2, 5]
 
 
-def whole(ring: FlankCompliance, teeth: int, softer: dict[int, float] | None = None, other_nodes: dict[int, FlankCompliance] | None = None):
-    """A body whose teeth are those of a ring, some softer by a factor, some with a compliance, and nodes, of their own."""
+def whole(
+    ring: FlankCompliance,
+    teeth: int,
+    softer: dict[int, float] | None = None,
+    other_nodes: dict[int, FlankCompliance] | None = None,
+):
+    """A body whose teeth are those of a ring, some softer by a factor, some with a compliance, and nodes, of their
+    own."""
     softer, other_nodes, blocks, rolls = softer or {}, other_nodes or {}, [], []
     for tooth in range(teeth):
         own = other_nodes.get(tooth, ring)
@@ -46,7 +52,8 @@ def same(one, other) -> bool:
 
 @pytest.mark.parametrize("meshed", [(True, False), (False, True), (True, True)])
 def test_equal_teeth_have_one_cycle_to_the_last_bit(paper_pair, rings, meshed):
-    """Exact identity: bodies of equal teeth give the operators of the ring of sectors, friction's included, and only one set of them."""
+    """Exact identity: bodies of equal teeth give the operators of the ring of sectors, friction's included, and only
+    one set of them."""
     bodies = tuple(whole(ring, teeth) if own else ring for ring, teeth, own in zip(rings, (16, 24), meshed))
     found, expected = cycle(paper_pair, bodies), cycle(paper_pair, rings, MeshCycle)
     for step in [*range(-1, 2 * STEPS), 40 * STEPS + 3]:
@@ -58,29 +65,37 @@ def test_equal_teeth_have_one_cycle_to_the_last_bit(paper_pair, rings, meshed):
 
 @pytest.mark.parametrize("gear", [0, 1])
 def test_a_softer_tooth_is_met_in_its_turn(paper_pair, rings, gear):
-    """Authority: which tooth is in mesh when: the pinion's come clockwise, the wheel's counter-clockwise, tooth 0 first.
+    """Authority: which tooth is in mesh when: the pinion's come clockwise, the wheel's counter-clockwise, tooth 0
+    first.
 
-    The operator's own compliance of the tooth's contact nodes is that of the softer tooth in cycle `number` and a turn later, and of no
+    The operator's own compliance of the tooth's contact nodes is that of the softer tooth in cycle `number` and a turn
+    later, and of no
     other tooth in any other cycle."""
     teeth, number, factor = (16, 24)[gear], 5, 2.0
     tooth = first_tooth(gear, number) % teeth
     assert tooth == ((11, 5)[gear])
     bodies = list(rings)
     bodies[gear] = whole(rings[gear], teeth, {tooth: factor})
-    found, healthy = cycle(paper_pair, tuple(bodies), tangential=False), cycle(paper_pair, rings, MeshCycle, tangential=False)
+    found, healthy = (
+        cycle(paper_pair, tuple(bodies), tangential=False),
+        cycle(paper_pair, rings, MeshCycle, tangential=False),
+    )
     phase = STEPS // 2
     for turned in range(-2, teeth + 8):
         operator, expected = (each.position(turned * STEPS + phase).operator for each in (found, healthy))
         for place, pair in enumerate(operator.pairs):
             nodes = operator.node_pair == place
-            changed = not np.array_equal(operator.compliance[np.ix_(nodes, nodes)], expected.compliance[np.ix_(nodes, nodes)])
+            changed = not np.array_equal(
+                operator.compliance[np.ix_(nodes, nodes)], expected.compliance[np.ix_(nodes, nodes)]
+            )
             assert changed == ((turned - pair.place.index - number) % teeth == 0)
     # Its own cycles are those in which it can touch: at this grid pairs -1 to 2, and one more for the step before.
     assert 1 < found.kinds <= 6
 
 
 def test_friction_knows_the_teeth_of_the_step_before(paper_pair, rings):
-    """Exact identity: across the end of a cycle the earlier displacement is that of the same teeth: the cycle of their own alone gives it."""
+    """Exact identity: across the end of a cycle the earlier displacement is that of the same teeth: the cycle of their
+    own alone gives it."""
     bodies = (whole(rings[0], 16, {11: 2.0, 12: 3.0}), rings[1])
     found = cycle(paper_pair, bodies)
     for number in (3, 4, 5, 6, 7):

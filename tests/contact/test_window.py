@@ -36,8 +36,12 @@ def test_a_node_sits_on_the_tip_that_cuts_the_window(paper_pair, shift):
 
 def test_tips_pass_the_line_of_action_at_the_ends_of_the_path(paper_pair):
     """Definition of the path of contact: there the tip lies on the line of action itself."""
-    assert min(flank_ends(paper_pair, contact_roll_angles(paper_pair, paper_pair.path_start))[1]) == pytest.approx(0.0, abs=1e-12)
-    assert max(flank_ends(paper_pair, contact_roll_angles(paper_pair, paper_pair.path_end))[0]) == pytest.approx(0.0, abs=1e-12)
+    assert min(flank_ends(paper_pair, contact_roll_angles(paper_pair, paper_pair.path_start))[1]) == pytest.approx(
+        0.0, abs=1e-12
+    )
+    assert max(flank_ends(paper_pair, contact_roll_angles(paper_pair, paper_pair.path_end))[0]) == pytest.approx(
+        0.0, abs=1e-12
+    )
 
 
 def test_grid_moves_continuously_with_the_position(paper_pair):

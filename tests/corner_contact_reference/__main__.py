@@ -1,4 +1,5 @@
-"""Regenerates reference.csv: `python -m tests.corner_contact_reference` (CalculiX: Debian's calculix-ccx; about an hour).
+"""Regenerates reference.csv: `python -m tests.corner_contact_reference` (CalculiX: Debian's calculix-ccx; about an
+hour).
 
 With `--only-missing` rows that are in the file already stay as they are.
 """

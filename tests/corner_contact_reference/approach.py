@@ -1,4 +1,5 @@
-"""Teeth alone at one position: how far the wheel turns under its couple while the pinion's hub is held, without friction."""
+"""Teeth alone at one position: how far the wheel turns under its couple while the pinion's hub is held, without
+friction."""
 
 from __future__ import annotations
 
@@ -27,7 +28,8 @@ WHEEL_ROTATION = 5  # in CENTRE_COORDINATES
 def teeth_alone(scene: Scene, accuracy: Accuracy = Accuracy()) -> Scene:
     """The gears and the load of a scene, nothing else."""
     return replace(
-        scene, accuracy=accuracy, shafts=None, bearings=None, inertia=None, damping=None, friction=None, tip_relief=None,
+        scene, accuracy=accuracy, shafts=None, bearings=None, inertia=None, damping=None, friction=None,
+        tip_relief=None,
         coast_flanks=None,
     )  # fmt: skip
 
@@ -38,7 +40,9 @@ def elastic_cycle(scene: Scene, corner: CornerContact | None, steps: int, cache:
     grid, resolution = model.resolution.contact_grid, model.resolution
     reach = touching(model.pair, grid, steps, corner=corner).reach
     compliances = tuple(
-        flank_compliance(gear, scene.gears.material, Discretisation(resolution.element, resolution.flank_element_size), reach, cache)
+        flank_compliance(
+            gear, scene.gears.material, Discretisation(resolution.element, resolution.flank_element_size), reach, cache
+        )
         for gear in (model.pair.pinion, model.pair.wheel)
     )
     return rigid_hub_cycle(Flanks(model.pair, compliances), grid, steps, corner)
@@ -53,7 +57,15 @@ def solved(operator: ContactOperator, force: float) -> StepSolution:
     """The step's solution under a force (N) on the wheel's base circle; its coordinate is the wheel's arc, mm."""
     load, free = np.array([force]), np.array([np.sign(force)])
     problem = StepProblem(
-        np.zeros((1, 1)), load, operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0, free, Tolerance.of_load(force)
+        np.zeros((1, 1)),
+        load,
+        operator.compliance,
+        operator.jacobian,
+        operator.gap,
+        np.empty(0),
+        0.0,
+        free,
+        Tolerance.of_load(force),
     )
     return solve_step(problem, cold_start(operator.gap, operator.node_pair))
 

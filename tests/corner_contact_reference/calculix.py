@@ -1,6 +1,7 @@
 """A pair of gears at one position as an input file of CalculiX, and the couple on the wheel from what it prints.
 
-Frame: pinion's centre at the origin, line of action y = -rb1, as in the program. The pinion's bore is held, the wheel's is
+Frame: pinion's centre at the origin, line of action y = -rb1, as in the program. The pinion's bore is held, the wheel's
+    is
 turned by given angles; the couple that this takes is the sum over the bore's reactions. Plane strain, thickness 1 mm.
 """
 
@@ -27,7 +28,8 @@ class CalculixFailed(RuntimeError):
 
 
 def placed(pair: GearPair, meshes: tuple[GearMesh, GearMesh], phase: float) -> tuple[np.ndarray, np.ndarray]:
-    """Points (n, 2), mm, of pinion and wheel where tooth 0 of both touches at `phase` mesh cycles after the path's start."""
+    """Points (n, 2), mm, of pinion and wheel where tooth 0 of both touches at `phase` mesh cycles after the path's
+    start."""
     xi = pair.path_start + phase * pair.base_pitch
     turns = (xi / pair.pinion.base_radius, np.pi + (pair.line_of_action_length - xi) / pair.wheel.base_radius)
     centres = (np.zeros(2), wheel_centre(pair))
@@ -40,10 +42,17 @@ def wheel_centre(pair: GearPair) -> np.ndarray:
 
 
 def couples(
-    pair: GearPair, material: Material, meshes: tuple[GearMesh, GearMesh], phase: float, rotations, folder: Path, slave: int = 0,
+    pair: GearPair,
+    material: Material,
+    meshes: tuple[GearMesh, GearMesh],
+    phase: float,
+    rotations,
+    folder: Path,
+    slave: int = 0,
     penalty: float = PENALTY,
 ) -> np.ndarray:
-    """Couple (k, 2), N mm per mm of face width, on the pinion's and the wheel's bore with the wheel turned by rotations (k,), rad.
+    """Couple (k, 2), N mm per mm of face width, on the pinion's and the wheel's bore with the wheel turned by rotations
+    (k,), rad.
 
     slave: the gear over whose surface contact is integrated. Raises CalculixFailed.
     """
@@ -56,7 +65,9 @@ def couples(
     # A step that CalculiX had to divide prints at times between, too.
     found = [(name, block) for name, time, block in printed if abs(float(time) - round(float(time))) < 1e-6]
     if len(found) != 2 * len(rotations):
-        raise CalculixFailed(f"CalculiX gave {len(found)} sets of forces instead of {2 * len(rotations)}; see {folder}/pair.log")
+        raise CalculixFailed(
+            f"CalculiX gave {len(found)} sets of forces instead of {2 * len(rotations)}; see {folder}/pair.log"
+        )
     first = {"PINIONHUB": 0, "WHEELHUB": len(points[0])}
     gear = {"PINIONHUB": 0, "WHEELHUB": 1}
     centres, result = (np.zeros(2), wheel_centre(pair)), []
@@ -75,7 +86,10 @@ def input_file(pair, material, meshes, points, rotations, slave, penalty) -> str
     surfaces = []
     for name, mesh, first_node in zip(("PINION", "WHEEL"), meshes, (0, len(points[0]))):
         lines.append(f"*ELEMENT, TYPE=CPE6, ELSET={name}")
-        lines += [", ".join(str(v) for v in (i + 1 + first_cell, *(cell + 1 + first_node))) for i, cell in enumerate(mesh.cells)]
+        lines += [
+            ", ".join(str(v) for v in (i + 1 + first_cell, *(cell + 1 + first_node)))
+            for i, cell in enumerate(mesh.cells)
+        ]
         surfaces += [f"*SURFACE, NAME={name}SURFACE, TYPE=ELEMENT"]
         surfaces += [f"{cell + 1 + first_cell}, S{side + 1}" for cell, side in mesh.contact]
         surfaces += [f"*NSET, NSET={name}HUB"] + [f"{node + 1 + first_node}," for node in mesh.hub]

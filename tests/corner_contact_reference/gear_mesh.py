@@ -1,4 +1,5 @@
-"""A mesh of a whole gear in six-node triangles for a general-purpose code: a few teeth finely meshed, tip edges rounded."""
+"""A mesh of a whole gear in six-node triangles for a general-purpose code: a few teeth finely meshed, tip edges
+rounded."""
 
 from __future__ import annotations
 
@@ -30,14 +31,18 @@ class MeshSizes:
 
     def scaled(self, factor: float) -> MeshSizes:
         """All sizes times a factor."""
-        return MeshSizes(*(factor * size for size in (self.flank, self.tip, self.fillet, self.coarse, self.body)), self.growth)
+        return MeshSizes(
+            *(factor * size for size in (self.flank, self.tip, self.fillet, self.coarse, self.body)), self.growth
+        )
 
 
 @dataclass(frozen=True)
 class GearMesh:
-    """Six-node triangles: `points` (n, 2), mm, in the body frame of tooth 0; `cells` (m, 6), corners, then the sides' middles.
+    """Six-node triangles: `points` (n, 2), mm, in the body frame of tooth 0; `cells` (m, 6), corners, then the sides'
+    middles.
 
-    `hub`: indices of the bore's nodes. `contact`: (cell, side) of the edges on the loaded teeth's flanks, tip edges and tip
+    `hub`: indices of the bore's nodes. `contact`: (cell, side) of the edges on the loaded teeth's flanks, tip edges and
+        tip
     lands, (k, 2).
     """
 
@@ -76,7 +81,8 @@ def gear_mesh(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded: tuple[in
 
 
 def _outline(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded) -> tuple[np.ndarray, np.ndarray]:
-    """Closed outline, clockwise, with the middle of every edge (2 k, 2), and whether an edge (k,) is one that may touch."""
+    """Closed outline, clockwise, with the middle of every edge (2 k, 2), and whether an edge (k,) is one that may
+    touch."""
     fine, coarse = (_tooth(gear, sizes, edge_radius, is_loaded) for is_loaded in (True, False))
     points, touching = [], []
     chosen = {tooth % gear.teeth for tooth in loaded}
@@ -102,7 +108,8 @@ def _tooth(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded: bool) -> tu
     arcs = ends[1] - _graded(ends[1] - ends[0], tip_size, flank_size, sizes.growth)[::-1]
     coast_arcs = np.linspace(*ends, _even((ends[1] - ends[0]) / (2.0 * size)))
     flank, coast_flank = (
-        canonical_point(gear.base_radius, roll_angle_at_arc_length(gear.base_radius, each)) for each in (arcs, coast_arcs)
+        canonical_point(gear.base_radius, roll_angle_at_arc_length(gear.base_radius, each))
+        for each in (arcs, coast_arcs)
     )
     drive, back, may_touch = [root, fillet, flank], [root, fillet, coast_flank], [False, False, True]
     if edge.radius:
@@ -114,7 +121,9 @@ def _tooth(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded: bool) -> tu
     pieces = [*drive, land, *(outline.coast(piece)[::-1] for piece in reversed(back))]
     may_touch += [True] + [False] * len(back)
     points = np.vstack([piece[:-1] for piece in pieces])
-    flags = np.concatenate([np.full((len(piece) - 1) // 2, loaded and touch) for piece, touch in zip(pieces, may_touch)])
+    flags = np.concatenate(
+        [np.full((len(piece) - 1) // 2, loaded and touch) for piece, touch in zip(pieces, may_touch)]
+    )
     return points, flags
 
 
@@ -137,7 +146,8 @@ def _even(edges: float) -> int:
 
 
 def _graded(length: float, first: float, last: float, growth: float) -> np.ndarray:
-    """Distances (2 k + 1,) from 0 to length of edges' ends and middles, sizes growing from `first` to at most `last`."""
+    """Distances (2 k + 1,) from 0 to length of edges' ends and middles, sizes growing from `first` to at most
+    `last`."""
     at, ends = 0.0, [0.0]
     while at < length:
         at += min(first + 0.5 * growth * at, last)
@@ -175,7 +185,9 @@ def _triangles(doubled, touching, bore, sizes: MeshSizes) -> tuple[np.ndarray, n
 
         def wanted(dim, tag, x, y, z, lc):
             distance, index = tree.query((x, y), k=neighbours)
-            return float(min(sizes.body, np.min(size[index] + sizes.growth * np.maximum(distance - 2.0 * size[index], 0.0))))
+            return float(
+                min(sizes.body, np.min(size[index] + sizes.growth * np.maximum(distance - 2.0 * size[index], 0.0)))
+            )
 
         gmsh.model.mesh.setSizeCallback(wanted)
         gmsh.model.mesh.generate(2)
@@ -197,7 +209,8 @@ def _triangles(doubled, touching, bore, sizes: MeshSizes) -> tuple[np.ndarray, n
 
 
 def _six_nodes(corners: np.ndarray, triangles: np.ndarray):
-    """Points and cells with the sides' middles; for each edge (smaller corner first) a cell, its side, the middle's index."""
+    """Points and cells with the sides' middles; for each edge (smaller corner first) a cell, its side, the middle's
+    index."""
     side_of, cells, middles = {}, np.empty((len(triangles), 6), dtype=int), []
     cells[:, :3] = triangles
     for number, triangle in enumerate(triangles):

@@ -18,7 +18,8 @@ from fenics_gears.scene.read import load_scene
 FILE = Path(__file__).with_name("reference.csv")
 SCENE = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
 SIZES = MeshSizes(flank=0.08, tip=0.03)
-# Mesh cycles after a pair reaches the start of the path. The pinion's tip leaves its path at 0.47 and the wheel's enters it at 1.
+# Mesh cycles after a pair reaches the start of the path. The pinion's tip leaves its path at 0.47 and the wheel's
+# enters it at 1.
 LEAVING = (0.44, 0.46, 0.47, 0.48, 0.5, 0.52, 0.53, 0.54, 0.55)
 ENTERING = (0.92, 0.93, 0.94, 0.95, 0.96, 0.98)
 ELSEWHERE = (0.0, 0.2, 0.7)
@@ -30,7 +31,8 @@ CLOSE_ENOUGH = 0.015
 class Case:
     """One analysis: mesh phase, edge radius of both gears' tips (mm), and how it is done.
 
-    `refinement`: factor on all element sizes; `slave`: the gear whose surface contact is integrated over; `penalty`, MPa/mm.
+    `refinement`: factor on all element sizes; `slave`: the gear whose surface contact is integrated over; `penalty`,
+        MPa/mm.
     """
 
     phase: float
@@ -42,7 +44,8 @@ class Case:
 
 @dataclass(frozen=True)
 class Row:
-    """A case, its transmission error (rad of the wheel), the couple on the pinion over the wheel's, nodes of the mesh, code."""
+    """A case, its transmission error (rad of the wheel), the couple on the pinion over the wheel's, nodes of the mesh,
+    code."""
 
     case: Case
     transmission_error: float
@@ -57,9 +60,10 @@ ROUNDED = (0.5, 0.52, 0.54, 0.95, 0.96, 0.98)
 def tip_touching(phase: float) -> int:
     """The gear whose tip comes into or leaves contact about that phase: 0 the pinion, 1 the wheel.
 
-    Its surface is the slave, over which CalculiX integrates contact, along normals of the other surface, the master. A sharp
-    edge has no normal, so that only the mate's is the true one; and only the edge's mesh resolves the narrow contact of a
-    rounded edge. The other way round the entering tip is 0.6 % (sharp) to 1.5 % (0.1 mm) off at phase 0.95.
+    Its surface is the slave, over which CalculiX integrates contact, along normals of the other surface, the master. A
+    sharp edge has no normal, so that only the mate's is the true one; and only the edge's mesh resolves the narrow
+    contact of a rounded edge. The other way round the entering tip is 0.6 % (sharp) to 1.5 % (0.1 mm) off at phase
+    0.95.
     """
     return 1 if phase > 0.935 else 0
 
@@ -100,7 +104,9 @@ def computed(scene: Scene, pair: GearPair, case: Case, folder: Path, guess: floa
         found = couples(pair, scene.gears.material, meshes, case.phase, rotations, folder, case.slave, case.penalty)
         slope = (found[1, 1] - found[0, 1]) / (rotations[1] - rotations[0])
         if not slope > 0.0:
-            raise CalculixFailed(f"{case}: the couple does not rise with the wheel's rotation, {found[:, 1]} N; see {folder}/pair.log")
+            raise CalculixFailed(
+                f"{case}: the couple does not rise with the wheel's rotation, {found[:, 1]} N; see {folder}/pair.log"
+            )
         answer = rotations[0] + (wanted - found[0, 1]) / slope
         if abs(answer / guess - 1.0) < 2.0 * CLOSE_ENOUGH:
             break
@@ -122,8 +128,18 @@ def read(file: Path = FILE) -> list[Row]:
     rows = []
     with file.open() as lines:
         for line in csv.DictReader(lines):
-            done = Case(**{field.name: (int if field.name == "slave" else float)(line[field.name]) for field in fields(Case)})
-            rows.append(Row(done, float(line["transmission_error"]), float(line["couple_ratio"]), int(line["nodes"]), line["code"]))
+            done = Case(
+                **{field.name: (int if field.name == "slave" else float)(line[field.name]) for field in fields(Case)}
+            )
+            rows.append(
+                Row(
+                    done,
+                    float(line["transmission_error"]),
+                    float(line["couple_ratio"]),
+                    int(line["nodes"]),
+                    line["code"],
+                )
+            )
     return rows
 
 
@@ -131,7 +147,10 @@ def write(rows: list[Row], file: Path = FILE) -> None:
     """Write the rows, in the order of CASES."""
     order = {case: number for number, case in enumerate(CASES)}
     flat = [{**asdict(row.case), **{key: value for key, value in asdict(row).items() if key != "case"}} for row in rows]
-    flat = [line for _, line in sorted(zip([order.get(row.case, len(order)) for row in rows], flat), key=lambda item: item[0])]
+    flat = [
+        line
+        for _, line in sorted(zip([order.get(row.case, len(order)) for row in rows], flat), key=lambda item: item[0])
+    ]
     with file.open("w", newline="") as lines:
         writer = csv.DictWriter(lines, list(flat[0]), lineterminator="\n")
         writer.writeheader()

@@ -27,12 +27,15 @@ def cycles(paper_scene, suite_cache):
     """Contact operators at the default accuracy with sharp and with rounded tip edges, and without corner contact."""
     scene, pair = teeth_alone(paper_scene), gear_pair(paper_scene.gears)
     corners = {radius: corner_contact(pair, radius) for radius in sorted({row.case.edge_radius for row in USUAL})}
-    return {radius: elastic_cycle(scene, corner, STEPS, suite_cache) for radius, corner in (*corners.items(), (None, None))}
+    return {
+        radius: elastic_cycle(scene, corner, STEPS, suite_cache) for radius, corner in (*corners.items(), (None, None))
+    }
 
 
 @pytest.mark.parametrize("row", USUAL, ids=name)
 def test_deflection_is_that_of_a_full_contact_analysis(row, cycles, paper_scene, paper_pair, record_property):
-    """CalculiX 2.20, contact found on the true outlines: the transmission error agrees within 1 % at every phase (measured: 0.5 %)."""
+    """CalculiX 2.20, contact found on the true outlines: the transmission error agrees within 1 % at every phase
+    (measured: 0.5 %)."""
     couple, cycle = paper_scene.load.wheel_torque, cycles[row.case.edge_radius]
     error, couples = transmission_error(cycle, paper_pair, couple, row.case.phase)
     record_property("relative_difference", error / row.transmission_error - 1.0)
@@ -42,13 +45,16 @@ def test_deflection_is_that_of_a_full_contact_analysis(row, cycles, paper_scene,
 
 
 def test_without_corner_contact_the_wheels_tip_comes_in_wrongly(cycles, paper_scene, paper_pair):
-    """CalculiX: along the line of action alone the entering tip is off by more than 1 %, so that the test above can fail."""
+    """CalculiX: along the line of action alone the entering tip is off by more than 1 %, so that the test above can
+    fail."""
     row = ROWS[case(0.95, 0.0)]
     error, _ = transmission_error(cycles[None], paper_pair, paper_scene.load.wheel_torque, row.case.phase)
     assert abs(error / row.transmission_error - 1.0) > 0.01
 
 
-@pytest.mark.parametrize("row", [row for row in ROWS.values() if row.case in VARIANTS], ids=lambda row: str(getattr(row, "case", "none yet")))
+@pytest.mark.parametrize(
+    "row", [row for row in ROWS.values() if row.case in VARIANTS], ids=lambda row: str(getattr(row, "case", "none yet"))
+)
 def test_the_reference_knows_its_own_answer(row):
     """Mesh refinement, penalty and the choice of surface move the reference by far less than the 1 % asked of us."""
     usual = ROWS[case(row.case.phase, row.case.edge_radius)]

@@ -11,7 +11,8 @@ KNOWN = ("FROM", "COPY", "RUN", "ENV", "WORKDIR", "ENTRYPOINT")
 
 @dataclass(frozen=True)
 class Dockerfile:
-    """suite: that of the Debian it starts from. copied_to: where the checkout goes. commands: of the shell, in their order.
+    """suite: that of the Debian it starts from. copied_to: where the checkout goes. commands: of the shell, in their
+    order.
     environment, folder and entry_point: of whoever runs the image."""
 
     suite: str
@@ -27,7 +28,9 @@ def read_dockerfile(path: Path) -> Dockerfile:
     steps = _steps(Path(path).read_text(encoding="utf-8"))
     unknown = [name for name, _ in steps if name not in KNOWN]
     if unknown:
-        raise ValueError(f"{path}: {unknown[0]} is not among the steps that can be carried out without Docker: {', '.join(KNOWN)}")
+        raise ValueError(
+            f"{path}: {unknown[0]} is not among the steps that can be carried out without Docker: {', '.join(KNOWN)}"
+        )
     image = _last(steps, "FROM")
     suite = re.fullmatch(r"debian:(\w+)-slim", image)
     if not suite:
@@ -40,7 +43,9 @@ def read_dockerfile(path: Path) -> Dockerfile:
         if name == "ENV":
             environment.update(pair.split("=", 1) for pair in shlex.split(rest))
     commands = tuple(rest for name, rest in steps if name == "RUN")
-    return Dockerfile(suite[1], target, commands, environment, _last(steps, "WORKDIR"), json.loads(_last(steps, "ENTRYPOINT")))
+    return Dockerfile(
+        suite[1], target, commands, environment, _last(steps, "WORKDIR"), json.loads(_last(steps, "ENTRYPOINT"))
+    )
 
 
 def _steps(text):

@@ -1,4 +1,5 @@
-"""A Debian system in a folder, entered as a container would be: processes and mounts of its own, root, next to no environment."""
+"""A Debian system in a folder, entered as a container would be: processes and mounts of its own, root, next to no
+environment."""
 
 import os
 import shlex
@@ -14,7 +15,8 @@ PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 # Behind a proxy these tell apt and pip the way; elsewhere they are not set.
 HANDED_ON = ("http_proxy", "https_proxy", "no_proxy", "HTTP_PROXY", "HTTPS_PROXY", "NO_PROXY")
 CERTIFICATES = "/etc/certificates-of-the-host.pem"
-# Docker gives 64 MiB of shared memory, which browsers and MPI feel. Mounts and processes end with the call, however it ends.
+# Docker gives 64 MiB of shared memory, which browsers and MPI feel. Mounts and processes end with the call, however it
+# ends.
 ENTER = """
 mount -t proc proc "$root/proc" && mount -t sysfs -o ro sysfs "$root/sys" && mount --bind /dev "$root/dev" &&
 mount --bind /dev/pts "$root/dev/pts" && mount -t tmpfs -o size=64m,mode=1777 shm "$root/dev/shm" || exit 125
@@ -49,7 +51,8 @@ class Root:
         return (self.folder / "etc/apt/sources.list").exists()
 
     def make(self, log: Path, expired=False) -> Call:
-        """Make it anew, as small as Docker's slim images. expired: take package lists past their date, as snapshots have."""
+        """Make it anew, as small as Docker's slim images. expired: take package lists past their date, as snapshots
+        have."""
         self.remove()
         self.folder.parent.mkdir(parents=True, exist_ok=True)
         as_docker = ["--dpkgopt=force-unsafe-io", '--aptopt=Acquire::Languages "none"']

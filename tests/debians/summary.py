@@ -10,7 +10,10 @@ def table(trials: list[Trial]) -> str:
     rows = [["", *(SUITES[trial.suite] for trial in trials)]]
     rows += [[name, *(trial.versions.get(name, "-") for trial in trials)] for name in VERSIONS]
     rows += [
-        [f"set-up of the {what}, s", *(f"{trial.set_up_seconds[what]:.0f}" if what in trial.set_up_seconds else "-" for trial in trials)]
+        [
+            f"set-up of the {what}, s",
+            *(f"{trial.set_up_seconds[what]:.0f}" if what in trial.set_up_seconds else "-" for trial in trials),
+        ]
         for what in ("program", "tests")
     ]
     rows.append(["README's first command", *(_ended(trial.calls.get("first command")) for trial in trials)])
@@ -19,7 +22,9 @@ def table(trials: list[Trial]) -> str:
         few = "a few of " if any(trial.quick for trial in trials) else ""
         name = f"{few}the suite" if ranks == 1 else f"{few}finite elements, mpirun -n {ranks}"
         rows.append([f"{name}: passed, failed, skipped", *(_outcome(trial.tests.get(ranks)) for trial in trials)])
-        rows.append([f"{name}, s", *(f"{trial.tests[ranks].seconds:.0f}" if ranks in trial.tests else "-" for trial in trials)])
+        rows.append(
+            [f"{name}, s", *(f"{trial.tests[ranks].seconds:.0f}" if ranks in trial.tests else "-" for trial in trials)]
+        )
     rows.append(["all green", *("yes" if trial.is_green else "NO" for trial in trials)])
     return "\n\n".join([_aligned(rows), *_skipped(trials)])
 
@@ -45,6 +50,8 @@ def _skipped(trials):
 
 def _aligned(rows):
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines = ["| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) + " |" for row in rows]
+    lines = [
+        "| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) + " |" for row in rows
+    ]
     rule = "|" + "|".join("-" * (width + 2) for width in widths) + "|"
     return "\n".join([lines[0], rule, *lines[1:]])

@@ -13,14 +13,16 @@ from tests.debians.root import Call, Root
 SUITES = {"bookworm": "Debian 12", "trixie": "Debian 13", "sid": "unstable"}
 RANKS = (2, 3)
 DEMO = "demos/lundvall2004.toml"
-# Every rank runs these whole, by itself: what is built on all ranks by mistake would differ from what is built on one, or hang.
-# Jobs that share their work between ranks (studies, every step condensed) are started by tests of the suite, with 1, 2 and 3 ranks.
+# Every rank runs these whole, by itself: what is built on all ranks by mistake would differ from what is built on one,
+# or hang. Jobs that share their work between ranks (studies, every step condensed) are started by tests of the suite,
+# with 1, 2 and 3 ranks.
 OF_RANKS = (
     "tests/elasticity", "tests/simulation/reference", "tests/hard_cases/test_row_05_schur_complement.py",
     "tests/hard_cases/test_row_06_condensation.py", "tests/hard_cases/test_row_07_patch_test.py",
 )  # fmt: skip
 QUICK = (
-    "tests/setup", "tests/commands/test_cli.py", "tests/elasticity/test_known_solutions.py", "tests/studies/test_ranks.py",
+    "tests/setup", "tests/commands/test_cli.py", "tests/elasticity/test_known_solutions.py",
+    "tests/studies/test_ranks.py",
     "tests/show/test_stress_picture.py",
 )  # fmt: skip
 QUICK_OF_RANKS = ("tests/elasticity/test_known_solutions.py", "tests/elasticity/test_ring.py")
@@ -82,7 +84,8 @@ class Trial:
 
 
 def try_out(trial: Trial, root: Root, archive: bytes, checkout: Path, reuse=False, expired=False, own=()) -> None:
-    """Try everything on a fresh system (with `reuse` on the one that is there), or the command `own` after the set-up; fills the trial."""
+    """Try everything on a fresh system (with `reuse` on the one that is there), or the command `own` after the set-up;
+    fills the trial."""
     docker = read_dockerfile(checkout / "Dockerfile")
     if not (reuse and root.is_there()) and not trial.note("system", root.make(trial.log("system"), expired)):
         return
@@ -93,7 +96,7 @@ def try_out(trial: Trial, root: Root, archive: bytes, checkout: Path, reuse=Fals
 
     if not _set_up(trial, call, docker):
         return
-    python = "{ read -r _ && read -r python; } <.setup/ready && exec \"$python\" tests/debians/versions.py"
+    python = '{ read -r _ && read -r python; } <.setup/ready && exec "$python" tests/debians/versions.py'
     if call("versions", "sh", "-c", python):
         trial.versions = json.loads(trial.calls["versions"].output.splitlines()[-1])
     if own:
@@ -107,12 +110,16 @@ def try_out(trial: Trial, root: Root, archive: bytes, checkout: Path, reuse=Fals
 
 
 def _set_up(trial, call, docker):
-    """Set up by the Dockerfile where it starts from this suite, else by README's first command as on a user's machine."""
+    """Set up by the Dockerfile where it starts from this suite, else by README's first command as on a user's
+    machine."""
     if docker.suite == trial.suite:
         if not call("Dockerfile", "sh", "-ec", "\n".join(docker.commands), folder="/"):
             return False
         environment = {**docker.environment}
-        demo = f"mkdir -p {docker.folder} && cd {docker.folder} && cp {docker.copied_to}/{DEMO} scene.toml && exec \"$@\" run scene.toml"
+        demo = (
+            f'mkdir -p {docker.folder} && cd {docker.folder} && cp {docker.copied_to}/{DEMO} scene.toml && exec "$@"'
+            " run scene.toml"
+        )
         call("container", "sh", "-ec", demo, "sh", *docker.entry_point, folder="/", environment=environment)
     call("first command", "./gears", "run", DEMO)
     ready = [trial.calls[name].output for name in ("Dockerfile", "first command") if name in trial.calls]
@@ -127,7 +134,8 @@ def _seconds_of_set_up(output):
 
 
 def _run_tests(trial, root, call):
-    """The suite alone, then what ranks can run by themselves with caches of their own, cold as on a cluster's first job."""
+    """The suite alone, then what ranks can run by themselves with caches of their own, cold as on a cluster's first
+    job."""
     folder = root.empty_folder(RESULTS)
     call("tests", "./gears", "test", "-rfEs", f"--junitxml={RESULTS}/tests.xml", *(QUICK if trial.quick else ()))
     trial.tests[1] = counted([folder / "tests.xml"])
@@ -135,14 +143,24 @@ def _run_tests(trial, root, call):
         each = f"rank={RESULTS}/{ranks}.$OMPI_COMM_WORLD_RANK\n" + OF_EACH_RANK
         which = ["-m", "not nightly and not ranks", *(QUICK_OF_RANKS if trial.quick else OF_RANKS)]
         mpirun = ["mpirun", "--oversubscribe", "-n", str(ranks)]
-        call(f"{ranks} ranks", *mpirun, "sh", "-c", each, "sh", *which, environment={**AS_ROOT, "XDG_CACHE_HOME": f"/tmp/cache_of_{ranks}"})
+        call(
+            f"{ranks} ranks",
+            *mpirun,
+            "sh",
+            "-c",
+            each,
+            "sh",
+            *which,
+            environment={**AS_ROOT, "XDG_CACHE_HOME": f"/tmp/cache_of_{ranks}"},
+        )
         for log in folder.glob(f"{ranks}.*.log"):
             (trial.logs / f"{ranks}_ranks.{log.name.split('.')[1]}.log").write_bytes(log.read_bytes())
         trial.tests[ranks] = counted([folder / f"{ranks}.{rank}.xml" for rank in range(ranks)])
 
 
 def counted(files) -> Counts:
-    """Outcomes in the JUnit files of all ranks: what every rank passed counts once, what any failed or skipped is added up."""
+    """Outcomes in the JUnit files of all ranks: what every rank passed counts once, what any failed or skipped is added
+    up."""
     reports = [ElementTree.parse(file).getroot().find("testsuite") for file in files if file.exists()]
     if not reports:
         return Counts()
@@ -150,6 +168,8 @@ def counted(files) -> Counts:
     reasons = {skip.get("message", "") for report in reports for skip in report.iter("skipped")}
     failed = [int(suite["failures"]) + int(suite["errors"]) for suite in suites]
     skipped = [int(suite["skipped"]) for suite in suites]
-    passed = [int(suite["tests"]) - bad - left_out for suite, bad, left_out in zip(suites, failed, skipped, strict=True)]
+    passed = [
+        int(suite["tests"]) - bad - left_out for suite, bad, left_out in zip(suites, failed, skipped, strict=True)
+    ]
     seconds = max(float(suite["time"]) for suite in suites)
     return Counts(min(passed), sum(failed), sum(skipped), seconds, len(suites) == len(files), tuple(sorted(reasons)))

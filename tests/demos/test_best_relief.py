@@ -1,4 +1,5 @@
-"""The demonstration of the best relief: searches against maps by brute force, and what its README says of friction and tolerances; on coarse teeth."""
+"""The demonstration of the best relief: searches against maps by brute force, and what its README says of friction and
+tolerances; on coarse teeth."""
 
 import re
 
@@ -20,13 +21,21 @@ def every(tmp_path_factory):
     """Searches with fewer designs and samples, on maps of 4 by 4 reliefs."""
     folder, found = tmp_path_factory.mktemp("best_relief"), {}
     for name in ("frictionless", "friction", "friction_tolerances"):
-        text = (compare.HERE / f"{name}.toml").read_text(encoding="utf-8").replace("../lundvall2004.toml", str(compare.HERE.parent / "lundvall2004.toml"))
-        text = re.sub("evaluations = .*", "evaluations = 40", re.sub("samples = .*", "samples = 2", text)).replace("without = [", 'without = ["accuracy", ')
+        text = (
+            (compare.HERE / f"{name}.toml")
+            .read_text(encoding="utf-8")
+            .replace("../lundvall2004.toml", str(compare.HERE.parent / "lundvall2004.toml"))
+        )
+        text = re.sub("evaluations = .*", "evaluations = 40", re.sub("samples = .*", "samples = 2", text)).replace(
+            "without = [", 'without = ["accuracy", '
+        )
         (folder / f"{name}.toml").write_text(text + COARSE, encoding="utf-8")
         with pytest.MonkeyPatch.context() as few:
             few.setattr("fenics_gears.studies.optimization.optimize.VALUES", 2)
             few.setattr("fenics_gears.studies.optimization.optimize.TORQUES", (1.0,))
-            found[name] = compared(folder / f"{name}.toml", folder / name, np.linspace(15.0, 45.0, 4), np.linspace(4.5, 7.5, 4))
+            found[name] = compared(
+                folder / f"{name}.toml", folder / name, np.linspace(15.0, 45.0, 4), np.linspace(4.5, 7.5, 4)
+            )
     return found
 
 

@@ -1,4 +1,5 @@
-"""The demonstration of a study under mpirun: stopped, gone on with, and what it says of tip relief over speed and load."""
+"""The demonstration of a study under mpirun: stopped, gone on with, and what it says of tip relief over speed and
+load."""
 
 import os
 import re
@@ -44,7 +45,8 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def stopped(folder):
-    """Exit code and cases done of the study under mpirun that was stopped after its first case, and exit code of the one that went on."""
+    """Exit code and cases done of the study under mpirun that was stopped after its first case, and exit code of the
+    one that went on."""
     with pytest.MonkeyPatch.context() as patched:
         clean = environment()
         for name in set(os.environ) - set(clean):
@@ -67,18 +69,22 @@ def test_the_study_is_what_the_readme_says():
 
 @pytest.mark.nightly
 def test_a_stopped_study_goes_on_and_ends_like_one_alone(folder, stopped):
-    """Authority: exact identity; how a study came to its end changes no number of it. Exit code 130 is an interrupted study's (docs/promises.md)."""
+    """Authority: exact identity; how a study came to its end changes no number of it. Exit code 130 is an interrupted
+    study's (docs/promises.md)."""
     first, kept, second = stopped
     assert first == 130 and 1 <= kept < CASES
     assert second == 0 and done(folder / "out") == CASES
     assert main(["study", str(folder / "study.toml"), "--output", str(folder / "alone"), "--quiet"]) == 0
-    together, alone = (xr.open_dataset(folder / name / "study.nc", engine="h5netcdf").load() for name in ("out", "alone"))
+    together, alone = (
+        xr.open_dataset(folder / name / "study.nc", engine="h5netcdf").load() for name in ("out", "alone")
+    )
     assert together.drop_vars("wall_time").equals(alone.drop_vars("wall_time"))
 
 
 @pytest.mark.nightly
 def test_relief_helps_at_its_load_and_harms_far_below(folder, stopped):
-    """The README's findings, on coarse teeth. Known behaviour too: a relief suits one load (Harris, Proc. IMechE 172, 1958)."""
+    """The README's findings, on coarse teeth. Known behaviour too: a relief suits one load (Harris, Proc. IMechE 172,
+    1958)."""
     found = gain(folder / "out" / "study.nc")
     assert list(found.torques) == [50.0, 300.0, 437.0]
     lightest, _, design = found.ratio
@@ -96,7 +102,9 @@ def test_picture_and_table_show_it(folder, stopped):
     found = gain(folder / "out" / "study.nc")
     maps = [axes for axes in draw(found).axes if axes.get_title(loc="left")]
     assert len(maps) == 3
-    assert maps[0].get_ylabel() == "Torque on the wheel (N m)" and all(axes.get_xlabel() == "Mesh frequency (Hz)" for axes in maps)
+    assert maps[0].get_ylabel() == "Torque on the wheel (N m)" and all(
+        axes.get_xlabel() == "Mesh frequency (Hz)" for axes in maps
+    )
     rows = table(found).splitlines()
     assert len(rows) == 2 + len(TORQUES_RUN) and len(FREQUENCIES) >= 4
     assert f"{found.with_relief[2, 0]:.1f} / {found.without_relief[2, 0]:.1f}" in rows[-1]

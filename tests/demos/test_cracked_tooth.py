@@ -19,7 +19,14 @@ from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Accuracy
 from meshes.root_crack import RootCrack, cracked_sector_mesh
 
-COARSE = Accuracy(element="P2", flank_element_size=0.4, body_element_size=2.0, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
+COARSE = Accuracy(
+    element="P2",
+    flank_element_size=0.4,
+    body_element_size=2.0,
+    contact_length=3.0,
+    contact_nodes=26,
+    steps_per_mesh_cycle=40,
+)
 
 
 @pytest.fixture(scope="module")
@@ -45,12 +52,16 @@ def test_the_scene_has_the_mesh_that_lies_in_the_repository():
 
 @pytest.mark.nightly
 def test_the_bump_comes_with_the_cracked_tooth_and_fills_the_orders_between_those_of_the_mesh(turns):
-    """On fine teeth the pair alone is 14.7 % more compliant at this depth (README); coarse ones are within 1 %. Exact: equal teeth have
+    """On fine teeth the pair alone is 14.7 % more compliant at this depth (README); coarse ones are within 1 %. Exact:
+    equal teeth have
     no orders but the mesh's."""
     whole, broken = turns
     alone = int(np.argmin(np.abs(whole.phase - ALONE)))
     assert broken.error[alone] / whole.error[alone] == pytest.approx(1.147, abs=0.01)
-    assert broken.stiffness.argmin() == np.abs(broken.error).argmax() and ITS_CYCLE + 0.5 < broken.phase[broken.stiffness.argmin()] < ITS_CYCLE + 1.0
+    assert (
+        broken.stiffness.argmin() == np.abs(broken.error).argmax()
+        and ITS_CYCLE + 0.5 < broken.phase[broken.stiffness.argmin()] < ITS_CYCLE + 1.0
+    )
     before, after = (each.orders(16) for each in turns)
     between = (before.orders % 16 > 0.5) & (before.orders % 16 < 15.5)
     assert before.exact and before.amplitudes[between].max() < 1e-6 * before.amplitudes.max()
@@ -66,7 +77,10 @@ def test_the_picture_shows_every_depth_with_its_units(turns, scene):
     sector = cracked_sector_mesh(gear, element_sizes(gear, ELEMENTS["P2"], 0.4), SHOWN)
     figure = draw(turns, gear, sector, SHOWN)
     panels = {axes.get_title(loc="left"): axes for axes in figure.axes}
-    assert [text.get_text() for text in panels["A turn of the pinion"].get_legend().get_texts()] == ["no crack", "crack of 3 mm"]
+    assert [text.get_text() for text in panels["A turn of the pinion"].get_legend().get_texts()] == [
+        "no crack",
+        "crack of 3 mm",
+    ]
     assert all(axes.get_xlabel() and axes.get_ylabel() for axes in figure.axes)
     length = np.linalg.norm(np.diff(panels["Its root, enlarged"].lines[-1].get_xydata(), axis=0))
     assert length == pytest.approx(SHOWN.depth)
@@ -85,5 +99,7 @@ def test_the_crack_is_open_while_its_tooth_carries_and_closed_while_the_one_befo
     for tooth, expected in zip((CRACKED_TOOTH + 1, CRACKED_TOOTH, CRACKED_TOOTH - 1), (before, own, after)):
         # Solved as a whole there, by parts here.
         found = 1e3 * 574.1 * compliance.openings[tooth] @ body.on_flank(tooth)
-        assert found.min() == pytest.approx(expected.min(), rel=1e-9) and found.max() == pytest.approx(expected.max(), rel=1e-9)
+        assert found.min() == pytest.approx(expected.min(), rel=1e-9) and found.max() == pytest.approx(
+            expected.max(), rel=1e-9
+        )
     assert opening_table({3.0: body}, 574.1)[2].startswith("| crack of 3 mm | -1.8 | ")

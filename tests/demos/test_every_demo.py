@@ -15,12 +15,17 @@ OVERVIEW = DEMOS.parent / "docs" / "demos.md"
 
 def pictures(page: Path) -> list[Path]:
     """The pictures that a page shows."""
-    return [(page.parent / name).resolve() for name in re.findall(r"!\[[^]]+\]\(([^)]+)\)", page.read_text(encoding="utf-8"))]
+    return [
+        (page.parent / name).resolve()
+        for name in re.findall(r"!\[[^]]+\]\(([^)]+)\)", page.read_text(encoding="utf-8"))
+    ]
 
 
 def test_every_folder_is_a_demonstration():
     """Authority: docs/demos.md: a folder with a script that runs it. Python's own folders do not count."""
-    folders = {path.name for path in DEMOS.iterdir() if path.is_dir() and any(path.glob("*.*")) and path.name != "__pycache__"}
+    folders = {
+        path.name for path in DEMOS.iterdir() if path.is_dir() and any(path.glob("*.*")) and path.name != "__pycache__"
+    }
     assert folders == set(FOLDERS)
 
 
@@ -31,7 +36,9 @@ def test_it_is_tested_and_shown(demo):
     assert test.is_file(), f"no test runs demos/{demo}: write {test.name}"
     source = test.read_text(encoding="utf-8")
     assert f"demos.{demo}" in source or f'"{demo}"' in source
-    assert any(isinstance(node, ast.FunctionDef) and node.name.startswith("test_") for node in ast.walk(ast.parse(source)))
+    assert any(
+        isinstance(node, ast.FunctionDef) and node.name.startswith("test_") for node in ast.walk(ast.parse(source))
+    )
     readme = DEMOS / demo / "README.md"
     shown = pictures(readme)
     assert shown and all(picture.is_file() for picture in shown)
@@ -41,7 +48,8 @@ def test_it_is_tested_and_shown(demo):
 
 @pytest.mark.parametrize("demo", FOLDERS)
 def test_its_script_calls_a_module_that_is_there(demo):
-    """Authority: the shell; the script can be executed, is free of mistakes in its syntax, and names a module of its folder."""
+    """Authority: the shell; the script can be executed, is free of mistakes in its syntax, and names a module of its
+    folder."""
     script = DEMOS / demo / "run"
     assert os.access(script, os.X_OK)
     assert subprocess.run(["bash", "-n", script], capture_output=True).returncode == 0

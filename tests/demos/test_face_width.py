@@ -17,7 +17,8 @@ PHASES = np.linspace(0.0, 1.0, 2001)
 
 @pytest.mark.parametrize("overlap_ratio", [0.3, 1.4])
 def test_lines_of_contact_are_as_long_as_the_plane_of_action_has_them(overlap_ratio):
-    """Brute force: lines half a base pitch and so on apart, cut off at the ends of the path of contact and of the face; both series lose their ripple where the overlap ratio is whole."""
+    """Brute force: lines half a base pitch and so on apart, cut off at the ends of the path of contact and of the face;
+    both series lose their ripple where the overlap ratio is whole."""
     contact_ratio, heights = 1.6, (np.arange(4000) + 0.5) / 4000
     along = PHASES[:, None] + overlap_ratio * heights
     pairs = np.floor(contact_ratio - along % 1.0).astype(int) + 1
@@ -30,7 +31,8 @@ def test_lines_of_contact_are_as_long_as_the_plane_of_action_has_them(overlap_ra
 
 
 def test_widths_are_overlap_ratios_at_the_same_load_per_width():
-    """Definition: epsilon_beta = b sin(beta)/(pi m_n) of the base scene is 1; the study's widths and torques are multiples of a quarter of it."""
+    """Definition: epsilon_beta = b sin(beta)/(pi m_n) of the base scene is 1; the study's widths and torques are
+    multiples of a quarter of it."""
     assert gear_pair(load_scene(widths.STUDY.parent / "pair.toml").gears).overlap_ratio == pytest.approx(1.0, abs=1e-4)
     lines = [re.findall(r'"([\d.]+) ', line) for line in widths.STUDY.read_text(encoding="utf-8").splitlines()]
     swept = [list(map(float, values)) for values in lines if len(values) == 10]
@@ -43,6 +45,7 @@ def test_widths_are_overlap_ratios_at_the_same_load_per_width():
 def test_a_whole_overlap_ratio_has_less_ripple(tmp_path):
     """Authority: the demonstration's own words, on coarse bodies and two widths; table and picture have both."""
     text = widths.STUDY.read_text(encoding="utf-8").replace('"pair.toml"', f'"{widths.STUDY.parent / "pair.toml"}"')
+
     # The third and the fourth of each swept field's values, on half as many slices and layers.
     def kept(found):
         values = found[1].split(", ")[2:4]

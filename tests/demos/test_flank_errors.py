@@ -14,7 +14,8 @@ from fenics_gears.simulation.simulate import simulate
 
 @pytest.mark.nightly
 def test_the_picture_names_every_error_of_the_scene():
-    """The scene's own sections: run-out of both gears, 37 waves on the pinion, tolerance class 6; a whole hunting tooth period of 48 mesh
+    """The scene's own sections: run-out of both gears, 37 waves on the pinion, tolerance class 6; a whole hunting tooth
+    period of 48 mesh
     cycles, so that every line stands alone. On coarse teeth."""
     scene = load_scene(SCENE)
     assert (scene.motion.mesh_cycles, scene.motion.recorded_cycles) == (48, 48)
@@ -22,7 +23,14 @@ def test_the_picture_names_every_error_of_the_scene():
     result = simulate(replace(scene, accuracy=COARSE))
     chart = order_spectrum(Run(result))
     flags = {flag.words: flag for flag in chart.flags}
-    named = {"mesh", "mesh − 1", "mesh + 1", "run-out of the pinion", "run-out of the wheel", "ghost order: 37 waves on the pinion"}
+    named = {
+        "mesh",
+        "mesh − 1",
+        "mesh + 1",
+        "run-out of the pinion",
+        "run-out of the wheel",
+        "ghost order: 37 waves on the pinion",
+    }
     assert named <= set(flags)
     heights = {curve.name: curve.y for curve in chart.curves}
     # Run-out of 10 and 15 um and pitch errors of the same size: the largest lines are those of the turns.
@@ -30,7 +38,8 @@ def test_the_picture_names_every_error_of_the_scene():
     ghost = flags["ghost order: 37 waves on the pinion"]
     # A wave of 1 um, seen by one or two pairs in contact patches shorter than itself.
     assert ghost.x == 37.0 and 0.5 < ghost.y < 1.1
-    # What the README says of them: the mesh's own lines stand out of its sidebands, the ghost order out of its neighbours.
+    # What the README says of them: the mesh's own lines stand out of its sidebands, the ghost order out of its
+    # neighbours.
     lines = named_lines(result)
     assert lines["ghost order of 37 waves on the pinion"] == pytest.approx(ghost.y, rel=1e-12)
     assert lines["mesh"] > 5.0 * max(amplitude for name, amplitude in lines.items() if name.startswith("sideband"))

@@ -1,4 +1,5 @@
-"""The paper's gallery: its studies load and say what the figures need; a fast part of its claims (model.md, section 6)."""
+"""The paper's gallery: its studies load and say what the figures need; a fast part of its claims (model.md, section
+6)."""
 
 import re
 from pathlib import Path
@@ -26,7 +27,10 @@ def measured(tmp_path_factory):
     directory = tmp_path_factory.mktemp("gallery")
     depths = '"1e-6 um", "20 um", "28 um", "31 um", "36 um"'
     files = {name: STUDIES[name] for name in ("figure02", "figure04", "figure05", "figure08", f"{PRINTED}figure05")}
-    files |= {name: _reduced(STUDIES[name], "tip_relief.depth", depths, directory) for name in ("figure09_static", "figure09_dynamic")}
+    files |= {
+        name: _reduced(STUDIES[name], "tip_relief.depth", depths, directory)
+        for name in ("figure09_static", "figure09_dynamic")
+    }
     files["undamped"] = _reduced(STUDIES["undamped"], "motion.mesh_frequency", '"215 Hz"', directory)
     for name, file in files.items():
         code, words, _ = run_one(file, directory / name)
@@ -57,14 +61,18 @@ def test_every_study_varies_friction(loaded):
     assert len(loaded) >= 10
     for study in loaded.values():
         assert list(_swept(study, "friction")) == [WITH, WITHOUT]
-        assert {None if case.scene.friction is None else case.scene.friction.coefficient for case in study.cases} == {None, 0.1}
+        assert {None if case.scene.friction is None else case.scene.friction.coefficient for case in study.cases} == {
+            None,
+            0.1,
+        }
 
 
 @pytest.mark.nightly
 @pytest.mark.parametrize("reading", [READ, PRINTED])
 @pytest.mark.parametrize("figure", ["06", "10"])
 def test_frequency_sweeps_are_dense_and_run_long_enough(loaded, reading, figure):
-    """At least 60 frequencies, rising; each run lasts until the drivetrain's slowest motion has decayed to 0.1 % (damped eigenvalues)."""
+    """At least 60 frequencies, rising; each run lasts until the drivetrain's slowest motion has decayed to 0.1 %
+    (damped eigenvalues)."""
     slowest = {READ: 317.0, PRINTED: 2500.0}[reading]  # 1/s, with one tooth pair in mesh
     frequencies = []
     for band in ("low", "high"):
@@ -81,7 +89,8 @@ def test_frequency_sweeps_are_dense_and_run_long_enough(loaded, reading, figure)
 
 @pytest.mark.nightly
 def test_readings_of_inertia_differ_in_nothing_but_what_they_must(loaded):
-    """model.md, section 5: 24.5 N mm s^2 against 24.5 kg mm^2 = 24.5e-3 N mm s^2; the frequencies and depths are the same."""
+    """model.md, section 5: 24.5 N mm s^2 against 24.5 kg mm^2 = 24.5e-3 N mm s^2; the frequencies and depths are the
+    same."""
     for name, study in loaded.items():
         inertias = {round(case.scene.inertia.moment_of_inertia, 9) for case in study.cases if case.scene.inertia}
         assert inertias <= {24.5e-3 if name.startswith(PRINTED) else 24.5}
@@ -108,7 +117,8 @@ def test_claim_5_shape_is_kept_at_200_hz_and_the_frictionless_curve_lags(measure
 
 @pytest.mark.nightly
 def test_claim_7_friction_of_the_modified_pair_passes_smoothly(measured):
-    """Fig. 8: within 0.02 cycles R_y1 changes by less than 15 % of mu T2/rb2; the unmodified pair's by more than twice as much."""
+    """Fig. 8: within 0.02 cycles R_y1 changes by less than 15 % of mu T2/rb2; the unmodified pair's by more than twice
+    as much."""
     unmodified, modified = (measured.run(name, friction=WITH) for name in ("figure04", "figure08"))
     assert claims.claim_7(unmodified, modified).verdict == claims.HELD
     assert claims.sudden_change(unmodified) > 2.0 * claims.sudden_change(modified)
@@ -133,7 +143,8 @@ def test_claim_9_relief_gains_less_with_friction(measured):
 
 @pytest.mark.nightly
 def test_claim_10_contact_is_lost_without_damping(measured):
-    """Section 5: near the first torsional mode the teeth separate by more than the backlash, and the program says so."""
+    """Section 5: near the first torsional mode the teeth separate by more than the backlash, and the program says
+    so."""
     for text in measured.study("undamped").warnings.values.ravel():
         assert "coast flanks would touch" in text
     run = measured.run("undamped", mesh_frequency=215.0, friction=WITHOUT)

@@ -13,7 +13,9 @@ def other_python(tmp_path_factory):
     """A Python with the other programs, by pip."""
     home = tmp_path_factory.mktemp("others")
     subprocess.run([sys.executable, "-m", "venv", home], check=True)
-    installed = subprocess.run([home / "bin" / "pip", "install", "-q", "-r", HERE / "requirements.txt"], capture_output=True, text=True)
+    installed = subprocess.run(
+        [home / "bin" / "pip", "install", "-q", "-r", HERE / "requirements.txt"], capture_output=True, text=True
+    )
     if installed.returncode:
         pytest.skip(f"pip does not reach the other programs: {installed.stderr[-300:]}")
     return home / "bin" / "python"
@@ -21,8 +23,10 @@ def other_python(tmp_path_factory):
 
 @pytest.mark.nightly
 def test_the_same_pair_in_three_programs(other_python):
-    """Authority: Exudyn 1.13.6 and ROSS 2.3.0. Natural frequencies agree, ROSS's but for the bending of its shafts; Exudyn's dynamic transmission error, from tables of static
-    equilibria, but for what is not linear in the load; ROSS's stiffness of one tooth pair, a beam formula, within the tenth that such formulas are good for."""
+    """Authority: Exudyn 1.13.6 and ROSS 2.3.0. Natural frequencies agree, ROSS's but for the bending of its shafts;
+    Exudyn's dynamic transmission error, from tables of static
+    equilibria, but for what is not linear in the load; ROSS's stiffness of one tooth pair, a beam formula, within the
+    tenth that such formulas are good for."""
     found = compared(str(other_python))
     assert found.exudyn_frequencies == pytest.approx(found.frequencies, rel=1e-9)
     nearest = [found.ross_frequencies[np.argmin(np.abs(found.ross_frequencies - each))] for each in found.frequencies]

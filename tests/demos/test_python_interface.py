@@ -1,4 +1,5 @@
-"""The demonstration of the Python interface: it runs as a script and opens as a notebook, and its results are those that it speaks of."""
+"""The demonstration of the Python interface: it runs as a script and opens as a notebook, and its results are those
+that it speaks of."""
 
 import re
 import runpy
@@ -12,7 +13,10 @@ from matplotlib.image import imread
 from tests.conftest import DEMOS
 
 SCRIPT = DEMOS / "python_interface" / "first_steps.py"
-COARSE = '[accuracy]\nelement = "P1"\nflank_element_size = "0.12 mm"\ncontact_length = "3 mm"\ncontact_nodes = 26\nsteps_per_mesh_cycle = 40\n'
+COARSE = (
+    '[accuracy]\nelement = "P1"\nflank_element_size = "0.12 mm"\ncontact_length = "3 mm"\ncontact_nodes ='
+    " 26\nsteps_per_mesh_cycle = 40\n"
+)
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +42,8 @@ def cells():
 
 
 def test_it_opens_as_a_notebook():
-    """The percent format (Jupytext's documentation): a text cell is comments from its first line to its last, each code cell is Python by itself."""
+    """The percent format (Jupytext's documentation): a text cell is comments from its first line to its last, each code
+    cell is Python by itself."""
     kinds = [title for title, _ in cells()]
     assert set(kinds) == {"", "[markdown]"} and kinds.count("") >= 8 and kinds.count("[markdown]") >= 8
     for title, text in cells():
@@ -50,7 +55,8 @@ def test_it_opens_as_a_notebook():
 
 @pytest.mark.nightly
 def test_results_are_those_that_it_speaks_of(ran):
-    """The paper, Sections 5 and 6: at 200 Hz friction raises the transmission error; the torsional resonance is near 213 Hz; relief lowers the error."""
+    """The paper, Sections 5 and 6: at 200 Hz friction raises the transmission error; the torsional resonance is near
+    213 Hz; relief lowers the error."""
     names, _ = ran
     with_friction, without = (names["micrometres"](names[run]) for run in ("result", "frictionless"))
     assert np.ptp(with_friction.values) > 1.1 * np.ptp(without.values)
@@ -64,7 +70,8 @@ def test_results_are_those_that_it_speaks_of(ran):
 
 @pytest.mark.nightly
 def test_orders_add_up(ran):
-    """Exact (Parseval): the variance of the transmission error is half the sum of its orders' squares, up to those left out."""
+    """Exact (Parseval): the variance of the transmission error is half the sum of its orders' squares, up to those left
+    out."""
     names, _ = ran
     error = names["micrometres"](names["result"]).values[:-1]
     orders = names["mesh_orders"](names["result"], highest=19)

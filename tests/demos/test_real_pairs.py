@@ -16,10 +16,13 @@ SCENES = [load_scene(pairs.HERE / f"{name}.toml") for name in pairs.SCENES]
 
 
 def test_pairs_are_what_their_sources_say():
-    """Authority: GEARpie's report on FZG type C (base radii, base pitch, T1 to T2); solid discs on the reference circles of the two others' programs."""
+    """Authority: GEARpie's report on FZG type C (base radii, base pitch, T1 to T2); solid discs on the reference
+    circles of the two others' programs."""
     fzg, *discs = SCENES
     pair = model_of(fzg).pair
-    assert [pair.pinion.base_radius, pair.wheel.base_radius, pair.base_pitch] == pytest.approx([33.829, 50.743, 13.285], abs=1e-3)
+    assert [pair.pinion.base_radius, pair.wheel.base_radius, pair.base_pitch] == pytest.approx(
+        [33.829, 50.743, 13.285], abs=1e-3
+    )
     assert pair.line_of_action_length == pytest.approx(34.93, abs=6e-3)
     for scene, density in zip(discs, (7.84e-6, 7.85e-6)):  # kg/mm^3
         pair = model_of(scene).pair
@@ -40,16 +43,30 @@ def test_no_two_gears_of_a_pair_have_one_inertia():
 
 
 def test_at_a_crawl_a_real_pair_is_quasi_static():
-    """Limit: at a hundredth of the lowest natural frequency inertia changes the transmission error's height by less than 1 % of it."""
+    """Limit: at a hundredth of the lowest natural frequency inertia changes the transmission error's height by less
+    than 1 % of it."""
     scene = replace(SCENES[2], accuracy=replace(COARSE, contact_length=1.0))
-    slow = replace(scene, motion=replace(scene.motion, mesh_frequency=0.01 * model_of(scene).vibrations[0].frequency, mesh_cycles=2, recorded_cycles=1))
-    heights = [simulate(each).attrs["peak_to_peak_transmission_error"] for each in (slow, replace(slow, inertia=None, damping=None))]
+    slow = replace(
+        scene,
+        motion=replace(
+            scene.motion,
+            mesh_frequency=0.01 * model_of(scene).vibrations[0].frequency,
+            mesh_cycles=2,
+            recorded_cycles=1,
+        ),
+    )
+    heights = [
+        simulate(each).attrs["peak_to_peak_transmission_error"]
+        for each in (slow, replace(slow, inertia=None, damping=None))
+    ]
     assert heights[0] == pytest.approx(heights[1], rel=0.01)
 
 
 def test_table_and_picture_have_every_pair(monkeypatch):
     """Authority: what they are made from; a row and a column for each pair, two curves of the transmission error."""
-    coarse = replace(SCENES[2], accuracy=replace(COARSE, contact_length=1.0), motion=replace(SCENES[2].motion, mesh_cycles=3))
+    coarse = replace(
+        SCENES[2], accuracy=replace(COARSE, contact_length=1.0), motion=replace(SCENES[2].motion, mesh_cycles=3)
+    )
     monkeypatch.setattr("fenics_gears.load_scene", lambda path: coarse)
     found = pairs.measured(pairs.HERE)
     assert len(found.row) == len(pairs.COLUMNS) and found.row[2:4] == ("96", "200")

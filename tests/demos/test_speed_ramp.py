@@ -17,7 +17,11 @@ from fenics_gears.studies.gear_store import GearStore
 def test_both_scenes_are_one_pair_each_way_and_warn_of_nothing():
     """Authority: the demonstration's own words."""
     up, down = (load_scene(sweeps.HERE / f"{name}.toml") for name in ("up", "down"))
-    assert (up.motion.mesh_frequency, up.speed_ramp.end_frequency) == (down.speed_ramp.end_frequency, down.motion.mesh_frequency) == (150.0, 260.0)
+    assert (
+        (up.motion.mesh_frequency, up.speed_ramp.end_frequency)
+        == (down.speed_ramp.end_frequency, down.motion.mesh_frequency)
+        == (150.0, 260.0)
+    )
     same = {"title": "", "name": "", "motion": down.motion, "speed_ramp": down.speed_ramp}
     assert replace(up, **same) == replace(down, **same)
     assert model_of(up).warnings == model_of(down).warnings == []
@@ -27,14 +31,21 @@ def coarsened(path):
     """The demonstration's scene at the coarse settings, its ramp twice as fast; both branches are there at them too."""
     scene = load_scene(path)
     accuracy = replace(COARSE, contact_length=2.0, contact_nodes=12, steps_per_mesh_cycle=60)
-    return replace(scene, accuracy=accuracy, motion=Motion(scene.motion.mesh_frequency, 165, 1), speed_ramp=replace(scene.speed_ramp, hold_cycles=5))
+    return replace(
+        scene,
+        accuracy=accuracy,
+        motion=Motion(scene.motion.mesh_frequency, 165, 1),
+        speed_ramp=replace(scene.speed_ramp, hold_cycles=5),
+    )
 
 
 @pytest.mark.nightly
 @pytest.mark.parametrize("frequency", [200.0, 240.0])
 def test_two_steady_vibrations_at_one_speed(monkeypatch, frequency):
-    """Known behaviour of gears with backlash (Kahraman and Singh, Journal of Sound and Vibration 142, 1990: jumps, the branch depends on the
-    direction): at 200 Hz the steady vibration reached from above is several times that reached from below; at 240 Hz they are the same."""
+    """Known behaviour of gears with backlash (Kahraman and Singh, Journal of Sound and Vibration 142, 1990: jumps, the
+    branch depends on the
+    direction): at 200 Hz the steady vibration reached from above is several times that reached from below; at 240 Hz
+    they are the same."""
     monkeypatch.setattr(sweeps, "load_scene", coarsened)
     monkeypatch.setattr(sweeps, "SETTLING_CYCLES", 60 if frequency == 200.0 else 120)
     store = GearStore()
@@ -48,8 +59,13 @@ def test_two_steady_vibrations_at_one_speed(monkeypatch, frequency):
 def test_the_picture_has_both_ways():
     """Authority: what it is drawn from; two lines, two rows of rings, over the frequencies of the ramps."""
     frequency = np.linspace(150.0, 260.0, 12)
-    passed = {"up": sweeps.Sweep(frequency, 1e-3 * frequency / 200.0), "down": sweeps.Sweep(frequency[::-1], 1e-3 * np.ones(12))}
-    (axes,) = draw(passed, np.array([180.0, 200.0]), {"up": np.array([1e-3, 2e-3]), "down": np.array([3e-3, 4e-3])}, 50.0).axes
+    passed = {
+        "up": sweeps.Sweep(frequency, 1e-3 * frequency / 200.0),
+        "down": sweeps.Sweep(frequency[::-1], 1e-3 * np.ones(12)),
+    }
+    (axes,) = draw(
+        passed, np.array([180.0, 200.0]), {"up": np.array([1e-3, 2e-3]), "down": np.array([3e-3, 4e-3])}, 50.0
+    ).axes
     assert [list(line.get_xdata()) for line in axes.get_lines()][1] == [180.0, 200.0]
     assert len(axes.get_lines()) == 4 and axes.get_xlim() == (150.0, 260.0)
     assert list(axes.get_lines()[2].get_ydata()) == pytest.approx([50.0] * 12)

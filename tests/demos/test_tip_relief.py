@@ -1,4 +1,5 @@
-"""The demonstration of tip relief: the chosen one is the best, and what its README says of friction and load; on coarse teeth."""
+"""The demonstration of tip relief: the chosen one is the best, and what its README says of friction and load; on coarse
+teeth."""
 
 from dataclasses import replace
 
@@ -42,7 +43,8 @@ def test_long_and_short_are_what_the_field_means(benches):
 
 @pytest.mark.parametrize("length", [SHORT, 0.8, LONG])
 def test_without_load_the_relief_is_the_transmission_error(benches, length):
-    """Exact geometry: unloaded, of two pairs the one with less relief touches. A long linear relief then shows half of its depth, a short one nothing."""
+    """Exact geometry: unloaded, of two pairs the one with less relief touches. A long linear relief then shows half of
+    its depth, a short one nothing."""
     bench, depth = benches["teeth alone"], 30.0
     phase, error = bench.error(Design(depth, length), 1e-3)
     ratio = bench.pair.contact_ratio  # base pitches from start to end of contact
@@ -54,12 +56,15 @@ def test_without_load_the_relief_is_the_transmission_error(benches, length):
     inside = phase % 1.0
     earlier = np.where(inside + 1.0 <= ratio, removed(inside + 1.0), np.inf)
     assert error == pytest.approx(np.minimum(removed(inside), earlier), abs=0.6)  # um: what the teeth still give way
-    assert np.ptp(error) == pytest.approx(depth * (1.0 - 0.5 / length), abs=1.5)  # the kink lies between two of 40 steps
+    assert np.ptp(error) == pytest.approx(
+        depth * (1.0 - 0.5 / length), abs=1.5
+    )  # the kink lies between two of 40 steps
 
 
 @pytest.mark.nightly
 def test_the_chosen_relief_is_the_best(benches, best):
-    """Definition of a minimum: no relief of a coarse map or beside the chosen one is better; at both ends of its ranges a micrometre more is left."""
+    """Definition of a minimum: no relief of a coarse map or beside the chosen one is better; at both ends of its ranges
+    a micrometre more is left."""
     bench, design, least = benches["μ = 0"], best.design, best.peak_to_peak
     around = findings.relief_map(bench, np.array([0.0, 15.0, 30.0, 45.0]), np.array([0.5, 0.8, 1.0, 1.3]))
     assert least < around.left.min()
@@ -74,7 +79,8 @@ def test_the_chosen_relief_is_the_best(benches, best):
 
 @pytest.mark.nightly
 def test_friction_matters_by_the_shafts_and_bearings(benches, best):
-    """The README's finding, with the paper's (Section 6, Fig. 9: the optimum may be sought without friction): friction leaves several times as much, and
+    """The README's finding, with the paper's (Section 6, Fig. 9: the optimum may be sought without friction): friction
+    leaves several times as much, and
     the relief chosen without it is nearly the best with it; on stiff shafts and bearings friction hardly matters."""
     depths = {name: findings.best_depth(benches[name], 1.0, tolerance=0.5) for name in ("μ = 0.1", findings.STIFF)}
     left = {name: benches[name].peak_to_peak(Design(depth, LONG)) for name, depth in depths.items()}
@@ -86,10 +92,14 @@ def test_friction_matters_by_the_shafts_and_bearings(benches, best):
 
 @pytest.mark.nightly
 def test_a_relief_suits_one_load(benches, best):
-    """Known behaviour (Harris, Proc. IMechE 172, 1958; Palmer and Fish, AGMA 10FTM10): a long relief is smooth at its load and harms at half of it; a short one harms no light load, and is
+    """Known behaviour (Harris, Proc. IMechE 172, 1958; Palmer and Fish, AGMA 10FTM10): a long relief is smooth at its
+    load and harms at half of it; a short one harms no light load, and is
     no better than true involutes at full load; the best depth is proportional to the load."""
     bench, none, short = benches["μ = 0"], None, Design(best.design.depth, SHORT)
-    left = {load: [bench.peak_to_peak(design, load) for design in (none, short, best.design)] for load in (0.05, 0.5, 1.0, 2.0)}
+    left = {
+        load: [bench.peak_to_peak(design, load) for design in (none, short, best.design)]
+        for load in (0.05, 0.5, 1.0, 2.0)
+    }
     assert left[0.05][1] < 1.5 and left[0.05][2] > 10.0
     assert left[0.5][2] > left[0.5][0]
     assert left[1.0][2] < 0.25 * left[1.0][0] and left[1.0][1] == pytest.approx(left[1.0][0], rel=0.1)
@@ -100,7 +110,8 @@ def test_a_relief_suits_one_load(benches, best):
 
 @pytest.mark.nightly
 def test_the_best_depth_is_below_the_deflection_of_one_pair(benches, best):
-    """The rule that relief is deflection (Harris) holds where two pairs are twice as stiff as one; here they are less, so that less will do: the README's bounds."""
+    """The rule that relief is deflection (Harris) holds where two pairs are twice as stiff as one; here they are less,
+    so that less will do: the README's bounds."""
     low, high = findings.single_pair_deflection(benches["teeth alone"])
     phase, error = benches["teeth alone"].error(None)
     two_pairs = error[(phase > 0.1) & (phase < 0.4)].mean()
@@ -111,20 +122,42 @@ def test_the_best_depth_is_below_the_deflection_of_one_pair(benches, best):
 def test_pictures_and_table_say_what_was_measured(benches, best):
     """Authority: what they are made from; axes with units, optima marked where they are."""
     bench, designs = benches["μ = 0"], findings.compared(best.design)
-    small = findings.Map(np.array([0.0, 20.0, 40.0]), np.array([0.5, 1.0, 1.5]), np.array([[13.0, 13.0, 13.0], [13.0, 2.5, 6.0], [13.0, 8.0, 9.0]]))
+    small = findings.Map(
+        np.array([0.0, 20.0, 40.0]),
+        np.array([0.5, 1.0, 1.5]),
+        np.array([[13.0, 13.0, 13.0], [13.0, 2.5, 6.0], [13.0, 8.0, 9.0]]),
+    )
     other = Optimum(Design(25.0, 1.0), 11.0, (20.0, 31.0), (0.8, 1.2))
-    optima = {("μ = 0", "linear"): best, ("μ = 0.1", "linear"): other, ("μ = 0", PARABOLIC): replace(other, design=Design(33.0, 1.3, PARABOLIC))}
-    curves = {(name, which): bench.error(designs[which]) for name in findings.DRAWN for which in ("true involutes", "best relief")}
+    optima = {
+        ("μ = 0", "linear"): best,
+        ("μ = 0.1", "linear"): other,
+        ("μ = 0", PARABOLIC): replace(other, design=Design(33.0, 1.3, PARABOLIC)),
+    }
+    curves = {
+        (name, which): bench.error(designs[which])
+        for name in findings.DRAWN
+        for which in ("true involutes", "best relief")
+    }
     torques = bench.torque(np.array([0.1, 1.0, 2.0]))
     loads = torques, {(name, which): np.array([3.0, 2.0, 9.0]) for name in findings.DRAWN for which in designs}
     shown = {name: optima[name, "linear"] for name in findings.DRAWN}
     figure = pictures.draw_choice(dict.fromkeys(findings.DRAWN, small), shown, curves, loads)
     maps = [axes for axes in figure.axes if axes.get_xlabel() == pictures.LENGTH]
-    marks = [[(line.get_xdata()[0], line.get_ydata()[0]) for line in axes.get_lines() if line.get_marker() == "o"][0] for axes in maps]
+    marks = [
+        [(line.get_xdata()[0], line.get_ydata()[0]) for line in axes.get_lines() if line.get_marker() == "o"][0]
+        for axes in maps
+    ]
     assert marks == [(each.design.length, each.design.depth) for each in shown.values()]
     assert all("(" in axes.get_xlabel() or "µm" in axes.get_ylabel() for axes in figure.axes)
     harris = pictures.draw_harris_map(bench, designs, (0.5, 1.0))
     assert [len(axes.get_lines()) for axes in harris.axes] == [2, 2, 2] and "(µm)" in harris.axes[0].get_ylabel()
-    text = table({name: benches[name] for name in findings.DRAWN}, benches["teeth alone"], optima, designs, loads=(1.0,), tolerance=5.0)
+    text = table(
+        {name: benches[name] for name in findings.DRAWN},
+        benches["teeth alone"],
+        optima,
+        designs,
+        loads=(1.0,),
+        tolerance=5.0,
+    )
     assert f"| μ = 0 | linear | {best.design.depth:.1f} | {best.design.length:.2f} | {best.peak_to_peak:.1f} |" in text
     assert "| 0.874 N m | 437 N m |" in text

@@ -13,11 +13,17 @@ from fenics_gears.studies.study_file import load_study
 
 @pytest.fixture(scope="module")
 def small(tmp_path_factory):
-    """Results of two frequencies, one far from resonance and one at it, over fewer cycles at a coarser step, and their picture."""
+    """Results of two frequencies, one far from resonance and one at it, over fewer cycles at a coarser step, and their
+    picture."""
     directory = tmp_path_factory.mktemp("undamped")
     text = resonance.STUDY.read_text()
     text = re.sub(r"motion.mesh_frequency = \[[^]]*\]", 'motion.mesh_frequency = ["100 Hz", "210 Hz"]', text)
-    for name, value in (("mesh_cycles", 20), ("recorded_cycles", 5), ("contact_nodes", 26), ("steps_per_mesh_cycle", 160)):
+    for name, value in (
+        ("mesh_cycles", 20),
+        ("recorded_cycles", 5),
+        ("contact_nodes", 26),
+        ("steps_per_mesh_cycle", 160),
+    ):
         text, count = re.subn(rf"{name} = \d+", f"{name} = {value}", text)
         assert count == 1
     text = text.replace("[sweep]", 'accuracy.element = "P1"\naccuracy.flank_element_size = "0.12 mm"\n\n[sweep]')
@@ -33,13 +39,16 @@ def test_the_study_sweeps_150_to_260_hz_with_coast_flanks_and_without():
     frequencies = {case.scene.motion.mesh_frequency for case in study.cases}
     assert min(frequencies) == 150.0 and max(frequencies) == 260.0 and len(frequencies) >= 20
     for coast in (True, False):
-        assert {case.scene.motion.mesh_frequency for case in study.cases if (case.scene.coast_flanks is not None) == coast} == frequencies
+        assert {
+            case.scene.motion.mesh_frequency for case in study.cases if (case.scene.coast_flanks is not None) == coast
+        } == frequencies
     assert all(case.scene.damping is None and case.scene.accuracy.steps_per_mesh_cycle >= 480 for case in study.cases)
 
 
 @pytest.mark.nightly
 def test_contact_is_kept_far_from_resonance_and_lost_at_it(small):
-    """Claim 10 (Section 5): undamped near the first torsional mode contact is lost; while it is kept coast flanks change nothing."""
+    """Claim 10 (Section 5): undamped near the first torsional mode contact is lost; while it is kept coast flanks
+    change nothing."""
     found = sweeps(small[0])
     for curve in found.values():
         assert list(curve.frequency) == [100.0, 210.0] and list(curve.lost) == [False, True]
@@ -51,13 +60,16 @@ def test_contact_is_kept_far_from_resonance_and_lost_at_it(small):
 
 @pytest.mark.nightly
 def test_picture_shows_both_curves_and_marks_what_was_lost(small):
-    """Axes with units, a curve each, open or crossed marks exactly where contact was lost, the same in the panel below."""
+    """Axes with units, a curve each, open or crossed marks exactly where contact was lost, the same in the panel
+    below."""
     assert small[1].name == "undamped_resonance.png" and small[1].stat().st_size > 10_000
     found = sweeps(small[0])
     above, below = draw(found).get_axes()
     assert "(µm)" in above.get_ylabel() and "(%)" in below.get_ylabel() and "(Hz)" in below.get_xlabel()
     assert {WITH, WITHOUT} <= {text.get_text() for text in above.get_legend().get_texts()}
-    crossed = [list(line.get_xdata()) for line in above.get_lines() if line.get_marker() == "x" and len(line.get_xdata())]
+    crossed = [
+        list(line.get_xdata()) for line in above.get_lines() if line.get_marker() == "x" and len(line.get_xdata())
+    ]
     assert crossed == [[at] for at in found[WITHOUT].frequency[found[WITHOUT].meaningless]]
     shares = [list(line.get_ydata()) for line in below.get_lines()]
     assert shares == [list(100.0 * curve.share) for curve in found.values()]

@@ -9,12 +9,19 @@ from pathlib import Path
 from markdown_it import MarkdownIt
 
 ROOT = Path(__file__).parents[2]
-PAGES = sorted([*(ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")), *(ROOT / "docs").glob("*.md"), *(ROOT / "demos").glob("*/README.md")])
+PAGES = sorted(
+    [
+        *(ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")),
+        *(ROOT / "docs").glob("*.md"),
+        *(ROOT / "demos").glob("*/README.md"),
+    ]
+)
 
 
 @dataclass(frozen=True)
 class Block:
-    """A block of code: the language that its fence names ("" for an indented block), its text and the line (from 1) that the text begins at."""
+    """A block of code: the language that its fence names ("" for an indented block), its text and the line (from 1)
+    that the text begins at."""
 
     language: str
     code: str

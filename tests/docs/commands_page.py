@@ -46,7 +46,11 @@ def page() -> str:
 def _shown(command: argparse.ArgumentParser) -> list[argparse.Action]:
     """The arguments of a command that are its own."""
     common = () if command.prog == "gears" else ("help", "verbose", "quiet")
-    return [action for action in command._actions if not isinstance(action, argparse._SubParsersAction) and action.dest not in common]
+    return [
+        action
+        for action in command._actions
+        if not isinstance(action, argparse._SubParsersAction) and action.dest not in common
+    ]
 
 
 def _usage(command: argparse.ArgumentParser) -> str:
@@ -74,7 +78,14 @@ def _exit_codes() -> list[str]:
     """The table of exit codes, in the words of the command line's own docstring."""
     words = " ".join(inspect.getdoc(cli).split("Exit codes: ")[1].split())
     codes = re.findall(r"(\d+) (.*?)(?:, (?=\d+ )|\.$)", words)
-    return ["## Exit codes", "", *table(("code", "means"), codes), "", "What to do: [troubleshooting](troubleshooting.md).", ""]
+    return [
+        "## Exit codes",
+        "",
+        *table(("code", "means"), codes),
+        "",
+        "What to do: [troubleshooting](troubleshooting.md).",
+        "",
+    ]
 
 
 def _environment() -> list[str]:
@@ -83,7 +94,13 @@ def _environment() -> list[str]:
         ("`FENICS_GEARS_PYTHON`", "Python for `./gears`; if not set, `./gears` finds or makes one"),
         ("`FENICS_GEARS_CACHE`", "folder of the cache of condensed gears; if not set, the user's cache folder"),
         ("`FENICS_GEARS_CACHE_SIZE`", f"largest size of this cache, such as `500 MB`; if not set, {DEFAULT_SIZE}"),
-        ("`XDG_CACHE_HOME`", "folder for compiled code, and for condensed gears where `FENICS_GEARS_CACHE` is not set; if not set, `~/.cache`, or a temporary folder where that cannot be written"),
+        (
+            "`XDG_CACHE_HOME`",
+            (
+                "folder for compiled code, and for condensed gears where `FENICS_GEARS_CACHE` is not set; if not set,"
+                " `~/.cache`, or a temporary folder where that cannot be written"
+            ),
+        ),
         ("`TMPDIR`", "folder for temporary files; if not set, or without room, `/tmp`"),
         ("`OMP_NUM_THREADS`", "threads of the factorisation; 1 under mpirun"),
     ]

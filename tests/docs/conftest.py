@@ -25,13 +25,16 @@ friction = ["absent", "present"]
 
 @pytest.fixture(scope="session")
 def readers_folder(tmp_path_factory) -> Path:
-    """A folder with the demo, its gears in REXS, and its result, a small study and its result, and a coarse scene with root stress."""
+    """A folder with the demo, its gears in REXS, and its result, a small study and its result, and a coarse scene with
+    root stress."""
     folder = tmp_path_factory.mktemp("reader")
     (folder / "demos").mkdir()
     for name in ("lundvall2004.toml", "lundvall2004.rexs"):
         shutil.copy(ROOT / "demos" / name, folder / "demos")
     (folder / "frequencies.toml").write_text(STUDY, encoding="utf-8")
-    (folder / "scene.toml").write_text(text_of("tooth_elasticity") + "\n[output]\nroot_stress = true\n", encoding="utf-8")
+    (folder / "scene.toml").write_text(
+        text_of("tooth_elasticity") + "\n[output]\nroot_stress = true\n", encoding="utf-8"
+    )
     before = Path.cwd()
     os.chdir(folder)
     try:

@@ -1,4 +1,5 @@
-"""docs/result.md, made from the effects' list of variables, from the list of attributes, and from a run that has them all."""
+"""docs/result.md, made from the effects' list of variables, from the list of attributes, and from a run that has them
+all."""
 
 from __future__ import annotations
 
@@ -63,11 +64,17 @@ DIMENSIONS = {
     "contact_time": "steps whose contact fields are stored, at the end of the run (`[output] contact_fields`)",
     "gear": '"pinion", "wheel"',
     "slot": "places for the tooth pairs that can touch at the same time; a pair keeps its slot as long as it can touch",
-    "path_point": "points of the path of contact: A start of contact, B LPSTC of the pinion, C pitch point, D HPSTC of the pinion, E end of contact",
+    "path_point": (
+        "points of the path of contact: A start of contact, B LPSTC of the pinion, C pitch point, D HPSTC of the"
+        " pinion, E end of contact"
+    ),
     "contact_node": "contact nodes of a pair, in the order of their offset from the line of action",
     "pinion_tooth": "teeth of the pinion, in the order in which they mesh",
     "wheel_tooth": "teeth of the wheel, in the order in which they mesh",
-    "fillet_point": "points along both fillets of a tooth, from the root circle to the form circle, first on the drive side, then on the coast side",
+    "fillet_point": (
+        "points along both fillets of a tooth, from the root circle to the form circle, first on the drive side, then"
+        " on the coast side"
+    ),
     "fillet": '"drive", "coast": the two sides of a tooth',
 }
 OVER_THE_FACE = """The common face is divided into slices. Their middles are the coordinate `face_position`: the distance along the axes, mm, from the middle of the common face, towards the end from which
@@ -89,7 +96,8 @@ then the same with twice as many slices, to 1 %. For the same reason `peak_conta
 * **`transverse_load_factor`**: the standard's K_Halpha is the largest load of a tooth divided by that of a pair without deviations. Here both are shares in the mesh force at the same step, so that no dynamic factor is in them; the
   shares without deviations are those of the same line load along all lines of contact, as the standard's contact ratio factor assumes."""
 ROOT_STRESS = "`[output] root_stress`"
-# Bodies read from meshes exclude other effects and have no variables of their own; what makes a scene three-dimensional gives fields another dimension.
+# Bodies read from meshes exclude other effects and have no variables of their own; what makes a scene three-dimensional
+# gives fields another dimension.
 ROOT_STRESS_OVER_FACE = """In three-dimensional scenes root stress is averaged over each slice of the face and acts across the tooth's trace. `root_stress` has the further dimension `face_position`, `root_stress_over_face` (contact_time, gear, slot, fillet,
 face_position), MPa, is the stress at the 30 degree tangent, and the other two are the largest over the face."""
 NOT_IN_THE_RUN = {each.section for each in EFFECTS if each.excludes} | {"lead_modifications", "misalignment"}
@@ -115,13 +123,26 @@ def page(result: xr.Dataset | None = None) -> str:
     lines += ["### Three-dimensional scenes", "", OVER_THE_FACE, "", *_over_face(), ""]
     lines += [UNFINISHED]
     lines += ["## Attributes", "", *_attributes(), ""]
-    lines += [f"Further attributes give the number of steps that each method solved, Newton's and its [fallbacks](model.md#fallbacks): `{RUNG}newton` and so on"]
-    lines += [f"({', '.join(METHODS)}).", "", f"With `[accuracy] target`, further attributes give the estimated error of each setting: `{ESTIMATED}steps per mesh cycle` and so on."]
+    lines += [
+        "Further attributes give the number of steps that each method solved, Newton's and its"
+        f" [fallbacks](model.md#fallbacks): `{RUNG}newton` and so on"
+    ]
+    lines += [
+        f"({', '.join(METHODS)}).",
+        "",
+        (
+            f"With `[accuracy] target`, further attributes give the estimated error of each setting: `{ESTIMATED}steps"
+            " per mesh cycle` and so on."
+        ),
+    ]
     return "\n".join(lines) + "\n"
 
 
 def _dimensions(result: xr.Dataset) -> list[str]:
-    return table(("dimension", "meaning"), [(f"`{name}`", DIMENSIONS[name]) for name in sorted(result.sizes, key=list(DIMENSIONS).index)])
+    return table(
+        ("dimension", "meaning"),
+        [(f"`{name}`", DIMENSIONS[name]) for name in sorted(result.sizes, key=list(DIMENSIONS).index)],
+    )
 
 
 def _coordinates(result: xr.Dataset) -> list[str]:
@@ -144,11 +165,16 @@ def _variables(result: xr.Dataset, variables: Sequence[ResultVariable]) -> list[
 
 
 def _over_face() -> list[str]:
-    return table(("variable", "dimensions", "units", "meaning"), [(f"`{each.name}`", ", ".join(each.dims), each.units, each.long_name) for each in FACE_VARIABLES])
+    return table(
+        ("variable", "dimensions", "units", "meaning"),
+        [(f"`{each.name}`", ", ".join(each.dims), each.units, each.long_name) for each in FACE_VARIABLES],
+    )
 
 
 def _root_stress(result: xr.Dataset) -> list[str]:
-    return table(("variable", "dimensions", "units", "meaning"), [_row(result, name) for name in undeclared_variables(result)])
+    return table(
+        ("variable", "dimensions", "units", "meaning"), [_row(result, name) for name in undeclared_variables(result)]
+    )
 
 
 def undeclared_variables(result: xr.Dataset) -> list[str]:
@@ -163,4 +189,7 @@ def _row(result: xr.Dataset, name: str) -> tuple[str, str, str, str]:
 
 
 def _attributes() -> list[str]:
-    return table(("attribute", "units", "meaning", "only if"), [(f"`{each.name}`", each.units, each.meaning, each.when) for each in RESULT_ATTRIBUTES])
+    return table(
+        ("attribute", "units", "meaning", "only if"),
+        [(f"`{each.name}`", each.units, each.meaning, each.when) for each in RESULT_ATTRIBUTES],
+    )

@@ -61,7 +61,10 @@ def page() -> str:
 
 def _units() -> list[str]:
     rows = [(kind, ", ".join(f"`{name}`" for name in names)) for kind, names in units.names_by_kind().items()]
-    words = "These units may be combined by blanks, `*`, `/`, `^` and brackets (`kg m^2`, `N/mm`). Other prefixes are not accepted. A speed may also be in `min^-1` or `1/min`."
+    words = (
+        "These units may be combined by blanks, `*`, `/`, `^` and brackets (`kg m^2`, `N/mm`). Other prefixes are not"
+        " accepted. A speed may also be in `min^-1` or `1/min`."
+    )
     return ["## Units", "", words, "", *table(("for", "units"), rows), ""]
 
 
@@ -100,7 +103,9 @@ def _parts(section: SectionOfScene) -> Iterator[str]:
 def _section(kind: type[BaseModel], name: str) -> type[BaseModel]:
     """The class of a section within a section, which may be optional."""
     annotation = kind.model_fields[name].annotation
-    return next(each for each in (annotation, *get_args(annotation)) if isinstance(each, type) and issubclass(each, BaseModel))
+    return next(
+        each for each in (annotation, *get_args(annotation)) if isinstance(each, type) and issubclass(each, BaseModel)
+    )
 
 
 def fields(kind: type[BaseModel], place: str) -> list[str]:
@@ -109,7 +114,14 @@ def fields(kind: type[BaseModel], place: str) -> list[str]:
     for name, field in kind.model_fields.items():
         allowed = allowed_in(kind, name)
         if allowed is not None:
-            rows.append((f"`{name}`", _meaning(allowed, f"{place}.{name}"), _allowed(allowed), _left_out(allowed, field, f"{place}.{name}")))
+            rows.append(
+                (
+                    f"`{name}`",
+                    _meaning(allowed, f"{place}.{name}"),
+                    _allowed(allowed),
+                    _left_out(allowed, field, f"{place}.{name}"),
+                )
+            )
     return [*table(("field", "meaning", "allowed", "default"), rows), ""] if rows else []
 
 

@@ -1,4 +1,5 @@
-"""What the pages tell a reader to type works: Python runs, scenes and studies are valid, commands are the program's, and the README's numbers are those of its runs."""
+"""What the pages tell a reader to type works: Python runs, scenes and studies are valid, commands are the program's,
+and the README's numbers are those of its runs."""
 
 import contextlib
 import doctest
@@ -40,7 +41,8 @@ def holding(language):
 
 
 def run_python(page):
-    """Run a page's Python, sessions in one namespace, other blocks each in its own; what differs from the page, in words."""
+    """Run a page's Python, sessions in one namespace, other blocks each in its own; what differs from the page, in
+    words."""
     shared, runner, differences = {}, doctest.DocTestRunner(), io.StringIO()
     for block in blocks(page):
         if block.language == "python" and PROMPT in block.code:
@@ -78,7 +80,8 @@ def test_pages_that_are_run_elsewhere_are(page, test):
 
 @pytest.mark.parametrize("page", holding("toml"))
 def test_scenes_and_studies_are_valid(page, readers_folder, tmp_path):
-    """Authority: the program's own reading; a piece of a scene is put into the demo, and what it needs with it; one with gears and a load is whole."""
+    """Authority: the program's own reading; a piece of a scene is put into the demo, and what it needs with it; one
+    with gears and a load is whole."""
     for block in blocks(page):
         if block.language != "toml":
             continue
@@ -95,7 +98,9 @@ def test_scenes_and_studies_are_valid(page, readers_folder, tmp_path):
             assert load_design(tmp_path / "design.toml").variables
         else:
             whole = {"gears", "load"} <= set(tree)
-            scene_from_text(block.code if whole else as_toml(merged(around(tree), tree)), f"{name_of(page)}:{block.line}")
+            scene_from_text(
+                block.code if whole else as_toml(merged(around(tree), tree)), f"{name_of(page)}:{block.line}"
+            )
 
 
 def around(piece):
@@ -110,7 +115,9 @@ def merged(scene, piece):
     """The scene with a piece's sections and fields in the place of its own."""
     both = dict(scene)
     for name, value in piece.items():
-        both[name] = merged(scene[name], value) if isinstance(value, dict) and isinstance(scene.get(name), dict) else value
+        both[name] = (
+            merged(scene[name], value) if isinstance(value, dict) and isinstance(scene.get(name), dict) else value
+        )
     return both
 
 
@@ -120,17 +127,29 @@ def calls_of_gears(text):
         words = shlex.split(line.partition(" | ")[0].replace("`", ""), comments=True)
         places = [i for i, word in enumerate(words) if word in ("gears", "./gears")]
         if places and (places[0] == 0 or words[0] in STARTERS):
-            yield [STAND_FOR.get(word, word) for word in (word.strip("[]") for word in words[places[0] + 1 :]) if word != "..."]
+            yield [
+                STAND_FOR.get(word, word)
+                for word in (word.strip("[]") for word in words[places[0] + 1 :])
+                if word != "..."
+            ]
 
 
 def calls(page):
     """All calls of the program on a page; the page of commands has forms of them."""
-    shell = "\n".join(block.code.replace("\\\n", " ") for block in blocks(page) if block.language in ("", "bash", "sh", "console"))
+    shell = "\n".join(
+        block.code.replace("\\\n", " ") for block in blocks(page) if block.language in ("", "bash", "sh", "console")
+    )
     text = "\n".join(code for code in in_text(page) if code.startswith(("gears ", "./gears ")))
-    return [call for call in (*calls_of_gears(shell), *calls_of_gears(text)) if call and call[0] not in ("test", "--set-up-only")]
+    return [
+        call
+        for call in (*calls_of_gears(shell), *calls_of_gears(text))
+        if call and call[0] not in ("test", "--set-up-only")
+    ]
 
 
-WITH_CALLS = [pytest.param(page, id=name_of(page)) for page in PAGES if name_of(page) != "docs/commands.md" and calls(page)]
+WITH_CALLS = [
+    pytest.param(page, id=name_of(page)) for page in PAGES if name_of(page) != "docs/commands.md" and calls(page)
+]
 
 
 @pytest.mark.parametrize("page", WITH_CALLS)
@@ -153,7 +172,10 @@ def test_commands_are_the_programs(page):
 
 def test_commands_are_found_in_blocks_in_sentences_and_behind_mpirun():
     """Authority: by hand."""
-    assert list(calls_of_gears("./gears run a.toml # why\nmpirun -n 8 gears study b.toml\nls gears")) == [["run", "a.toml"], ["study", "b.toml"]]
+    assert list(calls_of_gears("./gears run a.toml # why\nmpirun -n 8 gears study b.toml\nls gears")) == [
+        ["run", "a.toml"],
+        ["study", "b.toml"],
+    ]
     assert list(calls_of_gears("gears study [-n N] STUDY")) == [["study", "-n", "2", "STUDY"]]
 
 
@@ -180,7 +202,8 @@ def micrometres(result):
 
 
 def test_the_summary_is_as_shown(first_run):
-    """Authority: the README; its lines are those of the run, with numbers as meshes of other gmsh versions give them."""
+    """Authority: the README; its lines are those of the run, with numbers as meshes of other gmsh versions give
+    them."""
     shown = next(block.code for block in blocks(README) if block.language == "text").splitlines()
     assert shown[0] == first_run.attrs["title"]
     rows = {label: value for label, value, _ in summary_rows(first_run)}

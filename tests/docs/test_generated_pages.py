@@ -57,10 +57,13 @@ def test_every_field_has_its_line():
 
 
 def test_a_field_without_meaning_is_refused():
-    """Authority: the pages' own rule; a field cannot be declared without one, and one that is declared otherwise is named."""
+    """Authority: the pages' own rule; a field cannot be declared without one, and one that is declared otherwise is
+    named."""
     with pytest.raises(TypeError, match="meaning"):
         quantity("1 mm", "2 mm", "1 mm")
-    silent = create_model("Silent", __base__=Section, depth=(float, Field(..., json_schema_extra={"allowed": Allowed("a length")})))
+    silent = create_model(
+        "Silent", __base__=Section, depth=(float, Field(..., json_schema_extra={"allowed": Allowed("a length")}))
+    )
     with pytest.raises(scene_page.NoMeaning, match="tip_relief.depth: the field has no meaning"):
         scene_page.fields(silent, "tip_relief")
 
@@ -68,7 +71,9 @@ def test_a_field_without_meaning_is_refused():
 def test_a_field_that_may_be_left_out_says_what_is_taken_then():
     """Authority: the pages' own rule."""
     allowed = Allowed("a length", meaning="depth")
-    silent = create_model("Silent", __base__=Section, depth=(float, Field(None, json_schema_extra={"allowed": allowed})))
+    silent = create_model(
+        "Silent", __base__=Section, depth=(float, Field(None, json_schema_extra={"allowed": allowed}))
+    )
     with pytest.raises(scene_page.NoMeaning, match="otherwise="):
         scene_page.fields(silent, "tip_relief")
 
@@ -80,7 +85,8 @@ def undeclared(attributes) -> set[str]:
 
 
 def test_a_run_has_no_attribute_that_the_list_does_not_know(everything, paper_scene):
-    """Authority: the list, which the page of the result is made from; a run with all effects, and one that loses contact."""
+    """Authority: the list, which the page of the result is made from; a run with all effects, and one that loses
+    contact."""
     assert not undeclared(everything.attrs)
     undamped = coarse_scene(replace(paper_scene, damping=None, friction=None))
     # The first torsional mode of the paper's pair is at 213 Hz.

@@ -20,7 +20,11 @@ TO_BE_WRITTEN = {"docs/adding_an_effect.md": {"fenics_gears/effects/brake.py", "
 @pytest.mark.parametrize("page", [pytest.param(page, id=name_of(page)) for page in PAGES])
 def test_files_that_a_page_names_are_there(page):
     """Authority: the checkout."""
-    named = {code for code in in_text(page) if code.startswith(PLACES) and code.endswith(SUFFIXES) and not set(code) & set(" *<")}
+    named = {
+        code
+        for code in in_text(page)
+        if code.startswith(PLACES) and code.endswith(SUFFIXES) and not set(code) & set(" *<")
+    }
     assert {name for name in named if not (ROOT / name).exists()} == TO_BE_WRITTEN.get(name_of(page), set())
 
 
@@ -52,7 +56,9 @@ def test_lines_to_read_are_about_what_the_page_says():
     rows = reading_table("you add")
     assert len(rows) == 6
     for _, _, files, lines in rows:
-        counted = sum(len((ROOT / name).read_text(encoding="utf-8").splitlines()) for name in re.findall("`(.*?)`", files))
+        counted = sum(
+            len((ROOT / name).read_text(encoding="utf-8").splitlines()) for name in re.findall("`(.*?)`", files)
+        )
         assert counted == pytest.approx(int(lines.strip(" |")), rel=1 / 3)
 
 

@@ -9,7 +9,10 @@ import pytest
 from tests.docs.blocks import PAGES, ROOT, name_of
 
 MATHJAX = Path("/usr/share/javascript/mathjax")
-pytestmark = [pytest.mark.nightly, pytest.mark.skipif(shutil.which("sphinx-build") is None, reason="Sphinx is not installed")]
+pytestmark = [
+    pytest.mark.nightly,
+    pytest.mark.skipif(shutil.which("sphinx-build") is None, reason="Sphinx is not installed"),
+]
 
 
 def built(checkout, site):
@@ -60,7 +63,13 @@ def test_equations_are_drawn_without_a_network(site):
 
 def in_browser(page, profile):
     """The page as a browser without network has it when all its scripts have run."""
-    options = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", f"--user-data-dir={profile}"]
+    options = [
+        "--headless=new",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--disable-dev-shm-usage",
+        f"--user-data-dir={profile}",
+    ]
     # The browser's own clock runs ahead until nothing is left to do.
     options += ["--host-resolver-rules=MAP * ~NOTFOUND", "--virtual-time-budget=20000", "--dump-dom"]
     done = subprocess.run(["chromium", *options, f"file://{page}"], capture_output=True, text=True, timeout=120)
@@ -68,7 +77,9 @@ def in_browser(page, profile):
     return done.stdout
 
 
-needs_browser = pytest.mark.skipif(shutil.which("chromium") is None or not MATHJAX.is_dir(), reason="Chromium or Debian's MathJax is missing")
+needs_browser = pytest.mark.skipif(
+    shutil.which("chromium") is None or not MATHJAX.is_dir(), reason="Chromium or Debian's MathJax is missing"
+)
 # How MathJax shows what it cannot read, and a name that it does not know.
 FAILED_FORMULA = re.compile(r'<merror>|mathcolor="red"')
 
@@ -94,8 +105,12 @@ def test_a_formula_that_cannot_be_drawn_is_noticed(small_checkout, tmp_path, for
 def test_pages_load_nothing_from_elsewhere(site):
     """Authority: the files; scripts, styles and pictures are the site's own. Links lead where they lead."""
     for page in site.rglob("*.html"):
-        sources = re.findall(r'<(?:script|img|link rel="stylesheet")[^>]*(?:src|href)="([^"]+)"', page.read_text(encoding="utf-8"))
-        assert not [source for source in sources if source.startswith(("http:", "https:", "//")) and "mathjax" not in source], page
+        sources = re.findall(
+            r'<(?:script|img|link rel="stylesheet")[^>]*(?:src|href)="([^"]+)"', page.read_text(encoding="utf-8")
+        )
+        assert not [
+            source for source in sources if source.startswith(("http:", "https:", "//")) and "mathjax" not in source
+        ], page
 
 
 WRONG = {
@@ -118,7 +133,9 @@ def small_checkout(tmp_path_factory):
 
 def test_a_page_without_mistakes_is_built(small_checkout, tmp_path):
     """Authority: what the next test spoils is whole."""
-    (small_checkout / "docs" / "other.md").write_text("# Two\n\n## Three\n\n[here](#three), [self](other.md#three) and $x^2$\n", encoding="utf-8")
+    (small_checkout / "docs" / "other.md").write_text(
+        "# Two\n\n## Three\n\n[here](#three), [self](other.md#three) and $x^2$\n", encoding="utf-8"
+    )
     done = built(small_checkout, tmp_path / "html")
     assert done.returncode == 0, done.stderr
 

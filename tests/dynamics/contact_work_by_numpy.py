@@ -1,4 +1,5 @@
-"""The contact's work over a step by whole arrays, to hold the compiled one to: the same splitting, written another way."""
+"""The contact's work over a step by whole arrays, to hold the compiled one to: the same splitting, written another
+way."""
 
 from __future__ import annotations
 
@@ -21,7 +22,8 @@ def contact_work(last: Record, record: Record) -> ContactWork:
 class _Nodes:
     """Which contact nodes the ends of a step share, and what those that only one end has would do at the other.
 
-    `kept`, `kept_before`: positions of the shared nodes now and before; `new`: now only; `gone`: before only; `both`: rows of the
+    `kept`, `kept_before`: positions of the shared nodes now and before; `new`: now only; `gone`: before only; `both`:
+        rows of the
     shared nodes now and before, tangents included where there are any.
     """
 
@@ -32,7 +34,11 @@ class _Nodes:
         successor = np.full(self._before + 1, -1)
         successor[carried] = np.arange(self._now)
         survives = successor[:-1] >= 0
-        self.kept, self.kept_before, self.gone = successor[:-1][survives], np.flatnonzero(survives), np.flatnonzero(~survives)
+        self.kept, self.kept_before, self.gone = (
+            successor[:-1][survives],
+            np.flatnonzero(survives),
+            np.flatnonzero(~survives),
+        )
         fresh = np.ones(self._now, dtype=bool)
         fresh[self.kept] = False
         self.new = np.flatnonzero(fresh)
@@ -78,7 +84,9 @@ class _Nodes:
         return _displacement(self.last, rows, self.both[1], self.record.state.position, self._forces_1)
 
 
-def _displacement(of: Record, rows: np.ndarray, columns: np.ndarray, position: np.ndarray, forces: np.ndarray) -> np.ndarray:
+def _displacement(
+    of: Record, rows: np.ndarray, columns: np.ndarray, position: np.ndarray, forces: np.ndarray
+) -> np.ndarray:
     """G x - C p on `rows`, with the operators of one record and the position and forces of the other."""
     operator, loaded = of.position.operator, np.flatnonzero(forces)
     return operator.jacobian[rows] @ position - operator.compliance[rows[:, None], columns[loaded]] @ forces[loaded]
@@ -89,7 +97,10 @@ def _normal(nodes: _Nodes, last: Record, record: Record) -> tuple[float, float]:
     kept, before = nodes.kept, nodes.kept_before
     gap_0, gap_1 = last.position.operator.gap, record.position.operator.gap
     p_0, p_1 = last.solution.forces, record.solution.forces
-    open_0, open_1 = gap_0 - last.solution.displacement[: len(gap_0)], gap_1 - record.solution.displacement[: len(gap_1)]
+    open_0, open_1 = (
+        gap_0 - last.solution.displacement[: len(gap_0)],
+        gap_1 - record.solution.displacement[: len(gap_1)],
+    )
     rotation = -0.5 * float((p_0[before] + p_1[kept]) @ (gap_1[kept] - gap_0[before]))
     rotation += 0.5 * (nodes.changed_arms() - nodes.changed_compliance())
     changes = 0.5 * float(p_0[before] @ open_1[kept] - p_1[kept] @ open_0[before])

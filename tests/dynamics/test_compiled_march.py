@@ -1,4 +1,5 @@
-"""The compiled march against the plain one, step by step in Python: the same numbers to the last bit, the same methods and counts."""
+"""The compiled march against the plain one, step by step in Python: the same numbers to the last bit, the same methods
+and counts."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -25,11 +26,17 @@ from fenics_gears.simulation.elastic_route import mesh_cycle
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.progress import SilentProgress
 
-DEMOS = sorted(path for path in (Path(__file__).parents[2] / "demos").rglob("*.toml") if "[gears" in path.read_text(encoding="utf-8"))
+DEMOS = sorted(
+    path
+    for path in (Path(__file__).parents[2] / "demos").rglob("*.toml")
+    if "[gears" in path.read_text(encoding="utf-8")
+)
 SCENES = {
     "friction": lambda scene: scene,
     "quasi-static": lambda scene: frictionless(quasi_static(scene)),
-    "coast flanks, undamped, from contact to contact": lambda scene: replace(scene, coast_flanks=CoastFlanks(), damping=None, motion=Motion(150.0, 6, 1)),
+    "coast flanks, undamped, from contact to contact": lambda scene: replace(
+        scene, coast_flanks=CoastFlanks(), damping=None, motion=Motion(150.0, 6, 1)
+    ),
     "backward Euler": lambda scene: replace(scene, motion=Motion(2e5, 3, 1)),
     "steps that change": lambda scene: replace(scene, speed_ramp=SpeedRamp(250.0), motion=Motion(150.0, 4, 1)),
     "friction beyond Newton": lambda scene: replace(quasi_static(scene), friction=Friction(2.0)),
@@ -50,7 +57,11 @@ def marched(model: Model, cycle, plain: bool):
 def assert_the_same(model: Model, cycle) -> set[str]:
     """Compare both marches; returns the methods that solved steps."""
     (one, fast, failed), (other, slow, failed_too) = (marched(model, cycle, plain) for plain in (False, True))
-    assert (one.steps, one.steps_by_method, one.newton_iterations) == (other.steps, other.steps_by_method, other.newton_iterations)
+    assert (one.steps, one.steps_by_method, one.newton_iterations) == (
+        other.steps,
+        other.steps_by_method,
+        other.newton_iterations,
+    )
     assert (one.separations, one.locked, failed) == (other.separations, other.locked, failed_too)
     for name, variable in fast.variables.items():
         np.testing.assert_array_equal(variable.values, slow.variables[name].values, name)

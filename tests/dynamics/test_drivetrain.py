@@ -60,7 +60,12 @@ def test_rayleigh_damping_is_the_papers(paper_scene, paper_pair):
     alpha, beta = 0.4e-3, 0.5e-3
     ks, kb = paper_scene.shafts.torsional_stiffness, paper_scene.bearings.stiffness
     m, j = paper_scene.inertia.mass, paper_scene.inertia.moment_of_inertia
-    expected = np.diag([alpha * kb + beta * m] * 2 + [alpha * ks + beta * j] + [alpha * kb + beta * m] * 2 + [alpha * ks + beta * j] * 2)
+    expected = np.diag(
+        [alpha * kb + beta * m] * 2
+        + [alpha * ks + beta * j]
+        + [alpha * kb + beta * m] * 2
+        + [alpha * ks + beta * j] * 2
+    )
     expected[5, 6] = expected[6, 5] = -alpha * ks
     assert damping == pytest.approx(expected, rel=1e-12, abs=1e-6)
 

@@ -23,11 +23,18 @@ UNEQUAL = Inertia(4.9e-3, 24.5, pinion=GearInertia(0.4e-3, J1), wheel=GearInerti
 @pytest.fixture
 def torsional(paper_scene):
     """The paper's pair without bearings, every inertia and either shaft another."""
-    return replace(paper_scene, bearings=None, damping=None, inertia=UNEQUAL, shafts=Shafts(input=Shaft(INPUT), output=Shaft(OUTPUT)))
+    return replace(
+        paper_scene,
+        bearings=None,
+        damping=None,
+        inertia=UNEQUAL,
+        shafts=Shafts(input=Shaft(INPUT), output=Shaft(OUTPUT)),
+    )
 
 
 def test_two_free_gears_swing_at_the_frequency_of_their_reduced_mass(torsional, paper_pair):
-    """Exact: two masses J/rb^2 on the mesh's spring, w^2 = k (rb1^2/J1 + rb2^2/J2); shafts so soft that they hold nothing."""
+    """Exact: two masses J/rb^2 on the mesh's spring, w^2 = k (rb1^2/J1 + rb2^2/J2); shafts so soft that they hold
+    nothing."""
     free = replace(torsional, shafts=Shafts(1e-6))
     rb1, rb2 = paper_pair.pinion.base_radius, paper_pair.wheel.base_radius
     expected = sqrt(MESH * (rb1**2 / J1 + rb2**2 / J2)) / (2.0 * pi)
@@ -75,7 +82,8 @@ def test_masses_stand_where_their_gear_moves(paper_scene, paper_pair):
 
 
 def test_rayleigh_damping_of_each_shaft(paper_scene, paper_pair):
-    """Exact: alpha K + beta M of the pinion's side by its own factors, of the wheel's by its own; nothing couples the two."""
+    """Exact: alpha K + beta M of the pinion's side by its own factors, of the wheel's by its own; nothing couples the
+    two."""
     own = replace(paper_scene, damping=Damping(0.4e-3, 0.5e-3, wheel=Rayleigh(mass_proportional=7.0)))
     shafts = drivetrain(own, paper_pair)
     wheel = np.arange(7) >= 3
@@ -110,9 +118,18 @@ def test_a_damped_mode_decays_by_its_ratio(torsional, paper_pair):
 
 
 def test_a_load_beside_which_the_wheel_is_nothing_is_refused(torsional, paper_pair):
-    """Round-off: the sum of both moments of inertia would lose the wheel's, and the mass matrix be singular; up to the limit all frequencies are right."""
+    """Round-off: the sum of both moments of inertia would lose the wheel's, and the mass matrix be singular; up to the
+    limit all frequencies are right."""
     heavy = replace(torsional, inertia=replace(UNEQUAL, load=0.9e10 * J2))
-    stiffness = np.array([[INPUT + MESH * paper_pair.pinion.base_radius**2, MESH * paper_pair.pinion.base_radius * paper_pair.wheel.base_radius], [0.0, 0.0]])
+    stiffness = np.array(
+        [
+            [
+                INPUT + MESH * paper_pair.pinion.base_radius**2,
+                MESH * paper_pair.pinion.base_radius * paper_pair.wheel.base_radius,
+            ],
+            [0.0, 0.0],
+        ]
+    )
     stiffness[1] = stiffness[0, 1], OUTPUT + MESH * paper_pair.wheel.base_radius**2
     held = np.sqrt(np.sort(np.linalg.eigvals(stiffness / np.array([[J1], [J2]])))) / (2.0 * pi)
     assert natural_frequencies(drivetrain(heavy, paper_pair), MESH)[1:] == pytest.approx(held, rel=1e-5)
@@ -131,9 +148,14 @@ moment_of_inertia = "0.2 kg m^2"
 
 
 def test_density_gives_mass_and_moment_of_inertia_of_each_gear_by_its_own_width(paper_scene, paper_pair):
-    """Definition: density times width times area and polar moment; `gears check` prints them, and what was given stays."""
+    """Definition: density times width times area and polar moment; `gears check` prints them, and what was given
+    stays."""
     text = re.sub(r"\[inertia\].*?(?=^\[)", DENSITY, paper_scene.text, flags=re.M | re.S)
-    scene = scene_from_text(text.replace("teeth = 16", 'teeth = 16\nface_width = "18 mm"').replace("teeth = 24", 'teeth = 24\nface_width = "14 mm"'))
+    scene = scene_from_text(
+        text.replace("teeth = 16", 'teeth = 16\nface_width = "18 mm"').replace(
+            "teeth = 24", 'teeth = 24\nface_width = "14 mm"'
+        )
+    )
     pinion, wheel = gear_section(paper_pair.pinion), gear_section(paper_pair.wheel)
     said = dict(describe(scene))
     assert ("face width in common", 14.0, "mm: pinion 18 mm, wheel 14 mm") in said["Model"]

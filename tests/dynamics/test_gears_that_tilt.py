@@ -1,4 +1,5 @@
-"""Helical gears on bearings along their shafts, in mesh: balances of forces and moments, energy, and the limit of shafts that do not tilt."""
+"""Helical gears on bearings along their shafts, in mesh: balances of forces and moments, energy, and the limit of
+shafts that do not tilt."""
 
 from dataclasses import replace
 from math import tan
@@ -39,7 +40,9 @@ class Mesh:
         def openings(heights, positions):
             return opening * heights / self.pair.face_width
 
-        self.cycle = FaceCycle(flanks, bodies, face, openings, ContactGrid(3.0, 12), STEPS, self.shafts.indices, friction)
+        self.cycle = FaceCycle(
+            flanks, bodies, face, openings, ContactGrid(3.0, 12), STEPS, self.shafts.indices, friction
+        )
 
     def marched(self, plain=False, cycles=1, marcher=Marcher):
         """One mesh cycle, or more."""
@@ -47,9 +50,16 @@ class Mesh:
         return marcher(self.cycle, motion, plain).run(cycles * STEPS, cycles * STEPS + 1).records
 
     def reactions(self, record):
-        """Force (x, y, z), N, and moment (x, y, z), N mm, of pinion and wheel on their shafts about their mid-widths, from the contact forces."""
+        """Force (x, y, z), N, and moment (x, y, z), N mm, of pinion and wheel on their shafts about their mid-widths,
+        from the contact forces."""
         rows = _reaction_rows(record.position.operator, self.friction) @ record.solution.forces
-        return [(np.array([*rows[place : place + 2], rows[6 + place]]), np.array([*rows[7 + place : 9 + place], rows[2 + place]])) for place in (0, 3)]
+        return [
+            (
+                np.array([*rows[place : place + 2], rows[6 + place]]),
+                np.array([*rows[7 + place : 9 + place], rows[2 + place]]),
+            )
+            for place in (0, 3)
+        ]
 
 
 @pytest.fixture(scope="module")
@@ -66,10 +76,13 @@ def with_helix(flanks, **changes):
 
 
 def test_all_balances_of_either_gear_are_closed(helical):
-    """Exact: what a gear puts on its shaft, its bearings and its shaft's torsion carry; and the two gears' forces cancel, in force and in moment."""
+    """Exact: what a gear puts on its shaft, its bearings and its shaft's torsion carry; and the two gears' forces
+    cancel, in force and in moment."""
     for mesh in helical:
         pair, shafts = mesh.pair, mesh.shafts
-        centre = np.array([pair.line_of_action_length, -pair.pinion.base_radius - pair.wheel.base_radius, MIDDLES[1] - MIDDLES[0]])
+        centre = np.array(
+            [pair.line_of_action_length, -pair.pinion.base_radius - pair.wheel.base_radius, MIDDLES[1] - MIDDLES[0]]
+        )
         for record in mesh.marched():
             (force_1, moment_1), (force_2, moment_2) = mesh.reactions(record)
             size = np.abs(force_1).max()
@@ -79,16 +92,26 @@ def test_all_balances_of_either_gear_are_closed(helical):
             for number, gear, force, moment in (("1", "pinion", force_1, moment_1), ("2", "wheel", force_2, moment_2)):
                 carried, turned = np.zeros(3), np.zeros(3)
                 for place in getattr(PLACES, gear):
-                    x, y = found[f"centre_x{number}"] + place * found[f"tilt_y{number}"], found[f"centre_y{number}"] - place * found[f"tilt_x{number}"]
+                    x, y = (
+                        found[f"centre_x{number}"] + place * found[f"tilt_y{number}"],
+                        found[f"centre_y{number}"] - place * found[f"tilt_x{number}"],
+                    )
                     at_bearing = 0.5 * np.array([BEARINGS.of(gear, "x") * x, BEARINGS.of(gear, "y") * y, 0.0])
                     carried, turned = carried + at_bearing, turned + np.cross((0.0, 0.0, place), at_bearing)
                 carried[2] = BEARINGS.axial(gear) * found[f"axial_{number}"]
-                turned[2] = mesh.scene.shafts.of("input") * found["rotation_1"] if gear == "pinion" else -mesh.scene.load.wheel_torque
-                assert force == pytest.approx(carried, rel=1e-9, abs=1e-9 * size) and moment == pytest.approx(turned, rel=1e-9, abs=1e-8 * size)
+                turned[2] = (
+                    mesh.scene.shafts.of("input") * found["rotation_1"]
+                    if gear == "pinion"
+                    else -mesh.scene.load.wheel_torque
+                )
+                assert force == pytest.approx(carried, rel=1e-9, abs=1e-9 * size) and moment == pytest.approx(
+                    turned, rel=1e-9, abs=1e-8 * size
+                )
 
 
 def test_axial_force_is_the_tangential_one_times_the_tangent_of_the_helix(helical):
-    """Exact: without friction F_a = F_t tan(beta), with F_t = T/r at the reference cylinder; torques are as the numbers of teeth."""
+    """Exact: without friction F_a = F_t tan(beta), with F_t = T/r at the reference cylinder; torques are as the numbers
+    of teeth."""
     mesh = helical[0]
     pinion, wheel = mesh.pair.pinion, mesh.pair.wheel
     for record in mesh.marched():
@@ -100,13 +123,16 @@ def test_axial_force_is_the_tangential_one_times_the_tangent_of_the_helix(helica
 
 
 def test_rows_of_the_contact_nodes_are_the_kinematics_of_rigid_gears(helical):
-    """Two derivations: the operator's rows, and the cross products of points that `test_tilting` checks by rotation matrices."""
+    """Two derivations: the operator's rows, and the cross products of points that `test_tilting` checks by rotation
+    matrices."""
     mesh = helical[1]
     directions = np.array([[mesh.pair.cosine, 0.0, -mesh.pair.cosine * mesh.pair.slope], [0.0, 1.0, 0.0]])
 
     for index in range(0, STEPS, 3):
         operator = mesh.cycle.position(index).operator
-        rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, True, face=operator.face)
+        rows = displacement_jacobian(
+            operator.pairs, operator.base_radii, operator.normal_lever_arms, True, face=operator.face
+        )
         node = 0
         for pair in operator.pairs:
             for arm in pair.pinion_lever_arm:
@@ -117,27 +143,39 @@ def test_rows_of_the_contact_nodes_are_the_kinematics_of_rigid_gears(helical):
 
 
 def test_the_tilt_follows_the_misalignment(paper_scene, stand_in_flanks):
-    """Limit: bearings so near to each other that nothing else holds the tilt let the flanks align, whatever the misalignment; far ones do not."""
+    """Limit: bearings so near to each other that nothing else holds the tilt let the flanks align, whatever the
+    misalignment; far ones do not."""
     loads = {}
     for half in (0.5, 1e4):
         bearings = Bearings(0.2e6, places=BearingPlaces((-half, half), (-half, half)))
         mesh = Mesh(paper_scene, stand_in_flanks, bearings, opening=0.01)
         record = mesh.marched()[-1]
-        slices = np.array([pair.place.slice for pair in record.position.operator.pairs])[record.position.operator.node_pair]
+        slices = np.array([pair.place.slice for pair in record.position.operator.pairs])[
+            record.position.operator.node_pair
+        ]
         loads[half] = np.bincount(slices, record.solution.forces, SLICES)
     assert np.ptp(loads[0.5]) < 0.02 * loads[0.5].mean() and np.ptp(loads[1e4]) > 0.5 * loads[1e4].mean()
 
 
 def test_far_bearings_and_a_held_axis_are_the_plane_ones(paper_scene, stand_in_flanks):
-    """Limit: tilting stiffness grows as the square of the distance; the error of shafts that do not tilt falls by 1e4 where the distance grows by 1e2."""
+    """Limit: tilting stiffness grows as the square of the distance; the error of shafts that do not tilt falls by 1e4
+    where the distance grows by 1e2."""
     flanks = with_helix(stand_in_flanks)
     plane, near, far = (
-        Mesh(paper_scene, flanks, replace(BEARINGS, axial_stiffness=None if half is None else 1e6 * half**2, places=places)).marched()
+        Mesh(
+            paper_scene,
+            flanks,
+            replace(BEARINGS, axial_stiffness=None if half is None else 1e6 * half**2, places=places),
+        ).marched()
         for half, places in (
-            (None, None), (1e4, BearingPlaces((-1e4, 1e4), (-1e4, 1e4))), (1e6, BearingPlaces((-1e6, 1e6), (-1e6, 1e6))),
+            (None, None),
+            (1e4, BearingPlaces((-1e4, 1e4), (-1e4, 1e4))),
+            (1e6, BearingPlaces((-1e6, 1e6), (-1e6, 1e6))),
         )
-    )  # fmt: skip
-    states, coarse, fine = (np.array([record.state.position for record in records])[:, :7] for records in (plane, near, far))
+    )
+    states, coarse, fine = (
+        np.array([record.state.position for record in records])[:, :7] for records in (plane, near, far)
+    )
     errors = [np.abs(each - states).max() for each in (coarse, fine)]
     assert errors[0] < 1e-5 * np.abs(states).max() and errors[1] < 1.1e-4 * errors[0] + 1e-12
 
@@ -153,7 +191,8 @@ def test_compiled_and_plain_march_are_the_same(helical):
 
 
 def test_sets_of_the_mesh_cycle_before_change_iterations_alone(helical):
-    """Uniqueness: where Newton's method begins does not change the solution. A quasi-static cycle repeats itself: one iteration confirms it."""
+    """Uniqueness: where Newton's method begins does not change the solution. A quasi-static cycle repeats itself: one
+    iteration confirms it."""
 
     class Forgetful(Marcher):
         def remember(self, step, status):
@@ -162,6 +201,8 @@ def test_sets_of_the_mesh_cycle_before_change_iterations_alone(helical):
     for mesh in helical:
         records, others = (mesh.marched(cycles=3, marcher=marcher) for marcher in (Marcher, Forgetful))
         for one, other in zip(records, others, strict=True):
-            np.testing.assert_allclose(one.solution.forces, other.solution.forces, rtol=0.0, atol=1e-9 * one.solution.forces.max())
+            np.testing.assert_allclose(
+                one.solution.forces, other.solution.forces, rtol=0.0, atol=1e-9 * one.solution.forces.max()
+            )
         assert {record.solution.iterations for record in records[-STEPS:]} == {1}
         assert any(record.solution.iterations > 1 for record in others[-STEPS:])

@@ -20,6 +20,15 @@ def test_the_largest_force_of_each_step_is_that_of_its_nodes(kinds):
         expected.append(max([*forces[place : place + count], 0.0]))
         place += kinds * count
     nothing = np.zeros((len(counts), 3, 1))
-    steps = Steps(np.arange(8.0), positions, nothing, forces, forces, np.zeros(nodes, dtype=np.int8), np.zeros(8, dtype=np.int64), [""] * 8)
+    steps = Steps(
+        np.arange(8.0),
+        positions,
+        nothing,
+        forces,
+        forces,
+        np.zeros(nodes, dtype=np.int8),
+        np.zeros(8, dtype=np.int64),
+        [""] * 8,
+    )
     assert steps.largest_forces.tolist() == expected
     assert steps.between(3, 5).largest_forces.tolist() == [0.0, 0.0]

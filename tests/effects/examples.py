@@ -1,4 +1,5 @@
-"""One example of every effect's section, on the paper's pair at a coarse mesh; whoever adds an effect adds its example here."""
+"""One example of every effect's section, on the paper's pair at a coarse mesh; whoever adds an effect adds its example
+here."""
 
 from pathlib import Path
 

@@ -44,7 +44,10 @@ def test_a_gears_own_stiffness_stands_before_that_of_both():
 
 def test_places_are_read_from_mid_width():
     """Authority: the section's own words; places in mm, the axial stiffness of a shaft before that of both."""
-    text = f'{ISOTROPIC}\naxial_stiffness = "1 N/mm"\nplaces = {{ pinion = ["-40 mm", "6 cm"] }}\n[bearings.pinion]\naxial_stiffness = "2 N/mm"'
+    text = (
+        f'{ISOTROPIC}\naxial_stiffness = "1 N/mm"\nplaces = {{ pinion = ["-40 mm", "6 cm"]'
+        ' }\n[bearings.pinion]\naxial_stiffness = "2 N/mm"'
+    )
     bearings = with_bearings(text).bearings
     assert bearings.places_of("pinion") == (-40.0, 60.0) and bearings.places_of("wheel") is None
     assert bearings.axial("pinion") == 2.0 and bearings.axial("wheel") == 1.0
@@ -70,11 +73,26 @@ def test_isotropic_bearings_are_the_same_however_they_are_written():
     [
         ("", "bearings.stiffness\n    is missing"),
         ('stiffness_x = "1 N/mm"', "bearings.stiffness_y\n    is missing"),
-        ('[bearings.pinion]\nstiffness = "1 N/mm"\n[bearings.wheel]\nstiffness_y = "1 N/mm"', "bearings.wheel.stiffness_x\n    is missing"),
-        (f'{ISOTROPIC}\nplaces = {{ wheel = ["40 mm", "40.1 mm"] }}', "bearings.places.wheel = a list\n    has both bearings on one spot"),
-        (f'{ISOTROPIC}\nplaces = {{ wheel = ["40 mm"] }}', "has 1 entry. Allowed: a list of 2 quantities, each a length from -10 m to 10 m"),
+        (
+            '[bearings.pinion]\nstiffness = "1 N/mm"\n[bearings.wheel]\nstiffness_y = "1 N/mm"',
+            "bearings.wheel.stiffness_x\n    is missing",
+        ),
+        (
+            f'{ISOTROPIC}\nplaces = {{ wheel = ["40 mm", "40.1 mm"] }}',
+            "bearings.places.wheel = a list\n    has both bearings on one spot",
+        ),
+        (
+            f'{ISOTROPIC}\nplaces = {{ wheel = ["40 mm"] }}',
+            "has 1 entry. Allowed: a list of 2 quantities, each a length from -10 m to 10 m",
+        ),
         (f"{ISOTROPIC}\nplaces = {{}}", "[bearings.places]\n    is empty."),
-        (f'{ISOTROPIC}\naxial_stiffness = "1 N/mm"', 'bearings.axial_stiffness = "1 N/mm"\n    has no effect: a shaft whose bearings have no places is held axially.'),
+        (
+            f'{ISOTROPIC}\naxial_stiffness = "1 N/mm"',
+            (
+                'bearings.axial_stiffness = "1 N/mm"\n    has no effect: a shaft whose bearings have no places is held'
+                " axially."
+            ),
+        ),
         (
             f'{ISOTROPIC}\nplaces = {{ wheel = ["-40 mm", "40 mm"] }}\n[bearings.pinion]\naxial_stiffness = "1 N/mm"',
             "Leave it out, or give bearings.places.pinion.",
@@ -89,7 +107,8 @@ def test_what_is_missing_or_cannot_be_is_named(lines, said):
 
 
 def test_static_deflection_is_reaction_over_stiffness(paper_scene):
-    """Exact: at rest each centre moves by the force on its shaft over the bearing's stiffness, in x and in y, for either gear."""
+    """Exact: at rest each centre moves by the force on its shaft over the bearing's stiffness, in x and in y, for
+    either gear."""
     result = simulate(replace(quasi_static(coarse_scene(paper_scene)), bearings=ALL_DIFFERENT))
     for (gear, direction), stiffness in EXPECTED.items():
         force = result[f"reaction_{direction}"].sel(gear=gear).values
@@ -107,7 +126,8 @@ def test_stiff_bearings_are_none(paper_scene):
 
 
 def test_each_direction_gives_way_alone(paper_scene):
-    """Exact limit: stiff in one direction only, the centres stay on a line; without friction they stay on the line of action."""
+    """Exact limit: stiff in one direction only, the centres stay on a line; without friction they stay on the line of
+    action."""
     scene = quasi_static(coarse_scene(paper_scene))
     along = simulate(replace(scene, bearings=Bearings(0.155e6, stiffness_y=RIGID)))
     off = simulate(replace(scene, bearings=Bearings(0.155e6, stiffness_x=RIGID)))
@@ -118,7 +138,8 @@ def test_each_direction_gives_way_alone(paper_scene):
 
 
 def test_the_tangent_is_the_springs_force_by_finite_differences(paper_scene, paper_pair):
-    """Finite differences (exact, being linear): what a displacement of one centre adds to the drivetrain's forces is its own spring's."""
+    """Finite differences (exact, being linear): what a displacement of one centre adds to the drivetrain's forces is
+    its own spring's."""
     on = drivetrain(replace(paper_scene, bearings=ALL_DIFFERENT), paper_pair)
     for name, spring in {"centre_x1": 0.1e6, "centre_y1": 0.3e6, "centre_x2": 0.2e6, "centre_y2": 0.5e6}.items():
         moved = np.zeros(len(on.coordinates))
@@ -153,12 +174,14 @@ def placed_run(paper_scene):
 
 
 def test_what_the_bearings_carry_is_in_the_result(placed_run):
-    """Exact: springs times displacements of the bearings are the reactions, in force and moment about mid-width, and half of their work the energy."""
+    """Exact: springs times displacements of the bearings are the reactions, in force and moment about mid-width, and
+    half of their work the energy."""
     scene, result = placed_run
     energy = 0.0
     for gear in ("pinion", "wheel"):
         centre_x, centre_y, axial, tilt_x, tilt_y = (
-            result[name].sel(gear=gear).values for name in ("centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y")
+            result[name].sel(gear=gear).values
+            for name in ("centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y")
         )
         force, moment = {"x": 0.0, "y": 0.0}, {"x": 0.0, "y": 0.0}
         for place in PLACED.places_of(gear):
@@ -171,8 +194,12 @@ def test_what_the_bearings_carry_is_in_the_result(placed_run):
         energy = energy + 0.5 * PLACED.axial(gear) * axial**2
         size = np.abs(force["x"]).max()
         for direction in "xy":
-            assert result[f"reaction_{direction}"].sel(gear=gear).values == pytest.approx(force[direction], abs=1e-9 * size)
-            assert result[f"reaction_moment_{direction}"].sel(gear=gear).values == pytest.approx(moment[direction], abs=1e-7 * size)
+            assert result[f"reaction_{direction}"].sel(gear=gear).values == pytest.approx(
+                force[direction], abs=1e-9 * size
+            )
+            assert result[f"reaction_moment_{direction}"].sel(gear=gear).values == pytest.approx(
+                moment[direction], abs=1e-7 * size
+            )
         assert result["reaction_z"].sel(gear=gear).values == pytest.approx(PLACED.axial(gear) * axial, abs=1e-9 * size)
     assert result["energy_bearings"].values == pytest.approx(energy, rel=1e-10)
 
@@ -182,7 +209,9 @@ def test_the_axial_force_is_the_gears_own(placed_run):
     scene, result = placed_run
     radius = 0.5 * scene.gears.pinion.teeth * scene.gears.module / np.cos(scene.gears.helix_angle)
     tangential = -result["reaction_couple"].sel(gear="pinion").values / radius
-    assert result["reaction_z"].sel(gear="pinion").values == pytest.approx(tangential * np.tan(scene.gears.helix_angle), rel=1e-10)
+    assert result["reaction_z"].sel(gear="pinion").values == pytest.approx(
+        tangential * np.tan(scene.gears.helix_angle), rel=1e-10
+    )
     assert float(np.abs(result["energy_defect"]).max()) < 1e-9 * float(result["work_input"][-1])
 
 

@@ -1,4 +1,5 @@
-"""``[body_meshes]``: a mesh of the user's own is the gear it is, and what it cannot be is said before anything is computed."""
+"""``[body_meshes]``: a mesh of the user's own is the gear it is, and what it cannot be is said before anything is
+computed."""
 
 import re
 import shutil
@@ -53,10 +54,14 @@ def cache(tmp_path_factory):
 
 @pytest.mark.parametrize("sections", [(), ("shafts", "inertia", "damping", "friction", "tip_relief", "flank_errors")])
 def test_whole_meshes_of_healthy_gears_change_nothing(sections, healthy, cache):
-    """Exact identity: both gears from files, every result variable that of the rings of sectors but for the digits of a mesh file."""
+    """Exact identity: both gears from files, every result variable that of the rings of sectors but for the digits of a
+    mesh file."""
     files = "\n".join(f'{name} = "{healthy / name}.msh"' for name in ("pinion", "wheel"))
     meshed = scene_from_text(text_with(files, *sections))
-    results = [simulate(replace(each, motion=Motion(200.0, 2, 2)), cache=cache) for each in (meshed, replace(meshed, body_meshes=None))]
+    results = [
+        simulate(replace(each, motion=Motion(200.0, 2, 2)), cache=cache)
+        for each in (meshed, replace(meshed, body_meshes=None))
+    ]
     assert set(results[0]) == set(results[1])
     for name in ("transmission_error", "pair_normal_force", "contact_pressure", "rotation"):
         found, expected = (result[name].values for result in results)
@@ -65,14 +70,18 @@ def test_whole_meshes_of_healthy_gears_change_nothing(sections, healthy, cache):
 
 @pytest.fixture(scope="module")
 def turn(cache):
-    """A turn of the pinion with the cracked tooth of the example mesh, and the same with whole teeth, on that mesh's element sizes."""
-    scene = scene_from_text(text_with(f'pinion = "{MESHES / "cracked_pinion.msh"}"').replace('body_element_size = "3 mm"\n', ""))
+    """A turn of the pinion with the cracked tooth of the example mesh, and the same with whole teeth, on that mesh's
+    element sizes."""
+    scene = scene_from_text(
+        text_with(f'pinion = "{MESHES / "cracked_pinion.msh"}"').replace('body_element_size = "3 mm"\n', "")
+    )
     scene = replace(scene, motion=Motion(200.0, 16, 16), accuracy=replace(scene.accuracy, element="P2"))
     return [simulate(each, cache=cache) for each in (scene, replace(scene, body_meshes=None))]
 
 
 def test_the_mesh_is_softer_while_the_cracked_tooth_carries_and_nowhere_else(turn):
-    """Authority: tooth 8 of the file reaches the start of contact with cycle 8 and the end 1.47 cycles later; its crack deflects it more.
+    """Authority: tooth 8 of the file reaches the start of contact with cycle 8 and the end 1.47 cycles later; its crack
+    deflects it more.
 
     Neighbours feel it through the body: three teeth away it is below 0.5 % of what it is on the tooth."""
     cracked, whole = (each.transmission_error.values for each in turn)
@@ -84,7 +93,8 @@ def test_the_mesh_is_softer_while_the_cracked_tooth_carries_and_nowhere_else(tur
 
 
 def test_the_load_goes_to_the_neighbours_of_a_cracked_tooth(turn):
-    """Where two pairs share the load the softer one has less than the whole tooth had, the other more, and their sum is the load."""
+    """Where two pairs share the load the softer one has less than the whole tooth had, the other more, and their sum is
+    the load."""
     forces = [by_pair(result.pair_normal_force) for result in turn]
     first = turn[0].pair_number.attrs["number_at_phase_0"]
     phase = turn[0].mesh_phase.values
@@ -96,7 +106,8 @@ def test_the_load_goes_to_the_neighbours_of_a_cracked_tooth(turn):
 
 
 def test_a_run_says_where_its_crack_would_be_closed(turn):
-    """The two teeth in mesh before the cracked one press it together until it carries itself: two mesh cycles of 20 steps; most, about 1.8 um,
+    """The two teeth in mesh before the cracked one press it together until it carries itself: two mesh cycles of 20
+    steps; most, about 1.8 um,
     where the next one has the whole load (demos/cracked_tooth/opening.py). Never on whole teeth."""
     cracked, whole = (each.attrs["warnings"] for each in turn)
     pattern = r"pass through each other in (\d+) of 321 steps, by up to ([\d.]+) um \(it opens by up to ([\d.]+) um\)"
@@ -107,7 +118,8 @@ def test_a_run_says_where_its_crack_would_be_closed(turn):
 
 
 def test_files_are_found_from_the_scene_file_on(tmp_path, monkeypatch):
-    """Wherever the program is called from; a study's cases from its base scene's folder on, and a swept file is a case of its own."""
+    """Wherever the program is called from; a study's cases from its base scene's folder on, and a swept file is a case
+    of its own."""
     (tmp_path / "scenes").mkdir()
     shutil.copy(MESHES / "cracked_pinion.msh", tmp_path / "scenes" / "own.msh")
     shutil.copy(MESHES / "cracked_pinion.msh", tmp_path / "scenes" / "other.msh")
@@ -140,9 +152,18 @@ def test_a_gear_store_tells_meshes_apart_by_their_content(tmp_path, healthy, cac
     [
         (lambda text: text.replace('pinion = "own.msh"', ""), r"\[body_meshes\]\n +names no file. Add pinion ="),
         (lambda text: text + "\n[coast_flanks]\n", r"\[body_meshes\]\n +cannot stand beside \[coast_flanks\]"),
-        (lambda text: text.replace('element = "P1"', 'element = "P1"\nelastic_teeth = 1'), "elastic_teeth = 1\n +cannot stand beside"),
-        (lambda text: text.replace('element = "P1"', 'model = "rigid teeth"'), 'model = "rigid teeth"\n +cannot stand beside .* Take "elastic"'),
-        (lambda text: text.replace('element = "P1"', 'condensation = "every step"'), 'condensation = "every step"\n +cannot stand beside .* Take "once"'),
+        (
+            lambda text: text.replace('element = "P1"', 'element = "P1"\nelastic_teeth = 1'),
+            "elastic_teeth = 1\n +cannot stand beside",
+        ),
+        (
+            lambda text: text.replace('element = "P1"', 'model = "rigid teeth"'),
+            'model = "rigid teeth"\n +cannot stand beside .* Take "elastic"',
+        ),
+        (
+            lambda text: text.replace('element = "P1"', 'condensation = "every step"'),
+            'condensation = "every step"\n +cannot stand beside .* Take "once"',
+        ),
         (lambda text: text + "\n[output]\nroot_stress = true\n", r"root_stress = true\n +knows equal teeth only"),
     ],
 )
@@ -153,7 +174,8 @@ def test_what_cannot_stand_beside_it_is_said(change, message):
 
 
 def test_check_and_run_refuse_a_mesh_that_does_not_fit_before_anything_is_written(tmp_path, capsys):
-    """docs/promises.md, exit codes: 2, nothing written; the message leads with the field. A file that is not there; quadrilaterals asked of triangles."""
+    """docs/promises.md, exit codes: 2, nothing written; the message leads with the field. A file that is not there;
+    quadrilaterals asked of triangles."""
     scene = tmp_path / "scene.toml"
     for meshes, words in (
         (f'wheel = "{MESHES / "cracked_pinion.msh"}"', "body_meshes.wheel = "),
@@ -170,7 +192,10 @@ def test_check_and_run_refuse_a_mesh_that_does_not_fit_before_anything_is_writte
 def test_a_flank_coarser_than_the_contact_asks_for_is_warned_of():
     """The example's 0.38 mm against the scene's 0.12 mm."""
     model = model_of(scene_from_text(text_of(TEETH, "body_meshes")))
-    assert any("body_meshes.pinion: elements along its flanks are up to 0.399 mm long, the contact asks for 0.12 mm" in words for words in model.warnings)
+    assert any(
+        "body_meshes.pinion: elements along its flanks are up to 0.399 mm long, the contact asks for 0.12 mm" in words
+        for words in model.warnings
+    )
 
 
 def test_pictures_of_stress_say_that_they_know_equal_sectors_only(turn, cache):

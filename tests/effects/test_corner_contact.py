@@ -1,4 +1,5 @@
-"""The section `[corner_contact]`: from the scene to the contact operators; the method itself is tested in tests/contact."""
+"""The section `[corner_contact]`: from the scene to the contact operators; the method itself is tested in
+tests/contact."""
 
 from dataclasses import replace
 
@@ -18,7 +19,12 @@ from fenics_gears.simulation.simulate import simulate
 @pytest.fixture(scope="module")
 def scene(paper_scene):
     """The paper's teeth alone, coarse, one mesh cycle, with a window that reaches beyond the path of contact."""
-    return replace(teeth_alone(paper_scene), friction=None, accuracy=replace(COARSE, contact_length=4.0, contact_nodes=35), motion=Motion(200.0, 1, 1))
+    return replace(
+        teeth_alone(paper_scene),
+        friction=None,
+        accuracy=replace(COARSE, contact_length=4.0, contact_nodes=35),
+        motion=Motion(200.0, 1, 1),
+    )
 
 
 def test_each_gear_has_its_own_radius(paper_scene):
@@ -32,7 +38,9 @@ def test_each_gear_has_its_own_radius(paper_scene):
 def test_tips_matter_at_hand_over_only(scene):
     """Where no tip is near the contact the effect changes little; it adds no variable."""
     plain, cornered = simulate(scene), simulate(replace(scene, corner_contact=CornerContact((0.0, 0.0))))
-    difference = np.abs(cornered.transmission_error - plain.transmission_error).values / np.abs(plain.transmission_error).values
+    difference = (
+        np.abs(cornered.transmission_error - plain.transmission_error).values / np.abs(plain.transmission_error).values
+    )
     assert difference.max() > 1e-4
     assert np.sort(difference)[: len(difference) // 4].max() <= 1e-3
     assert set(plain.data_vars) == set(cornered.data_vars)
@@ -42,7 +50,9 @@ def test_edges_that_do_not_fit_are_refused(paper_scene, paper_pair):
     """A radius of more than half the tip's thickness leaves no tip."""
     with pytest.raises(GeometryError, match="corner_contact.edge_radius"):
         corner(replace(paper_scene, corner_contact=CornerContact((2.0, 0.0))), paper_pair)
-    text = paper_scene.text.replace("[accuracy]", '[corner_contact]\n[accuracy]\ncondensation = "every step"').replace('condensation = "once"', "")
+    text = paper_scene.text.replace("[accuracy]", '[corner_contact]\n[accuracy]\ncondensation = "every step"').replace(
+        'condensation = "once"', ""
+    )
     with pytest.raises(SceneError, match="has no contact of tips off the line of action"):
         scene_from_text(text)
 
@@ -50,7 +60,9 @@ def test_edges_that_do_not_fit_are_refused(paper_scene, paper_pair):
 def test_edges_that_leave_the_flanks_no_overlap_are_warned_of(paper_scene):
     """Exact: the edges shorten the path of contact by what they take of either involute, rb (v_tip - v_edge)."""
     gears = paper_scene.gears
-    short = replace(gears, pinion=replace(gears.pinion, tip_diameter=80.4), wheel=replace(gears.wheel, tip_diameter=116.0))
+    short = replace(
+        gears, pinion=replace(gears.pinion, tip_diameter=80.4), wheel=replace(gears.wheel, tip_diameter=116.0)
+    )
     sharp = replace(paper_scene, gears=short, corner_contact=CornerContact((0.0, 0.0)))
     assert not [said for said in model_of(sharp).warnings if "contact ratio" in said]
     rounded = replace(sharp, corner_contact=CornerContact((1.3, 1.3)))

@@ -37,7 +37,8 @@ def harmonics(result, radius):
 
 @pytest.mark.parametrize(("gear", "turns"), [("pinion", 3), ("wheel", 2)])
 def test_rigid_gears_have_one_harmonic_once_a_turn(rigid, paper_pair, gear, turns):
-    """Exact: T_E, as a length on the base circle, is a cosine of the eccentricity's own amplitude, once a turn of its gear: the gap opens
+    """Exact: T_E, as a length on the base circle, is a cosine of the eccentricity's own amplitude, once a turn of its
+    gear: the gap opens
     by -e cos(rotation + phase) for the pinion, by +e cos(rotation + phase) for the wheel."""
     offsets = {"pinion": None, "wheel": None, gear: Offset(DISTANCE, PHASE)}
     spectrum = harmonics(simulate(replace(rigid, eccentricity=Eccentricity(**offsets))), paper_pair.wheel.base_radius)
@@ -48,12 +49,15 @@ def test_rigid_gears_have_one_harmonic_once_a_turn(rigid, paper_pair, gear, turn
 
 
 def test_lightly_loaded_elastic_gears_have_it_too(paper_scene, paper_pair):
-    """Known answer: nearly unloaded, the quasi-static pair follows rigid kinematics; the gaps being the same for all nodes, T_E moves by
+    """Known answer: nearly unloaded, the quasi-static pair follows rigid kinematics; the gaps being the same for all
+    nodes, T_E moves by
     exactly e at any load that leaves the contact alone."""
     scene = frictionless(teeth_alone(coarse_scene(paper_scene)))
     scene = replace(scene, load=Load(1e-2 * scene.load.wheel_torque), motion=Motion(200.0, PERIOD, PERIOD))
     plain = harmonics(simulate(scene), paper_pair.wheel.base_radius)
-    spectrum = harmonics(simulate(replace(scene, eccentricity=Eccentricity(None, Offset(DISTANCE, PHASE)))), paper_pair.wheel.base_radius)
+    spectrum = harmonics(
+        simulate(replace(scene, eccentricity=Eccentricity(None, Offset(DISTANCE, PHASE)))), paper_pair.wheel.base_radius
+    )
     assert abs(spectrum[2]) == pytest.approx(DISTANCE, rel=1e-9)
     spectrum[2] = 0.0
     assert spectrum == pytest.approx(plain, abs=1e-10)
@@ -62,7 +66,10 @@ def test_lightly_loaded_elastic_gears_have_it_too(paper_scene, paper_pair):
 def test_without_offset_nothing_changes(paper_scene):
     """Omitted equals its zero limit, to the last bit, with inertia and friction."""
     scene = coarse_scene(paper_scene, cycles=1)
-    plain, zero = simulate(scene), simulate(replace(scene, eccentricity=Eccentricity(Offset(0.0, PHASE), Offset(0.0, PHASE))))
+    plain, zero = (
+        simulate(scene),
+        simulate(replace(scene, eccentricity=Eccentricity(Offset(0.0, PHASE), Offset(0.0, PHASE)))),
+    )
     for name in plain.data_vars:
         assert np.array_equal(plain[name].values, zero[name].values, equal_nan=True)
 
@@ -87,7 +94,8 @@ class _Position:
 
 @pytest.mark.parametrize("gear", [0, 1])
 def test_gaps_of_both_flanks_are_displacements_along_their_own_normals(paper_pair, gear):
-    """Exact: a rigid displacement of the base circle by (x, y). The line of centres is the mirror of both lines of action: towards the
+    """Exact: a rigid displacement of the base circle by (x, y). The line of centres is the mirror of both lines of
+    action: towards the
     mate, both flanks close; around, what one loses the other gains."""
     steps, offsets = 20, [None, None]
     offsets[gear] = Offset(DISTANCE, 0.0)
@@ -97,7 +105,8 @@ def test_gaps_of_both_flanks_are_displacements_along_their_own_normals(paper_pai
         position = _Position(paper_pair, step % steps, steps)
         gaps = run_out(step, position).reshape(-1, 2)[:, 0]
         turned = sense * 2.0 * np.pi * step / (steps * teeth)
-        # Angles of the displacement from either line of action's direction, pinion to wheel; the coast flanks' is (-cos 2a, -sin 2a).
+        # Angles of the displacement from either line of action's direction, pinion to wheel; the coast flanks' is (-cos
+        # 2a, -sin 2a).
         expected = {DRIVE: -sense * DISTANCE * cos(turned), COAST: sense * DISTANCE * cos(turned - 2.0 * angle)}
         flanks = [pair.place.flank for pair in position.operator.pairs]
         assert set(flanks) == {DRIVE, COAST}
@@ -105,7 +114,8 @@ def test_gaps_of_both_flanks_are_displacements_along_their_own_normals(paper_pai
 
 
 def test_backlash_shrinks_and_grows_with_the_centre_distance(rigid, paper_pair):
-    """Known answer: driven forwards and backwards the rigid pair's play is its backlash, changed by 2 sin(alpha_w) times how much nearer
+    """Known answer: driven forwards and backwards the rigid pair's play is its backlash, changed by 2 sin(alpha_w)
+    times how much nearer
     the base circle's centre has come to the mate."""
     scene = replace(rigid, coast_flanks=CoastFlanks(), eccentricity=Eccentricity(Offset(DISTANCE, PHASE), None))
     forward = simulate(scene)

@@ -1,4 +1,5 @@
-"""What must hold of every effect in the list, whoever wrote it: absent it is not there, named it is, and beside every other it runs."""
+"""What must hold of every effect in the list, whoever wrote it: absent it is not there, named it is, and beside every
+other it runs."""
 
 import ast
 import inspect
@@ -31,8 +32,13 @@ METHODS = {
     "misalignment": {"fenics_gears.geometry.face", "fenics_gears.contact.face_cycle"},
     TEETH: {"fenics_gears.elasticity.gear_compliance"},
 }
-# What only some cases of them load: teeth that lean, the start of a fast mesh, the stepping of unsampled vibrations, the last of the fallbacks.
-RARE = {"eccentricity": {"fenics_gears.contact.wobble"}, "inertia": {"fenics_gears.dynamics.mean_equilibrium"}, "friction": {"fenics_gears.contact.tresca", "cvxopt"}}
+# What only some cases of them load: teeth that lean, the start of a fast mesh, the stepping of unsampled vibrations,
+# the last of the fallbacks.
+RARE = {
+    "eccentricity": {"fenics_gears.contact.wobble"},
+    "inertia": {"fenics_gears.dynamics.mean_equilibrium"},
+    "friction": {"fenics_gears.contact.tresca", "cvxopt"},
+}
 
 
 def may_stand_together(sections):
@@ -47,7 +53,11 @@ def alone():
 
 def pairs():
     """Every pair of effects that may stand together, on elastic teeth."""
-    return list(filter(may_stand_together, dict.fromkeys(with_needs(*pair, TEETH) for pair in itertools.combinations(SECTIONS, 2))))
+    return list(
+        filter(
+            may_stand_together, dict.fromkeys(with_needs(*pair, TEETH) for pair in itertools.combinations(SECTIONS, 2))
+        )
+    )
 
 
 def crowds():
@@ -72,9 +82,12 @@ def of(scenes, marks=()):
     return [pytest.param(sections, id="+".join(sections) or "nothing", marks=marks) for sections in scenes]
 
 
-@pytest.mark.parametrize("sections", [*of(alone()), *of(crowds()), *of(sorted({*pairs()} - {*alone()}), pytest.mark.nightly)])
+@pytest.mark.parametrize(
+    "sections", [*of(alone()), *of(crowds()), *of(sorted({*pairs()} - {*alone()}), pytest.mark.nightly)]
+)
 def test_effects_run_together_and_the_result_has_their_variables_and_no_others(sections):
-    """Authority: house rule 9 and the list; any two effects run, and the result's variables are exactly those that the list says."""
+    """Authority: house rule 9 and the list; any two effects run, and the result's variables are exactly those that the
+    list says."""
     scene = scene_of(*sections)
     assert tuple(each.section for each in effects_on(scene)) == sections
     result = simulate(scene)
@@ -125,10 +138,15 @@ print(json.dumps(loaded))
 
 @pytest.fixture(scope="module")
 def loaded():
-    """Modules loaded after runs one after another in one process: rigid flanks, the bare scene, and each effect on it."""
-    runs = {"nothing": (), TEETH: (TEETH,)} | {section: with_needs(section, TEETH) for section in SECTIONS if section != TEETH}
+    """Modules loaded after runs one after another in one process: rigid flanks, the bare scene, and each effect on
+    it."""
+    runs = {"nothing": (), TEETH: (TEETH,)} | {
+        section: with_needs(section, TEETH) for section in SECTIONS if section != TEETH
+    }
     texts = json.dumps([text_of(*sections) for sections in runs.values()])
-    run = subprocess.run([sys.executable, "-c", PROGRAM], input=texts, cwd=CHECKOUT, capture_output=True, text=True, check=True)
+    run = subprocess.run(
+        [sys.executable, "-c", PROGRAM], input=texts, cwd=CHECKOUT, capture_output=True, text=True, check=True
+    )
     return {name: set(modules) for name, modules in zip(runs, json.loads(run.stdout.splitlines()[-1]))}
 
 
@@ -143,9 +161,15 @@ def test_what_computes_it_is_loaded_by_a_scene_that_names_it_and_by_no_bare_one(
     assert own <= loaded[section]
 
 
-def test_a_bare_scene_loads_no_varying_gaps_no_second_solver_no_other_model_and_no_finite_elements_for_rigid_flanks(loaded):
+def test_a_bare_scene_loads_no_varying_gaps_no_second_solver_no_other_model_and_no_finite_elements_for_rigid_flanks(
+    loaded,
+):
     """Authority: house rule 9, for what several effects share, and for the cheaper models of the mesh."""
-    assert not [name for name in loaded[TEETH] if name.startswith("fenics_gears.") and re.search("spring|stiffness_table|iso_6336", name)]
+    assert not [
+        name
+        for name in loaded[TEETH]
+        if name.startswith("fenics_gears.") and re.search("spring|stiffness_table|iso_6336", name)
+    ]
     assert not {"fenics_gears.contact.deviating_cycle", *METHODS["corner_contact"]} & loaded[TEETH]
     assert "cvxopt" not in loaded[TEETH]
     assert not {"dolfinx", "gmsh", "petsc4py", "fenics_gears.elasticity.ring"} & loaded["nothing"]

@@ -64,8 +64,9 @@ def one_tooth(teeth, tooth, error):
 
 @pytest.mark.parametrize(("gear", "teeth", "first"), [("pinion", 16, -1.0), ("wheel", 24, 1.0)])
 def test_a_tooth_out_of_place_displaces_the_rigid_pair_while_it_leads(rigid, paper_pair, gear, teeth, first):
-    """Exact: a pitch deviation f is f cos(alpha) along the line of action. A tooth that stands nearer to its mate leads all the way
-    along the path of contact, one that stands back only leaves its mark where no other tooth is in mesh, nor its tip within 10 um of it;
+    """Exact: a pitch deviation f is f cos(alpha) along the line of action. A tooth that stands nearer to its mate leads
+    all the way along the path of contact, one that stands back only leaves its mark where no other tooth is in mesh,
+    nor its tip within 10 um of it;
     others do not feel it. A pitch too long brings the pinion's tooth late, the wheel's near."""
     along = ERROR * cos(paper_pair.pinion.pressure_angle)
     ratio, tooth = paper_pair.contact_ratio, 5
@@ -95,16 +96,29 @@ def test_true_teeth_change_nothing(paper_scene):
 
 @pytest.mark.parametrize(
     ("waves", "gear", "turns"),
-    [(64, "pinion", 3), (7, "wheel", 2), *(pytest.param(*each, marks=pytest.mark.nightly) for each in [(7, "pinion", 3), (37, "pinion", 3), (37, "wheel", 2), (64, "wheel", 2)])],
+    [
+        (64, "pinion", 3),
+        (7, "wheel", 2),
+        *(
+            pytest.param(*each, marks=pytest.mark.nightly)
+            for each in [(7, "pinion", 3), (37, "pinion", 3), (37, "wheel", 2), (64, "wheel", 2)]
+        ),
+    ],
 )
 def test_waves_give_their_own_order_and_go_on_from_tooth_to_tooth(rigid, paper_pair, gear, turns, waves):
-    """Known answer: on the line of action all pairs in mesh see the same phase of the wave, so that the rigid pair has one order, k of its
-    gear's turn, as large as the wave is high; what contact gains beside the line of action is of second order in the height."""
+    """Known answer: on the line of action all pairs in mesh see the same phase of the wave, so that the rigid pair has
+    one order, k of its
+    gear's turn, as large as the wave is high; what contact gains beside the line of action is of second order in the
+    height."""
     small, amplitude = 1e-7, 1e-4
     found = []
     for height in (small, amplitude):
         errors = FlankErrors(**{gear: GearErrors(waviness=Waviness(height, waves, 0.4))})
-        lines = spectrum(length(simulate(replace(rigid, accuracy=Accuracy(steps_per_mesh_cycle=40), flank_errors=errors)), paper_pair))
+        lines = spectrum(
+            length(
+                simulate(replace(rigid, accuracy=Accuracy(steps_per_mesh_cycle=40), flank_errors=errors)), paper_pair
+            )
+        )
         others = np.delete(lines, [0, turns * waves])
         found.append((lines[turns * waves] / height, others.max() / height))
     (line, rest), (coarser, coarse_rest) = found
@@ -113,8 +127,11 @@ def test_waves_give_their_own_order_and_go_on_from_tooth_to_tooth(rigid, paper_p
 
 
 def test_the_period_is_the_hunting_tooths(rigid, paper_pair):
-    """Definition: with errors on both gears T_E comes back after lcm(16, 24) mesh cycles and not before; that of one gear after its turn."""
-    result = simulate(replace(rigid, motion=Motion(200.0, PERIOD + 4, PERIOD + 4), flank_errors=FlankErrors(tolerance_class=6)))
+    """Definition: with errors on both gears T_E comes back after lcm(16, 24) mesh cycles and not before; that of one
+    gear after its turn."""
+    result = simulate(
+        replace(rigid, motion=Motion(200.0, PERIOD + 4, PERIOD + 4), flank_errors=FlankErrors(tolerance_class=6))
+    )
     error = length(result, paper_pair)
     assert error[PERIOD * STEPS :] == pytest.approx(error[: 4 * STEPS + 1], abs=1e-12)
     for sooner in (16, 24):
@@ -135,7 +152,12 @@ def test_drawn_errors_are_in_the_result(rigid, paper_pair):
         assert result[f"{name}_index_deviation"].attrs["units"] == "mm"
 
 
-ALL = GearErrors(pitch=one_tooth(16, 3, ERROR), profile_slope=(0.004,) * 16, profile_form=(0.003,) * 16, waviness=Waviness(0.001, 37, 0.4))
+ALL = GearErrors(
+    pitch=one_tooth(16, 3, ERROR),
+    profile_slope=(0.004,) * 16,
+    profile_form=(0.003,) * 16,
+    waviness=Waviness(0.001, 37, 0.4),
+)
 
 
 def moved(name, change):
@@ -164,7 +186,8 @@ def excess_per_unit(name, roll, tooth, pair):
 
 @pytest.mark.parametrize("name", ["pitch", "profile_slope", "profile_form", "amplitude", "phase"])
 def test_gaps_follow_each_deviation(both_flanks, paper_pair, name):
-    """Finite differences against the definition: the gap's derivative is less the excess on the flank, averaged over a node's hat by
+    """Finite differences against the definition: the gap's derivative is less the excess on the flank, averaged over a
+    node's hat by
     adaptive quadrature; coast flanks have true profiles, but stand where their tooth stands."""
     change, step = 1e-7, 3 * STEPS + 11
     position = both_flanks.position(step)
@@ -193,7 +216,8 @@ def _excess_at(name, offset, pair, tooth, gear_pair):
 
 @pytest.mark.parametrize("name", ["profile_slope", "amplitude"])
 def test_the_loaded_pair_answers_with_maxwells_reciprocity(paper_scene, paper_pair, stand_in_flanks, name):
-    """Exact: complementary energy has one mixed derivative. T_E's change with a deviation is the change with the load F of the forces'
+    """Exact: complementary energy has one mixed derivative. T_E's change with a deviation is the change with the load F
+    of the forces'
     work sum(p g') on the gaps that a unit of it makes. Central differences away from changes of contact."""
     scene = without(frictionless(quasi_static(paper_scene)), "shafts", "bearings")
     step, change, steps = 11, 2e-7, 40
@@ -220,7 +244,8 @@ def test_the_loaded_pair_answers_with_maxwells_reciprocity(paper_scene, paper_pa
 
 @pytest.mark.nightly
 def test_the_remeshed_route_feels_the_same_errors(paper_scene, paper_pair):
-    """Other method: nodes that meet pair by pair, gaps at points. What class 8 errors and run-out change of T_E, up to 14 um, agrees within
+    """Other method: nodes that meet pair by pair, gaps at points. What class 8 errors and run-out change of T_E, up to
+    14 um, agrees within
     0.4 um on 0.12 mm elements, where the two routes differ by 0.3 um without errors."""
     coarse = teeth_alone(frictionless(coarse_scene(paper_scene)))
     coarse = replace(coarse, accuracy=replace(coarse.accuracy, steps_per_mesh_cycle=8), motion=Motion(200.0, 3, 3))
@@ -254,10 +279,15 @@ def test_positions_between_steps_join_those_of_the_steps(both_flanks, paper_pair
 
 
 def test_a_step_costs_little_more(both_flanks, paper_pair, monkeypatch):
-    """Count: the flanks' shapes at the nodes are worked out in the first mesh cycle; a later step is two small products for each pair."""
+    """Count: the flanks' shapes at the nodes are worked out in the first mesh cycle; a later step is two small products
+    for each pair."""
     worked_out = []
-    monkeypatch.setattr(FlankGaps, "_shapes", lambda *place, own=FlankGaps._shapes: worked_out.append(place) or own(*place))
-    gaps = flank_gaps(replace(moved("pitch", 0.0), wheel=GearErrors(waviness=Waviness(0.001, 31, 0.0))), paper_pair, STEPS)
+    monkeypatch.setattr(
+        FlankGaps, "_shapes", lambda *place, own=FlankGaps._shapes: worked_out.append(place) or own(*place)
+    )
+    gaps = flank_gaps(
+        replace(moved("pitch", 0.0), wheel=GearErrors(waviness=Waviness(0.001, 31, 0.0))), paper_pair, STEPS
+    )
     positions = [both_flanks.position(step) for step in range(STEPS)]
     assert {pair.place.flank for pair in positions[0].operator.pairs} == {DRIVE, COAST}
     for step in range(4 * STEPS):

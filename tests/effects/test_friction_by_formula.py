@@ -25,7 +25,9 @@ def test_the_model_has_the_formula_s_coefficient():
     """Identity: of the nominal force and the speed of the scene."""
     model = model_of(with_friction(f'formula = "Schlenk"\n{OIL}'))
     force = model.scene.load.wheel_torque / model.pair.wheel.base_radius
-    assert model.friction_coefficient == pytest.approx(schlenk(model.pair, force, 400.0 * 60.0 / 16, 13.0, 0.4), rel=1e-12)
+    assert model.friction_coefficient == pytest.approx(
+        schlenk(model.pair, force, 400.0 * 60.0 / 16, 13.0, 0.4), rel=1e-12
+    )
     assert model.equations_of_motion.friction == model.friction_coefficient
     assert model_of(with_friction("coefficient = 0.07\n")).friction_coefficient == 0.07
 
@@ -56,11 +58,16 @@ roughness = "0.8 um"
 
 
 def test_a_formula_outside_its_range_is_refused_by_name(tmp_path):
-    """Authority: Benedict and Kelley's logarithm, which is negative where a full film carries (the coefficient was -0.06); ISO/TR 13989-2 for Schlenk's slowest gears."""
+    """Authority: Benedict and Kelley's logarithm, which is negative where a full film carries (the coefficient was
+    -0.06); ISO/TR 13989-2 for Schlenk's slowest gears."""
     (tmp_path / "light.toml").write_text(FAST_AND_LIGHT, encoding="utf-8")
-    with pytest.raises(SceneError, match=r'^friction.formula = "Benedict and Kelley": .* more than 1. Here that is 0\.'):
+    with pytest.raises(
+        SceneError, match=r'^friction.formula = "Benedict and Kelley": .* more than 1. Here that is 0\.'
+    ):
         checked_scene(tmp_path / "light.toml")
-    (tmp_path / "slow.toml").write_text(FAST_AND_LIGHT.replace("Benedict and Kelley", "Schlenk").replace("4000", "100"), encoding="utf-8")
+    (tmp_path / "slow.toml").write_text(
+        FAST_AND_LIGHT.replace("Benedict and Kelley", "Schlenk").replace("4000", "100"), encoding="utf-8"
+    )
     with pytest.raises(SceneError, match=r'^friction.formula = "Schlenk": .* from 1 to 50 m/s .* this pair has 0.3'):
         checked_scene(tmp_path / "slow.toml")
 

@@ -28,7 +28,12 @@ def test_schema_data_and_list_know_the_same_sections():
     """Authority: identity; what is not one of the four sections that are always there, is an effect."""
     always = {"title", "gears", "load", "motion", "accuracy", "output"}
     assert set(SceneText.model_fields) - always == set(AT_THE_TOP)
-    assert {field.name for field in dataclasses.fields(Scene)} - always - {"name", "derived", "written", "folder"} == set(AT_THE_TOP)
+    assert {field.name for field in dataclasses.fields(Scene)} - always - {
+        "name",
+        "derived",
+        "written",
+        "folder",
+    } == set(AT_THE_TOP)
 
 
 @pytest.mark.parametrize("section", ["shafts", "bearings", "damping", "friction"])
@@ -36,9 +41,15 @@ def test_an_absent_section_takes_its_effect_and_variables_away(section):
     """Authority: house rule 9; an effect that a scene does not name has no result variables."""
     scene, plain = scene_from_text(DEMO), scene_from_text(without(section))
     assert getattr(plain, section) is None
-    gone = {variable.name for variable in effects.result_variables(scene)} - {variable.name for variable in effects.result_variables(plain)}
+    gone = {variable.name for variable in effects.result_variables(scene)} - {
+        variable.name for variable in effects.result_variables(plain)
+    }
     # The demonstration is a plane one, its bearings have no places.
-    assert gone == {variable.name for variable in effects.effect_named(section).variables if not variable.field and not variable.over_face}
+    assert gone == {
+        variable.name
+        for variable in effects.effect_named(section).variables
+        if not variable.field and not variable.over_face
+    }
     assert effects.effect_named(section) not in effects.effects_on(plain)
 
 
@@ -50,16 +61,20 @@ def test_a_scene_without_effects_is_one():
 
 
 def test_names_in_the_list_are_consistent():
-    """Authority: identity; needs and excludes name sections of the list, variables of one name are one and the same, such as the pressure at kinks of
+    """Authority: identity; needs and excludes name sections of the list, variables of one name are one and the same,
+    such as the pressure at kinks of
     either relief."""
     named = [name for effect in effects.EFFECTS for name in (*effect.needs, *effect.excludes)]
     assert set(named) <= set(SECTIONS)
-    variables = {variable for effect in effects.EFFECTS for variable in effect.variables} | set(effects.COMMON_VARIABLES)
+    variables = {variable for effect in effects.EFFECTS for variable in effect.variables} | set(
+        effects.COMMON_VARIABLES
+    )
     assert len({variable.name for variable in variables}) == len(variables)
 
 
 def test_needs_and_conflicts_are_found():
-    """Authority: docs/promises.md; damping is that of moving masses. A meshed body's crack would be closed by its coast flanks, and the mesh
+    """Authority: docs/promises.md; damping is that of moving masses. A meshed body's crack would be closed by its coast
+    flanks, and the mesh
     of a plane section has no face."""
     assert effects.missing_needs(["damping"]) == [(effects.effect_named("damping"), "inertia")]
     assert effects.missing_needs(["damping", "inertia"]) == []

@@ -1,4 +1,5 @@
-"""Measured profiles and helices of single teeth from tables: read as they stand, felt as they are, and refused with line and remedy."""
+"""Measured profiles and helices of single teeth from tables: read as they stand, felt as they are, and refused with
+line and remedy."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -32,13 +33,23 @@ FACE = '[misalignment]\nin_plane = "0 um"\n'
 def drive_flanks(paper_pair):
     """A mesh cycle of drive flanks without finite elements."""
     gears = paper_pair.pinion, paper_pair.wheel
-    return MeshCycle(Flanks(paper_pair, tuple(stand_in_compliance(gear) for gear in gears)), ContactGrid(1.5, 20), STEPS, [5], tangential=False)
+    return MeshCycle(
+        Flanks(paper_pair, tuple(stand_in_compliance(gear) for gear in gears)),
+        ContactGrid(1.5, 20),
+        STEPS,
+        [5],
+        tangential=False,
+    )
 
 
 def curve(teeth, places, deviation, heading="roll_length (mm)"):
     """A table of curves; `deviation`: um at a tooth and the points' share of the way."""
     share = np.linspace(0.0, 1.0, len(places))
-    rows = [f"{tooth}, {place!r}, {float(deviation(tooth, at))!r}" for tooth in teeth for place, at in zip(places.tolist(), share.tolist())]
+    rows = [
+        f"{tooth}, {place!r}, {float(deviation(tooth, at))!r}"
+        for tooth in teeth
+        for place, at in zip(places.tolist(), share.tolist())
+    ]
     return "\n".join([f"tooth, {heading}, deviation (um)", *rows])
 
 
@@ -62,13 +73,17 @@ def places_of(pair, gear, along, points=400):
 @pytest.mark.parametrize("along", ["roll_length (mm)", "roll_angle (deg)", "diameter (mm)"])
 @pytest.mark.parametrize("gear", ["pinion", "wheel"])
 def test_a_measured_curve_is_the_deviation_it_shows(drive_flanks, paper_pair, tmp_path, gear, along):
-    """Identity: curves that show a slope and a form make the gaps of the lists, within the error of 200 straight pieces, at most pi^2/(4 200^2)
+    """Identity: curves that show a slope and a form make the gaps of the lists, within the error of 200 straight
+    pieces, at most pi^2/(4 200^2)
     of the form from the table and as much again from its points; with their mean at zero, as slope and form have it."""
     number = ("pinion", "wheel").index(gear)
     teeth = (16, 24)[number]
     slopes, forms = 1e-3 * np.arange(1.0, teeth + 1.0), 2e-3 * np.cos(np.arange(teeth))
     text = curve(
-        range(1, teeth + 1), places_of(paper_pair, number, along), lambda tooth, at: 1e3 * (slopes[tooth - 1] * at - 0.5 * forms[tooth - 1] * np.cos(2.0 * np.pi * at)) + 7.0, along
+        range(1, teeth + 1),
+        places_of(paper_pair, number, along),
+        lambda tooth, at: 1e3 * (slopes[tooth - 1] * at - 0.5 * forms[tooth - 1] * np.cos(2.0 * np.pi * at)) + 7.0,
+        along,
     )
     lists = FlankErrors(**{gear: GearErrors(profile_slope=tuple(slopes), profile_form=tuple(forms))})
     gaps = [flank_gaps(errors, paper_pair, STEPS) for errors in (measured(tmp_path, text, gear), lists)]
@@ -85,14 +100,19 @@ def test_a_measured_curve_is_the_deviation_it_shows(drive_flanks, paper_pair, tm
 def _inside(pair, gear_pair):
     """Nodes well within the active profiles: beyond their ends the curve is level, the lists go on."""
     shares = []
-    for roll, body, start in zip(pair.place.contact_rolls, (gear_pair.pinion, gear_pair.wheel), gear_pair.sap_roll_angles):
+    for roll, body, start in zip(
+        pair.place.contact_rolls, (gear_pair.pinion, gear_pair.wheel), gear_pair.sap_roll_angles
+    ):
         shares.append((roll - start) / (body.tip_roll_angle - start))
     return np.full(len(pair.offsets), all(0.27 < share < 0.73 for share in shares))
 
 
 def test_teeth_without_a_curve_have_the_mean_of_the_measured_ones(paper_pair, tmp_path):
-    """Definition, and ISO 1328-1: the slope of a straight curve is its rise over the active profile, and nothing is left for its form."""
-    text = curve((1, 5), places_of(paper_pair, 0, "roll_length (mm)"), lambda tooth, at: (4.0 if tooth == 1 else -2.0) * at)
+    """Definition, and ISO 1328-1: the slope of a straight curve is its rise over the active profile, and nothing is
+    left for its form."""
+    text = curve(
+        (1, 5), places_of(paper_pair, 0, "roll_length (mm)"), lambda tooth, at: (4.0 if tooth == 1 else -2.0) * at
+    )
     found, true = flank_deviations(measured(tmp_path, text), paper_pair)
     slope, form = slope_and_form(found)
     assert slope == pytest.approx([4e-3, 1e-3, 1e-3, 1e-3, -2e-3, *[1e-3] * 11], abs=1e-12)
@@ -106,8 +126,14 @@ def relieved(at):
 
 
 def test_a_tooth_with_relief_stands_where_the_others_do(paper_pair, tmp_path):
-    """Authority: what tip relief is, material removed at the tip alone; the V cylinder of ISO 21771, of diameter d + 2 x m, is below it."""
-    text = curve((1, 2), places_of(paper_pair, 0, "diameter (mm)"), lambda tooth, at: 5.0 + (relieved(at) if tooth == 1 else 0.0), "diameter (mm)")
+    """Authority: what tip relief is, material removed at the tip alone; the V cylinder of ISO 21771, of diameter d + 2
+    x m, is below it."""
+    text = curve(
+        (1, 2),
+        places_of(paper_pair, 0, "diameter (mm)"),
+        lambda tooth, at: 5.0 + (relieved(at) if tooth == 1 else 0.0),
+        "diameter (mm)",
+    )
     found = flank_deviations(measured(tmp_path, text, anchor=REFERENCE_POINT), paper_pair)[0]
     start, end = found.active_profile
     share = (np.sqrt(((36.0 + 0.196 * 4.5) / paper_pair.pinion.base_radius) ** 2 - 1.0) - start) / (end - start)
@@ -119,21 +145,33 @@ def test_a_tooth_with_relief_stands_where_the_others_do(paper_pair, tmp_path):
 
 
 def test_relief_as_curves_is_that_relief(paper_scene, paper_pair, tmp_path):
-    """Identity: the same relief as `[tip_relief]` and as curves of all teeth of the pinion gives the same transmission error, but for the 200 straight pieces of a curve."""
+    """Identity: the same relief as `[tip_relief]` and as curves of all teeth of the pinion gives the same transmission
+    error, but for the 200 straight pieces of a curve."""
     places = places_of(paper_pair, 0, "roll_angle (deg)", 1001)
     start = 0.7 * places[-1] + 0.3 * places[0]
-    errors = measured(tmp_path, curve(range(1, 17), places, lambda tooth, at: relieved(at), "roll_angle (deg)"), anchor=REFERENCE_POINT)
+    errors = measured(
+        tmp_path,
+        curve(range(1, 17), places, lambda tooth, at: relieved(at), "roll_angle (deg)"),
+        anchor=REFERENCE_POINT,
+    )
     scene = frictionless(teeth_alone(coarse_scene(paper_scene, 1)))
     by_relief = TipRelief(Relief(12e-3, np.radians(start)), None)
-    true, relieved_teeth, as_curves = (simulate(replace(scene, **more)).transmission_error.values for more in ({}, {"tip_relief": by_relief}, {"flank_errors": errors}))
+    true, relieved_teeth, as_curves = (
+        simulate(replace(scene, **more)).transmission_error.values
+        for more in ({}, {"tip_relief": by_relief}, {"flank_errors": errors})
+    )
     assert np.abs(relieved_teeth - true).max() > 0.1 * np.abs(true).max()
     assert as_curves == pytest.approx(relieved_teeth, rel=2e-4)
 
 
 def test_an_entry_that_is_no_number_is_never_taken_as_zero(paper_pair, tmp_path):
     """House rule on errors: what numpy 2 writes with `!r` is refused where the errors are used, too."""
-    text = curve((1,), places_of(paper_pair, 0, "roll_length (mm)"), lambda tooth, at: 1.5).replace("1.5", "np.float64(1.5)")
-    with pytest.raises(SceneError, match=r"flank_errors.pinion.profile_curves = .*curves.csv:2: deviation = .*np.float64"):
+    text = curve((1,), places_of(paper_pair, 0, "roll_length (mm)"), lambda tooth, at: 1.5).replace(
+        "1.5", "np.float64(1.5)"
+    )
+    with pytest.raises(
+        SceneError, match=r"flank_errors.pinion.profile_curves = .*curves.csv:2: deviation = .*np.float64"
+    ):
         flank_deviations(measured(tmp_path, text), paper_pair)
 
 
@@ -141,7 +179,9 @@ def test_a_class_draws_no_profiles_beside_curves(paper_pair, tmp_path):
     """Definition: what was measured is not drawn; pitches still are."""
     text = curve((1,), places_of(paper_pair, 0, "roll_length (mm)"), lambda tooth, at: 0.0)
     (tmp_path / "curves.csv").write_text(text, encoding="utf-8")
-    pinion, wheel = flank_deviations(located(FlankErrors(GearErrors(profile_curves="curves.csv"), tolerance_class=6), tmp_path), paper_pair)
+    pinion, wheel = flank_deviations(
+        located(FlankErrors(GearErrors(profile_curves="curves.csv"), tolerance_class=6), tmp_path), paper_pair
+    )
     assert not pinion.slope.any() and not pinion.curves.any() and pinion.index.any() and wheel.slope.any()
 
 
@@ -150,27 +190,43 @@ def test_measured_helices_are_the_deviations_they_show(paper_pair, tmp_path):
     width = paper_pair.face_widths[0]
     text = curve((3,), np.linspace(-0.5 * width, 0.5 * width, 50), lambda tooth, at: 6.0 * at, "face_position (mm)")
     found = flank_deviations(measured(tmp_path, text, name="helix_curves"), paper_pair, (0.0, 0.0))[0].helix
-    assert slope_and_form(found)[0] == pytest.approx(6e-3, rel=1e-12) and found.curves[0, [0, -1]] == pytest.approx([-3e-3, 3e-3], rel=1e-12)
+    assert slope_and_form(found)[0] == pytest.approx(6e-3, rel=1e-12) and found.curves[0, [0, -1]] == pytest.approx(
+        [-3e-3, 3e-3], rel=1e-12
+    )
 
 
 def scene_with(tmp_path, text, more="", name="profile_curves", face=""):
     """The checked scene of the paper's elastic teeth whose pinion has curves."""
     (tmp_path / "curves.csv").write_text(text, encoding="utf-8")
-    (tmp_path / "pair.toml").write_text(f'{text_of("tooth_elasticity")}{face}\n[flank_errors.pinion]\n{name} = "curves.csv"\n{more}\n', encoding="utf-8")
+    (tmp_path / "pair.toml").write_text(
+        f'{text_of("tooth_elasticity")}{face}\n[flank_errors.pinion]\n{name} = "curves.csv"\n{more}\n', encoding="utf-8"
+    )
     return checked_scene(tmp_path / "pair.toml")
 
 
 POINTS = "tooth, roll_length (mm), deviation (um)\n" + "".join(f"1, {place}, 0.5\n" for place in range(3, 24))
 WRONG = {
-    "no deviation": (POINTS.replace("deviation (um)", "roll_angle (deg)"), ["has no column deviation", "tooth, roll_length (mm), deviation (um)"]),
+    "no deviation": (
+        POINTS.replace("deviation (um)", "roll_angle (deg)"),
+        ["has no column deviation", "tooth, roll_length (mm), deviation (um)"],
+    ),
     "no place": ("tooth, deviation (um)\n1, 2\n", ["no column that says where a point lies"]),
-    "two places": ("tooth, roll_length (mm), diameter (mm), deviation (um)\n1, 5, 70, 1\n", ["more than one such column"]),
+    "two places": (
+        "tooth, roll_length (mm), diameter (mm), deviation (um)\n1, 5, 70, 1\n",
+        ["more than one such column"],
+    ),
     "a wrong unit": (POINTS.replace("(mm)", "(deg)"), ['roll_length in "deg", which is no unit of length']),
     "a point twice": (POINTS + "1, 5, 0.5\n", ["curves.csv:23: has a second point of tooth 1 at the same roll_length"]),
     "two points": ("\n".join(POINTS.splitlines()[:3]), ["has 2 points of tooth 1. Allowed: at least 3"]),
     "a tooth too many": (POINTS.replace("\n1,", "\n17,"), ["has a curve of tooth 17, but the pinion has 16 teeth"]),
-    "half a profile": ("\n".join(POINTS.splitlines()[:9]), ["% of the active profile of tooth 1. Allowed: at least 80 %"]),
-    "millimetres for micrometres": (POINTS.replace("(um)", "(mm)").replace("0.5", "0.6"), ["has a deviation of 0.6 mm on tooth 1, too large for a module of 4.5 mm"]),
+    "half a profile": (
+        "\n".join(POINTS.splitlines()[:9]),
+        ["% of the active profile of tooth 1. Allowed: at least 80 %"],
+    ),
+    "millimetres for micrometres": (
+        POINTS.replace("(um)", "(mm)").replace("0.5", "0.6"),
+        ["has a deviation of 0.6 mm on tooth 1, too large for a module of 4.5 mm"],
+    ),
 }
 
 
@@ -197,7 +253,9 @@ def test_curves_stand_in_place_of_slope_and_form(tmp_path):
 
 def test_a_scene_whose_curves_are_gone_can_be_looked_at():
     """The interface: a result is drawn from the scene that it carries, wherever its tables are by then."""
-    errors = scene_from_text(f'{text_of("tooth_elasticity")}\n[flank_errors.wheel]\nprofile_curves = "gone.csv"\n').flank_errors.wheel
+    errors = scene_from_text(
+        f'{text_of("tooth_elasticity")}\n[flank_errors.wheel]\nprofile_curves = "gone.csv"\n'
+    ).flank_errors.wheel
     assert errors.problem[0] == "profile_curves" and "there is no such file" in errors.problem[1]
 
 
@@ -211,7 +269,9 @@ def test_check_tells_where_curves_are_zero(tmp_path):
     """Definition: ISO 21771, d + 2 x m = 72 + 2 * 0.196 * 4.5 mm; or the mean by choice, which needs curves."""
     rows = {label: value for label, value, _ in dict(describe(scene_with(tmp_path, POINTS)))["Model"]}
     assert rows["pinion profile curves are zero"] == "at diameter 73.764 mm"
-    rows = {label: value for label, value, _ in dict(describe(scene_with(tmp_path, POINTS, 'anchor = "mean"')))["Model"]}
+    rows = {
+        label: value for label, value, _ in dict(describe(scene_with(tmp_path, POINTS, 'anchor = "mean"')))["Model"]
+    }
     assert rows["pinion profile curves are zero"] == "in their mean"
     with pytest.raises(SceneError, match="has no curves to hold"):
         scene_from_text(f'{text_of("tooth_elasticity")}\n[flank_errors.pinion]\nanchor = "mean"\n')

@@ -28,14 +28,19 @@ def test_the_table_of_effects_is_up_to_date():
 
 def block(language, holding):
     """The one block of code in the guide in that language that holds some words."""
-    found = [code for code in re.findall(rf"```{language}\n(.*?)```", GUIDE.read_text(encoding="utf-8"), re.S) if holding in code]
+    found = [
+        code
+        for code in re.findall(rf"```{language}\n(.*?)```", GUIDE.read_text(encoding="utf-8"), re.S)
+        if holding in code
+    ]
     assert len(found) == 1
     return found[0]
 
 
 @pytest.fixture(scope="module")
 def extended(tmp_path_factory):
-    """A folder with a copy of the package to which the guide's module, its entry and the scene's field have been added."""
+    """A folder with a copy of the package to which the guide's module, its entry and the scene's field have been
+    added."""
     folder = tmp_path_factory.mktemp("extended")
     # With its compiled kernels, which know their source by its time.
     shutil.copytree(PACKAGE, folder / "fenics_gears")
@@ -43,12 +48,22 @@ def extended(tmp_path_factory):
     (effects / "brake.py").write_text(block("python", "EFFECT = Effect("), encoding="utf-8")
     text = (effects / "__init__.py").read_text(encoding="utf-8")
     text, imported = re.subn(r"(from fenics_gears\.effects import \(?\s*)", r"\1brake, ", text, count=1)
-    text, listed = re.subn(r"(\nEFFECTS: .*?)\n\)", rf"\1\n{block('python', 'brake.EFFECT').rstrip()}\n)", text, count=1, flags=re.S)
+    text, listed = re.subn(
+        r"(\nEFFECTS: .*?)\n\)", rf"\1\n{block('python', 'brake.EFFECT').rstrip()}\n)", text, count=1, flags=re.S
+    )
     assert imported == listed == 1
     (effects / "__init__.py").write_text(text, encoding="utf-8")
     scene = folder / "fenics_gears" / "scene" / "data.py"
-    text, imported = re.subn(r"\nfrom fenics_gears", f"\n{block('python', 'import Brake')}\\g<0>", scene.read_text(encoding="utf-8"), count=1)
-    text, added = re.subn(r"(\nclass Scene:.*?)(\n\n    @property)", rf"\1\n{block('python', 'brake: Brake |').rstrip()}\2", text, count=1, flags=re.S)
+    text, imported = re.subn(
+        r"\nfrom fenics_gears", f"\n{block('python', 'import Brake')}\\g<0>", scene.read_text(encoding="utf-8"), count=1
+    )
+    text, added = re.subn(
+        r"(\nclass Scene:.*?)(\n\n    @property)",
+        rf"\1\n{block('python', 'brake: Brake |').rstrip()}\2",
+        text,
+        count=1,
+        flags=re.S,
+    )
     assert imported == added == 1
     scene.write_text(text, encoding="utf-8")
     return folder
@@ -57,7 +72,9 @@ def extended(tmp_path_factory):
 def run(folder, *arguments, given=None):
     """Python on the package in a folder; what it prints."""
     environment = {**os.environ, "PYTHONPATH": str(folder), "OMP_NUM_THREADS": "1"}
-    done = subprocess.run([sys.executable, "-P", *arguments], input=given, cwd=folder, env=environment, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-P", *arguments], input=given, cwd=folder, env=environment, capture_output=True, text=True
+    )
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -70,8 +87,11 @@ found = []
 for text in json.load(sys.stdin):
     run = simulate(scene_from_text(text))
     found.append({
-        "modules": sorted(sys.modules), "variables": sorted(run.data_vars), "transmission_error": run.transmission_error.values.tolist(),
-        "work": run.get("work_brake", run.time).values.tolist(), "twist": (run.shaft_end_rotation - run.rotation[:, 1]).values.tolist()
+        "modules": sorted(sys.modules),
+        "variables": sorted(run.data_vars),
+        "transmission_error": run.transmission_error.values.tolist(),
+        "work": run.get("work_brake", run.time).values.tolist(),
+        "twist": (run.shaft_end_rotation - run.rotation[:, 1]).values.tolist()
         if "shaft_end_rotation" in run else [],
     })
 print(json.dumps(found))
@@ -80,7 +100,8 @@ print(json.dumps(found))
 
 @pytest.fixture(scope="module")
 def plain():
-    """What the bare scene gives in the package as it is, its gears taken from the cache, which a run in this process has filled."""
+    """What the bare scene gives in the package as it is, its gears taken from the cache, which a run in this process
+    has filled."""
     text = text_of("tooth_elasticity").replace('"437 N m"', '"400 N m"')
     simulate(scene_from_text(text))
     return json.loads(run(PACKAGE.parent, "-c", PROGRAM, given=json.dumps([text])))[0]
@@ -100,17 +121,24 @@ print(json.dumps(said))
 
 @pytest.fixture(scope="module")
 def printed(extended, plain):
-    """What a process in the extended package prints: runs of a bare scene, one with the brake, the bare one under the whole torque and one with
+    """What a process in the extended package prints: runs of a bare scene, one with the brake, the bare one under the
+    whole torque and one with
     shafts and brake; and what `gears check` says of a scene with the brake, without it, and of a wrong one."""
     brake = block("toml", "[brake]")
-    scenes = {"with": text_of() + brake, "without": text_of(), "wrong": text_of("coast_flanks").replace('"437 N m"', '"-437 N m"') + brake}
+    scenes = {
+        "with": text_of() + brake,
+        "without": text_of(),
+        "wrong": text_of("coast_flanks").replace('"437 N m"', '"-437 N m"') + brake,
+    }
     for name, text in scenes.items():
         (extended / f"{name}.toml").write_text(text, encoding="utf-8")
     brake = brake.replace("20 N m", "37 N m")
     bare, shafts = text_of("tooth_elasticity"), text_of("tooth_elasticity", "shafts")
     less, whole = bare.replace('"437 N m"', '"400 N m"'), bare
     texts = [less, less + brake, whole, shafts.replace('"437 N m"', '"400 N m"') + brake]
-    return [json.loads(line) for line in run(extended, "-c", PROGRAM + CHECK, given=json.dumps(texts)).splitlines()[-2:]]
+    return [
+        json.loads(line) for line in run(extended, "-c", PROGRAM + CHECK, given=json.dumps(texts)).splitlines()[-2:]
+    ]
 
 
 @pytest.fixture(scope="module")
@@ -138,7 +166,8 @@ def test_the_guides_rule_refuses_with_place_value_and_remedy(printed):
 
 
 def test_the_guides_effect_has_its_known_answer(runs):
-    """Authority: identity; on one hub 400 N m of load and 37 N m of brake are 437 N m, and the brake's work is torque times angle."""
+    """Authority: identity; on one hub 400 N m of load and 37 N m of brake are 437 N m, and the brake's work is torque
+    times angle."""
     _, braked, whole, _ = runs
     assert braked["transmission_error"] == pytest.approx(whole["transmission_error"], rel=1e-12)
     assert braked["work"][-1] == pytest.approx(37e3 * 2.0 * 3.141592653589793 / 24, rel=1e-12)
@@ -150,7 +179,8 @@ def test_the_guides_brake_works_before_the_output_shaft(runs):
 
 
 def test_the_guides_effect_left_out_leaves_nothing_behind(runs, plain):
-    """Authority: house rule 9; a scene without it loads what the package without it loads, its own section's module aside."""
+    """Authority: house rule 9; a scene without it loads what the package without it loads, its own section's module
+    aside."""
     bare = runs[0]
     assert set(bare["modules"]) - set(plain["modules"]) == {"fenics_gears.effects.brake"}
     assert bare["variables"] == plain["variables"] and "work_brake" not in bare["variables"]

@@ -1,4 +1,5 @@
-"""Crowning and slope of the profile, and the exponent of a relief: their curves, and what they do to the transmission error."""
+"""Crowning and slope of the profile, and the exponent of a relief: their curves, and what they do to the transmission
+error."""
 
 import numpy as np
 import pytest
@@ -16,12 +17,14 @@ ELASTIC = BASE + EXAMPLES["tooth_elasticity"]
 
 
 def test_curves_are_what_the_fields_say(paper_pair):
-    """Definition: crowning is removed at both ends and slope at the tip, where they are negative in the middle and at the start; nothing is ever added."""
+    """Definition: crowning is removed at both ends and slope at the tip, where they are negative in the middle and at
+    the start; nothing is ever added."""
     start, end = paper_pair.sap_roll_angles[1], paper_pair.wheel.tip_roll_angle
     places = np.array([start, 0.5 * (start + end), end])
     for modification, removed in (
         (ProfileModification(0.004, 0.0), [0.004, 0.0, 0.004]), (ProfileModification(-0.004, 0.0), [0.0, 0.004, 0.0]),
-        (ProfileModification(0.0, 0.005), [0.0, 0.0025, 0.005]), (ProfileModification(0.0, -0.005), [0.005, 0.0025, 0.0]),
+        (ProfileModification(0.0, 0.005), [0.0, 0.0025, 0.005]),
+        (ProfileModification(0.0, -0.005), [0.005, 0.0025, 0.0]),
     ):  # fmt: skip
         pinion, wheel = profile_curves(paper_pair, ProfileModifications(None, modification))
         assert pinion is None and wheel(places) == pytest.approx(np.array(removed), abs=1e-15)
@@ -29,7 +32,8 @@ def test_curves_are_what_the_fields_say(paper_pair):
 
 
 def test_a_slope_is_the_slope_error_of_all_teeth_alike():
-    """Identity: material removed towards the tip is a negative profile slope deviation of every tooth, but for a shift of the whole flank by half of it. The
+    """Identity: material removed towards the tip is a negative profile slope deviation of every tooth, but for a shift
+    of the whole flank by half of it. The
     two are seen at the same nodes, but at roll angles found in two ways."""
     teeth = 16
     modified = simulate(scene_from_text(ELASTIC + '[profile_modifications.pinion]\nslope = "8 um"\n'))
@@ -49,8 +53,12 @@ def test_exponents_of_one_and_two_are_the_shapes(paper_pair):
     def removed(**how):
         return tip_reliefs(paper_pair, TipRelief(Relief(0.02, None, **how), None))[0](rolls)
 
-    assert np.array_equal(removed(exponent=1.0), removed(shape=LINEAR)) and np.array_equal(removed(exponent=2.0), removed(shape=PARABOLIC))
-    assert (removed(exponent=2.0) <= removed(exponent=1.5)).all() and (removed(exponent=1.5) <= removed(exponent=1.0)).all()
+    assert np.array_equal(removed(exponent=1.0), removed(shape=LINEAR)) and np.array_equal(
+        removed(exponent=2.0), removed(shape=PARABOLIC)
+    )
+    assert (removed(exponent=2.0) <= removed(exponent=1.5)).all() and (
+        removed(exponent=1.5) <= removed(exponent=1.0)
+    ).all()
 
 
 @pytest.mark.parametrize(

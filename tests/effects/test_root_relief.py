@@ -32,7 +32,10 @@ def test_root_relief_runs_from_lpstc_to_the_form_circle(paper_pair):
     fractions = np.array([-1.0, 0.0, 0.25, 0.5, 1.0])
     for shape, power in ((LINEAR, 1), (PARABOLIC, 2)):
         relief = Relief(DEPTH, None, shape)
-        gears = (paper_pair.pinion, paper_pair.lpstc_roll_angles[0]), (paper_pair.wheel, paper_pair.lpstc_roll_angles[1])
+        gears = (
+            (paper_pair.pinion, paper_pair.lpstc_roll_angles[0]),
+            (paper_pair.wheel, paper_pair.lpstc_roll_angles[1]),
+        )
         for curve, (gear, start) in zip(root_reliefs(paper_pair, RootRelief(relief, relief)), gears):
             rolls = start + fractions * (gear.form_roll_angle - start)
             assert curve(rolls) == pytest.approx(DEPTH * np.maximum(fractions, 0.0) ** power, abs=1e-16)
@@ -40,7 +43,9 @@ def test_root_relief_runs_from_lpstc_to_the_form_circle(paper_pair):
 
 def test_parabolic_relief_leaves_the_involute_without_a_kink(paper_pair):
     """Definition: zero slope at the start; a linear one of the same depth has half the slope at the tip."""
-    linear, parabolic = (tip_reliefs(paper_pair, TipRelief(Relief(DEPTH, None, shape), None))[0] for shape in (LINEAR, PARABOLIC))
+    linear, parabolic = (
+        tip_reliefs(paper_pair, TipRelief(Relief(DEPTH, None, shape), None))[0] for shape in (LINEAR, PARABOLIC)
+    )
     start, tip, small = linear.start_roll_angle, linear.end_roll_angle, 1e-6
 
     def slope(curve, roll):
@@ -66,10 +71,14 @@ def test_a_start_may_be_a_roll_angle_or_a_diameter(paper_pair, section):
 
 @pytest.mark.parametrize("section", KINDS)
 def test_a_start_may_be_a_length_from_the_end(paper_pair, section):
-    """Identities: the path of contact is rb v long; the involute's arc is the integral of |dr| over the flank's points, here a fine polygon."""
+    """Identities: the path of contact is rb v long; the involute's arc is the integral of |dr| over the flank's points,
+    here a fine polygon."""
     kind, curves = KINDS[section]
     for fields in ({"length_on_path": 3.0}, {"length_on_flank": 1.5}):
-        for curve, gear in zip(curves(paper_pair, kind(Relief(DEPTH, None, **fields), Relief(DEPTH, None, **fields))), (paper_pair.pinion, paper_pair.wheel)):
+        for curve, gear in zip(
+            curves(paper_pair, kind(Relief(DEPTH, None, **fields), Relief(DEPTH, None, **fields))),
+            (paper_pair.pinion, paper_pair.wheel),
+        ):
             rolls = np.linspace(*sorted((curve.start_roll_angle, curve.end_roll_angle)), 4001)
             assert curve.end_roll_angle == (gear.tip_roll_angle if section == "tip_relief" else gear.form_roll_angle)
             if "length_on_path" in fields:
@@ -79,7 +88,9 @@ def test_a_start_may_be_a_length_from_the_end(paper_pair, section):
                 assert np.abs(np.diff(points)).sum() == pytest.approx(1.5, rel=1e-6)
 
 
-@pytest.mark.parametrize(("field", "words"), [("length_on_path", "on the path of contact"), ("length_on_flank", "along the flank")])
+@pytest.mark.parametrize(
+    ("field", "words"), [("length_on_path", "on the path of contact"), ("length_on_flank", "along the flank")]
+)
 def test_a_relief_longer_than_the_flank_is_refused(paper_pair, field, words):
     """House rule on errors: what, which gear, the value, what is allowed, the field."""
     with pytest.raises(GeometryError) as refused:
@@ -90,13 +101,19 @@ def test_a_relief_longer_than_the_flank_is_refused(paper_pair, field, words):
 
 @pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
 def test_a_start_means_one_place(paper_scene, section, word):
-    """Definition of the scene's fields: a diameter belongs to one gear, unless the gears are alike; lengths and roll angles to both; one of them."""
+    """Definition of the scene's fields: a diameter belongs to one gear, unless the gears are alike; lengths and roll
+    angles to both; one of them."""
     depth, diameter = f'[{section}]\ndepth = "20 um"\n', 'start = "80 mm"\n'
 
     def relief(text, scene=paper_scene.text):
         return getattr(scene_from_text(f"{scene}\n{text}\n"), section)
 
-    with pytest.raises(SceneError, match=rf'{section}.start = "80 mm"\n.*is a diameter, which is another place of either gear.*\[{section}.pinion\]'):
+    with pytest.raises(
+        SceneError,
+        match=(
+            rf'{section}.start = "80 mm"\n.*is a diameter, which is another place of either gear.*\[{section}.pinion\]'
+        ),
+    ):
         relief(depth + diameter)
     with pytest.raises(SceneError, match="stands beside start, and each says where the relief starts"):
         relief(f'{depth}start = "{word}"\nlength_on_path = "3 mm"')
@@ -106,7 +123,9 @@ def test_a_start_means_one_place(paper_scene, section, word):
     mixed = relief(f'{depth}length_on_path = "3 mm"\n[{section}.wheel]\nstart = "110 mm"')
     assert mixed.pinion == Relief(0.02, None, length_on_path=3.0) and mixed.wheel == Relief(0.02, None, LINEAR, 110.0)
     # One gear alone takes the diameter, or both are alike.
-    assert relief(f'[{section}]\n{diameter}[{section}.pinion]\ndepth = "20 um"').pinion == Relief(0.02, None, LINEAR, 80.0)
+    assert relief(f'[{section}]\n{diameter}[{section}.pinion]\ndepth = "20 um"').pinion == Relief(
+        0.02, None, LINEAR, 80.0
+    )
     pinion = paper_scene.text.partition("[gears.pinion]\n")[2].partition("[gears.wheel]")[0]
     wheel = paper_scene.text.partition("[gears.wheel]\n")[2].partition("[gears.material]")[0]
     assert relief(depth + diameter, paper_scene.text.replace(wheel, pinion)).wheel == Relief(0.02, None, LINEAR, 80.0)
@@ -123,7 +142,10 @@ def test_a_scene_says_start_and_shape_for_both_gears_and_for_one(paper_scene, se
 @pytest.mark.parametrize(
     ("relief", "said"),
     [
-        (Relief(DEPTH, None, LINEAR, 90.0), ["starts at diameter 90 mm", "diameters", "to 82.64 mm", "root_relief.pinion.start"]),
+        (
+            Relief(DEPTH, None, LINEAR, 90.0),
+            ["starts at diameter 90 mm", "diameters", "to 82.64 mm", "root_relief.pinion.start"],
+        ),
         (Relief(DEPTH, None, LINEAR, 60.0), ["starts at diameter 60 mm", "(form circle)", "root_relief.pinion.start"]),
         (Relief(DEPTH, radians(2.0)), ["roll angle 2 deg", "2.904 deg (form circle)"]),
         (Relief(5.0, None), ["depth 5 mm", "at the form circle", "lower root_relief.pinion.depth"]),
@@ -140,7 +162,10 @@ def test_relief_off_the_flank_is_refused(paper_pair, relief, said):
 
 def test_a_start_on_its_own_end_is_refused(paper_pair):
     """A relief of no length has no slope."""
-    for section, roll in (("tip_relief", paper_pair.pinion.tip_roll_angle), ("root_relief", paper_pair.pinion.form_roll_angle)):
+    for section, roll in (
+        ("tip_relief", paper_pair.pinion.tip_roll_angle),
+        ("root_relief", paper_pair.pinion.form_roll_angle),
+    ):
         kind, curves = KINDS[section]
         with pytest.raises(GeometryError, match=f"{degrees(roll):.4g} deg"):
             curves(paper_pair, kind(Relief(DEPTH, roll), None))
@@ -158,10 +183,15 @@ def test_no_depth_changes_nothing(paper_scene, section):
 
 @pytest.mark.parametrize("section", KINDS)
 def test_gaps_open_by_the_removal_there(paper_scene, paper_pair, stand_in_flanks, section):
-    """Finite differences: the gap's derivative with the depth is the removal per depth averaged over the node's hat, by adaptive quadrature;
-    four Gauss points see the kink at the relief's start to 3e-3 of the relief that one cell has. Elsewhere the gap does not change."""
+    """Finite differences: the gap's derivative with the depth is the removal per depth averaged over the node's hat, by
+    adaptive quadrature;
+    four Gauss points see the kink at the relief's start to 3e-3 of the relief that one cell has. Elsewhere the gap does
+    not change."""
     change = 1e-6
-    scenes = [replace(paper_scene, **{section: KINDS[section][0](Relief(DEPTH + sign * change, None), None)}) for sign in (1, -1)]
+    scenes = [
+        replace(paper_scene, **{section: KINDS[section][0](Relief(DEPTH + sign * change, None), None)})
+        for sign in (1, -1)
+    ]
     curve, radius = removals(scenes[0], paper_pair)[0], paper_pair.pinion.base_radius
     grid, relieved = ContactGrid(1.5, 20), 0
     for step in (1, 14):
@@ -172,7 +202,10 @@ def test_gaps_open_by_the_removal_there(paper_scene, paper_pair, stand_in_flanks
             start += len(own)
 
             def removed(offset):
-                return float(curve(roll_angle_at_height(radius, pair.place.contact_rolls[0], radius - offset))) / curve.depth
+                return (
+                    float(curve(roll_angle_at_height(radius, pair.place.contact_rolls[0], radius - offset)))
+                    / curve.depth
+                )
 
             kink = radius - flank_point(radius, curve.start_roll_angle, pair.place.contact_rolls[0])[1]
             for j, value in enumerate(own):
@@ -189,10 +222,12 @@ def _operator(pair, flanks, scene, grid, step):
 
 
 def test_relief_of_either_flank_of_a_contact_is_felt_alike(paper_scene, paper_pair):
-    """Known answer: on the line of action it does not matter which of two flanks that meet has lost the material: root relief of the pinion that
-    removes at every point what tip relief of the wheel does at the point that it meets gives rigid flanks the same transmission error.
-    What contact gains beside the line of action differs; it is below the flanks' relative radius (7 mm) times half the square of the relief's
-    slope along them (1.6e-3): 1e-5 mm for this shallow relief. (The pinion's tips are relieved too; a pair without relief would carry otherwise.)"""
+    """Known answer: on the line of action it does not matter which of two flanks that meet has lost the material: root
+    relief of the pinion that removes at every point what tip relief of the wheel does at the point that it meets gives
+    rigid flanks the same transmission error. What contact gains beside the line of action differs; it is below the
+    flanks' relative radius (7 mm) times half the square of the relief's
+    slope along them (1.6e-3): 1e-5 mm for this shallow relief. (The pinion's tips are relieved too; a pair without
+    relief would carry otherwise.)"""
     shallow = 0.1 * DEPTH
     scene = without(frictionless(teeth_alone(coarse_scene(paper_scene))), "tooth_elasticity")
     tips = Relief(shallow, None)
@@ -203,6 +238,8 @@ def test_relief_of_either_flank_of_a_contact_is_felt_alike(paper_scene, paper_pa
     start, sap, form = paper_pair.lpstc_roll_angles[0], paper_pair.sap_roll_angles[0], paper_pair.pinion.form_roll_angle
     depth = shallow * (start - form) / (start - sap)
     root = simulate(replace(scene, root_relief=RootRelief(Relief(depth, None), None)))
-    on_plain, on_tip, on_root = (result.transmission_error.values * paper_pair.wheel.base_radius for result in (plain, tip, root))
+    on_plain, on_tip, on_root = (
+        result.transmission_error.values * paper_pair.wheel.base_radius for result in (plain, tip, root)
+    )
     assert np.abs(on_tip - on_plain).max() > 0.2 * shallow
     assert np.abs(on_tip - on_root).max() <= 1e-5

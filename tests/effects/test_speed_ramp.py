@@ -1,4 +1,5 @@
-"""``[speed_ramp]``: the clock, the inertia forces of the accelerating frame, and what the section says when it is wrong."""
+"""``[speed_ramp]``: the clock, the inertia forces of the accelerating frame, and what the section says when it is
+wrong."""
 
 import re
 from dataclasses import replace
@@ -45,7 +46,9 @@ def coarse(scene, cycles, recorded=None, start=200.0):
 def test_the_section_is_read():
     """Authority: the section's own words; the ramp begins at once unless it is held."""
     assert scene_from_text(DEMO + '[speed_ramp]\nend_frequency = "260 Hz"\n').speed_ramp == SpeedRamp(260.0, 0)
-    assert scene_from_text(DEMO + '[speed_ramp]\nend_frequency = "0.1 kHz"\nhold_cycles = 3\n').speed_ramp == SpeedRamp(100.0, 3)
+    assert scene_from_text(DEMO + '[speed_ramp]\nend_frequency = "0.1 kHz"\nhold_cycles = 3\n').speed_ramp == SpeedRamp(
+        100.0, 3
+    )
 
 
 @pytest.mark.parametrize(
@@ -74,7 +77,8 @@ def test_a_ramp_needs_inertia():
 
 @pytest.mark.parametrize("clock", [UP, DOWN], ids=["up after a hold", "down"])
 def test_the_clock_is_that_of_a_frequency_linear_in_time(clock):
-    """Other solver: the phase n(t) = integral of f, f linear in t, integrated numerically, reaches each step at the clock's time."""
+    """Other solver: the phase n(t) = integral of f, f linear in t, integrated numerically, reaches each step at the
+    clock's time."""
     begins, ends = clock.time(clock.held), clock.time(clock.last)
     assert begins == pytest.approx(clock.held / 40 / clock.start, rel=1e-14)
     slope = (clock.end - clock.start) / (ends - begins)
@@ -85,14 +89,17 @@ def test_the_clock_is_that_of_a_frequency_linear_in_time(clock):
 
     steps = np.linspace(0, clock.last, 23)
     times = [clock.time(step) for step in steps]
-    phases = solve_ivp(lambda t, n: [frequency(t)], (0.0, ends), [0.0], t_eval=times[:-1], rtol=1e-11, atol=1e-12, max_step=ends / 50).y[0]
+    phases = solve_ivp(
+        lambda t, n: [frequency(t)], (0.0, ends), [0.0], t_eval=times[:-1], rtol=1e-11, atol=1e-12, max_step=ends / 50
+    ).y[0]
     assert phases * 40 == pytest.approx(steps[:-1], rel=1e-8, abs=1e-8)
     assert [clock.mesh_frequency(step) for step in steps] == pytest.approx(frequency(np.array(times)), rel=1e-12)
 
 
 @pytest.mark.parametrize("clock", [UP, DOWN, SteadyClock(1e-4)], ids=["up", "down", "steady"])
 def test_durations_add_up(clock):
-    """Exact identity: parts of a step, and steps, add up to the time between; before the start the speed is the first one."""
+    """Exact identity: parts of a step, and steps, add up to the time between; before the start the speed is the first
+    one."""
     for first, middle, last in ((0, 0.25, 1), (70, 80, 90), (-1, 0, 1), (100, 200.5, 399)):
         whole = clock.duration(first, last)
         assert clock.duration(first, middle) + clock.duration(middle, last) == pytest.approx(whole, rel=1e-13)
@@ -100,7 +107,8 @@ def test_durations_add_up(clock):
 
 
 def test_a_vanishing_ramp_is_a_steady_speed(paper_scene):
-    """Exact limit: a ramp from 200 Hz to 200 Hz and 1e-12 of it leaves the result of a scene without the section, to round-off."""
+    """Exact limit: a ramp from 200 Hz to 200 Hz and 1e-12 of it leaves the result of a scene without the section, to
+    round-off."""
     scene = coarse(paper_scene, 2)
     off, on = (simulate(replace(scene, speed_ramp=ramp)) for ramp in (None, SpeedRamp(200.0 * (1.0 + 1e-12))))
     assert set(on) - set(off) == {"mesh_frequency"} and set(on.coords) == set(off.coords)
@@ -110,7 +118,8 @@ def test_a_vanishing_ramp_is_a_steady_speed(paper_scene):
 
 
 def test_a_ramp_that_has_not_begun_is_a_steady_speed(paper_scene):
-    """Exact: steps before the end of the hold are those of a scene without the section, bit by bit but for the load of zeros."""
+    """Exact: steps before the end of the hold are those of a scene without the section, bit by bit but for the load of
+    zeros."""
     scene = coarse(paper_scene, 3, 3)
     off, on = (simulate(replace(scene, speed_ramp=ramp)) for ramp in (None, SpeedRamp(400.0, hold_cycles=2)))
     before = slice(0, 2 * 40)
@@ -119,7 +128,8 @@ def test_a_ramp_that_has_not_begun_is_a_steady_speed(paper_scene):
 
 
 def test_result_tells_time_and_frequency(paper_scene):
-    """Exact: the last step stands at 2 n/(f0 + f1), at the frequency asked for; steps stand at equal phases, not at equal times."""
+    """Exact: the last step stands at 2 n/(f0 + f1), at the frequency asked for; steps stand at equal phases, not at
+    equal times."""
     result = simulate(replace(coarse(paper_scene, 4, start=100.0), speed_ramp=SpeedRamp(300.0)))
     assert float(result.time[-1]) == pytest.approx(2 * 4 / (100.0 + 300.0), rel=1e-13)
     assert [float(result.mesh_frequency[i]) for i in (0, -1)] == pytest.approx([100.0, 300.0], rel=1e-14)
@@ -129,7 +139,8 @@ def test_result_tells_time_and_frequency(paper_scene):
 
 
 def test_the_right_side_is_minus_mass_times_acceleration_by_finite_differences(paper_scene, paper_pair):
-    """Finite differences: kinetic energy of all wheels in the nominal motion; its rate is the power against the inertia forces."""
+    """Finite differences: kinetic energy of all wheels in the nominal motion; its rate is the power against the inertia
+    forces."""
     shafts = drivetrain(paper_scene, paper_pair)
     forces = inertia_forces(DOWN, shafts, 24)(100)
     inertia, step = paper_scene.inertia.moment_of_inertia, 1e-3
@@ -148,8 +159,11 @@ def test_the_right_side_is_minus_mass_times_acceleration_by_finite_differences(p
 
 
 @pytest.mark.parametrize("absent", [(), ("shafts",), ("shafts", "bearings")], ids=["all", "without shafts", "rigid"])
-def test_spin_up_at_rest_changes_the_mesh_force_by_inertia_times_acceleration(paper_scene, paper_pair, stand_in_flanks, absent):
-    """Exact: in a frame that accelerates evenly, gears that do not roll stand still, and the mesh carries T/rb2 and J alpha/rb2 of all
+def test_spin_up_at_rest_changes_the_mesh_force_by_inertia_times_acceleration(
+    paper_scene, paper_pair, stand_in_flanks, absent
+):
+    """Exact: in a frame that accelerates evenly, gears that do not roll stand still, and the mesh carries T/rb2 and J
+    alpha/rb2 of all
     that turns behind it: the wheel, and the shaft's end where there is one."""
     scene = replace(paper_scene, friction=None, damping=None, **dict.fromkeys(absent))
     for clock in (UP, DOWN):
@@ -159,19 +173,25 @@ def test_spin_up_at_rest_changes_the_mesh_force_by_inertia_times_acceleration(pa
         alpha = 2.0 * np.pi * clock.acceleration / 24
         expected = (437e3 + behind * 24.5 * alpha) / paper_pair.wheel.base_radius
         step = clock.held + 10
-        for at, force in ((step, expected), (clock.held, expected if clock.held == 0 else 0.5 * (expected + 437e3 / paper_pair.wheel.base_radius))):
+        for at, force in (
+            (step, expected),
+            (clock.held, expected if clock.held == 0 else 0.5 * (expected + 437e3 / paper_pair.wheel.base_radius)),
+        ):
             rest = marcher._static_start(at)
             n = rest.position.operator.nodes
             assert rest.solution.forces[:n].sum() == pytest.approx(force, rel=1e-10)
 
 
 def test_mean_mesh_force_while_rolling_is_the_momentum_balance(paper_scene, paper_pair, stand_in_flanks):
-    """Exact identity of average acceleration: over any time the mean mesh force, by trapezoids, is (T + J alpha)/rb2 less J/rb2^2 times
+    """Exact identity of average acceleration: over any time the mean mesh force, by trapezoids, is (T + J alpha)/rb2
+    less J/rb2^2 times
     the change of the wheel's own velocity over the time passed; rigid shafts, no friction."""
     scene = replace(paper_scene, friction=None, damping=None, shafts=None, bearings=None)
     shafts, clock = drivetrain(scene, paper_pair), RampClock(100.0, 140.0, 0, 6 * 50, 50)
     cycle = MeshCycle(stand_in_flanks, GRID, 50, shafts.indices, tangential=False)
-    marcher = Marcher(cycle, EquationsOfMotion(shafts, clock.duration(0, 1), clock=clock, loads=(inertia_forces(clock, shafts, 24),)))
+    marcher = Marcher(
+        cycle, EquationsOfMotion(shafts, clock.duration(0, 1), clock=clock, loads=(inertia_forces(clock, shafts, 24),))
+    )
     records = list(marcher.run(6 * 50, 6 * 50 + 1).records)
     force = np.array([record.solution.forces.sum() for record in records])
     steps = np.array([clock.duration(a.step, b.step) for a, b in zip(records[:-1], records[1:])])
@@ -183,7 +203,8 @@ def test_mean_mesh_force_while_rolling_is_the_momentum_balance(paper_scene, pape
 
 
 def test_a_slow_ramp_follows_the_steady_runs(paper_scene):
-    """Known limit: a ramp that takes 200 mesh cycles from 300 to 350 Hz, clear of resonance, has in each cycle the peak-to-peak transmission error
+    """Known limit: a ramp that takes 200 mesh cycles from 300 to 350 Hz, clear of resonance, has in each cycle the
+    peak-to-peak transmission error
     of a steady run at the cycle's frequency, within 2 %."""
     scene = frictionless(paper_scene)
     model = model_of(replace(coarse(scene, 200, 1, start=300.0), speed_ramp=SpeedRamp(350.0)))
@@ -213,7 +234,8 @@ def test_the_energy_account_closes(paper_scene, ramp, absent):
 
 
 def test_the_energy_account_closes_over_divided_steps(paper_scene, paper_pair, stand_in_flanks):
-    """Exact identity: where every step is divided, into parts of unequal length under loads that vary, the account closes as well."""
+    """Exact identity: where every step is divided, into parts of unequal length under loads that vary, the account
+    closes as well."""
     shafts = drivetrain(paper_scene, paper_pair)
     cycle = MeshCycle(stand_in_flanks, GRID, 50, shafts.indices, tangential=True)
     clock = RampClock(100.0, 400.0, 0, 2 * 50, 50)
@@ -230,8 +252,11 @@ def test_the_energy_account_closes_over_divided_steps(paper_scene, paper_pair, s
 
 
 def test_the_drive_also_gives_the_kinetic_energy_of_the_nominal_motion(paper_scene):
-    """Exact: of rigidly driven gears the output, less the couple's and the deviation's part, is the kinetic energy that the wheel gains."""
-    scene = replace(coarse(frictionless(paper_scene), 4), shafts=None, bearings=None, damping=None, speed_ramp=SpeedRamp(300.0))
+    """Exact: of rigidly driven gears the output, less the couple's and the deviation's part, is the kinetic energy that
+    the wheel gains."""
+    scene = replace(
+        coarse(frictionless(paper_scene), 4), shafts=None, bearings=None, damping=None, speed_ramp=SpeedRamp(300.0)
+    )
     result = simulate(scene)
     turning, phase = 2.0 * np.pi * result.mesh_frequency.values / 24, result.mesh_phase.values
     nominal = 0.5 * 24.5 * (turning**2 - turning[0] ** 2)
@@ -242,11 +267,21 @@ def test_the_drive_also_gives_the_kinetic_energy_of_the_nominal_motion(paper_sce
 
 
 def test_warnings_and_steps_go_by_the_range_of_frequencies(paper_scene):
-    """Authority: a run's longest step is at its lowest frequency, whichever end that is, and hardly shorter than a steady one there."""
-    up = replace(paper_scene, motion=Motion(50.0, 30, 2), speed_ramp=SpeedRamp(500.0), accuracy=replace(COARSE, steps_per_mesh_cycle=None))
+    """Authority: a run's longest step is at its lowest frequency, whichever end that is, and hardly shorter than a
+    steady one there."""
+    up = replace(
+        paper_scene,
+        motion=Motion(50.0, 30, 2),
+        speed_ramp=SpeedRamp(500.0),
+        accuracy=replace(COARSE, steps_per_mesh_cycle=None),
+    )
     down = replace(up, motion=Motion(500.0, 30, 2), speed_ramp=SpeedRamp(50.0))
     slow = model_of(replace(up, speed_ramp=None))
-    assert model_of(up).resolution.steps_per_mesh_cycle == model_of(down).resolution.steps_per_mesh_cycle == slow.resolution.steps_per_mesh_cycle
+    assert (
+        model_of(up).resolution.steps_per_mesh_cycle
+        == model_of(down).resolution.steps_per_mesh_cycle
+        == slow.resolution.steps_per_mesh_cycle
+    )
     for ramp in (model_of(up), model_of(down)):
         steps = [ramp.clock.duration(step, step + 1) for step in range(ramp.steps)]
         assert ramp.time_step == pytest.approx(max(steps), rel=1e-12)
@@ -254,12 +289,16 @@ def test_warnings_and_steps_go_by_the_range_of_frequencies(paper_scene):
     # Inertia does not matter at 0.5 Hz, but it does at the other end.
     crawling = replace(up, motion=Motion(0.5, 30, 2), speed_ramp=None)
     assert any("inertia hardly matters" in said for said in model_of(crawling).warnings)
-    assert not any("inertia hardly matters" in said for said in model_of(replace(crawling, speed_ramp=SpeedRamp(200.0))).warnings)
+    assert not any(
+        "inertia hardly matters" in said for said in model_of(replace(crawling, speed_ramp=SpeedRamp(200.0))).warnings
+    )
 
 
 def test_a_ramp_to_a_crawl_says_what_its_slow_end_does_to_the_whole_run(paper_scene):
-    """Authority: the rule of `dynamics.time_scales`, half the slowest period, on the ramp's true steps; above the frequency that the warning
-    names, which is that of a steady run, it is gone. A crawl is passed in few steps, none of them as long as its frequency would have."""
+    """Authority: the rule of `dynamics.time_scales`, half the slowest period, on the ramp's true steps; above the
+    frequency that the warning
+    names, which is that of a steady run, it is gone. A crawl is passed in few steps, none of them as long as its
+    frequency would have."""
     crawl = replace(coarse(paper_scene, 20), speed_ramp=SpeedRamp(0.01))
     assert not model_of(crawl).time_scales.samples_vibration
     (said,) = [warning for warning in model_of(crawl).warnings if "backward Euler" in warning]
@@ -273,11 +312,23 @@ def test_without_the_section_there_is_nothing_of_it(paper_scene):
     """House rule 9: no variable, one clock of equal steps. What is imported is told by test_every_effect.py."""
     model = model_of(paper_scene)
     assert isinstance(model.clock, SteadyClock) and model.loads == ()
-    assert not {variable.name for variable in effect_named("speed_ramp").variables} & {variable.name for variable in result_variables(paper_scene)}
+    assert not {variable.name for variable in effect_named("speed_ramp").variables} & {
+        variable.name for variable in result_variables(paper_scene)
+    }
 
 
 def test_a_ramp_that_pulls_the_flanks_apart_is_named(paper_scene):
-    """Mechanics: a falling speed decelerates the wheel by more than its torque does, and nothing holds the flanks together at the start."""
-    scene = replace(coarse(frictionless(paper_scene), 2, start=5000.0), speed_ramp=SpeedRamp(500.0), load=Load(500.0), damping=None, shafts=None, bearings=None)
-    with pytest.raises(ContactNotConverged, match=r"pulls the flanks apart.*\[speed_ramp\] with .* N, .*motion.mesh_cycles"):
+    """Mechanics: a falling speed decelerates the wheel by more than its torque does, and nothing holds the flanks
+    together at the start."""
+    scene = replace(
+        coarse(frictionless(paper_scene), 2, start=5000.0),
+        speed_ramp=SpeedRamp(500.0),
+        load=Load(500.0),
+        damping=None,
+        shafts=None,
+        bearings=None,
+    )
+    with pytest.raises(
+        ContactNotConverged, match=r"pulls the flanks apart.*\[speed_ramp\] with .* N, .*motion.mesh_cycles"
+    ):
         simulate(scene)

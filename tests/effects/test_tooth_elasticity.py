@@ -26,7 +26,8 @@ def rigid_scene(paper_scene):
 
 
 def test_true_involutes_transmit_exactly(rigid_scene):
-    """Exact: conjugate rigid flanks have no transmission error, whatever the load; where two pairs touch, shares are not given."""
+    """Exact: conjugate rigid flanks have no transmission error, whatever the load; where two pairs touch, shares are
+    not given."""
     result = simulate(rigid_scene)
     assert np.abs(result.transmission_error.values).max() <= 1e-12
     force = rigid_scene.load.wheel_torque / result.attrs["base_radius_wheel"]
@@ -40,8 +41,10 @@ def test_true_involutes_transmit_exactly(rigid_scene):
 
 
 def test_relief_is_the_least_gap_of_the_pairs_on_the_line_of_action(rigid_scene, paper_pair):
-    """Exact: the kinematic error is the smallest sum of both flanks' removals among the pairs on the path of contact, give or take what
-    a step of the window off the line of action gains (the relief's slope over the flanks' curvature: below 0.4 um here)."""
+    """Exact: the kinematic error is the smallest sum of both flanks' removals among the pairs on the path of contact,
+    give or take what
+    a step of the window off the line of action gains (the relief's slope over the flanks' curvature: below 0.4 um
+    here)."""
     scene = replace(rigid_scene, tip_relief=TipRelief(Relief(DEPTH, None), Relief(DEPTH, None)))
     result = simulate(scene)
     pinion, wheel = removals(scene, paper_pair)
@@ -49,7 +52,9 @@ def test_relief_is_the_least_gap_of_the_pairs_on_the_line_of_action(rigid_scene,
     for phase in result.mesh_phase.values % 1.0:
         xi = paper_pair.path_start + (phase + np.arange(3)) * paper_pair.base_pitch
         xi = xi[xi <= paper_pair.path_end]
-        removed = pinion(xi / paper_pair.pinion.base_radius) + wheel((paper_pair.line_of_action_length - xi) / paper_pair.wheel.base_radius)
+        removed = pinion(xi / paper_pair.pinion.base_radius) + wheel(
+            (paper_pair.line_of_action_length - xi) / paper_pair.wheel.base_radius
+        )
         expected.append(removed.min())
     error = result.transmission_error.values * paper_pair.wheel.base_radius
     assert np.abs(error - expected).max() <= 4e-4
@@ -58,11 +63,14 @@ def test_relief_is_the_least_gap_of_the_pairs_on_the_line_of_action(rigid_scene,
 
 
 def test_elastic_flanks_tend_to_rigid_ones(paper_scene, rigid_scene):
-    """Limit: with a stiffness 1e6 times that of steel the transmission error is that of rigid flanks, but for the averages over nodes."""
+    """Limit: with a stiffness 1e6 times that of steel the transmission error is that of rigid flanks, but for the
+    averages over nodes."""
     relief = TipRelief(Relief(DEPTH, None), Relief(DEPTH, None))
     material = replace(paper_scene.gears.material, youngs_modulus=1e6 * paper_scene.gears.material.youngs_modulus)
     stiff = replace(rigid_scene, gears=replace(paper_scene.gears, material=material), tip_relief=relief)
-    fine = Accuracy(element="P1", flank_element_size=0.12, contact_length=2.25, contact_nodes=91, steps_per_mesh_cycle=50)
+    fine = Accuracy(
+        element="P1", flank_element_size=0.12, contact_length=2.25, contact_nodes=91, steps_per_mesh_cycle=50
+    )
     elastic = simulate(replace(stiff, accuracy=fine))
     rigid = simulate(replace(rigid_scene, tip_relief=relief, accuracy=Accuracy(steps_per_mesh_cycle=50)))
     difference = (elastic.transmission_error - rigid.transmission_error) * rigid.attrs["base_radius_wheel"]
@@ -71,8 +79,11 @@ def test_elastic_flanks_tend_to_rigid_ones(paper_scene, rigid_scene):
 
 @pytest.mark.parametrize("torque", [437e3, 1.0, 0.0, -437e3])
 def test_coast_flanks_stand_a_backlash_away(rigid_scene, paper_pair, torque):
-    """Exact: turned by the load to its coast flanks the wheel moves by the backlash along the line of action, and no more."""
-    result = simulate(replace(rigid_scene, coast_flanks=CoastFlanks(), load=Load(torque), accuracy=Accuracy(steps_per_mesh_cycle=40)))
+    """Exact: turned by the load to its coast flanks the wheel moves by the backlash along the line of action, and no
+    more."""
+    result = simulate(
+        replace(rigid_scene, coast_flanks=CoastFlanks(), load=Load(torque), accuracy=Accuracy(steps_per_mesh_cycle=40))
+    )
     moved = 0.0 if torque >= 0.0 else -paper_pair.backlash
     assert result.transmission_error.values * paper_pair.wheel.base_radius == pytest.approx(moved, abs=1e-10)
     sides = result.normal_force.values, result.coast_normal_force.values
@@ -81,7 +92,8 @@ def test_coast_flanks_stand_a_backlash_away(rigid_scene, paper_pair, torque):
 
 
 def test_springs_give_way_as_they_are(rigid_scene, paper_scene, paper_pair):
-    """Exact: with rigid flanks only shafts and bearings are elastic: T_E = T (1/k2 + ratio^2/k1) of rotations and 2 F/(k_b rb) of centres."""
+    """Exact: with rigid flanks only shafts and bearings are elastic: T_E = T (1/k2 + ratio^2/k1) of rotations and 2
+    F/(k_b rb) of centres."""
     scene = replace(rigid_scene, shafts=paper_scene.shafts, bearings=paper_scene.bearings)
     result = simulate(scene)
     force = scene.load.wheel_torque / paper_pair.wheel.base_radius
@@ -94,7 +106,9 @@ def test_springs_give_way_as_they_are(rigid_scene, paper_scene, paper_pair):
 
 def test_no_variable_of_elastic_teeth_is_left(rigid_scene, paper_scene):
     """House rule 9: no pressures, no energy of teeth."""
-    gone = {variable.name for variable in result_variables(paper_scene)} - {variable.name for variable in result_variables(rigid_scene)}
+    gone = {variable.name for variable in result_variables(paper_scene)} - {
+        variable.name for variable in result_variables(rigid_scene)
+    }
     assert {"contact_pressure", "contact_offset", "contact_roll_angle", "energy_teeth"} <= gone
     result = simulate(rigid_scene)
     assert set(result.data_vars) == {variable.name for variable in result_variables(rigid_scene)}
@@ -102,16 +116,26 @@ def test_no_variable_of_elastic_teeth_is_left(rigid_scene, paper_scene):
 
 def test_friction_needs_elastic_teeth(paper_scene):
     """Between rigid flanks friction is not determined: refused in words."""
-    text = paper_scene.text.replace("[gears.material]\n", "").replace('youngs_modulus = "206 GPa"\n', "").replace("poissons_ratio = 0.3\n", "")
+    text = (
+        paper_scene.text.replace("[gears.material]\n", "")
+        .replace('youngs_modulus = "206 GPa"\n', "")
+        .replace("poissons_ratio = 0.3\n", "")
+    )
     with pytest.raises(SceneError, match=r"\[friction\]\n    needs the section \[gears.material\], which is missing"):
         scene_from_text(text)
 
 
 def test_rigid_gears_accelerate_as_their_errors_say(rigid_scene, paper_scene):
-    """Newton's law: with one moving coordinate the mesh force is (T + J phi2'')/rb2, phi2 the kinematic error; backward Euler's own
+    """Newton's law: with one moving coordinate the mesh force is (T + J phi2'')/rb2, phi2 the kinematic error; backward
+    Euler's own
     second difference, exact while no flank lifts off."""
     slow = Motion(20.0, 3, 1)
-    scene = replace(rigid_scene, inertia=paper_scene.inertia, motion=slow, tip_relief=TipRelief(Relief(DEPTH, None), Relief(DEPTH, None)))
+    scene = replace(
+        rigid_scene,
+        inertia=paper_scene.inertia,
+        motion=slow,
+        tip_relief=TipRelief(Relief(DEPTH, None), Relief(DEPTH, None)),
+    )
     scene = replace(scene, accuracy=Accuracy(steps_per_mesh_cycle=100))
     result = simulate(scene)
     radius, step = result.attrs["base_radius_wheel"], float(result.time[1] - result.time[0])

@@ -38,7 +38,10 @@ def expected_couple(result, ripple, torque=437e3, teeth=24):
 
 def test_the_section_is_read_in_program_units():
     """Authority: 1 N m = 1000 N mm, 180 deg = pi; a phase left out is zero."""
-    lines = '[torque_ripple]\nharmonics = [{ order = 1, amplitude = "20 N m", phase = "90 deg" }, { order = 2.5, amplitude = "3 N m" }]\n'
+    lines = (
+        '[torque_ripple]\nharmonics = [{ order = 1, amplitude = "20 N m", phase = "90 deg" }, { order = 2.5, amplitude'
+        ' = "3 N m" }]\n'
+    )
     read = scene_from_text(DEMO + lines).torque_ripple
     assert [(each.order, each.amplitude) for each in read.harmonics] == [(1.0, 20e3), (2.5, 3e3)]
     assert [each.phase for each in read.harmonics] == pytest.approx([np.pi / 2, 0.0], rel=1e-15)
@@ -55,7 +58,10 @@ def test_the_section_is_read_in_program_units():
         ('[{ order = 1, amplitude = "20 mm" }]', "is a length, not a torque"),
         ('[{ order = 1, amplitude = "-20 N m" }]', "is negative"),
         ('[{ order = 1, amplitud = "20 N m" }]', 'Did you mean "amplitude"?'),
-        ('[{ order = 1, amplitude = "400 N m" }, { order = 2, amplitude = "40 N m" }]', "440 N m together, more than load.wheel_torque"),
+        (
+            '[{ order = 1, amplitude = "400 N m" }, { order = 2, amplitude = "40 N m" }]',
+            "440 N m together, more than load.wheel_torque",
+        ),
     ],
 )
 def test_a_wrong_section_is_refused(harmonics, said):
@@ -75,7 +81,9 @@ def test_with_coast_flanks_the_couple_may_turn_its_sign():
 def test_a_vanishing_ripple_is_none(paper_scene, static):
     """Exact limit: an amplitude of 1e-9 N mm leaves the result of a scene without the section, to round-off."""
     scene = coarse(quasi_static(paper_scene) if static else paper_scene)
-    off, on = (simulate(replace(scene, torque_ripple=ripple)) for ripple in (None, TorqueRipple((Harmonic(1.0, 1e-9),))))
+    off, on = (
+        simulate(replace(scene, torque_ripple=ripple)) for ripple in (None, TorqueRipple((Harmonic(1.0, 1e-9),)))
+    )
     assert set(on) - set(off) == {"wheel_couple"}
     for name in off:
         # The account's terms are round-off beside the work that passes through.
@@ -84,7 +92,8 @@ def test_a_vanishing_ripple_is_none(paper_scene, static):
 
 
 def test_the_right_side_is_the_couples_work_by_finite_differences(paper_scene, paper_pair):
-    """Finite differences (exact, being linear): the forces on the coordinates are the derivative of couple times rotation of the shaft's end."""
+    """Finite differences (exact, being linear): the forces on the coordinates are the derivative of couple times
+    rotation of the shaft's end."""
     shafts, angle = drivetrain(paper_scene, paper_pair), 0.01
     forces = varying_load(RIPPLE, shafts, angle)(7.0)
     couple = sum(each.amplitude * np.cos(each.order * 7.0 * angle + each.phase) for each in RIPPLE.harmonics)
@@ -95,7 +104,8 @@ def test_the_right_side_is_the_couples_work_by_finite_differences(paper_scene, p
 
 
 def test_quasi_static_transmission_error_follows_the_couple(paper_scene):
-    """Exact: without friction and inertia a step knows only its own couple, so that the error at a step is that under the constant
+    """Exact: without friction and inertia a step knows only its own couple, so that the error at a step is that under
+    the constant
     couple of the same size; on elastic shafts and teeth alike."""
     scene = coarse(frictionless(quasi_static(paper_scene)), cycles=1)
     result = simulate(replace(scene, torque_ripple=RIPPLE))
@@ -103,12 +113,17 @@ def test_quasi_static_transmission_error_follows_the_couple(paper_scene):
     assert result.wheel_couple.values == pytest.approx(couples, rel=1e-14)
     for step in (0, 13, 29):
         constant = simulate(replace(scene, load=replace(scene.load, wheel_torque=float(couples[step]))))
-        assert result.transmission_error.values[step] == pytest.approx(constant.transmission_error.values[step], rel=1e-10)
-        assert result.normal_force.values[step] == pytest.approx(couples[step] / result.attrs["base_radius_wheel"], rel=1e-10)
+        assert result.transmission_error.values[step] == pytest.approx(
+            constant.transmission_error.values[step], rel=1e-10
+        )
+        assert result.normal_force.values[step] == pytest.approx(
+            couples[step] / result.attrs["base_radius_wheel"], rel=1e-10
+        )
 
 
 def tied(marcher, shafts):
-    """Stiffness (k, k), N/mm, of drivetrain and contact with the nodes that are closed at rest; and the record at rest."""
+    """Stiffness (k, k), N/mm, of drivetrain and contact with the nodes that are closed at rest; and the record at
+    rest."""
     rest = marcher.start()
     operator, closed = rest.position.operator, np.flatnonzero(rest.solution.status != OPEN)
     rigid = operator.jacobian[closed]
@@ -123,9 +138,12 @@ def with_ripple(scene, pair, flanks, time_step, ripple, shaft_step):
 
 
 def test_linear_range_moves_by_amplitude_times_compliance(paper_scene, paper_pair, stand_in_flanks):
-    """Exact in the linear range: on gears that do not roll, a ripple that closes or opens no node moves the drivetrain by its compliance."""
+    """Exact in the linear range: on gears that do not roll, a ripple that closes or opens no node moves the drivetrain
+    by its compliance."""
     ripple, per_turn = TorqueRipple((Harmonic(3.0, 0.5, 0.2),)), 48
-    marcher, shafts = with_ripple(quasi_static(paper_scene), paper_pair, stand_in_flanks, 1e-4, ripple, 2.0 * np.pi / per_turn)
+    marcher, shafts = with_ripple(
+        quasi_static(paper_scene), paper_pair, stand_in_flanks, 1e-4, ripple, 2.0 * np.pi / per_turn
+    )
     stiffness, record = tied(marcher, shafts)
     positions, status = [], record.solution.status
     for step in range(per_turn):
@@ -140,8 +158,9 @@ def test_linear_range_moves_by_amplitude_times_compliance(paper_scene, paper_pai
 
 @pytest.mark.parametrize("frequency", [5.0, 120.0, 400.0])
 def test_steady_vibration_is_the_frequency_response(paper_scene, paper_pair, stand_in_flanks, frequency):
-    """Exact solution: gears that do not roll, closed nodes staying closed, are linear; the march's steady answer to one harmonic is that of
-    the matrices, with (2/dt) tan(omega dt/2) for omega, which is how average acceleration sees it (Bathe, Finite Element Procedures, 9.4);
+    """Exact solution: gears that do not roll, closed nodes staying closed, are linear; the march's steady answer to one
+    harmonic is that of the matrices, with (2/dt) tan(omega dt/2) for omega, which is how average acceleration sees it
+    (Bathe, Finite Element Procedures, 9.4);
     that tends to the frequency response with order two."""
     per_period, errors = 40, []
     for refinement in (1, 2):
@@ -164,7 +183,9 @@ def test_steady_vibration_is_the_frequency_response(paper_scene, paper_pair, sta
         closed = rest.solution.status
         operator, nodes = rest.position.operator, np.flatnonzero(closed != OPEN)
         forces = rest.solution.forces.copy()
-        forces[nodes] += np.linalg.solve(operator.compliance[np.ix_(nodes, nodes)], operator.jacobian[nodes] @ answer.real)
+        forces[nodes] += np.linalg.solve(
+            operator.compliance[np.ix_(nodes, nodes)], operator.jacobian[nodes] @ answer.real
+        )
         record, positions = Record(0, start, rest.position, replace(rest.solution, forces=forces)), []
         for step in range(1, 2 * count + 1):
             record = marcher.step(marcher.dynamic, record, step)
@@ -178,15 +199,22 @@ def test_steady_vibration_is_the_frequency_response(paper_scene, paper_pair, sta
 
 
 def test_far_below_resonance_the_ripple_acts_as_at_rest(paper_scene):
-    """Known limit: at 0.5 Hz the dynamic error differs from the quasi-static one by less than 1e-3 of its own peak-to-peak value."""
-    scene = replace(coarse(frictionless(paper_scene)), torque_ripple=RIPPLE, motion=Motion(0.5, 2, 2), accuracy=replace(COARSE, steps_per_mesh_cycle=200))
+    """Known limit: at 0.5 Hz the dynamic error differs from the quasi-static one by less than 1e-3 of its own
+    peak-to-peak value."""
+    scene = replace(
+        coarse(frictionless(paper_scene)),
+        torque_ripple=RIPPLE,
+        motion=Motion(0.5, 2, 2),
+        accuracy=replace(COARSE, steps_per_mesh_cycle=200),
+    )
     moving, resting = simulate(scene), simulate(quasi_static(scene))
     difference = np.abs(moving.transmission_error - resting.transmission_error).max()
     assert float(difference) < 1e-3 * resting.attrs["peak_to_peak_transmission_error"]
 
 
 def test_a_ripple_far_above_all_vibrations_is_not_felt(paper_scene):
-    """Known limit: at 20 kHz the gears stay at their mean position whatever rides on the couple; they start where the loads of a whole
+    """Known limit: at 20 kHz the gears stay at their mean position whatever rides on the couple; they start where the
+    loads of a whole
     cycle balance, so that nothing rings."""
     scene = replace(frictionless(coarse(paper_scene)), motion=Motion(20e3, 30, 2))
     ripple = TorqueRipple((Harmonic(24.0, 200e3),))
@@ -199,7 +227,8 @@ def test_a_ripple_far_above_all_vibrations_is_not_felt(paper_scene):
 
 @pytest.mark.parametrize("absent", [(), ("friction",), ("inertia", "damping"), ("shafts", "bearings", "friction")])
 def test_the_energy_account_closes(paper_scene, absent):
-    """Exact identity: with a couple that varies the account closes to round-off, its work being the mean of both ends of a step."""
+    """Exact identity: with a couple that varies the account closes to round-off, its work being the mean of both ends
+    of a step."""
     result = simulate(replace(coarse(paper_scene, 3), torque_ripple=RIPPLE, **dict.fromkeys(absent)))
     taken = result.work_output + result.get("work_damping", 0.0) + result.get("work_friction", 0.0)
     defect = result.energy - result.energy[0] - (result.work_input - taken + result.work_contact_changes)
@@ -209,7 +238,8 @@ def test_the_energy_account_closes(paper_scene, absent):
 
 
 def test_work_done_on_the_load_is_that_of_the_couple(paper_scene):
-    """Exact: the couple's work over a step is its mean times the angle turned; with rigid shafts the wheel's own rotation gives it."""
+    """Exact: the couple's work over a step is its mean times the angle turned; with rigid shafts the wheel's own
+    rotation gives it."""
     scene = replace(coarse(paper_scene), torque_ripple=RIPPLE, shafts=None)
     result = simulate(scene)
     couple = expected_couple(result, RIPPLE)

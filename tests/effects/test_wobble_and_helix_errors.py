@@ -27,9 +27,18 @@ CLASS = "[flank_errors]\ntolerance_class = 6\n"
 @pytest.mark.parametrize(
     ("lines", "said"),
     [
-        (WOBBLE, 'eccentricity.wheel.wobble = "10 um"\n    is of three-dimensional scenes: allowed beside gears.helix_angle, [lead_modifications], [misalignment] or bearings.places.'),
+        (
+            WOBBLE,
+            (
+                'eccentricity.wheel.wobble = "10 um"\n    is of three-dimensional scenes: allowed beside'
+                " gears.helix_angle, [lead_modifications], [misalignment] or bearings.places."
+            ),
+        ),
         (HELIX, "flank_errors.pinion.helix_slope = a list\n    is of three-dimensional scenes"),
-        (FACE + '[eccentricity.wheel]\nwobble_phase = "90 deg"\n', 'eccentricity.wheel.distance\n    is missing. Allowed: such as "10 um"; or a wobble'),
+        (
+            FACE + '[eccentricity.wheel]\nwobble_phase = "90 deg"\n',
+            'eccentricity.wheel.distance\n    is missing. Allowed: such as "10 um"; or a wobble',
+        ),
         (FACE + '[eccentricity.wheel]\nwobble = "1 mm"\n', "is too large an error of manufacture"),
         (FACE + HELIX.replace("5 um", "1 mm"), "is too large an error of manufacture"),
         (FACE + HELIX.replace(', "5 um"', "", 1), "has 15 values, but the pinion has 16 teeth"),
@@ -54,15 +63,20 @@ def test_a_table_with_helix_deviations_is_of_a_scene_with_a_face(tmp_path, monke
     """Authority: house rule 7, for what stands in a file."""
     from fenics_gears.model.model import model_of
 
-    (tmp_path / "pinion.csv").write_text("tooth, helix_form (um)\n" + "".join(f"{tooth}, 3\n" for tooth in range(1, 17)), encoding="utf-8")
+    (tmp_path / "pinion.csv").write_text(
+        "tooth, helix_form (um)\n" + "".join(f"{tooth}, 3\n" for tooth in range(1, 17)), encoding="utf-8"
+    )
     table = f'[flank_errors.pinion]\nfile = "{tmp_path}/pinion.csv"\n'
-    assert model_of(scene_from_text(ELASTIC + FACE + table)).scene.flank_errors.pinion.helix_form == pytest.approx((0.003,) * 16)
+    assert model_of(scene_from_text(ELASTIC + FACE + table)).scene.flank_errors.pinion.helix_form == pytest.approx(
+        (0.003,) * 16
+    )
     with pytest.raises(SceneError, match="the column helix_form is of three-dimensional scenes"):
         model_of(scene_from_text(ELASTIC + table))
 
 
 def test_constant_helix_slope_is_a_misalignment(paper_scene):
-    """Identity: material in excess towards the right end of all teeth of a spur pinion is as much taken off the gap there as a misalignment takes.
+    """Identity: material in excess towards the right end of all teeth of a spur pinion is as much taken off the gap
+    there as a misalignment takes.
 
     Both are linear along the face; of a slope the mean is zero.
     """
@@ -75,12 +89,18 @@ def test_constant_helix_slope_is_a_misalignment(paper_scene):
     assert float(np.ptp(by_axes.line_load.isel(contact_time=0).values.max(axis=0))) > 50.0
     assert by_errors.line_load.values == pytest.approx(by_axes.line_load.values, abs=1e-6)
     assert by_errors.transmission_error.values == pytest.approx(by_axes.transmission_error.values, rel=1e-9)
-    assert set(by_errors.data_vars) == {each.name for each in result_variables(replace(scene, flank_errors=errors, misalignment=Misalignment()))}
-    assert by_errors.pinion_helix_slope.values == pytest.approx(np.full(16, 0.008)) and not by_errors.wheel_helix_form.values.any()
+    assert set(by_errors.data_vars) == {
+        each.name for each in result_variables(replace(scene, flank_errors=errors, misalignment=Misalignment()))
+    }
+    assert (
+        by_errors.pinion_helix_slope.values == pytest.approx(np.full(16, 0.008))
+        and not by_errors.wheel_helix_form.values.any()
+    )
 
 
 def test_wobble_in_the_plane_of_action_is_a_misalignment_of_that_step(paper_scene):
-    """Identity: when the leaning axis of a spur pinion lies in the plane of action, the gap is that of axes which are so far from parallel."""
+    """Identity: when the leaning axis of a spur pinion lies in the plane of action, the gap is that of axes which are
+    so far from parallel."""
     scene = frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1)))
     accuracy = replace(COARSE, steps_per_mesh_cycle=5, contact_nodes=14, slices=4, layers=2, body_element_size=2.5)
     scene = replace(scene, accuracy=accuracy, motion=Motion(200.0, 1, 1))

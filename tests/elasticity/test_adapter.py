@@ -8,14 +8,17 @@ from fenics_gears.elasticity import dolfinx_adapter as adapter
 
 
 def test_leftover_of_a_killed_compile_is_removed(tmp_path):
-    """The form compiler (ffcx, jit.py) names the file that a compile killed halfway has left; without it the next one works."""
+    """The form compiler (ffcx, jit.py) names the file that a compile killed halfway has left; without it the next one
+    works."""
     leftover = tmp_path / "form cache" / "libffcx_forms_0.c"
     leftover.parent.mkdir()
     leftover.write_text("")
 
     def build():
         if leftover.exists():
-            raise TimeoutError(f"JIT compilation timed out. Try cleaning cache (e.g. remove {leftover}) or increase timeout option.")
+            raise TimeoutError(
+                f"JIT compilation timed out. Try cleaning cache (e.g. remove {leftover}) or increase timeout option."
+            )
         return "compiled"
 
     assert adapter.with_compiled(build) == "compiled"
@@ -23,6 +26,7 @@ def test_leftover_of_a_killed_compile_is_removed(tmp_path):
 
 def test_another_timeout_is_not_swallowed():
     """A timeout that names no file is not repeated for ever."""
+
     def build():
         raise TimeoutError("the disk does not answer")
 

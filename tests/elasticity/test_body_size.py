@@ -1,4 +1,5 @@
-"""The body's element size: a family of meshes whose error falls with an order, the flank's elements left as they are."""
+"""The body's element size: a family of meshes whose error falls with an order, the flank's elements left as they
+are."""
 
 import numpy as np
 import pytest
@@ -19,13 +20,16 @@ def stretched(gear, steel, element, factor):
     elements = (found.nodes - 1) // order
     shares = np.zeros(found.nodes)
     for first in range(elements):
-        shares[order * first: order * (first + 1) + 1] += (np.array([1.0, 4.0, 1.0]) / 6.0 if order == 2 else 0.5) / elements
+        shares[order * first : order * (first + 1) + 1] += (
+            np.array([1.0, 4.0, 1.0]) / 6.0 if order == 2 else 0.5
+        ) / elements
     return shares @ found.blocks[0][::2, ::2] @ shares
 
 
 @pytest.mark.parametrize("element, factors", [("P2", (2.0, 1.0, 0.5, 0.25)), ("Q2", (2.0, 1.0, 0.5))])
 def test_the_error_falls_with_the_square_of_the_size(pinion, steel, element, factors):
-    """Theory (Strang and Berger 1973): straight sides along a curved outline leave h^2, though elements of second order could do better."""
+    """Theory (Strang and Berger 1973): straight sides along a curved outline leave h^2, though elements of second order
+    could do better."""
     changes = np.diff([stretched(pinion, steel, element, factor) for factor in factors])
     assert (changes > 0.0).all()
     orders = np.log2(changes[:-1] / changes[1:])
@@ -48,6 +52,7 @@ def test_the_default_is_one_of_the_family(pinion, element):
 
 
 def test_an_element_of_third_order_is_refused():
-    """Authority: house rule 7; five modules number nodes at corners and middles of sides only, and would stop with a KeyError."""
+    """Authority: house rule 7; five modules number nodes at corners and middles of sides only, and would stop with a
+    KeyError."""
     with pytest.raises(ValueError, match="order = 3.*Allowed: 1 or 2"):
         Element("P3", 3, 3, 4)

@@ -7,7 +7,14 @@ import numpy as np
 import pytest
 
 from fenics_gears.commands.cli import main
-from fenics_gears.elasticity.cache import DIRECTORY_VARIABLE, LONGEST_WRITING, SIZE_VARIABLE, Cache, content_key, user_cache
+from fenics_gears.elasticity.cache import (
+    DIRECTORY_VARIABLE,
+    LONGEST_WRITING,
+    SIZE_VARIABLE,
+    Cache,
+    content_key,
+    user_cache,
+)
 from fenics_gears.errors import SceneError
 
 KEY = content_key({"gear": {"teeth": 16}, "size": 0.06})

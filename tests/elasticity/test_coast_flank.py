@@ -38,13 +38,17 @@ def difference(first, second):
 
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_half_a_sector_does_for_the_whole(name, pinion, steel):
-    """Brute force: the whole symmetric sector condensed with both flanks, the coast flank's components mirrored by dense products."""
+    """Brute force: the whole symmetric sector condensed with both flanks, the coast flank's components mirrored by
+    dense products."""
     element, coarse = ELEMENTS[name], Discretisation(name, 0.9, 3.0)
     either = flank_compliance(pinion, steel, coarse, BOTH)
     similar, sizes = pinion.of_module_one, coarse.sizes(pinion, both_flanks=True).in_modules_of(pinion)
     mesh = sector_mesh(similar, sizes, element.quadrilateral)
     flanks = np.vstack([by_radius(mesh.edge_nodes(side, element.order)) for side in ("flank", "coast")])
-    blocks = ring_compliance(condensed_sector(mesh, element, steel.poissons_ratio, flank=flanks), pinion.teeth, 2) / steel.youngs_modulus
+    blocks = (
+        ring_compliance(condensed_sector(mesh, element, steel.poissons_ratio, flank=flanks), pinion.teeth, 2)
+        / steel.youngs_modulus
+    )
     direction = centreline_direction(half_sector_mesh(similar, sizes, element.quadrilateral))
     frame = np.eye(2 * len(flanks))
     coast = np.arange(len(flanks), 2 * len(flanks))
@@ -68,7 +72,9 @@ def test_flank_pairs_that_are_not_asked_for_are_not_known(pinion, steel, both):
 
 def test_cache_gives_both_flanks_back(pinion, steel, both, tmp_path):
     """Exact identity: what is kept comes back bit for bit."""
-    computed, kept = (flank_compliance(pinion, steel, Discretisation("P2", 0.4), BOTH, Cache(tmp_path)) for _ in range(2))
+    computed, kept = (
+        flank_compliance(pinion, steel, Discretisation("P2", 0.4), BOTH, Cache(tmp_path)) for _ in range(2)
+    )
     assert kept.timings["from_cache"] and not computed.timings["from_cache"]
     for offset in (0, 1, -2):
         assert np.array_equal(computed.block(offset), kept.block(offset))
@@ -99,7 +105,9 @@ def test_symmetric_mesh_fills_the_sector(element, pinion):
     area = 0.5 * (corner[..., 0] * ahead[..., 1] - corner[..., 1] * ahead[..., 0]).sum()
     boundary = sector_boundary(pinion, sizes)[0].points
     ahead = np.roll(boundary, -1, axis=0)
-    assert area == pytest.approx(0.5 * abs((boundary[:, 0] * ahead[:, 1] - boundary[:, 1] * ahead[:, 0]).sum()), rel=1e-11)
+    assert area == pytest.approx(
+        0.5 * abs((boundary[:, 0] * ahead[:, 1] - boundary[:, 1] * ahead[:, 0]).sum()), rel=1e-11
+    )
     assert corner_areas(mesh.points, mesh.cells).min() > 0.0
     assert len(mesh.edges["flank"]) == len(mesh.edges["coast"])
     assert len(mesh.edges["upper cut"]) == len(mesh.edges["lower cut"])

@@ -29,7 +29,8 @@ def ring_inverse(link, teeth):
 
 @pytest.mark.parametrize("teeth, reach", [(5, 1), (12, 3), (13, 4), (31, 2), (4, 3), (2, 1)])
 def test_both_routes_are_the_inverse_of_the_whole_ring(teeth, reach):
-    """Authority: brute force, by numpy's dense inverse; odd and even numbers of sectors left to the run, a single one too."""
+    """Authority: brute force, by numpy's dense inverse; odd and even numbers of sectors left to the run, a single one
+    too."""
     link = link_of(teeth)
     exact = ring_inverse(link, teeth)
     for route in (chain_response, fourier_response):
@@ -39,15 +40,18 @@ def test_both_routes_are_the_inverse_of_the_whole_ring(teeth, reach):
 
 
 def test_joining_eliminates_the_common_cut():
-    """Authority: numpy's Schur complement of the assembled pair; and a run of five by doubling is five joined in a row."""
+    """Authority: numpy's Schur complement of the assembled pair; and a run of five by doubling is five joined in a
+    row."""
     one, other = link_of(1), link_of(2)
     size = len(one) // 2
     nothing = np.zeros((size, size))
-    assembled = np.block([
-        [one[:size, :size], nothing, one[:size, size:]],
-        [nothing, other[size:, size:], other[size:, :size]],
-        [one[size:, :size], other[:size, size:], one[size:, size:] + other[:size, :size]],
-    ])
+    assembled = np.block(
+        [
+            [one[:size, :size], nothing, one[:size, size:]],
+            [nothing, other[size:, size:], other[size:, :size]],
+            [one[size:, :size], other[:size, size:], one[size:, size:] + other[:size, :size]],
+        ]
+    )
     kept, out = slice(0, 2 * size), slice(2 * size, None)
     exact = assembled[kept, kept] - assembled[kept, out] @ np.linalg.solve(assembled[out, out], assembled[out, kept])
     assert relative(joined(one, other) - exact, exact) < 1e-12

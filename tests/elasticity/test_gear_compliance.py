@@ -63,7 +63,12 @@ def test_default_body_mesh_is_fine_enough(pinion):
     element = ELEMENTS["P2"]
     sizes = element_sizes(pinion, element, 0.12)
     finer = replace(
-        sizes, fillet=sizes.fillet / 2, coast=sizes.coast / 2, body=sizes.body / 2, depth=2 * sizes.depth, growth=sizes.growth / 2
+        sizes,
+        fillet=sizes.fillet / 2,
+        coast=sizes.coast / 2,
+        body=sizes.body / 2,
+        depth=2 * sizes.depth,
+        growth=sizes.growth / 2,
     )
     for centre in (0.15, 0.5, 0.85):
         default, fine = (mean_compliance(pinion, element, choice, centre) for choice in (sizes, finer))
@@ -191,5 +196,8 @@ def test_unreadable_body_mesh_is_refused(content, tmp_path):
 
 def test_contact_can_import_the_interface_without_finite_elements():
     """docs/promises.md: the contact core needs no DOLFINx; a run from the cache loads neither it nor gmsh."""
-    code = "import sys, fenics_gears.elasticity.gear_compliance; sys.exit(any(m in sys.modules for m in ('dolfinx', 'gmsh', 'petsc4py')))"
+    code = (
+        "import sys, fenics_gears.elasticity.gear_compliance; sys.exit(any(m in sys.modules for m in ('dolfinx',"
+        " 'gmsh', 'petsc4py')))"
+    )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

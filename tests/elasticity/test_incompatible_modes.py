@@ -18,13 +18,16 @@ RATIOS = [0.0, 0.3, 0.499]
 
 
 def rectangle(along: int, across: int, length: float, height: float, distortion: float = 0.0) -> BodyMesh:
-    """Rectangle of quadrilaterals whose inner corners are moved by up to `distortion` cell sizes, drawn with a fixed seed."""
+    """Rectangle of quadrilaterals whose inner corners are moved by up to `distortion` cell sizes, drawn with a fixed
+    seed."""
     x, y = np.meshgrid(np.linspace(0.0, length, along + 1), np.linspace(0.0, height, across + 1), indexing="ij")
     draw = np.random.default_rng(0)
     x[1:-1, 1:-1] += distortion * length / along * draw.uniform(-1.0, 1.0, (along - 1, across - 1))
     y[1:-1, 1:-1] += distortion * height / across * draw.uniform(-1.0, 1.0, (along - 1, across - 1))
     index = np.arange(x.size).reshape(x.shape)
-    cells = np.stack([part.ravel() for part in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:])], axis=-1)
+    cells = np.stack(
+        [part.ravel() for part in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:])], axis=-1
+    )
     return BodyMesh(np.stack([x.ravel(), y.ravel()], axis=-1), cells, {})
 
 
@@ -45,7 +48,8 @@ def inner_dofs(nodes: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("poissons_ratio", RATIOS)
 def test_patch_of_distorted_cells(poissons_ratio):
-    """Exact (Irons' patch test, the one that Wilson's own form fails): uniform strain on the boundary is uniform strain inside."""
+    """Exact (Irons' patch test, the one that Wilson's own form fails): uniform strain on the boundary is uniform strain
+    inside."""
     nodes, stiffness = assembled(rectangle(5, 4, 1.0, 1.0, distortion=0.35), poissons_ratio)
     uniform = (nodes @ np.array([[1.0, 0.3], [-0.2, 0.7]])).ravel()
     inside = inner_dofs(nodes)
@@ -63,7 +67,8 @@ def test_rigid_motions_cost_nothing_and_nothing_else_does(poissons_ratio):
 
 
 def bent(name: str, poissons_ratio: float) -> float:
-    """Deflection of a beam of 10 cells, one high, under an end couple, in parts of the exact M L^2/(2 E' I), E' = E/(1 - nu^2)."""
+    """Deflection of a beam of 10 cells, one high, under an end couple, in parts of the exact M L^2/(2 E' I), E' = E/(1
+    - nu^2)."""
     length, height = 10.0, 1.0
     nodes, stiffness = assembled(rectangle(10, 1, length, height), poissons_ratio, name)
     at_wall, at_end = nodes[:, 0] < 1e-9, nodes[:, 0] > length - 1e-9
@@ -80,7 +85,8 @@ def bent(name: str, poissons_ratio: float) -> float:
 
 @pytest.mark.parametrize("poissons_ratio", RATIOS)
 def test_beam_of_one_element_across(poissons_ratio):
-    """Exact (beam in pure bending, plane strain): right at any Poisson's ratio, where the plain bilinear element locks."""
+    """Exact (beam in pure bending, plane strain): right at any Poisson's ratio, where the plain bilinear element
+    locks."""
     assert bent(ELEMENT.name, poissons_ratio) == pytest.approx(1.0, abs=1e-9)
     assert bent("Q1", poissons_ratio) < 0.7
 

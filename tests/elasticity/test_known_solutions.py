@@ -12,7 +12,8 @@ from fenics_gears.elasticity.ring import centre_motion
 
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_annulus_under_torque(name):
-    """Exact solution: u_theta = T r/(4 pi G) (1/r_i^2 - 1/r^2), hub held, torque T per thickness (Timoshenko & Goodier)."""
+    """Exact solution: u_theta = T r/(4 pi G) (1/r_i^2 - 1/r^2), hub held, torque T per thickness (Timoshenko &
+    Goodier)."""
     torque, poissons_ratio = 7.0, 0.3
     shear_modulus = 1.0 / (2.0 * (1.0 + poissons_ratio))
 

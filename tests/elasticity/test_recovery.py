@@ -1,4 +1,5 @@
-"""Full displacement and stress of a gear from forces on its flanks: against the compliance, equilibrium, tractions, Hertz."""
+"""Full displacement and stress of a gear from forces on its flanks: against the compliance, equilibrium, tractions,
+Hertz."""
 
 from functools import lru_cache
 
@@ -80,7 +81,8 @@ def test_a_gear_that_nothing_touches_is_at_rest(loaded):
 
 
 def test_every_node_of_the_gear_is_in_equilibrium(loaded):
-    """Exact identity: K u = f with the stiffness of the whole gear meshed as one body, at all nodes but the held hub's."""
+    """Exact identity: K u = f with the stiffness of the whole gear meshed as one body, at all nodes but the held
+    hub's."""
     recovery, forces, body = loaded
     loads = recovery.flank_loads(forces)
     mesh, points, hub = recovery.interior.mesh, recovery.interior.nodes.points, recovery.interior.hub
@@ -124,7 +126,9 @@ def test_stress_of_a_linear_displacement_is_exact(loaded):
     yy = factor * ((1.0 - nu) * strain[1, 1] + nu * strain[0, 0])
     points = recovery.interior.nodes.points
     found = recovery.nodal_stress.rows(np.arange(len(points))) @ (points @ gradient.T).ravel()
-    np.testing.assert_allclose(found.reshape(-1, 3), np.tile([xx, yy, strain[0, 1] / (1.0 + nu)], (len(points), 1)), atol=1e-12)
+    np.testing.assert_allclose(
+        found.reshape(-1, 3), np.tile([xx, yy, strain[0, 1] / (1.0 + nu)], (len(points), 1)), atol=1e-12
+    )
 
 
 def test_stress_turns_as_a_tensor():
@@ -136,7 +140,8 @@ def test_stress_turns_as_a_tensor():
 
 
 def test_neighbouring_sectors_have_the_same_stress_on_their_common_cut(loaded):
-    """Exact identity: averages on a cut count the elements on both of its sides, so that both sectors have the same tensor."""
+    """Exact identity: averages on a cut count the elements on both of its sides, so that both sectors have the same
+    tensor."""
     recovery, _, body = loaded
     lower, upper = recovery.interior.lower, recovery.interior.upper
     for tooth in range(PINION.teeth):
@@ -147,7 +152,9 @@ def test_neighbouring_sectors_have_the_same_stress_on_their_common_cut(loaded):
 def fine_recovery(name: str, size: float, depth: float) -> GearRecovery:
     """The pinion with flank elements of a size (mm), kept down to `depth` times it below the flank."""
     sizes = ElementSizes(flank=size, fillet=0.4, coast=0.6, body=1.5, depth=depth).in_modules_of(PINION)
-    return GearRecovery(PINION, STEEL, sector_mesh(PINION.of_module_one, sizes, ELEMENTS[name].quadrilateral), ELEMENTS[name])
+    return GearRecovery(
+        PINION, STEEL, sector_mesh(PINION.of_module_one, sizes, ELEMENTS[name].quadrilateral), ELEMENTS[name]
+    )
 
 
 MIDDLE = arc_length(PINION.base_radius, 0.5 * (PINION.form_roll_angle + PINION.tip_roll_angle))
@@ -155,7 +162,8 @@ PRESSURE = 1000.0
 
 
 def traction_error(name: str, size: float) -> tuple[float, float]:
-    """Largest error of the normal stress on the flank against minus a smooth pressure over 3 mm, in and outside it, over the peak."""
+    """Largest error of the normal stress on the flank against minus a smooth pressure over 3 mm, in and outside it,
+    over the peak."""
 
     def pressure(arc):
         return np.where(np.abs(arc - MIDDLE) < 1.5, PRESSURE * np.cos(np.pi * (arc - MIDDLE) / 3.0) ** 2, 0.0)
@@ -173,7 +181,8 @@ def traction_error(name: str, size: float) -> tuple[float, float]:
 
 @pytest.mark.parametrize(("name", "order"), [("P1", 1.0), ("Q1 incompatible", 1.0), ("P2", 1.5), ("Q2", 1.5)])
 def test_normal_stress_on_the_flank_is_minus_the_pressure(name, order):
-    """Equilibrium of the surface: -p where pressed, zero beside it. Stress at a boundary node converges with at least the polynomial order
+    """Equilibrium of the surface: -p where pressed, zero beside it. Stress at a boundary node converges with at least
+    the polynomial order
     less what an irregular mesh takes of averaging: 1 for first order elements, near 2 for second order ones."""
     coarse, fine = (traction_error(name, size) for size in (0.3, 0.1))
     rate = np.log(max(coarse) / max(fine)) / np.log(3.0)
@@ -183,7 +192,8 @@ def test_normal_stress_on_the_flank_is_minus_the_pressure(name, order):
 
 @lru_cache
 def hertz(half_width: float, elements: int) -> tuple[float, float]:
-    """Largest shear stress over p0 below a Hertz pressure on the pinion's flank, and its depth over the half-width (mm)."""
+    """Largest shear stress over p0 below a Hertz pressure on the pinion's flank, and its depth over the half-width
+    (mm)."""
 
     def pressure(arc):
         return PRESSURE * np.sqrt(np.maximum(1.0 - ((arc - MIDDLE) / half_width) ** 2, 0.0))
@@ -202,7 +212,8 @@ def hertz(half_width: float, elements: int) -> tuple[float, float]:
 def test_shear_is_largest_below_the_surface_as_hertz_says():
     """Literature: 0.300 p0 at 0.786 b below a Hertz line contact (Johnson, Contact Mechanics, 1985, section 4.2a).
 
-    The tooth's bending adds to it in proportion to the force, that is to b at one p0: two widths take it out. Stress of P2 is of second order:
+    The tooth's bending adds to it in proportion to the force, that is to b at one p0: two widths take it out. Stress of
+    P2 is of second order:
     (h/b)^2 = 1/25. The maximum is flat: the depth is as good as the distance of nodes there, b/5.
     """
     (wide, _), (narrow, depth) = hertz(0.2, 5), hertz(0.1, 5)

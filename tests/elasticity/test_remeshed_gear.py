@@ -52,7 +52,8 @@ def whole_mesh(quadrilaterals: bool) -> BodyMesh:
 
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_joined_sectors_equal_the_remeshed_whole_gear(name):
-    """Exact identity (1e-9, hard case 6): meshing and condensing the whole gear with the same nodes gives the same stiffness."""
+    """Exact identity (1e-9, hard case 6): meshing and condensing the whole gear with the same nodes gives the same
+    stiffness."""
     element = ELEMENTS[name]
     body = RemeshedGear(PINION, STEEL, element, COARSE)
     stiffness = body.stiffness(loaded_teeth())
@@ -85,7 +86,8 @@ def test_rigid_motions_cost_nothing():
 @pytest.mark.parametrize("size", [0.3, 0.33, 0.4])
 @pytest.mark.parametrize("name", ["P1", "P2"])
 def test_prescribing_the_standard_vertices_changes_nothing(name, size):
-    """Exact identity (1e-10): with the fast route's own flank vertices the compliance is a part of the fast route's, though the vertices' places
+    """Exact identity (1e-10): with the fast route's own flank vertices the compliance is a part of the fast route's,
+    though the vertices' places
     differ by round-off."""
     assert distance_to_the_fast_route(ELEMENTS[name], name, size) < 1e-10
 
@@ -103,7 +105,8 @@ def distance_to_the_fast_route(element, name, size):
 
 @pytest.mark.parametrize("size", [0.05, 0.3, 2.0])
 def test_flank_through_prescribed_vertices(size):
-    """By construction: every prescribed vertex is there, neighbours stay neighbours, no element is larger than asked, an even number."""
+    """By construction: every prescribed vertex is there, neighbours stay neighbours, no element is larger than asked,
+    an even number."""
     for prescribed in ROLLS:
         rolls = flank_through(PINION, size, prescribed)
         places = np.abs(rolls[:, None] - prescribed).argmin(axis=0)
@@ -125,7 +128,8 @@ def test_a_vertex_at_the_tip_is_the_tip():
 
 
 def test_an_odd_flank_of_quadrilaterals_is_refused():
-    """Message: vertices that span the whole flank in an odd number of elements, which the split into quadrilaterals cannot follow."""
+    """Message: vertices that span the whole flank in an odd number of elements, which the split into quadrilaterals
+    cannot follow."""
     ends = np.linspace(PINION.form_roll_angle, PINION.tip_roll_angle, 4)
     with pytest.raises(ComputationError, match="contact_nodes"):
         sector_mesh(PINION, COARSE, True, flank_through(PINION, COARSE.flank, ends))

@@ -1,4 +1,5 @@
-"""The ring of sectors: reciprocity, rigid motion, what it refuses. Against brute force and its kernel: hard cases 5 and 6."""
+"""The ring of sectors: reciprocity, rigid motion, what it refuses. Against brute force and its kernel: hard cases 5 and
+6."""
 
 from math import pi
 

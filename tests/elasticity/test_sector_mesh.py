@@ -41,7 +41,8 @@ def test_flank_vertices_are_on_the_involute_even_in_arc_length(name, pinion, coa
     vertices = by_radius(mesh.points[mesh.edge_points("flank")])
     roll = node_roll_angles(pinion, vertices, 1)
     np.testing.assert_allclose(vertices, canonical_point(pinion.base_radius, roll), atol=1e-12 * pinion.tip_radius)
-    # A sector is meshed in modules rounded to 12 decimals; near the base circle a roll angle is more sensitive than a place.
+    # A sector is meshed in modules rounded to 12 decimals; near the base circle a roll angle is more sensitive than a
+    # place.
     ends = pinion.base_radius * np.sqrt(1.0 + np.array([pinion.form_roll_angle, pinion.tip_roll_angle]) ** 2)
     np.testing.assert_allclose(np.linalg.norm(vertices[[0, -1]], axis=1), ends, rtol=0.0, atol=1e-12 * pinion.module)
     spacing = np.diff(arc_length(pinion.base_radius, roll))
@@ -100,6 +101,7 @@ def test_folded_cell_is_refused():
 
 def test_gmsh_leaves_the_interrupt_handler_alone(pinion):
     """Ctrl-C must keep what was done (docs/promises.md); gmsh would replace the handler by the system's."""
+
     def handler(number, frame):
         raise KeyboardInterrupt
 
@@ -114,8 +116,11 @@ def test_gmsh_leaves_the_interrupt_handler_alone(pinion):
 @pytest.mark.parametrize("recombine", [False, True])
 @pytest.mark.parametrize("size", [0.5, 0.8])
 def test_outlines_that_differ_by_round_off_have_the_same_mesh(pinion, size, recombine):
-    """Exact identity: the same cells, and inner points that do not move; two routes reach one outline by sums of different order."""
-    boundary, field = sector_boundary(pinion.of_module_one, ElementSizes(flank=size, fillet=0.4, coast=1.0, body=3.0).in_modules_of(pinion))
+    """Exact identity: the same cells, and inner points that do not move; two routes reach one outline by sums of
+    different order."""
+    boundary, field = sector_boundary(
+        pinion.of_module_one, ElementSizes(flank=size, fillet=0.4, coast=1.0, body=3.0).in_modules_of(pinion)
+    )
     outline = boundary.points[::2] if recombine else boundary.points
     points, cells = filled(outline, field, 2.0 if recombine else 1.0, recombine)
     last_bit = np.random.default_rng(0).integers(-1, 2, outline.shape)

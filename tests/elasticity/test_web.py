@@ -30,18 +30,22 @@ PINION_WEB = Web(18.0, 26.0, 0.4)
 
 
 def ring_under(web, element, motion):
-    """Forces (n, 2) on the outer circle, and its points, when its nodes move by a function of their points and the bore's do not."""
+    """Forces (n, 2) on the outer circle, and its points, when its nodes move by a function of their points and the
+    bore's do not."""
     chosen = ELEMENTS[element]
     mesh = replace(annulus(chosen.corners), web=web)
     body = condense(mesh, chosen, POISSON, {part: mesh.edge_nodes(part, chosen.order) for part in ("rim", "hub")})
     outer = 0.5 * (BORE + OUTER)
-    return forces(body, lambda points: np.where(np.linalg.norm(points, axis=1)[:, None] > outer, motion(points), 0.0)), body.points["rim"]
+    return forces(
+        body, lambda points: np.where(np.linalg.norm(points, axis=1)[:, None] > outer, motion(points), 0.0)
+    ), body.points["rim"]
 
 
 @pytest.mark.parametrize("element", ["P2", "Q2", "Q1 incompatible"])
 @pytest.mark.parametrize("name", WEBS)
 def test_a_ring_of_three_widths_under_torque(name, element):
-    """Exact: the shear stress is T/(2 pi r^2 w), so that the rim turns by T/(4 pi G) of the sum of (1/r_i^2 - 1/r_o^2)/w over the rings."""
+    """Exact: the shear stress is T/(2 pi r^2 w), so that the rim turns by T/(4 pi G) of the sum of (1/r_i^2 -
+    1/r_o^2)/w over the rings."""
     web = WEBS[name]
     at = np.array([BORE, web.hub_radius, web.rim_radius, OUTER]) ** -2.0
     exact = 4.0 * pi * SHEAR / ((at[:-1] - at[1:]) / [1.0, web.share, 1.0]).sum()
@@ -53,7 +57,8 @@ def test_a_ring_of_three_widths_under_torque(name, element):
 @pytest.mark.parametrize("element", ["P2", "Q2", "Q1 incompatible"])
 @pytest.mark.parametrize("name", WEBS)
 def test_a_ring_of_three_widths_that_grows(name, element):
-    """Exact: Lame's solution u = A r + B/r in each ring, the displacement and the width times the radial stress continuous."""
+    """Exact: Lame's solution u = A r + B/r in each ring, the displacement and the width times the radial stress
+    continuous."""
     web = WEBS[name]
     radii, widths = (BORE, web.hub_radius, web.rim_radius, OUTER), (1.0, web.share, 1.0)
 
@@ -68,7 +73,10 @@ def test_a_ring_of_three_widths_that_grows(name, element):
     for inner in (0, 1):
         r, own, next_ = radii[inner + 1], slice(2 * inner, 2 * inner + 2), slice(2 * inner + 2, 2 * inner + 4)
         equations[1 + 2 * inner, own], equations[1 + 2 * inner, next_] = moved(r), -moved(r)
-        equations[2 + 2 * inner, own], equations[2 + 2 * inner, next_] = widths[inner] * stress(r), -widths[inner + 1] * stress(r)
+        equations[2 + 2 * inner, own], equations[2 + 2 * inner, next_] = (
+            widths[inner] * stress(r),
+            -widths[inner + 1] * stress(r),
+        )
     exact = 2.0 * pi * OUTER * (stress(OUTER) @ np.linalg.solve(equations, right)[4:])
     found, points = ring_under(web, element, lambda points: points / np.linalg.norm(points, axis=1)[:, None])
     assert (found * points / np.linalg.norm(points, axis=1)[:, None]).sum() == pytest.approx(exact, rel=TOLERANCE[name])
@@ -81,7 +89,10 @@ def test_the_ring_of_sectors_is_the_whole_gear():
     assert mesh.web == PINION_WEB
     whole = replace(whole_gear_mesh(mesh, gear.teeth), web=PINION_WEB)
     expected = whole_gear_compliance(whole, gear, STEEL, tooth_offsets=1).blocks
-    found = ring_compliance(condensed_sector(mesh, ELEMENTS["P2"], STEEL.poissons_ratio), gear.teeth, 1) / STEEL.youngs_modulus
+    found = (
+        ring_compliance(condensed_sector(mesh, ELEMENTS["P2"], STEEL.poissons_ratio), gear.teeth, 1)
+        / STEEL.youngs_modulus
+    )
     assert found == pytest.approx(expected, abs=1e-9 * np.abs(expected).max())
 
 
@@ -89,7 +100,11 @@ def test_a_web_as_wide_as_the_face_changes_nothing_and_a_thin_one_gives_way():
     """Limit, and order: compliances under even loads grow as the web gets thinner."""
     loads, found = None, []
     for web in (None, *(replace(PINION_WEB, share=share) for share in (1.0, 0.5, 0.1))):
-        blocks = ring_compliance(condensed_sector(sector_mesh(replace(PINION, web=web), COARSE), ELEMENTS["P2"], STEEL.poissons_ratio), PINION.teeth, 0)
+        blocks = ring_compliance(
+            condensed_sector(sector_mesh(replace(PINION, web=web), COARSE), ELEMENTS["P2"], STEEL.poissons_ratio),
+            PINION.teeth,
+            0,
+        )
         loads = np.ones(len(blocks[0])) if loads is None else loads
         found.append(loads @ blocks[0] @ loads)
     assert found[1] == pytest.approx(found[0], rel=1e-10)
@@ -108,9 +123,12 @@ WEB = '[gears.pinion.web]\nrim_inner_diameter = "45 mm"\nwidth = "{}"\n'
 
 
 def test_the_scene_says_the_web_in_lengths():
-    """Meaning of the fields: the web begins at the bore unless there is a hub; its share is that of the gear's own face width."""
+    """Meaning of the fields: the web begins at the bore unless there is a hub; its share is that of the gear's own face
+    width."""
     assert scene_from_text(SCENE.format(gears="", pinion=WEB.format("5 mm"))).gears.pinion.web == Web(10.0, 22.5, 0.25)
-    with_hub = scene_from_text(SCENE.format(gears="", pinion='face_width = "25 mm"\n' + WEB.format("5 mm") + 'hub_diameter = "30 mm"')).gears
+    with_hub = scene_from_text(
+        SCENE.format(gears="", pinion='face_width = "25 mm"\n' + WEB.format("5 mm") + 'hub_diameter = "30 mm"')
+    ).gears
     assert with_hub.pinion.web == Web(15.0, 22.5, 0.2) and with_hub.wheel.web is None
 
 
@@ -118,9 +136,15 @@ def test_the_scene_says_the_web_in_lengths():
     ("scene", "said"),
     [
         (SCENE.format(gears="", pinion=WEB.format("21 mm")), "gears.pinion.web.width is 1.05 of the face width"),
-        (SCENE.format(gears="", pinion=WEB.format("5 mm") + 'hub_diameter = "45 mm"'), "no web: gears.pinion.web.hub_diameter = 45 mm, rim_inner_diameter = 45 mm"),
+        (
+            SCENE.format(gears="", pinion=WEB.format("5 mm") + 'hub_diameter = "45 mm"'),
+            "no web: gears.pinion.web.hub_diameter = 45 mm, rim_inner_diameter = 45 mm",
+        ),
         (SCENE.format(gears="", pinion=WEB.format("5 mm").replace("45 mm", "52 mm")), "the rim may begin at 51.3 mm"),
-        (SCENE.format(gears="", pinion=WEB.format("5 mm")) + '[misalignment]\nin_plane = "5 um"\n', "webs are of plane sections only"),
+        (
+            SCENE.format(gears="", pinion=WEB.format("5 mm")) + '[misalignment]\nin_plane = "5 um"\n',
+            "webs are of plane sections only",
+        ),
     ],
 )
 def test_a_web_that_cannot_be_is_refused(scene, said):

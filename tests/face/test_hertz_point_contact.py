@@ -17,7 +17,8 @@ def test_near_a_circle_it_is_the_contact_of_spheres():
 
 
 def test_a_long_ellipse_has_the_pressure_of_a_line_contact():
-    """Limit: b^2 = 4 F' R/(pi E*) under its largest line load F' = pi b p0/2 (Johnson, eq. 4.43 and 4.45), the sooner the longer it is."""
+    """Limit: b^2 = 4 F' R/(pi E*) under its largest line load F' = pi b p0/2 (Johnson, eq. 4.43 and 4.45), the sooner
+    the longer it is."""
     errors = []
     for ratio in (10.0, 100.0):
         contact = PointContact(ratio, 1.0, RADIUS, MODULUS)

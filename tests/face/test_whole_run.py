@@ -10,7 +10,15 @@ from fenics_gears.scene.data import Accuracy
 from fenics_gears.simulation.simulate import simulate
 
 HELIX_ANGLE = radians(20.0)
-COARSE = Accuracy(element="P1", flank_element_size=0.3, contact_nodes=12, steps_per_mesh_cycle=6, slices=5, layers=2, body_element_size=3.0)
+COARSE = Accuracy(
+    element="P1",
+    flank_element_size=0.3,
+    contact_nodes=12,
+    steps_per_mesh_cycle=6,
+    slices=5,
+    layers=2,
+    body_element_size=3.0,
+)
 
 
 @pytest.fixture(scope="module")
@@ -44,4 +52,6 @@ def test_axial_force_is_the_tangential_one_times_the_tangent_of_the_helix(scene,
 def test_line_load_adds_up_to_the_normal_force(result):
     """Identity: the line loads of all pairs over all slices are the force along the contact normal."""
     of_slices = (result.line_load * result.face_slice_width).sum(("slot", "face_position")).values
-    np.testing.assert_allclose(of_slices, result.normal_force.sel(time=result.contact_time.values, method="nearest").values, rtol=1e-12)
+    np.testing.assert_allclose(
+        of_slices, result.normal_force.sel(time=result.contact_time.values, method="nearest").values, rtol=1e-12
+    )

@@ -29,7 +29,8 @@ REACH = Reach(2)
 
 @dataclass(frozen=True)
 class Answer:
-    """Approach along the transverse line of action (mm), and line load (N/mm) of each tooth pair over slices at `positions` (mm)."""
+    """Approach along the transverse line of action (mm), and line load (N/mm) of each tooth pair over slices at
+    `positions` (mm)."""
 
     approach: float
     positions: np.ndarray
@@ -40,16 +41,34 @@ class Answer:
 def gears(helix_angle: float, section_size: float, layers: int, flank: float, cache):
     """Plane sections and bodies of both gears; helix angle in deg, sizes in mm."""
     pair, slope = reference_pair(radians(helix_angle)), base_slope(radians(helix_angle))
-    sections = tuple(flank_compliance(gear, STEEL, Discretisation("P2", flank), REACH, cache) for gear in (pair.pinion, pair.wheel))
+    sections = tuple(
+        flank_compliance(gear, STEEL, Discretisation("P2", flank), REACH, cache) for gear in (pair.pinion, pair.wheel)
+    )
     bodies = tuple(
-        face_compliance(gear, STEEL, FaceDiscretisation(section_size, layers, FACE_WIDTH, sense * slope / gear.base_radius), REACH, cache)
+        face_compliance(
+            gear,
+            STEEL,
+            FaceDiscretisation(section_size, layers, FACE_WIDTH, sense * slope / gear.base_radius),
+            REACH,
+            cache,
+        )
         for gear, sense in ((pair.pinion, 1.0), (pair.wheel, -1.0))
     )
     return pair, slope, sections, bodies
 
 
 def answer(
-    helix_angle: float, phase: float, opening: str, force: float, cache=None, *, section_size=1.0, layers=8, slices=16, flank=0.045, spacing=0.03
+    helix_angle: float,
+    phase: float,
+    opening: str,
+    force: float,
+    cache=None,
+    *,
+    section_size=1.0,
+    layers=8,
+    slices=16,
+    flank=0.045,
+    spacing=0.03,
 ) -> Answer:
     """One analysis; helix angle in deg, force (N) along n, sizes in mm."""
     pair, slope, sections, bodies = gears(helix_angle, section_size, layers, flank, cache)
@@ -59,10 +78,20 @@ def answer(
     def opened(heights, positions):
         return OPENINGS[opening](heights) / face.cosine
 
-    cycle = FaceCycle(Flanks(pair, sections), bodies, face, opened, grid, STEPS, [COORDINATES.index("rotation_2")], tangential=False)
+    cycle = FaceCycle(
+        Flanks(pair, sections), bodies, face, opened, grid, STEPS, [COORDINATES.index("rotation_2")], tangential=False
+    )
     operator, load = cycle.position(round(phase * STEPS)).operator, force * face.cosine
     problem = StepProblem(
-        np.zeros((1, 1)), np.array([load]), operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0, np.ones(1), Tolerance.of_load(load)
+        np.zeros((1, 1)),
+        np.array([load]),
+        operator.compliance,
+        operator.jacobian,
+        operator.gap,
+        np.empty(0),
+        0.0,
+        np.ones(1),
+        Tolerance.of_load(load),
     )
     solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
     found: dict[int, np.ndarray] = {}

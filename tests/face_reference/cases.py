@@ -38,7 +38,8 @@ def base_slope(helix_angle: float) -> float:
 
 @dataclass(frozen=True)
 class Sizes:
-    """Resolution: `section` of both gears; `layers` of half the face, mm; `contact`: spacing of contact nodes across the line, mm, and `reach`: their largest offset, mm."""
+    """Resolution: `section` of both gears; `layers` of half the face, mm; `contact`: spacing of contact nodes across
+    the line, mm, and `reach`: their largest offset, mm."""
 
     section: SectionSizes = SectionSizes(0.063)
     layers: tuple[float, ...] = HALF_LAYERS
@@ -92,7 +93,9 @@ def assembled(helix_angle: float, phase: float, sizes: Sizes = Sizes(), plane: b
     position = Position(reference_pair(helix_angle), base_slope(helix_angle), phase)
     pairs = touching_pairs(position, sizes)
     gears = []
-    for gear, band, twist in zip((position.pair.pinion, position.pair.wheel), bands(position, pairs, sizes), position.twists):
+    for gear, band, twist in zip(
+        (position.pair.pinion, position.pair.wheel), bands(position, pairs, sizes), position.twists
+    ):
         section = section_mesh(gear, band, sizes.section)
         gears.append(SweptGear(section, Sweep(sizes.heights, twist, plane), STEEL))
         report(f"  {len(section.cells)} triangles, {gears[-1].unknowns} unknowns", flush=True)

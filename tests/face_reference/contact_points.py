@@ -1,7 +1,9 @@
-"""Contact of two swept gears at one phase: bilinear pressure over offset from the line of action and height, gaps weighted by the same functions.
+"""Contact of two swept gears at one phase: bilinear pressure over offset from the line of action and height, gaps
+weighted by the same functions.
 
-Forces, gaps and displacements are along the normal n = (c, 0, -c tau) of the plane of action, c = cos(beta_b), as in the program's own model; where on
-either flank a point (offset y, height z) lies is found here from the involute's equation.
+Forces, gaps and displacements are along the normal n = (c, 0, -c tau) of the plane of action, c = cos(beta_b), as in
+the program's own model; where on either flank a point (offset y, height z) lies is found here from the involute's
+equation.
 """
 
 from __future__ import annotations
@@ -22,7 +24,8 @@ NEWTON_STEPS = 40
 
 @dataclass(frozen=True)
 class Position:
-    """A pair of gears at `phase` (mesh cycles after a tooth pair reaches the start of contact at z = 0); `slope` tau = d(xi)/dz of the contact lines."""
+    """A pair of gears at `phase` (mesh cycles after a tooth pair reaches the start of contact at z = 0); `slope` tau =
+    d(xi)/dz of the contact lines."""
 
     pair: GearPair
     slope: float
@@ -48,7 +51,8 @@ class Position:
         return xi / self.pair.pinion.base_radius, (self.pair.line_of_action_length - xi) / self.pair.wheel.base_radius
 
     def flank_points(self, index: int, y, z):
-        """Roll angles (rad) of pinion and wheel at offsets y and heights z (mm), the transverse gap (mm), and whether both flanks are there."""
+        """Roll angles (rad) of pinion and wheel at offsets y and heights z (mm), the transverse gap (mm), and whether
+        both flanks are there."""
         gears, rolls, reach, there = (self.pair.pinion, self.pair.wheel), [], 0.0, True
         for gear, contact, sense in zip(gears, self.contact_rolls(index, z), (-1.0, 1.0)):
             roll = _roll_at_height(contact, 1.0 + sense * y / gear.base_radius)
@@ -64,7 +68,8 @@ class Position:
 
 
 def _roll_at_height(contact, height) -> np.ndarray:
-    """Roll angle (rad) of the flank point at a height (base radii above the centre) while `contact` (rad) is on the line of action; Newton."""
+    """Roll angle (rad) of the flank point at a height (base radii above the centre) while `contact` (rad) is on the
+    line of action; Newton."""
     contact, height = np.broadcast_arrays(np.asarray(contact, dtype=float), height)
     roll = contact.copy()
     for _ in range(NEWTON_STEPS):
@@ -76,9 +81,11 @@ def _roll_at_height(contact, height) -> np.ndarray:
 
 @dataclass(frozen=True)
 class PairPoints:
-    """Contact nodes of tooth pair `index`: a grid of offsets `y` (a,) and heights `z` (b,), mm; those (k,) of it that exist, numbered y by y for each z.
+    """Contact nodes of tooth pair `index`: a grid of offsets `y` (a,) and heights `z` (b,), mm; those (k,) of it that
+    exist, numbered y by y for each z.
 
-    `areas` (k,), mm^2, that a node stands for; `gaps` (k,), mm^3, gap along n weighted by the node's function; `chosen` (k,) in the grid;
+    `areas` (k,), mm^2, that a node stands for; `gaps` (k,), mm^3, gap along n weighted by the node's function; `chosen`
+    (k,) in the grid;
     `weights`: of pinion and wheel (k, flank nodes times levels), its function times the flank's shape functions, mm^2.
     """
 
@@ -96,9 +103,13 @@ class PairPoints:
         return self.chosen // len(self.y)
 
 
-def pair_points(position: Position, index: int, y: np.ndarray, gears: tuple[SweptGear, SweptGear], opening) -> PairPoints | None:
-    """Contact nodes of a tooth pair; None where its flanks do not face each other. `opening(z)`: what opens the flanks along n, mm, at heights (k,), mm."""
-    # Pressure varies straight between the layers' boundaries: with nodes at their middles as well it oscillates from node to node.
+def pair_points(
+    position: Position, index: int, y: np.ndarray, gears: tuple[SweptGear, SweptGear], opening
+) -> PairPoints | None:
+    """Contact nodes of a tooth pair; None where its flanks do not face each other. `opening(z)`: what opens the flanks
+    along n, mm, at heights (k,), mm."""
+    # Pressure varies straight between the layers' boundaries: with nodes at their middles as well it oscillates from
+    # node to node.
     heights = gears[0].sweep.heights[::2]
     at_y, weight_y, hat_y = _cells(y, ACROSS)
     at_z, weight_z, hat_z = _cells(heights, ALONG)
@@ -128,20 +139,28 @@ def _cells(nodes: np.ndarray, count: int):
     at = (nodes[:-1, None] + length[:, None] * share).ravel()
     cell = np.repeat(np.arange(len(length)), count)
     shares, rows = np.tile(share, len(length)), np.arange(len(at))
-    hats = sparse.csr_matrix((np.concatenate([1 - shares, shares]), (np.tile(rows, 2), np.concatenate([cell, cell + 1]))), (len(at), len(nodes)))
+    hats = sparse.csr_matrix(
+        (np.concatenate([1 - shares, shares]), (np.tile(rows, 2), np.concatenate([cell, cell + 1]))),
+        (len(at), len(nodes)),
+    )
     return at, (0.5 * length[:, None] * weights).ravel(), hats
 
 
 def _flank_shapes(gear: SweptGear, tooth: int, pair: GearPair, number: int, roll, z, there) -> sparse.csr_matrix:
-    """Shape functions (q, flank nodes times levels, level by level) of a tooth's drive flank at roll angles and heights (q,)."""
+    """Shape functions (q, flank nodes times levels, level by level) of a tooth's drive flank at roll angles and heights
+    (q,)."""
     node_rolls = gear.section.flanks[tooth][0]
     along, local_along = _located(0.5 * node_rolls**2, np.where(there, 0.5 * roll**2, 0.5 * node_rolls[1] ** 2))
     level, local_level = _located(gear.sweep.heights, z)
     in_plane, in_height = line_shapes(local_along)[0], line_shapes(local_level)[0]
     values = in_height[:, :, None] * in_plane[:, None, :]
-    columns = (2 * level[:, None, None] + np.arange(3)[:, None]) * len(node_rolls) + 2 * along[:, None, None] + np.arange(3)
+    columns = (
+        (2 * level[:, None, None] + np.arange(3)[:, None]) * len(node_rolls) + 2 * along[:, None, None] + np.arange(3)
+    )
     rows = np.broadcast_to(np.arange(len(z))[:, None, None], columns.shape)
-    return sparse.csr_matrix((values.ravel(), (rows.ravel(), columns.ravel())), (len(z), len(node_rolls) * len(gear.sweep.heights)))
+    return sparse.csr_matrix(
+        (values.ravel(), (rows.ravel(), columns.ravel())), (len(z), len(node_rolls) * len(gear.sweep.heights))
+    )
 
 
 def _located(nodes: np.ndarray, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -151,7 +170,13 @@ def _located(nodes: np.ndarray, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     return cell, 2.0 * (at - ends[cell]) / (ends[cell + 1] - ends[cell]) - 1.0
 
 
-def compliance(position: Position, points: list[PairPoints], gears: tuple[SweptGear, SweptGear], columns: int = 48, mirrored: bool = False) -> np.ndarray:
+def compliance(
+    position: Position,
+    points: list[PairPoints],
+    gears: tuple[SweptGear, SweptGear],
+    columns: int = 48,
+    mirrored: bool = False,
+) -> np.ndarray:
     """Weighted gap (k, k), mm^3, that a pressure of 1 MPa at each node opens, of both gears' elasticity.
 
     `mirrored`: spur gears, whose face is its own mirror image: columns of one half follow from the other.

@@ -23,14 +23,16 @@ OPENINGS = {
 # Sizes that fit 2 GB; and with thinner layers, 4 GB.
 SMALL = Sizes(SectionSizes(0.08, 0.12, 0.9, 1.6, 6.0, 0.6, 1), (0.15, 0.3, 0.5, 0.8, 1.0, 1.0), 0.05, 0.3)
 THIN_LAYERS = replace(SMALL, layers=(0.15, 0.25, 0.35, 0.45, 0.5, 0.5, 0.5, 0.525, 0.525))
-# Thin where a tip edge of the helical pair crosses the face: 1.4 to 3 mm from its middle at phases 0.6 and 0.85, in the middle at 0.97.
+# Thin where a tip edge of the helical pair crosses the face: 1.4 to 3 mm from its middle at phases 0.6 and 0.85, in the
+# middle at 0.97.
 THIN_ASIDE = replace(SMALL, layers=(0.3, 0.45, 0.4, 0.4, 0.4, 0.4, 0.6, 0.8))
 THIN_MIDDLE = replace(SMALL, layers=(0.3, 0.75, 1.0, 0.7, 0.4, 0.3, 0.3))
 
 
 @dataclass(frozen=True)
 class Row:
-    """Line load (N per mm of face, along n) of a tooth pair at height `z` (mm); `approach` (mm, along the transverse line of action), `force` (N, of all pairs, along n) and `peak_pressure` (MPa) of the analysis."""
+    """Line load (N per mm of face, along n) of a tooth pair at height `z` (mm); `approach` (mm, along the transverse
+    line of action), `force` (N, of all pairs, along n) and `peak_pressure` (MPa) of the analysis."""
 
     helix_angle: float
     phase: float
@@ -55,7 +57,15 @@ def rows(found: Assembled, helix_angle: float, opening: str, force: float = FORC
     for each in found.points:
         part = slice(first, first + len(each.chosen))
         load = np.bincount(each.level, (pressure * areas)[part], minlength=len(heights)) / share
-        head = (helix_angle, found.position.phase, opening, approach / found.position.cosine, force, float(pressure.max()), each.index)
+        head = (
+            helix_angle,
+            found.position.phase,
+            opening,
+            approach / found.position.cosine,
+            force,
+            float(pressure.max()),
+            each.index,
+        )
         result += [Row(*head, float(height), float(value)) for height, value in zip(heights, load)]
         first = part.stop
     return result
@@ -75,7 +85,8 @@ def reference() -> list[Row]:
 
 
 def over_slices(found: list[Row], positions: np.ndarray) -> np.ndarray:
-    """Line load (S,), N/mm, of all tooth pairs together, straight between the heights of one analysis and averaged over slices of one width at `positions` (S,), mm."""
+    """Line load (S,), N/mm, of all tooth pairs together, straight between the heights of one analysis and averaged over
+    slices of one width at `positions` (S,), mm."""
     z = np.array(sorted({row.z for row in found}))
     load = np.array([sum(row.line_load for row in found if row.z == each) for each in z])
     parts = (np.arange(100) + 0.5) / 100.0 - 0.5

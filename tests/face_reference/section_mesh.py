@@ -1,4 +1,5 @@
-"""A transverse section of a gear in six-node triangles: fine under bands of a few flanks, coarse elsewhere; its own mesher, not the program's."""
+"""A transverse section of a gear in six-node triangles: fine under bands of a few flanks, coarse elsewhere; its own
+mesher, not the program's."""
 
 from __future__ import annotations
 
@@ -17,9 +18,11 @@ CURVE_SAMPLES = 801
 
 @dataclass(frozen=True)
 class SectionSizes:
-    """Element sizes, mm: in the band of contact (down to `depth` below it), in fillets of loaded teeth, elsewhere on their surface, and far away.
+    """Element sizes, mm: in the band of contact (down to `depth` below it), in fillets of loaded teeth, elsewhere on
+    their surface, and far away.
 
-    `growth`: increase of size per distance; `teeth_beside`: whole teeth on either side of the loaded ones, the others being left out.
+    `growth`: increase of size per distance; `teeth_beside`: whole teeth on either side of the loaded ones, the others
+        being left out.
     """
 
     band: float
@@ -38,9 +41,11 @@ class SectionSizes:
 
 @dataclass(frozen=True)
 class Section:
-    """Six-node triangles: `points` (n, 2), mm, in the body frame of tooth 0; `cells` (m, 6), corners, then the middles of sides 01, 12, 20.
+    """Six-node triangles: `points` (n, 2), mm, in the body frame of tooth 0; `cells` (m, 6), corners, then the middles
+    of sides 01, 12, 20.
 
-    `held`: nodes on the bore. `flanks`: for each loaded tooth (pitches counter-clockwise of tooth 0) the roll angles (2 k + 1,) of its drive
+    `held`: nodes on the bore. `flanks`: for each loaded tooth (pitches counter-clockwise of tooth 0) the roll angles (2
+        k + 1,) of its drive
     flank's nodes, vertices and middles in turn, and the nodes.
     """
 
@@ -57,7 +62,8 @@ def rotated(points: np.ndarray, angle) -> np.ndarray:
 
 
 def section_mesh(gear: Gear, bands: dict[int, tuple[float, float]], sizes: SectionSizes) -> Section:
-    """The section of a gear whose teeth `bands` (pitches counter-clockwise of tooth 0) touch between two roll angles (rad)."""
+    """The section of a gear whose teeth `bands` (pitches counter-clockwise of tooth 0) touch between two roll angles
+    (rad)."""
     size = _size_function(gear, bands, sizes)
     curves = _outline_curves(gear, bands, sizes.teeth_beside)
     doubled, flank_starts = [], {}
@@ -79,7 +85,10 @@ def section_mesh(gear: Gear, bands: dict[int, tuple[float, float]], sizes: Secti
     for (tooth, name, _), length in zip(curves, lengths):
         if name == "flank" and tooth in bands:
             nodes = nodes_of[0][flank_starts[tooth] + np.arange(length + 1)]
-            flanks[tooth] = np.sqrt(np.maximum(np.sum(points[nodes] ** 2, axis=1) / gear.base_radius**2 - 1.0, 0.0)), nodes
+            flanks[tooth] = (
+                np.sqrt(np.maximum(np.sum(points[nodes] ** 2, axis=1) / gear.base_radius**2 - 1.0, 0.0)),
+                nodes,
+            )
     return Section(points, cells, nodes_of[1], flanks)
 
 
@@ -104,7 +113,11 @@ def _size_function(gear: Gear, bands, sizes: SectionSizes):
     for tooth, (low, high) in bands.items():
         turn = tooth * gear.angular_pitch
         band = outline.involute(np.linspace(low, high, 401))
-        for points, size, reach in ((band, sizes.band, sizes.depth), (fillets, sizes.fillet, 0.5 * sizes.fillet), (surface, sizes.tooth, sizes.tooth)):
+        for points, size, reach in (
+            (band, sizes.band, sizes.depth),
+            (fillets, sizes.fillet, 0.5 * sizes.fillet),
+            (surface, sizes.tooth, sizes.tooth),
+        ):
             sources.append((cKDTree(rotated(points, turn)), size, reach))
 
     def size(points: np.ndarray) -> np.ndarray:
@@ -117,15 +130,20 @@ def _size_function(gear: Gear, bands, sizes: SectionSizes):
 
 
 def _outline_curves(gear: Gear, bands, beside: int) -> list[tuple[int, str, np.ndarray]]:
-    """Tooth, name and samples (k, 2) of the curves of the closed outline, clockwise; teeth far from loaded ones are a piece of the root circle."""
+    """Tooth, name and samples (k, 2) of the curves of the closed outline, clockwise; teeth far from loaded ones are a
+    piece of the root circle."""
     outline = tooth_outline(gear, 401)
-    arcs = np.linspace(*arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle])), CURVE_SAMPLES)
+    arcs = np.linspace(
+        *arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle])), CURVE_SAMPLES
+    )
     flank = canonical_point(gear.base_radius, roll_angle_at_arc_length(gear.base_radius, arcs))
     root = _arc(gear.root_radius, outline.space_angle, outline.fillet[0])
     land = _arc(gear.tip_radius, np.angle(complex(*flank[-1])), outline.coast(flank[-1]))
     whole = [("root", root), ("fillet", outline.fillet), ("flank", flank), ("land", land)]
     whole += [(f"coast {name}", outline.coast(curve)[::-1]) for name, curve in whole[2::-1]]
-    missing = [("root", gear.root_radius * _unit(outline.space_angle - gear.angular_pitch * np.linspace(0.0, 1.0, 401)))]
+    missing = [
+        ("root", gear.root_radius * _unit(outline.space_angle - gear.angular_pitch * np.linspace(0.0, 1.0, 401)))
+    ]
     kept = {(tooth + step) % gear.teeth for tooth in bands for step in range(-beside, beside + 1)}
     named = {tooth % gear.teeth: tooth for tooth in bands}
     curves = []
@@ -156,7 +174,9 @@ def _divided(curve: np.ndarray, size) -> np.ndarray:
 
 def _on_involute(gear: Gear, nodes: np.ndarray, tooth: int) -> np.ndarray:
     """Points near a tooth's drive flank moved along circles onto it."""
-    return rotated(canonical_point(gear.base_radius, gear.roll_angle(np.linalg.norm(nodes, axis=1))), tooth * gear.angular_pitch)
+    return rotated(
+        canonical_point(gear.base_radius, gear.roll_angle(np.linalg.norm(nodes, axis=1))), tooth * gear.angular_pitch
+    )
 
 
 def _triangles(outline: np.ndarray, bore: np.ndarray, size) -> tuple[np.ndarray, np.ndarray]:

@@ -1,6 +1,8 @@
-"""A gear as a section swept along its helix in eighteen-node wedges (six-node triangle times quadratic line), bore held, factorised by MUMPS.
+"""A gear as a section swept along its helix in eighteen-node wedges (six-node triangle times quadratic line), bore
+held, factorised by MUMPS.
 
-Displacements of a node are in the frame that turns with the helix at its height: layers of one thickness then have one and the same matrix.
+Displacements of a node are in the frame that turns with the helix at its height: layers of one thickness then have one
+and the same matrix.
 """
 
 from __future__ import annotations
@@ -24,7 +26,9 @@ CELLS_AT_ONCE = 400
 def line_shapes(t) -> tuple[np.ndarray, np.ndarray]:
     """Quadratic shape functions (..., 3) of nodes at -1, 0, 1 and their derivatives, at t (...)."""
     t = np.asarray(t, dtype=float)
-    return np.stack([0.5 * t * (t - 1), 1 - t * t, 0.5 * t * (t + 1)], axis=-1), np.stack([t - 0.5, -2 * t, t + 0.5], axis=-1)
+    return np.stack([0.5 * t * (t - 1), 1 - t * t, 0.5 * t * (t + 1)], axis=-1), np.stack(
+        [t - 0.5, -2 * t, t + 0.5], axis=-1
+    )
 
 
 def _triangle_shapes(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -33,7 +37,9 @@ def _triangle_shapes(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     corner = np.stack([1 - r - s, r, s], axis=-1)
     slope = np.array([[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]])
     ends = ((0, 1), (1, 2), (2, 0))
-    value = np.concatenate([corner * (2 * corner - 1), np.stack([4 * corner[:, a] * corner[:, b] for a, b in ends], axis=-1)], axis=1)
+    value = np.concatenate(
+        [corner * (2 * corner - 1), np.stack([4 * corner[:, a] * corner[:, b] for a, b in ends], axis=-1)], axis=1
+    )
     at_corner = (4 * corner - 1)[:, :, None] * slope
     at_side = np.stack([4 * (corner[:, a, None] * slope[b] + corner[:, b, None] * slope[a]) for a, b in ends], axis=1)
     return value, np.concatenate([at_corner, at_side], axis=1)
@@ -41,7 +47,8 @@ def _triangle_shapes(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 @dataclass(frozen=True)
 class Sweep:
-    """`heights` (2 layers + 1,), mm: layers' boundaries and middles; `twist`, rad/mm counter-clockwise; `plane`: axial displacements held everywhere."""
+    """`heights` (2 layers + 1,), mm: layers' boundaries and middles; `twist`, rad/mm counter-clockwise; `plane`: axial
+    displacements held everywhere."""
 
     heights: np.ndarray
     twist: float = 0.0
@@ -64,11 +71,17 @@ def layer_stiffness(section: Section, thickness: float, twist: float, material: 
     rows, columns, entries = [], [], []
     for first in range(0, len(section.cells), CELLS_AT_ONCE):
         cells = section.cells[first : first + CELLS_AT_ONCE]
-        points = np.concatenate([
-            np.concatenate([rotated(section.points[cells], twist * z), np.full((*cells.shape, 1), z)], axis=-1) for z in levels
-        ], axis=1)  # fmt: skip
+        points = np.concatenate(
+            [
+                np.concatenate([rotated(section.points[cells], twist * z), np.full((*cells.shape, 1), z)], axis=-1)
+                for z in levels
+            ],
+            axis=1,
+        )
         stiffness = _wedge_stiffness(points, slope, weights, elasticity)
-        stiffness = np.einsum("dia,cdiej,ejb->cdaeb", turn, stiffness.reshape(-1, 18, 3, 18, 3), turn).reshape(-1, 54, 54)
+        stiffness = np.einsum("dia,cdiej,ejb->cdaeb", turn, stiffness.reshape(-1, 18, 3, 18, 3), turn).reshape(
+            -1, 54, 54
+        )
         nodes = np.concatenate([cells + level * count for level in number], axis=1)
         dofs = (3 * nodes[:, :, None] + number).reshape(-1, 54).astype(np.int32)
         rows.append(np.repeat(dofs, 54, axis=1).ravel())

@@ -1,4 +1,5 @@
-"""Deflection and line load over the face against fully resolved three-dimensional models, which share no code with the split.
+"""Deflection and line load over the face against fully resolved three-dimensional models, which share no code with the
+split.
 
 Their results are in reference.csv; `python -m tests.face_reference` computes them again.
 """
@@ -10,19 +11,24 @@ import pytest
 from tests.face_reference.by_slices import answer
 from tests.face_reference.reference import over_slices, reference
 
-ANALYSES = {key: list(rows) for key, rows in groupby(reference(), key=lambda row: (row.helix_angle, row.phase, row.opening))}
+ANALYSES = {
+    key: list(rows) for key, rows in groupby(reference(), key=lambda row: (row.helix_angle, row.phase, row.opening))
+}
 BY_DAY = [(20.0, 0.35, "crowned")]
 
 
 def cases():
     """All of the file; those of one phase by day, the others by night."""
     for key in ANALYSES:
-        yield pytest.param(key, id="helix {:g} deg, phase {:g}, {}".format(*key), marks=() if key in BY_DAY else pytest.mark.nightly)
+        yield pytest.param(
+            key, id="helix {:g} deg, phase {:g}, {}".format(*key), marks=() if key in BY_DAY else pytest.mark.nightly
+        )
 
 
 @pytest.mark.parametrize("key", cases())
 def test_deflection_and_line_load_are_those_of_the_resolved_model(key, suite_cache, record_property):
-    """Fully resolved model: approach within 1 % (measured: 0.4 %, where tip edges touch 0.8 %), the forces of the tooth pairs within 2 % of all."""
+    """Fully resolved model: approach within 1 % (measured: 0.4 %, where tip edges touch 0.8 %), the forces of the tooth
+    pairs within 2 % of all."""
     rows = ANALYSES[key]
     found = answer(*key, rows[0].force, suite_cache)
     record_property("relative difference", found.approach / rows[0].approach - 1.0)
@@ -35,7 +41,8 @@ def test_deflection_and_line_load_are_those_of_the_resolved_model(key, suite_cac
 
 @pytest.mark.parametrize("key", [key for key in ANALYSES if key[1] == 0.35 and key in BY_DAY])
 def test_line_load_is_that_of_the_resolved_model(key, suite_cache):
-    """Fully resolved model with thin layers: line load of all pairs within 3 % of the largest, the free ends included (measured: 2.7 %)."""
+    """Fully resolved model with thin layers: line load of all pairs within 3 % of the largest, the free ends included
+    (measured: 2.7 %)."""
     rows = ANALYSES[key]
     found = answer(*key, rows[0].force, suite_cache)
     exact = over_slices(rows, found.positions)
@@ -43,7 +50,8 @@ def test_line_load_is_that_of_the_resolved_model(key, suite_cache):
 
 
 def test_the_split_is_needed():
-    """The resolved model tells right from wrong: in plane strain the spur pair gives way by 4 % less, and a helical pair by more than half more."""
+    """The resolved model tells right from wrong: in plane strain the spur pair gives way by 4 % less, and a helical
+    pair by more than half more."""
     plain = {helix: ANALYSES[helix, 0.35, "plain"][0].approach for helix in (0.0, 20.0)}
     assert plain[20.0] > 1.5 * plain[0.0]
     # Plane strain: 0.0098925 mm, by the program's plane route.

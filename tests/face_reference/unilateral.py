@@ -1,4 +1,5 @@
-"""Frictionless contact without tension: pressures, and the approach that carries a given force, by a primal-dual active set."""
+"""Frictionless contact without tension: pressures, and the approach that carries a given force, by a primal-dual active
+set."""
 
 from __future__ import annotations
 
@@ -11,8 +12,8 @@ MOST_STEPS = 200
 def pressed(compliance: np.ndarray, gaps: np.ndarray, areas: np.ndarray, force: float) -> tuple[np.ndarray, float]:
     """Pressures (k,), MPa, >= 0, and approach (mm, along n) with pressures times areas adding up to `force` (N).
 
-    compliance (k, k), gaps (k,), areas (k,): of `contact_points`. On closed nodes compliance p + gaps = approach areas; on the others p = 0
-    and nothing overlaps. Raises RuntimeError where the sets do not settle.
+    compliance (k, k), gaps (k,), areas (k,): of `contact_points`. On closed nodes compliance p + gaps = approach areas;
+    on the others p = 0 and nothing overlaps. Raises RuntimeError where the sets do not settle.
     """
     closed = gaps / areas <= np.quantile(gaps / areas, 0.3)
     pressure = np.zeros(len(gaps))
@@ -34,4 +35,6 @@ def pressed(compliance: np.ndarray, gaps: np.ndarray, areas: np.ndarray, force: 
             wrong &= np.arange(len(wrong)) == np.flatnonzero(wrong).max()
         seen.add(key)
         closed = closed ^ wrong
-    raise RuntimeError(f"contact did not settle in {MOST_STEPS} steps: {int(wrong.sum())} of {len(wrong)} nodes are still wrong")
+    raise RuntimeError(
+        f"contact did not settle in {MOST_STEPS} steps: {int(wrong.sum())} of {len(wrong)} nodes are still wrong"
+    )

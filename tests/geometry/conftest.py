@@ -30,9 +30,19 @@ def paper_pair(paper_data):
 
 @pytest.fixture
 def cut_gear():
-    """A gear by its standard proportions, all in normal modules: addendum, dedendum, rack tip radius; angles in degrees, in the normal section."""
+    """A gear by its standard proportions, all in normal modules: addendum, dedendum, rack tip radius; angles in
+    degrees, in the normal section."""
 
-    def cut(teeth, profile_shift=0.0, addendum=1.0, dedendum=1.25, rack_tip=0.38, module=1.0, pressure_angle=20.0, helix_angle=0.0):
+    def cut(
+        teeth,
+        profile_shift=0.0,
+        addendum=1.0,
+        dedendum=1.25,
+        rack_tip=0.38,
+        module=1.0,
+        pressure_angle=20.0,
+        helix_angle=0.0,
+    ):
         cosine = cos(radians(helix_angle))
         pitch = 0.5 * teeth / cosine + profile_shift
         return Gear(

@@ -18,7 +18,8 @@ PAIRS = st.one_of(valid_pairs(), valid_pairs(helix_angles=(1.0, 40.0)))
 @settings(max_examples=60, deadline=None)
 @given(PAIRS)
 def test_points_of_the_path_of_contact_are_in_order(pair):
-    """Authority: meaning of the characteristic points: T1, start, single contact, end, T2; roll angles within either flank."""
+    """Authority: meaning of the characteristic points: T1, start, single contact, end, T2; roll angles within either
+    flank."""
     rounding = 1e-6
     assert -rounding <= pair.path_start < pair.path_end <= pair.line_of_action_length + rounding
     assert pair.lpstc <= pair.hpstc + 1e-8 * pair.base_pitch
@@ -31,7 +32,10 @@ def test_points_of_the_path_of_contact_are_in_order(pair):
     )
     assert named[0] == pytest.approx(pair.pinion_roll_angle(np.array(along)), rel=1e-11, abs=1e-12)
     assert named[1] == pytest.approx(pair.wheel_roll_angle(np.array(along)), rel=1e-11, abs=1e-12)
-    for gear, mate, (start, low, high, end) in ((pair.pinion, pair.wheel, named[0]), (pair.wheel, pair.pinion, named[1][::-1])):
+    for gear, mate, (start, low, high, end) in (
+        (pair.pinion, pair.wheel, named[0]),
+        (pair.wheel, pair.pinion, named[1][::-1]),
+    ):
         assert gear.form_roll_angle - rounding / gear.base_radius <= start <= low <= high + 1e-7 <= end + 2e-7
         # Contact goes to the tip, unless the mate is cut away there.
         assert end <= gear.tip_roll_angle + 1e-12
@@ -41,7 +45,8 @@ def test_points_of_the_path_of_contact_are_in_order(pair):
 @settings(max_examples=60, deadline=None)
 @given(PAIRS)
 def test_swapped_gears_are_the_same_pair(pair):
-    """Authority: exact symmetry: wheel driving pinion mirrors the line of action; ratio, backlash and clearances exchange."""
+    """Authority: exact symmetry: wheel driving pinion mirrors the line of action; ratio, backlash and clearances
+    exchange."""
     swapped = replace(pair, pinion=pair.wheel, wheel=pair.pinion)
     length = pair.line_of_action_length
     assert swapped.path_start == pytest.approx(length - pair.path_end, abs=1e-12 * length)
@@ -61,9 +66,12 @@ def test_angles_and_ratios_do_not_know_the_module(pair, scale):
         lengths = ("module", "tip_radius", "root_radius", "bore_radius", "rack_tip_radius")
         return replace(gear, **{field: scale * getattr(gear, field) for field in lengths})
 
-    larger = replace(pair, pinion=scaled(pair.pinion), wheel=scaled(pair.wheel), centre_distance=scale * pair.centre_distance)
+    larger = replace(
+        pair, pinion=scaled(pair.pinion), wheel=scaled(pair.wheel), centre_distance=scale * pair.centre_distance
+    )
     assert larger.contact_ratio == pytest.approx(pair.contact_ratio, rel=1e-9)
-    # The radius, which is what the rack determines: near the base circle the roll angle is as the root of its distance from it, which halves the digits.
+    # The radius, which is what the rack determines: near the base circle the roll angle is as the root of its distance
+    # from it, which halves the digits.
     assert larger.pinion.form_radius == pytest.approx(scale * pair.pinion.form_radius, rel=1e-11)
     assert larger.backlash == pytest.approx(scale * pair.backlash, abs=1e-11 * larger.centre_distance)
     assert tooth_outline(larger.wheel).fillet == pytest.approx(
@@ -74,7 +82,8 @@ def test_angles_and_ratios_do_not_know_the_module(pair, scale):
 @settings(max_examples=60, deadline=None)
 @given(PAIRS)
 def test_outline_of_every_valid_gear_is_a_simple_curve(pair):
-    """Authority: a tooth: from root to tip the radius grows and the tooth gets thinner, unless it is undercut, the fillet never stands still or
+    """Authority: a tooth: from root to tip the radius grows and the tooth gets thinner, unless it is undercut, the
+    fillet never stands still or
     turns back, and the root circle between two teeth has a length that is not negative."""
     for gear in (pair.pinion, pair.wheel):
         outline = tooth_outline(gear)
@@ -93,7 +102,8 @@ def test_outline_of_every_valid_gear_is_a_simple_curve(pair):
 @settings(max_examples=60, deadline=None)
 @given(PAIRS)
 def test_thickness_and_backlash_fill_the_pitch_circle(pair):
-    """Authority: exact identity: at the rolling pitch circles the teeth and the circumferential backlash fill the pitch."""
+    """Authority: exact identity: at the rolling pitch circles the teeth and the circumferential backlash fill the
+    pitch."""
     all_teeth = pair.pinion.teeth + pair.wheel.teeth
     rolled = [pair.centre_distance * gear.teeth / all_teeth for gear in (pair.pinion, pair.wheel)]
     circumferential = pair.backlash / np.cos(pair.operating_pressure_angle)

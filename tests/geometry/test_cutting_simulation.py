@@ -1,4 +1,5 @@
-"""Teeth whose flank is cut away, by undercut or by a protuberance of the rack, against a simulation of their cutting."""
+"""Teeth whose flank is cut away, by undercut or by a protuberance of the rack, against a simulation of their
+cutting."""
 
 from dataclasses import replace
 from math import cos, pi, radians, sin, tan
@@ -22,8 +23,10 @@ MODULE = 5.0
 
 
 def rack_profile(gear):
-    """Half thickness and depth (n, 2), mm, of the rack's tooth in the transverse section, from the middle of its tip: tip line, rounding, flank of the
-    protuberance, flank. Written from the drawing of the tool in its normal section, which is stretched along the pitch line."""
+    """Half thickness and depth (n, 2), mm, of the rack's tooth in the transverse section, from the middle of its tip:
+    tip line, rounding, flank of the
+    protuberance, flank. Written from the drawing of the tool in its normal section, which is stretched along the pitch
+    line."""
     alpha, rounding, module = gear.normal_pressure_angle, gear.rack_tip_radius, gear.normal_module
     beta, protuberance = gear.helix_angle, gear.protuberance
     steep = gear.protuberance_angle if protuberance else alpha
@@ -46,9 +49,14 @@ def rack_profile(gear):
 
 
 def deepest_cut(gear, points):
-    """How far (n,), mm along the pitch line, the rack goes over points (n, 2) of the tooth's body frame as it rolls past; negative where it leaves them."""
+    """How far (n,), mm along the pitch line, the rack goes over points (n, 2) of the tooth's body frame as it rolls
+    past; negative where it leaves them."""
     (half, depth), r, z = rack_profile(gear)[::-1].T, gear.reference_radius, gear.teeth
-    half_tooth = (0.5 * pi + 2.0 * gear.profile_shift * tan(gear.pressure_angle)) / z + tan(gear.pressure_angle) - gear.pressure_angle
+    half_tooth = (
+        (0.5 * pi + 2.0 * gear.profile_shift * tan(gear.pressure_angle)) / z
+        + tan(gear.pressure_angle)
+        - gear.pressure_angle
+    )
     width, centre = 2.5 * pi / z + 0.6, np.zeros((len(points), 1))
     for _ in range(4):
         rotation = centre + width * np.linspace(-1.0, 1.0, 1201)
@@ -85,7 +93,8 @@ def check(gear):
 
 @pytest.mark.parametrize("name", UNDERCUT)
 def test_an_undercut_tooth_is_what_the_rolling_rack_leaves(cut_gear, name):
-    """Cutting simulation: the rack's polygon rolls past; a micrometre inside the outline nothing is ever cut, a micrometre outside all is."""
+    """Cutting simulation: the rack's polygon rolls past; a micrometre inside the outline nothing is ever cut, a
+    micrometre outside all is."""
     check(cut_gear(**UNDERCUT[name] | dict(module=MODULE)))
 
 
@@ -93,14 +102,17 @@ def test_an_undercut_tooth_is_what_the_rolling_rack_leaves(cut_gear, name):
 def test_a_tooth_cut_with_protuberance_is_what_the_rolling_rack_leaves(cut_gear, name):
     """Cutting simulation, as above; the finished flank is cut by the same rack's straight flank."""
     cut, protuberance, angle = PROTUBERANCES[name]
-    gear = replace(cut_gear(**cut, module=MODULE), protuberance=protuberance * MODULE, protuberance_angle=radians(angle))
+    gear = replace(
+        cut_gear(**cut, module=MODULE), protuberance=protuberance * MODULE, protuberance_angle=radians(angle)
+    )
     plain = replace(gear, protuberance=0.0)
     assert gear.undercut and gear.form_radius > plain.form_radius
     check(gear)
 
 
 def test_a_vanishing_protuberance_leaves_the_plain_fillet(cut_gear):
-    """Limit: the fillet crosses the involute where it would touch it; the place of the crossing goes with the root of the protuberance."""
+    """Limit: the fillet crosses the involute where it would touch it; the place of the crossing goes with the root of
+    the protuberance."""
     plain = cut_gear(25, module=MODULE)
     apart = []
     for protuberance in (1e-4, 1e-6, 1e-8):
@@ -111,9 +123,15 @@ def test_a_vanishing_protuberance_leaves_the_plain_fillet(cut_gear):
 
 
 def test_the_rack_s_corner_lies_as_iso_6336_3_says(cut_gear):
-    """ISO 6336-3, auxiliary value E = pi/4 m - h_fP tan(alpha) + s_pr/cos(alpha) - (1 - sin(alpha)) rho_fP/cos(alpha): centre of the rounding, from the tooth space's
+    """ISO 6336-3, auxiliary value E = pi/4 m - h_fP tan(alpha) + s_pr/cos(alpha) - (1 - sin(alpha)) rho_fP/cos(alpha):
+    centre of the rounding, from the tooth space's
     middle."""
     gear = replace(cut_gear(25, module=MODULE), protuberance=0.1, protuberance_angle=radians(10.0))
     alpha = radians(20.0)
-    auxiliary = 0.25 * pi * MODULE - 1.25 * MODULE * tan(alpha) + 0.1 / cos(alpha) - (1.0 - sin(alpha)) * 0.38 * MODULE / cos(alpha)
+    auxiliary = (
+        0.25 * pi * MODULE
+        - 1.25 * MODULE * tan(alpha)
+        + 0.1 / cos(alpha)
+        - (1.0 - sin(alpha)) * 0.38 * MODULE / cos(alpha)
+    )
     assert gear.rack_tip_centre[0] == pytest.approx(auxiliary, rel=1e-12)

@@ -26,7 +26,9 @@ def scene_of(gears=None, pinion=None, wheel=None, **sections):
     """A scene of a short drawing with changes in its sections; an entry that is None is left out."""
     pair = {"module": "3 mm", "pressure_angle": "20 deg", "face_width": "20 mm", "material": "steel", **(gears or {})}
     load = {"load": {"wheel_torque": "50 N m"}}
-    return build_scene({"gears": pair | {"pinion": PINION | (pinion or {}), "wheel": WHEEL | (wheel or {})}} | load | sections)
+    return build_scene(
+        {"gears": pair | {"pinion": PINION | (pinion or {}), "wheel": WHEEL | (wheel or {})}} | load | sections
+    )
 
 
 def pair_of(*changes, **sections):
@@ -37,11 +39,15 @@ def derived(scene) -> dict:
     return {each.name: each.value for each in scene.derived}
 
 
-@pytest.mark.parametrize(("title", "figure"), [(title, figure) for title, pair in PAIRS.items() for figure in pair.printed])
+@pytest.mark.parametrize(
+    ("title", "figure"), [(title, figure) for title, pair in PAIRS.items() for figure in pair.printed]
+)
 def test_every_figure_of_a_published_pair_follows_from_its_drawing(title, figure):
     """Authority: the source that tests/drawn_pairs.py names, to its printed digits (half a unit of the last one)."""
     printed = PAIRS[title].printed[figure]
-    assert figures(PAIRS[title])[figure] == pytest.approx(float(printed), abs=0.51 * 10.0 ** -len(printed.partition(".")[2]))
+    assert figures(PAIRS[title])[figure] == pytest.approx(
+        float(printed), abs=0.51 * 10.0 ** -len(printed.partition(".")[2])
+    )
 
 
 @pytest.mark.parametrize("title", PAIRS)
@@ -52,7 +58,8 @@ def test_the_page_shows_these_figures(title):
 
 
 def test_the_page_s_scene_is_the_demo():
-    """Authority: identity; and P = T omega: 15 kW at 1500 rpm of the pinion are 95.49 N m on it and twice as much on the wheel."""
+    """Authority: identity; and P = T omega: 15 kW at 1500 rpm of the pinion are 95.49 N m on it and twice as much on
+    the wheel."""
     demo = load_scene(ROOT / "demos" / "from_a_drawing.toml")
     page = (ROOT / "docs" / "drawing.md").read_text(encoding="utf-8").partition("```toml\n")[2].partition("```")[0]
     of_page = build_scene(tomllib.loads(page))
@@ -61,7 +68,8 @@ def test_the_page_s_scene_is_the_demo():
 
 
 def test_what_a_scene_gives_stays_as_it_is():
-    """Authority: the paper's scene gives all but the rack's tip radius; its data are the numbers that it is written with, to the last bit."""
+    """Authority: the paper's scene gives all but the rack's tip radius; its data are the numbers that it is written
+    with, to the last bit."""
     scene = build_scene(tomllib.loads((ROOT / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")))
     gears = GearData(16, 0.196, 82.64, 62.50, 30.0, 0.38), GearData(24, 0.125, 118.64, 98.37, 40.0, 0.38)
     assert scene.gears == GearPairData(4.5, 20.0 * (pi / 180), 91.5, 15.0, *gears, Material(206e3, 0.3))
@@ -72,44 +80,65 @@ def test_what_a_scene_gives_stays_as_it_is():
 @pytest.mark.parametrize("helix_angle", [None, "20 deg"])
 @pytest.mark.parametrize("profile", RACKS)
 def test_without_a_word_gears_have_no_backlash_and_the_rack_s_clearance(shifts, helix_angle, profile):
-    """Authority: the definition of the working pressure angle and of k (ISO 21771), through the geometry of the pair: no backlash, and both tip clearances
+    """Authority: the definition of the working pressure angle and of k (ISO 21771), through the geometry of the pair:
+    no backlash, and both tip clearances
     the rack's dedendum less its addendum."""
-    pair = pair_of({"helix_angle": helix_angle, "rack": {"profile": profile}}, {"profile_shift": shifts[0]}, {"profile_shift": shifts[1]})
+    pair = pair_of(
+        {"helix_angle": helix_angle, "rack": {"profile": profile}},
+        {"profile_shift": shifts[0]},
+        {"profile_shift": shifts[1]},
+    )
     assert pair.backlash == pytest.approx(0.0, abs=1e-12)
     assert pair.tip_clearances == pytest.approx([3.0 * (RACKS[profile][1] - RACKS[profile][0])] * 2, abs=1e-9)
 
 
 def test_tips_are_never_lengthened():
-    """Authority: DIN 3960, k is negative or zero; a centre distance wider than the shifts need leaves tips as the rack cuts them."""
+    """Authority: DIN 3960, k is negative or zero; a centre distance wider than the shifts need leaves tips as the rack
+    cuts them."""
     scene = scene_of({"centre_distance": "77 mm"})
     assert derived(scene)["tip shortening -k"] == 0.0
     assert scene.gears.pinion.tip_diameter == pytest.approx(3.0 * (19 + 2.0 * 1.3), rel=1e-14)
-    assert scene_of({"tip_shortening": 0.1}).gears.pinion.tip_diameter == pytest.approx(3.0 * (19 + 2.0 * 1.2), rel=1e-14)
+    assert scene_of({"tip_shortening": 0.1}).gears.pinion.tip_diameter == pytest.approx(
+        3.0 * (19 + 2.0 * 1.2), rel=1e-14
+    )
 
 
 @pytest.mark.parametrize("helix_angle", [None, "20 deg"])
 def test_backlash_thins_both_gears_alike(helix_angle):
-    """Authority: the geometry of the pair, whose gap along the line of action is j_wt cos(alpha_wt); half of it by each gear."""
+    """Authority: the geometry of the pair, whose gap along the line of action is j_wt cos(alpha_wt); half of it by each
+    gear."""
     scene, plain = (scene_of({"helix_angle": helix_angle, "backlash": backlash}) for backlash in ("0.12 mm", None))
     rows = {name: value for name, value, _ in characteristics(gear_pair(scene.gears))}
     assert rows["circumferential backlash at the pitch circles (j_wt)"] == pytest.approx(0.12, abs=1e-12)
-    thinner = [before.profile_shift - after.profile_shift for before, after in zip((plain.gears.pinion, plain.gears.wheel), (scene.gears.pinion, scene.gears.wheel))]
+    thinner = [
+        before.profile_shift - after.profile_shift
+        for before, after in zip((plain.gears.pinion, plain.gears.wheel), (scene.gears.pinion, scene.gears.wheel))
+    ]
     assert thinner[0] == pytest.approx(thinner[1], rel=1e-9) and thinner[0] > 0.0
-    assert (scene.gears.centre_distance, scene.gears.pinion.tip_diameter) == (plain.gears.centre_distance, plain.gears.pinion.tip_diameter)
+    assert (scene.gears.centre_distance, scene.gears.pinion.tip_diameter) == (
+        plain.gears.centre_distance,
+        plain.gears.pinion.tip_diameter,
+    )
     # One rack cuts flanks and root: its dedendum is that of ISO 53 A.
     assert gear_pair(scene.gears).pinion.dedendum == pytest.approx(1.25 * 3.0, rel=1e-12)
 
 
 def test_backlash_beside_measured_gears_opens_the_centre_distance():
     """Authority: as above; the same thicknesses without a backlash touch on both flanks."""
-    measured = {"profile_shift": None, "tooth_thickness": "5.1 mm"}, {"profile_shift": None, "base_tangent_length": "32.5 mm", "spanned_teeth": 4}
+    measured = (
+        {"profile_shift": None, "tooth_thickness": "5.1 mm"},
+        {"profile_shift": None, "base_tangent_length": "32.5 mm", "spanned_teeth": 4},
+    )
     pair, tight = pair_of({"backlash": "0.12 mm"}, *measured), pair_of(None, *measured)
-    assert pair.backlash / (pair.centre_distance**2 - pair.line_of_action_length**2) ** 0.5 * pair.centre_distance == pytest.approx(0.12, abs=1e-12)
+    assert pair.backlash / (
+        pair.centre_distance**2 - pair.line_of_action_length**2
+    ) ** 0.5 * pair.centre_distance == pytest.approx(0.12, abs=1e-12)
     assert tight.backlash == pytest.approx(0.0, abs=1e-12)
 
 
 def test_a_measured_thickness_holds_beside_a_profile_shift():
-    """Authority: s_n = m_n (pi/2 + 2 x tan(alpha_n)); the tip circle goes by the drawing's profile shift, thickness and root circle by the measured one."""
+    """Authority: s_n = m_n (pi/2 + 2 x tan(alpha_n)); the tip circle goes by the drawing's profile shift, thickness and
+    root circle by the measured one."""
     scene, plain = scene_of(pinion={"tooth_thickness": "5.3 mm"}), scene_of()
     cut = (5.3 / 3.0 - 0.5 * pi) / (2.0 * 0.36397023426620234)
     assert scene.gears.pinion.profile_shift == pytest.approx(cut, rel=1e-12)
@@ -118,31 +147,46 @@ def test_a_measured_thickness_holds_beside_a_profile_shift():
 
 
 def test_what_a_caliper_reads_is_told_for_the_span_that_is_asked_for():
-    """Authority: KHK Gear Technical Reference, m 3, z 24, x 0.4: 32.8266 mm over 4 teeth, whose neighbour spans differ by the base pitch."""
-    spans = [derived(scene_of(wheel={"teeth": 24, "profile_shift": 0.4, "spanned_teeth": k}))[f"wheel base tangent length over {k} teeth"] for k in (3, 4)]
+    """Authority: KHK Gear Technical Reference, m 3, z 24, x 0.4: 32.8266 mm over 4 teeth, whose neighbour spans differ
+    by the base pitch."""
+    spans = [
+        derived(scene_of(wheel={"teeth": 24, "profile_shift": 0.4, "spanned_teeth": k}))[
+            f"wheel base tangent length over {k} teeth"
+        ]
+        for k in (3, 4)
+    ]
     assert spans[1] == pytest.approx(32.8266, abs=6e-5)
     assert spans[1] - spans[0] == pytest.approx(3.0 * pi * 0.9396926207859084, rel=1e-12)
 
 
 @pytest.mark.parametrize(("angle", "room"), [("25 deg", 0.3178), ("20 deg", 0.38)])
 def test_the_default_tip_radius_fits_the_rack(angle, room):
-    """Authority: the rack's full radius (pi/4 - 1.25 tan(alpha)) cos(alpha)/(1 - sin(alpha)), 0.31787 modules at 25 deg, rounded down."""
+    """Authority: the rack's full radius (pi/4 - 1.25 tan(alpha)) cos(alpha)/(1 - sin(alpha)), 0.31787 modules at 25
+    deg, rounded down."""
     scene = scene_of({"pressure_angle": angle})
     assert scene.gears.pinion.rack_tip_radius == room
     gear_pair(scene.gears)
-    assert ("what has room" in {each.name: each.formula for each in scene.derived}["pinion tip radius of the rack"]) == (room < 0.38)
+    assert (
+        "what has room" in {each.name: each.formula for each in scene.derived}["pinion tip radius of the rack"]
+    ) == (room < 0.38)
 
 
 def test_a_tip_radius_that_is_written_is_kept_or_refused_with_the_room_that_fits():
     """Authority: the check of the gear, and that what it names is taken."""
     with pytest.raises(SceneError, match=r"rack tip radius 0.38 modules, but the rack's tip has room for 0.3178"):
         pair_of({"pressure_angle": "25 deg", "rack": {"tip_radius": 0.38}})
-    assert pair_of({"pressure_angle": "25 deg", "rack": {"tip_radius": 0.3178}}).pinion.rack_tip_radius == pytest.approx(0.3178 * 3.0)
+    assert pair_of(
+        {"pressure_angle": "25 deg", "rack": {"tip_radius": 0.3178}}
+    ).pinion.rack_tip_radius == pytest.approx(0.3178 * 3.0)
 
 
 def test_a_gear_s_own_rack_goes_before_that_of_both():
     """Authority: ISO 53:1998, Annex A: D is 1/1.4/0.39, C 1/1.25/0.25."""
-    scene = scene_of({"rack": {"profile": "ISO 53 D", "addendum": 0.9}}, {"rack": {"profile": "ISO 53 C"}}, {"rack": {"tip_radius": 0.3}})
+    scene = scene_of(
+        {"rack": {"profile": "ISO 53 D", "addendum": 0.9}},
+        {"rack": {"profile": "ISO 53 C"}},
+        {"rack": {"tip_radius": 0.3}},
+    )
     pair = gear_pair(scene.gears)
     assert [gear.dedendum / 3.0 for gear in (pair.pinion, pair.wheel)] == pytest.approx([1.25, 1.4])
     assert [gear.rack_tip_radius for gear in (scene.gears.pinion, scene.gears.wheel)] == [0.25, 0.3]
@@ -159,21 +203,35 @@ def test_power_and_pinion_torque_are_a_torque_on_the_wheel():
 
 def test_a_study_over_torques_takes_the_place_of_a_power():
     """Authority: the rule that a load is given once, which a study's change of it keeps."""
-    assert changed({"load": {"power": "20 kW"}}, ("load", "wheel_torque"), "7 N m") == {"load": {"wheel_torque": "7 N m"}}
+    assert changed({"load": {"power": "20 kW"}}, ("load", "wheel_torque"), "7 N m") == {
+        "load": {"wheel_torque": "7 N m"}
+    }
     assert changed({"load": {"power": "20 kW"}}, ("load", "power"), "absent") == {"load": {}}
 
 
 @pytest.mark.parametrize(
-    ("name", "factor"), [("steel", 189.8), ("cast steel", 188.9), ("ductile cast iron", 181.4), ("grey cast iron", 162.0), ("tin bronze", 159.8), ("cast tin bronze", 155.0)]
+    ("name", "factor"),
+    [
+        ("steel", 189.8),
+        ("cast steel", 188.9),
+        ("ductile cast iron", 181.4),
+        ("grey cast iron", 162.0),
+        ("tin bronze", 159.8),
+        ("cast tin bronze", 155.0),
+    ],
 )
 def test_materials_have_the_standard_s_elasticity_factor_with_steel(name, factor):
-    """Authority: ISO 6336-2, table of Z_E for a steel mate, sqrt(N/mm^2); Z_E = 1/sqrt(pi ((1 - nu1^2)/E1 + (1 - nu2^2)/E2))."""
-    compliances = [(1.0 - each.poissons_ratio**2) / each.youngs_modulus for each in (MATERIALS[name][0], MATERIALS["steel"][0])]
+    """Authority: ISO 6336-2, table of Z_E for a steel mate, sqrt(N/mm^2); Z_E = 1/sqrt(pi ((1 - nu1^2)/E1 + (1 -
+    nu2^2)/E2))."""
+    compliances = [
+        (1.0 - each.poissons_ratio**2) / each.youngs_modulus for each in (MATERIALS[name][0], MATERIALS["steel"][0])
+    ]
     assert (pi * sum(compliances)) ** -0.5 == pytest.approx(factor, abs=0.05)
 
 
 def test_materials_go_by_name():
-    """Authority: identity; a number that is given goes before that of the name, and a gear's own name before what both share."""
+    """Authority: identity; a number that is given goes before that of the name, and a gear's own name before what both
+    share."""
     scene = scene_of(wheel={"material": {"name": "POM", "poissons_ratio": 0.4}})
     assert scene.gears.materials == (Material(206e3, 0.3), Material(2.9e3, 0.4))
     assert scene_of({"material": {"youngs_modulus": "206 GPa", "poissons_ratio": 0.3}}).gears == scene_of().gears
@@ -181,24 +239,84 @@ def test_materials_go_by_name():
 
 MEASURED = {"tooth_thickness": "5.3 mm"}
 WRONG = {
-    "no thickness at all": ({}, {"profile_shift": None}, {}, "gears.pinion.profile_shift\n    is missing. Allowed: a number from -5 up to 5"),
-    "two measures": ({}, {**MEASURED, "base_tangent_length": "32 mm", "spanned_teeth": 3}, {}, "base_tangent_length = \"32 mm\"\n    stands beside tooth_thickness"),
+    "no thickness at all": (
+        {},
+        {"profile_shift": None},
+        {},
+        "gears.pinion.profile_shift\n    is missing. Allowed: a number from -5 up to 5",
+    ),
+    "two measures": (
+        {},
+        {**MEASURED, "base_tangent_length": "32 mm", "spanned_teeth": 3},
+        {},
+        'base_tangent_length = "32 mm"\n    stands beside tooth_thickness',
+    ),
     "no span": ({}, {"base_tangent_length": "23 mm"}, {}, "gears.pinion.spanned_teeth\n    is missing"),
     "no ball": ({}, {}, {"dimension_over_balls": "101 mm"}, "gears.wheel.ball_diameter\n    is missing"),
-    "another span": ({}, {"profile_shift": None, "base_tangent_length": "23.6 mm", "spanned_teeth": 4}, {}, "profile shift of -3.994; allowed are 2 modules"),
-    "another gear": ({}, {"tooth_thickness": "8 mm"}, {}, "allowed are 0.5 modules more or less than profile_shift = 0.3"),
-    "a span off the involute": ({}, {"base_tangent_length": "59.2 mm", "spanned_teeth": 7}, {}, "off the involute, which goes from"),
-    "balls within the base circle": ({}, {"dimension_over_balls": "57 mm", "ball_diameter": "5 mm"}, {}, "the centres of the balls would lie within the base circle"),
-    "balls that do not stand out": ({}, {"dimension_over_balls": "61.2 mm", "ball_diameter": "4 mm"}, {}, "the balls lie within the tip circle"),
-    "backlash beside one measured gear": ({"backlash": "0.1 mm"}, MEASURED, {}, "gears.backlash = \"0.1 mm\"\n    stands beside gears.pinion.tooth_thickness"),
-    "backlash beside all that gives it": ({"backlash": "0.1 mm", "centre_distance": "77 mm"}, MEASURED, MEASURED, "and gears.centre_distance"),
+    "another span": (
+        {},
+        {"profile_shift": None, "base_tangent_length": "23.6 mm", "spanned_teeth": 4},
+        {},
+        "profile shift of -3.994; allowed are 2 modules",
+    ),
+    "another gear": (
+        {},
+        {"tooth_thickness": "8 mm"},
+        {},
+        "allowed are 0.5 modules more or less than profile_shift = 0.3",
+    ),
+    "a span off the involute": (
+        {},
+        {"base_tangent_length": "59.2 mm", "spanned_teeth": 7},
+        {},
+        "off the involute, which goes from",
+    ),
+    "balls within the base circle": (
+        {},
+        {"dimension_over_balls": "57 mm", "ball_diameter": "5 mm"},
+        {},
+        "the centres of the balls would lie within the base circle",
+    ),
+    "balls that do not stand out": (
+        {},
+        {"dimension_over_balls": "61.2 mm", "ball_diameter": "4 mm"},
+        {},
+        "the balls lie within the tip circle",
+    ),
+    "backlash beside one measured gear": (
+        {"backlash": "0.1 mm"},
+        MEASURED,
+        {},
+        'gears.backlash = "0.1 mm"\n    stands beside gears.pinion.tooth_thickness',
+    ),
+    "backlash beside all that gives it": (
+        {"backlash": "0.1 mm", "centre_distance": "77 mm"},
+        MEASURED,
+        MEASURED,
+        "and gears.centre_distance",
+    ),
     "less backlash than there is": ({"backlash": "0.1 mm", "centre_distance": "78 mm"}, {}, {}, "already have"),
-    "tip shortening beside tip diameters": ({"tip_shortening": 0.1}, {"tip_diameter": "64 mm"}, {"tip_diameter": "99 mm"}, "say the same"),
+    "tip shortening beside tip diameters": (
+        {"tip_shortening": 0.1},
+        {"tip_diameter": "64 mm"},
+        {"tip_diameter": "99 mm"},
+        "say the same",
+    ),
     "a negative tip shortening": ({"tip_shortening": -0.1}, {}, {}, "It is -k"),
-    "a dedendum twice": ({}, {"root_diameter": "51 mm", "rack": {"dedendum": 1.25}}, {}, "stands beside gears.pinion.root_diameter"),
-    "a rack of another standard": ({"rack": {"profile": "ISO 53 E"}}, {}, {}, "is not known. Did you mean \"ISO 53 D\"?"),
-    "an unknown material": ({"material": "stel"}, {}, {}, "Did you mean \"steel\"?"),
-    "half a material": ({"material": {"youngs_modulus": "206 GPa"}}, {}, {}, "gears.material.poissons_ratio\n    is missing"),
+    "a dedendum twice": (
+        {},
+        {"root_diameter": "51 mm", "rack": {"dedendum": 1.25}},
+        {},
+        "stands beside gears.pinion.root_diameter",
+    ),
+    "a rack of another standard": ({"rack": {"profile": "ISO 53 E"}}, {}, {}, 'is not known. Did you mean "ISO 53 D"?'),
+    "an unknown material": ({"material": "stel"}, {}, {}, 'Did you mean "steel"?'),
+    "half a material": (
+        {"material": {"youngs_modulus": "206 GPa"}},
+        {},
+        {},
+        "gears.material.poissons_ratio\n    is missing",
+    ),
     "a pointed tip": ({}, {"teeth": 12, "profile_shift": 1.1}, {"profile_shift": -1.1}, "pointed tip"),
 }
 
@@ -218,7 +336,10 @@ def test_a_drawing_that_cannot_be_is_refused(kind):
         ({"load": {}}, "load.wheel_torque\n    is missing"),
         ({"load": {"wheel_torque": "1 N m", "pinion_torque": "1 N m"}}, "stands beside wheel_torque"),
         ({"load": {"power": "1 kW"}}, "needs a speed"),
-        ({"load": {"power": "-1 kW"}, "motion": {"pinion_speed": "100 rpm"}}, "load.power = \"-1 kW\"\n    is negative: it drives the pair from the wheel"),
+        (
+            {"load": {"power": "-1 kW"}, "motion": {"pinion_speed": "100 rpm"}},
+            'load.power = "-1 kW"\n    is negative: it drives the pair from the wheel',
+        ),
     ],
 )
 def test_a_load_is_given_once_and_a_power_at_a_speed(sections, message):
@@ -245,7 +366,13 @@ def test_a_centre_distance_that_is_off_is_remarked():
     assert remarks({"backlash": "0.12 mm"}) == nearer(0.1) == []
     found = nearer(0.5)
     assert len(found) == 1
-    for words in ("0.5 mm less than", "overlap by 0.398", "gears.backlash = 0.12 mm", "less than 0.13 mm", "check gears."):
+    for words in (
+        "0.5 mm less than",
+        "overlap by 0.398",
+        "gears.backlash = 0.12 mm",
+        "less than 0.13 mm",
+        "check gears.",
+    ):
         assert words in found[0]
     found = nearer(0.7)
     assert len(found) == 2 and "tips were shortened by 0.2" in found[1]

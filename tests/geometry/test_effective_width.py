@@ -60,7 +60,8 @@ def test_the_tables_pairs_are_within_two_per_cent_of_three_dimensions():
 
 
 def test_a_web_keeps_its_width(paper_scene):
-    """Identity: a web of 9 mm stays 9 mm stiff whatever part of the face counts, and its mass is that of the whole face."""
+    """Identity: a web of 9 mm stays 9 mm stiff whatever part of the face counts, and its mass is that of the whole
+    face."""
     wheel = replace(paper_scene.gears.wheel, face_width=30.0, web=Web(25.0, 45.0, 9.0 / 30.0))
     pair = gear_pair(replace(paper_scene.gears, pinion=replace(paper_scene.gears.pinion, face_width=15.0), wheel=wheel))
     assert pair.wheel.web.stiff_share * pair.effective_face_widths[1] == pytest.approx(9.0, rel=1e-12)

@@ -17,18 +17,27 @@ from fenics_gears.scene.data import GearData, GearPairData
 def data_of(helix_angle=15.0, hand="right", widths=(30.0, 30.0), offsets=(0.0, 0.0)):
     """A pair of module 3 mm, 20 and 33 teeth, helix angle in degrees."""
     stretch, common = 1.0 / cos(radians(helix_angle)), min(*widths, 0.5 * sum(widths) - abs(offsets[0] - offsets[1]))
-    gears = [GearData(z, 0.0, 3.0 * (z * stretch + 2.0), 3.0 * (z * stretch - 2.5), 20.0, 0.38, b) for z, b in zip((20, 33), widths)]
-    return GearPairData(3.0, radians(20.0), 1.5 * 53 * stretch, common, *gears, None, radians(helix_angle), hand, offsets)
+    gears = [
+        GearData(z, 0.0, 3.0 * (z * stretch + 2.0), 3.0 * (z * stretch - 2.5), 20.0, 0.38, b)
+        for z, b in zip((20, 33), widths)
+    ]
+    return GearPairData(
+        3.0, radians(20.0), 1.5 * 53 * stretch, common, *gears, None, radians(helix_angle), hand, offsets
+    )
 
 
 def contact_gap(pair, misalignment, position, z):
-    """Gap (mm) along the contact normal at a contact point of two helicoids, the wheel's axis tilted about the pitch point, by solving for the point of the wheel's flank.
+    """Gap (mm) along the contact normal at a contact point of two helicoids, the wheel's axis tilted about the pitch
+    point, by solving for the point of the wheel's flank.
 
-    Written from the definition: the flank's section is the involute of a string unwound from the wheel's base circle, shorter by tau z at z.
+    Written from the definition: the flank's section is the involute of a string unwound from the wheel's base circle,
+        shorter by tau z at z.
     """
     tau, rb1, rb2, span = pair.slope, pair.pinion.base_radius, pair.wheel.base_radius, pair.line_of_action_length
     centre, pivot = np.array([span, -rb1 - rb2, 0.0]), np.array([pair.pitch_point, -rb1, 0.0])
-    tilt = Rotation.from_rotvec([-misalignment.out_of_plane / pair.face_width, misalignment.in_plane / pair.face_width, 0.0])
+    tilt = Rotation.from_rotvec(
+        [-misalignment.out_of_plane / pair.face_width, misalignment.in_plane / pair.face_width, 0.0]
+    )
     normal = np.array([1.0, 0.0, -tau]) / np.sqrt(1.0 + tau**2)
     touched = np.array([position, -rb1, z])
 
@@ -48,9 +57,12 @@ def contact_gap(pair, misalignment, position, z):
 
 @pytest.mark.parametrize("hand", ["right", "left"])
 @pytest.mark.parametrize("helix_angle", [0.0, 15.0, 30.0])
-@pytest.mark.parametrize("misalignment", [Misalignment(in_plane=0.01), Misalignment(out_of_plane=0.01), Misalignment(-0.006, 0.009)])
+@pytest.mark.parametrize(
+    "misalignment", [Misalignment(in_plane=0.01), Misalignment(out_of_plane=0.01), Misalignment(-0.006, 0.009)]
+)
 def test_misalignment_opens_what_tilted_helicoids_do(helix_angle, hand, misalignment):
-    """Authority: brute force on the helicoids themselves; first order in angles of 3e-4, of which the square times the module is left."""
+    """Authority: brute force on the helicoids themselves; first order in angles of 3e-4, of which the square times the
+    module is left."""
     pair = gear_pair(data_of(helix_angle, hand))
     for position in (pair.path_start, pair.pitch_point, pair.path_end):
         for z in (-15.0, -4.0, 15.0):
@@ -60,7 +72,8 @@ def test_misalignment_opens_what_tilted_helicoids_do(helix_angle, hand, misalign
 
 @pytest.mark.parametrize("helix_angle", [0.0, 29.0])
 def test_misalignment_is_a_wedge_about_the_middle_of_the_face(helix_angle):
-    """Authority: exact; in the plane of action the gap at the pitch point opens in proportion to z, half the amount at either end; out of it nothing opens."""
+    """Authority: exact; in the plane of action the gap at the pitch point opens in proportion to z, half the amount at
+    either end; out of it nothing opens."""
     pair, z = gear_pair(data_of(helix_angle)), np.array([-15.0, 0.0, 15.0])
     assert face_opening(pair, None, Misalignment(in_plane=0.012), z) == pytest.approx([-0.006, 0.0, 0.006], abs=1e-18)
     assert np.all(face_opening(pair, None, Misalignment(out_of_plane=0.012), z) == 0.0)
@@ -72,15 +85,22 @@ AMOUNTS = {
     "helix slope": (LeadModification(helix_slope=8.0), [0.0, 2.0, 4.0, 6.0, 8.0]),
     "negative helix slope": (LeadModification(helix_slope=-8.0), [8.0, 6.0, 4.0, 2.0, 0.0]),
     "end relief": (LeadModification(end_relief=EndRelief(10.0, 10.0)), [10.0, 2.5, 0.0, 2.5, 10.0]),
-    "parabolic, left": (LeadModification(end_relief=EndRelief(10.0, 15.0, "left", "parabolic")), [10.0, 2.5, 0.0, 0.0, 0.0]),
-    "right, over the whole face": (LeadModification(end_relief=EndRelief(12.0, 30.0, "right")), [0.0, 3.0, 6.0, 9.0, 12.0]),
+    "parabolic, left": (
+        LeadModification(end_relief=EndRelief(10.0, 15.0, "left", "parabolic")),
+        [10.0, 2.5, 0.0, 0.0, 0.0],
+    ),
+    "right, over the whole face": (
+        LeadModification(end_relief=EndRelief(12.0, 30.0, "right")),
+        [0.0, 3.0, 6.0, 9.0, 12.0],
+    ),
     "all": (LeadModification(6.0, 8.0, EndRelief(10.0, 10.0, "right")), [6.0, 3.5, 4.0, 10.0, 24.0]),
 }
 
 
 @pytest.mark.parametrize("name", AMOUNTS)
 def test_lead_modifications_remove_what_is_drawn(name):
-    """Authority: ISO 21771: values of straight lines and parabolas by hand, alike on either gear and for either hand."""
+    """Authority: ISO 21771: values of straight lines and parabolas by hand, alike on either gear and for either
+    hand."""
     own, expected = AMOUNTS[name]
     z = np.array([-15.0, -7.5, 0.0, 7.5, 15.0])
     for hand in ("right", "left"):

@@ -14,7 +14,12 @@ def few_teeth(teeth, profile_shift):
     """Changes to the paper's pair: a standard pinion with few teeth, and the centre distance it asks for."""
     pitch = 4.5 * (teeth + 2.0 * profile_shift)
     circles = {"pinion.root_diameter": pitch - 11.25, "pinion.tip_diameter": pitch + 9.0, "pinion.bore_diameter": 3.0}
-    return {"pinion.teeth": teeth, "pinion.profile_shift": profile_shift, **circles, "centre_distance": 4.5 * (0.5 * (teeth + 24) + profile_shift) + 1.0}
+    return {
+        "pinion.teeth": teeth,
+        "pinion.profile_shift": profile_shift,
+        **circles,
+        "centre_distance": 4.5 * (0.5 * (teeth + 24) + profile_shift) + 1.0,
+    }
 
 
 IMPOSSIBLE = {
@@ -24,7 +29,12 @@ IMPOSSIBLE = {
     ),
     "no involute left by undercut": (
         few_teeth(8, -0.3) | {"pinion.tip_diameter": 34.6},
-        ["pinion: no involute", "34.6 mm", "the fillet cuts off the involute up to 34.", "raise gears.pinion.root_diameter"],
+        [
+            "pinion: no involute",
+            "34.6 mm",
+            "the fillet cuts off the involute up to 34.",
+            "raise gears.pinion.root_diameter",
+        ],
     ),
     "contact ratio by undercut": (
         few_teeth(8, 0.0) | {"centre_distance": 72.9},
@@ -47,8 +57,14 @@ IMPOSSIBLE = {
         {"pinion.root_diameter": 63.6, "pinion.rack_tip_radius": 0.45},
         ["pinion: interference: the wheel's tip corner cuts 0.04214 mm into its fillet", "gears.wheel.tip_diameter"],
     ),
-    "tip in root": ({"wheel.tip_diameter": 120.8}, ["wheel: no tip clearance", "0.15 mm", "gears.pinion.root_diameter"]),
-    "tip below root": ({"pinion.tip_diameter": 60.0}, ["pinion: no teeth", "60 mm", "62.5 mm", "gears.pinion.tip_diameter"]),
+    "tip in root": (
+        {"wheel.tip_diameter": 120.8},
+        ["wheel: no tip clearance", "0.15 mm", "gears.pinion.root_diameter"],
+    ),
+    "tip below root": (
+        {"pinion.tip_diameter": 60.0},
+        ["pinion: no teeth", "60 mm", "62.5 mm", "gears.pinion.tip_diameter"],
+    ),
     "tip below base circle": (
         {"pinion.tip_diameter": 67.0},
         ["pinion: no flank", "67 mm", "67.6579 mm", "gears.pinion.tip_diameter"],
@@ -57,7 +73,10 @@ IMPOSSIBLE = {
         {"wheel.tip_diameter": 102.5},
         ["wheel: no involute", "102.5 mm", "102.643 mm", "gears.wheel.tip_diameter"],
     ),
-    "bore through the root": ({"wheel.bore_diameter": 98.0}, ["wheel: no rim", "98 mm", "96.57 mm", "gears.wheel.bore_diameter"]),
+    "bore through the root": (
+        {"wheel.bore_diameter": 98.0},
+        ["wheel: no rim", "98 mm", "96.57 mm", "gears.wheel.bore_diameter"],
+    ),
     "root above the pitch line": (
         {"pinion.root_diameter": 74.5, "pinion.tip_diameter": 90.0},
         ["pinion: no dedendum", "74.5 mm", "72 mm", "gears.pinion.profile_shift"],
@@ -70,7 +89,10 @@ IMPOSSIBLE = {
         {"pinion.rack_tip_radius": 0.6},
         ["pinion: fillets of neighbouring teeth overlap", "0.6 modules", "0.471", "gears.pinion.rack_tip_radius"],
     ),
-    "base circles overlap": ({"centre_distance": 84.0}, ["pair: centre distance 84 mm", "84.5723 mm", "gears.centre_distance"]),
+    "base circles overlap": (
+        {"centre_distance": 84.0},
+        ["pair: centre distance 84 mm", "84.5723 mm", "gears.centre_distance"],
+    ),
     "not a number": ({"pinion.profile_shift": nan}, ["pinion: gears.pinion.profile_shift", "finite"]),
     "negative bore": ({"wheel.bore_diameter": -1.0}, ["wheel: gears.wheel.bore_diameter", "positive", "-1 mm"]),
     "two teeth": ({"pinion.teeth": 2}, ["pinion: 2 teeth", "at least 3", "gears.pinion.teeth"]),
@@ -106,12 +128,17 @@ def test_interference_on_the_wheel_is_that_of_swapped_gears(paper_data):
     shallow = replace(paper_data.pinion, root_diameter=64.2, rack_tip_radius=0.45)
     with pytest.raises(GeometryError) as refused:
         gear_pair(replace(paper_data, pinion=paper_data.wheel, wheel=shallow))
-    for part in ("wheel: interference: the pinion's tip reaches its fillet", "7.115 deg", "gears.pinion.tip_diameter to 118.018 mm"):
+    for part in (
+        "wheel: interference: the pinion's tip reaches its fillet",
+        "7.115 deg",
+        "gears.pinion.tip_diameter to 118.018 mm",
+    ):
         assert part in str(refused.value)
 
 
 def test_the_remedies_given_are_the_limits(paper_data):
-    """Authority: what the messages promise: just beyond the named limit the pair is accepted, just short of it refused; of backlash, by more than printed digits leave."""
+    """Authority: what the messages promise: just beyond the named limit the pair is accepted, just short of it refused;
+    of backlash, by more than printed digits leave."""
     with pytest.raises(GeometryError, match="no backlash"):
         gear_pair(replace(paper_data, centre_distance=91.3685))
     assert gear_pair(replace(paper_data, centre_distance=91.36970)).backlash < 1e-5
@@ -131,8 +158,11 @@ def test_touching_on_both_flanks_is_allowed(paper_data):
 
 
 def test_thin_tips_are_remarked_upon_not_refused(paper_data):
-    """Authority: design practice (e.g. DIN 3960 / ISO 21771 recommend at least 0.2 modules); the paper's pair has 0.6."""
+    """Authority: design practice (e.g. DIN 3960 / ISO 21771 recommend at least 0.2 modules); the paper's pair has
+    0.6."""
     assert design_warnings(gear_pair(paper_data)) == []
-    thin = gear_pair(changed(paper_data, {"pinion.tip_diameter": 86.0, "wheel.root_diameter": 96.0, "wheel.rack_tip_radius": 0.2}))
+    thin = gear_pair(
+        changed(paper_data, {"pinion.tip_diameter": 86.0, "wheel.root_diameter": 96.0, "wheel.rack_tip_radius": 0.2})
+    )
     (sentence,) = design_warnings(thin)
     assert sentence.startswith("pinion: thin tip") and "gears.pinion.tip_diameter" in sentence

@@ -43,7 +43,8 @@ def test_inverse_involute_undoes_the_involute_function():
 
 
 def test_every_normal_is_tangent_to_the_base_circle():
-    """Authority: definition of the involute: going back along the normal by rb v ends on the base circle, at a right angle."""
+    """Authority: definition of the involute: going back along the normal by rb v ends on the base circle, at a right
+    angle."""
     feet = canonical_point(40.0, ROLLS) - (40.0 * ROLLS)[:, None] * canonical_normal(ROLLS)
     assert np.hypot(*feet.T) == pytest.approx(40.0, rel=1e-14)
     assert np.sum(feet * canonical_normal(ROLLS), axis=1) == pytest.approx(0.0, abs=1e-13)
@@ -116,7 +117,8 @@ def gap(pair, position, offset):
 
 
 def test_two_flanks_touch_on_the_line_of_action_with_their_relative_curvature(paper_pair):
-    """Authority: gap = y^2/2 (1/xi + 1/(L - xi)) + O(y^3), the involute's radii of curvature; order 3 over two decades of y."""
+    """Authority: gap = y^2/2 (1/xi + 1/(L - xi)) + O(y^3), the involute's radii of curvature; order 3 over two decades
+    of y."""
     for position in np.linspace(paper_pair.path_start, paper_pair.path_end, 7):
         curvature = 1.0 / position + 1.0 / (paper_pair.line_of_action_length - position)
         assert gap(paper_pair, position, 0.0) == pytest.approx(0.0, abs=1e-13)

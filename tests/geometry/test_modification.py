@@ -25,12 +25,16 @@ def test_relief_from_the_highest_point_of_single_tooth_contact(paper_pair):
 
 
 def test_two_pairs_are_never_both_relieved_nor_both_unrelieved(paper_pair):
-    """Authority: what HPSTC means: a pair in single contact touches where neither flank is relieved; in double contact one
+    """Authority: what HPSTC means: a pair in single contact touches where neither flank is relieved; in double contact
+    one
     pair touches where the pinion, the other where the wheel is relieved."""
     pinion, wheel = tip_reliefs(paper_pair, TipRelief(Relief(0.031, None), Relief(0.031, None)))
 
     def removed(position):
-        return (pinion(paper_pair.pinion_roll_angle(position)) > 0.0, wheel(paper_pair.wheel_roll_angle(position)) > 0.0)
+        return (
+            pinion(paper_pair.pinion_roll_angle(position)) > 0.0,
+            wheel(paper_pair.wheel_roll_angle(position)) > 0.0,
+        )
 
     start, pitch = paper_pair.path_start, paper_pair.base_pitch
     for phase in np.linspace(0.01, 0.46, 10):
@@ -66,10 +70,13 @@ def test_relief_off_the_flank_is_refused(paper_pair, relief, said):
 
 
 def test_relief_of_a_pair_with_contact_ratio_above_two(cut_gear, paper_pair):
-    """Authority: with two or three pairs in contact no point is ever a single contact; relief then starts where the third pair
+    """Authority: with two or three pairs in contact no point is ever a single contact; relief then starts where the
+    third pair
     arrives, two base pitches after the start of contact."""
     gear = cut_gear(60, addendum=1.4, dedendum=1.6, rack_tip=0.2)
     pair = replace(paper_pair, pinion=gear, wheel=gear, centre_distance=60.0)
     assert 2.0 < pair.contact_ratio < 3.0 and pair.fewest_pairs == 2
     pinion, _ = tip_reliefs(pair, TipRelief(Relief(0.01, None), None))
-    assert pinion.start_roll_angle * pair.pinion.base_radius == pytest.approx(pair.path_start + 2.0 * pair.base_pitch, rel=1e-14)
+    assert pinion.start_roll_angle * pair.pinion.base_radius == pytest.approx(
+        pair.path_start + 2.0 * pair.base_pitch, rel=1e-14
+    )

@@ -35,7 +35,9 @@ CUTS |= {
     "helix of 30 deg, few teeth, shifted": dict(teeth=12, profile_shift=0.3, helix_angle=30.0, module=2.0),
     "helix of 40 deg, negative shift": dict(teeth=60, profile_shift=-0.4, helix_angle=40.0),
     "helix of 25 deg, sharp rack": dict(teeth=30, rack_tip=0.0, helix_angle=25.0),
-    "helix of 25 deg, rounding centre above the pitch line": dict(teeth=20, profile_shift=1.0, addendum=0.5, helix_angle=25.0),
+    "helix of 25 deg, rounding centre above the pitch line": dict(
+        teeth=20, profile_shift=1.0, addendum=0.5, helix_angle=25.0
+    ),
 }
 
 
@@ -45,12 +47,14 @@ def gear(request, cut_gear):
 
 
 def distance_to_rack(gear, points, rotation):
-    """Signed distance (n_points, n_rotations) to the rack's tooth, negative inside, of points in the gear's tooth frame.
+    """Signed distance (n_points, n_rotations) to the rack's tooth, negative inside, of points in the gear's tooth
+    frame.
 
     Written from the rack's definition alone: straight flanks at the pressure angle, tooth thickness pi m/2 at the datum
     line (the profile shift above the pitch line), tip line at the root circle, corners rounded. The rounded
-    tooth is a sharp one, smaller by the rounding all round, grown by it again. A helical gear's rack has all this in its normal section,
-    in which the transverse section is shorter along the pitch line by cos(helix angle), and so are distances.
+    tooth is a sharp one, smaller by the rounding all round, grown by it again. A helical gear's rack has all this in
+    its normal section, in which the transverse section is shorter along the pitch line by cos(helix angle), and so are
+    distances.
     """
     transverse, module, rounding = gear.pressure_angle, gear.module, gear.rack_tip_radius
     r = 0.5 * gear.teeth * module
@@ -86,7 +90,8 @@ def least_distance(gear, points):
 
 
 def test_the_outline_is_what_the_rack_leaves(gear):
-    """Authority: brute force: over all rack positions no point of fillet, root arc and involute is cut away, and each is touched."""
+    """Authority: brute force: over all rack positions no point of fillet, root arc and involute is cut away, and each
+    is touched."""
     outline = tooth_outline(gear, fillet_points=25)
     first = np.arctan2(outline.fillet[0, 1], outline.fillet[0, 0])
     arc = np.linspace(first, outline.space_angle, 5)
@@ -98,7 +103,8 @@ def test_the_outline_is_what_the_rack_leaves(gear):
 
 @pytest.mark.parametrize("gear", SPUR, indirect=True)
 def test_brute_force_sees_a_shift_of_a_micrometre(gear):
-    """Authority: the yardstick itself: points moved into the tooth stay clear by just that much, into the space are cut.
+    """Authority: the yardstick itself: points moved into the tooth stay clear by just that much, into the space are
+    cut.
 
     Inside a sharp corner the nearest face is nearer than the corner, hence the lower bound there.
     """
@@ -138,7 +144,8 @@ def test_fillet_tangent_is_the_derivative(gear):
 
 
 def test_fillet_rises_towards_the_flank_in_even_steps(gear):
-    """Authority: what a mesh needs: radius and, but for a neck by undercut, polar angle are monotone, neighbouring points equally far apart."""
+    """Authority: what a mesh needs: radius and, but for a neck by undercut, polar angle are monotone, neighbouring
+    points equally far apart."""
     fillet = tooth_outline(gear, fillet_points=60).fillet
     steps = np.hypot(*np.diff(fillet, axis=0).T)
     assert np.all(np.diff(np.hypot(*fillet.T)) > 0.0)
@@ -150,7 +157,8 @@ def test_fillet_rises_towards_the_flank_in_even_steps(gear):
 
 
 def test_coast_side_is_the_mirror_image(gear):
-    """Authority: a mirror keeps radii, reverses angles from its line, and twice is nothing; the tip is as thick as said."""
+    """Authority: a mirror keeps radii, reverses angles from its line, and twice is nothing; the tip is as thick as
+    said."""
     outline = tooth_outline(gear)
     coast = outline.coast(outline.fillet)
     angle = np.arctan2(outline.fillet[:, 1], outline.fillet[:, 0]) - outline.centreline_angle
@@ -166,7 +174,8 @@ def test_coast_side_is_the_mirror_image(gear):
 @pytest.mark.parametrize("helix_angle", [0.0, 25.0])
 def test_fillets_of_neighbouring_teeth_meet_at_full_radius(cut_gear, helix_angle):
     """Authority: at the largest rack tip radius the root arc has no length; its value by the closed form of a
-    circle inscribed between tip line and flanks (0.472 modules in ISO 53), in the rack's normal section; above it there is no outline."""
+    circle inscribed between tip line and flanks (0.472 modules in ISO 53), in the rack's normal section; above it there
+    is no outline."""
     dedendum, alpha = 1.25, radians(20.0)
     largest = (0.25 * pi - dedendum * tan(alpha)) * cos(alpha) / (1.0 - sin(alpha))
     assert largest == pytest.approx(0.472, abs=5e-4)
@@ -178,7 +187,8 @@ def test_fillets_of_neighbouring_teeth_meet_at_full_radius(cut_gear, helix_angle
 
 @pytest.mark.parametrize(("pressure_angle", "fewest"), [(14.5, 31.903), (20.0, 17.097), (25.0, 11.198)])
 def test_undercut_begins_at_the_textbook_s_number_of_teeth(cut_gear, pressure_angle, fewest):
-    """Authority: z_min = 2/sin^2(alpha) for a sharp full-depth rack (e.g. Litvin & Fuentes, ch. 6): 32, 17 (17.1) and 12
+    """Authority: z_min = 2/sin^2(alpha) for a sharp full-depth rack (e.g. Litvin & Fuentes, ch. 6): 32, 17 (17.1) and
+    12
     (11.2) teeth, as every textbook's table has them."""
     assert 2.0 / sin(radians(pressure_angle)) ** 2 == pytest.approx(fewest, abs=1e-3)
     for teeth in range(10, 40):
@@ -188,7 +198,8 @@ def test_undercut_begins_at_the_textbook_s_number_of_teeth(cut_gear, pressure_an
 
 
 def test_profile_shift_that_avoids_undercut_is_the_textbook_s(cut_gear):
-    """Authority: x_min = 1 - z sin^2(alpha)/2 (e.g. ISO/TR 21771, Litvin & Fuentes): the form circle is then the base circle."""
+    """Authority: x_min = 1 - z sin^2(alpha)/2 (e.g. ISO/TR 21771, Litvin & Fuentes): the form circle is then the base
+    circle."""
     for teeth in (8, 10, 12, 14):
         least = 1.0 - 0.5 * teeth * sin(radians(20.0)) ** 2
         gear = cut_gear(teeth, profile_shift=least, dedendum=1.0, rack_tip=0.0)
@@ -197,7 +208,8 @@ def test_profile_shift_that_avoids_undercut_is_the_textbook_s(cut_gear):
 
 @pytest.mark.parametrize("helix_angle", [10.0, 20.0, 30.0])
 def test_undercut_of_helical_gears_begins_at_the_textbook_s_number_of_teeth(cut_gear, helix_angle):
-    """Authority: z_min = 2 cos(beta)/sin^2(alpha_t) for a sharp full-depth rack (e.g. Litvin & Fuentes, ch. 14): fewer than of spur gears."""
+    """Authority: z_min = 2 cos(beta)/sin^2(alpha_t) for a sharp full-depth rack (e.g. Litvin & Fuentes, ch. 14): fewer
+    than of spur gears."""
     cosine = cos(radians(helix_angle))
     fewest = 2.0 * cosine / sin(atan(tan(radians(20.0)) / cosine)) ** 2
     assert fewest < 17.097

@@ -32,7 +32,8 @@ PAPER = {
 def test_the_paper_s_numbers_come_out_of_its_gear_data(paper_pair, label):
     """Authority: Lundvall, Stromberg & Klarbring 2004 (Table 2 in, the printed digits out).
 
-    Some of its digits are rounded, others cut off (29.615 is printed as 29.61, 20.955 as 20.95), hence one unit of the last digit.
+    Some of its digits are rounded, others cut off (29.615 is printed as 29.61, 20.955 as 20.95), hence one unit of the
+    last digit.
     """
     rows = {name: (value, unit) for name, value, unit in characteristics(paper_pair)}
     printed, unit = PAPER[label]
@@ -86,9 +87,10 @@ def test_contact_ratio_of_standard_gears_by_the_textbook(cut_gear, teeth):
 
 
 def test_profile_shifted_helical_pair_of_the_technical_reference():
-    """Authority: KHK Gear Technical Reference, chapter "Calculation of gear dimensions" (khkgears.net, gear-technical-reference/calculation-gear-dimensions),
-    table "The calculation of a profile shifted helical gear in the normal system (1)": m_n 3, 20 deg, beta 30 deg, z 12/60, x_n 0.09809/0, all results to
-    the printed digits. The page was not at hand when these were written down; a digit remembered wrongly would not come out of the others.
+    """Authority: KHK Gear Technical Reference, chapter "Calculation of gear dimensions" (khkgears.net,
+    gear-technical-reference/calculation-gear-dimensions), table "The calculation of a profile shifted helical gear in
+    the normal system (1)": m_n 3, 20 deg, beta 30 deg, z 12/60, x_n 0.09809/0, all results to the printed digits. The
+    page was not at hand when these were written down; a digit remembered wrongly would not come out of the others.
     """
     data = GearPairData(
         module=3.0,
@@ -115,9 +117,12 @@ def test_profile_shifted_helical_pair_of_the_technical_reference():
 CITED = {
     "fzg_h501": {"contact ratio": 1.46, "overlap ratio": 0.54, "length of the line of action T1 to T2": 34.45},
     "drivetrainhub_17_35": {
-        "operating pressure angle": 23.660563, "base helix angle": 14.076095, "centre distance without backlash": 27.015921, "contact ratio": 1.068817,
-        "overlap ratio": 0.741462, "total contact ratio": 1.810279, "pinion tip clearance": 0.732819, "pinion roll angle, tip": 39.474986,
-        "wheel roll angle, start of active profile": 18.123906, "wheel specific sliding, start of active profile": -1.178062,
+        "operating pressure angle": 23.660563, "base helix angle": 14.076095,
+        "centre distance without backlash": 27.015921, "contact ratio": 1.068817,
+        "overlap ratio": 0.741462, "total contact ratio": 1.810279, "pinion tip clearance": 0.732819,
+        "pinion roll angle, tip": 39.474986,
+        "wheel roll angle, start of active profile": 18.123906,
+        "wheel specific sliding, start of active profile": -1.178062,
     },
     "iso_tr_6336_30": {"contact ratio": 1.5491},
 }  # fmt: skip
@@ -125,8 +130,10 @@ CITED = {
 
 @pytest.mark.parametrize("scene", CITED)
 def test_scenes_of_cited_helical_pairs(scene):
-    """Other programs: GEARpie (REPORT/H501.txt), a notebook of Drivetrain Hub (geometry, chapter 3), KISSsoft by a public program; all as the scenes say, to the
-    digits printed. Left out is the notebook's backlash: it is the radial play times 2 sin(alpha_w), the first term of what the involutes have, 5 % more."""
+    """Other programs: GEARpie (REPORT/H501.txt), a notebook of Drivetrain Hub (geometry, chapter 3), KISSsoft by a
+    public program; all as the scenes say, to the
+    digits printed. Left out is the notebook's backlash: it is the radial play times 2 sin(alpha_w), the first term of
+    what the involutes have, 5 % more."""
     rows = {label: value for label, value, _ in characteristics(gear_pair(load_scene(SCENES / f"{scene}.toml").gears))}
     for label, printed in CITED[scene].items():
         digits = len(str(printed).split(".")[1])
@@ -134,7 +141,8 @@ def test_scenes_of_cited_helical_pairs(scene):
 
 
 def test_a_pair_without_backlash_is_accepted_with_its_printed_digits():
-    """Rule: profile shifts of four decimals leave an overlap of 0.2 um in the FZG gears H501 at their centre distance; a hundredth of a millimetre less is refused."""
+    """Rule: profile shifts of four decimals leave an overlap of 0.2 um in the FZG gears H501 at their centre distance;
+    a hundredth of a millimetre less is refused."""
     data = load_scene(SCENES / "fzg_h501.toml").gears
     assert -1e-3 < gear_pair(data).backlash < 0.0
     with pytest.raises(GeometryError, match="no backlash"):
@@ -146,16 +154,24 @@ def standard_s_example():
     """ISO/TR 6336-30:2017, example 1: m_n 8, z 17/103, beta 15.8 deg, addendum 1, dedendum 1.4, tip radius 0.39."""
     stretch = 1.0 / cos(radians(15.8))
     gears = [
-        GearData(teeth, shift, 8.0 * (teeth * stretch + 2.0 * (shift + 1.0)), 8.0 * (teeth * stretch + 2.0 * (shift - 1.4)), 50.0, 0.39)
+        GearData(
+            teeth,
+            shift,
+            8.0 * (teeth * stretch + 2.0 * (shift + 1.0)),
+            8.0 * (teeth * stretch + 2.0 * (shift - 1.4)),
+            50.0,
+            0.39,
+        )
         for teeth, shift in ((17, 0.145), (103, 0.0))
     ]
     return GearPairData(8.0, radians(20.0), 500.0, 100.0, *gears, Material(206e3, 0.3), helix_angle=radians(15.8))
 
 
 def test_helical_pair_of_the_standard_s_example(standard_s_example):
-    """Authority: numbers of KISSsoft for ISO/TR 6336-30:2017, example 1, as a public implementation of ISO 6336 prints them beside its own (class
-    ISO_6336, method example_01): virtual teeth z/(cos(beta_b)^2 cos(beta)) 18.905 and 114.543, zone factor Z_H 2.39533. Its mesh stiffness,
-    c_gamma_alpha 17.46485 = c' (0.75 eps_alpha + 0.25) with c' 12.37047, is that of a contact ratio of 1.5491.
+    """Authority: numbers of KISSsoft for ISO/TR 6336-30:2017, example 1, as a public implementation of ISO 6336 prints
+    them beside its own (class ISO_6336, method example_01): virtual teeth z/(cos(beta_b)^2 cos(beta)) 18.905 and
+    114.543, zone factor Z_H 2.39533. Its mesh stiffness, c_gamma_alpha 17.46485 = c' (0.75 eps_alpha + 0.25) with c'
+    12.37047, is that of a contact ratio of 1.5491.
     """
     pair = gear_pair(standard_s_example)
     base = atan(pair.slope)
@@ -167,7 +183,8 @@ def test_helical_pair_of_the_standard_s_example(standard_s_example):
 
 
 def test_tooth_stiffness_of_the_standard_s_example(standard_s_example):
-    """Authority: as above: c'_th 17.85584 and c' 12.37047 N/(mm um) to all their digits, c_gamma_alpha 17.46485 by the contact ratio above."""
+    """Authority: as above: c'_th 17.85584 and c' 12.37047 N/(mm um) to all their digits, c_gamma_alpha 17.46485 by the
+    contact ratio above."""
     theoretical, single = single_stiffness(standard_s_example)
     assert (theoretical, single) == pytest.approx((17.85584, 12.37047), abs=5e-6)
     assert single * mesh_factor(gear_pair(standard_s_example).contact_ratio) == pytest.approx(17.46485, rel=2e-4)
@@ -175,7 +192,8 @@ def test_tooth_stiffness_of_the_standard_s_example(standard_s_example):
 
 @pytest.mark.parametrize("helix_angle", [0.0, 12.0, 33.0])
 def test_centre_distance_without_backlash_is_the_standard_s(cut_gear, helix_angle):
-    """Authority: ISO 21771, inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2), a = a_0 cos(alpha_t)/cos(alpha_wt), to round-off."""
+    """Authority: ISO 21771, inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2), a = a_0
+    cos(alpha_t)/cos(alpha_wt), to round-off."""
     teeth, shifts = (17, 41), (0.4, -0.1)
     gears = [cut_gear(z, x, module=2.5, helix_angle=helix_angle) for z, x in zip(teeth, shifts)]
     transverse = gears[0].pressure_angle
@@ -198,7 +216,8 @@ GEARBOX = {
 
 @pytest.mark.parametrize("stage", GEARBOX)
 def test_centre_distances_of_an_industrial_gearbox(cut_gear, stage):
-    """Authority: the file SEW_3-stage_cylindrical_gearbox_1.0.rexs of fva-net/rexs-api-java, whose profile shifts, rounded to 1e-4 there, leave no
+    """Authority: the file SEW_3-stage_cylindrical_gearbox_1.0.rexs of fva-net/rexs-api-java, whose profile shifts,
+    rounded to 1e-4 there, leave no
     backlash at its centre distances in whole millimetres: within the 0.5e-4 m_n that is left of them."""
     module, helix_angle, teeth, shifts, distance = GEARBOX[stage]
     gears = [cut_gear(z, x, module=module, helix_angle=helix_angle) for z, x in zip(teeth, shifts)]

@@ -13,7 +13,8 @@ from fenics_gears.geometry.section import cells_section, gear_section
 
 
 def polygon(gear, points=4001):
-    """Half a tooth's outline (n, 2), mm, densely: from the middle of the tip over involute, fillet and root to the middle of the space."""
+    """Half a tooth's outline (n, 2), mm, densely: from the middle of the tip over involute, fillet and root to the
+    middle of the space."""
     outline = tooth_outline(gear, points)
     fillet, involute = outline.fillet, outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, points))
     tip, root = (np.arctan2(*point[::-1]) for point in (involute[-1], fillet[0]))
@@ -23,7 +24,8 @@ def polygon(gear, points=4001):
         return radius * np.column_stack([np.cos(at), np.sin(at)])
 
     return np.vstack([
-        arc(gear.tip_radius, outline.centreline_angle, tip), involute[::-1], fillet[::-1], arc(gear.root_radius, root, outline.space_angle)
+        arc(gear.tip_radius, outline.centreline_angle, tip), involute[::-1], fillet[::-1],
+        arc(gear.root_radius, root, outline.space_angle)
     ])  # fmt: skip
 
 
@@ -39,18 +41,22 @@ def brute_force(gear):
 @settings(max_examples=15)
 @given(st.one_of(valid_pairs(), valid_pairs(helix_angles=(1.0, 40.0))))
 def test_any_gear_is_its_outline_s_polygon(pair):
-    """Brute force: triangles to a polygon of sixteen thousand sides on half a tooth, whose chords cut off less than 1e-7."""
+    """Brute force: triangles to a polygon of sixteen thousand sides on half a tooth, whose chords cut off less than
+    1e-7."""
     for gear in (pair.pinion, pair.wheel):
         found, expected = gear_section(gear), brute_force(gear)
         assert (found.area, found.polar_moment) == pytest.approx(expected, rel=1e-7)
 
 
 def test_cells_of_a_regular_polygon():
-    """Exact: of n corners on radius R the area is n/2 R^2 sin(2 pi/n), the polar moment A R^2 (2 + cos(2 pi/n))/6; and that of a disc in the limit."""
+    """Exact: of n corners on radius R the area is n/2 R^2 sin(2 pi/n), the polar moment A R^2 (2 + cos(2 pi/n))/6; and
+    that of a disc in the limit."""
     for corners, radius in ((5, 3.0), (100_000, 20.0)):
         at = 2.0 * pi * np.arange(corners) / corners
         points = np.vstack([[0.0, 0.0], radius * np.column_stack([np.cos(at), np.sin(at)])])
-        cells = np.column_stack([np.zeros(corners, int), 1 + np.arange(corners), 1 + (1 + np.arange(corners)) % corners])
+        cells = np.column_stack(
+            [np.zeros(corners, int), 1 + np.arange(corners), 1 + (1 + np.arange(corners)) % corners]
+        )
         found, step = cells_section(points, cells), 2.0 * pi / corners
         area = 0.5 * corners * radius**2 * sin(step)
         assert found.area == pytest.approx(area, rel=1e-12)
@@ -61,12 +67,16 @@ def test_cells_of_a_regular_polygon():
 def test_quadrilaterals_are_two_triangles_each():
     """Identity: a cell cut along its diagonal."""
     points = np.array([[1.0, 0.0], [3.0, 1.0], [2.5, 4.0], [0.5, 2.0]])
-    whole, halves = cells_section(points, np.array([[0, 1, 2, 3]])), cells_section(points, np.array([[0, 1, 2], [0, 2, 3]]))
+    whole, halves = (
+        cells_section(points, np.array([[0, 1, 2, 3]])),
+        cells_section(points, np.array([[0, 1, 2], [0, 2, 3]])),
+    )
     assert (whole.area, whole.polar_moment) == pytest.approx((halves.area, halves.polar_moment), rel=1e-14)
 
 
 def test_the_paper_s_gears_against_their_reference_discs(paper_pair):
-    """Common practice: a gear weighs what a disc of its reference diameter, shifted by the profile shift, weighs, within some per cent."""
+    """Common practice: a gear weighs what a disc of its reference diameter, shifted by the profile shift, weighs,
+    within some per cent."""
     for gear in (paper_pair.pinion, paper_pair.wheel):
         radius = gear.reference_radius + gear.profile_shift * gear.module
         disc = pi * (radius**2 - gear.bore_radius**2), 0.5 * pi * (radius**4 - gear.bore_radius**4)

@@ -3,11 +3,18 @@
 import numpy as np
 import pytest
 
-from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, sliding_per_rotation, sliding_speed, specific_sliding
+from fenics_gears.geometry.sliding import (
+    CONTACT_POINTS,
+    contact_points,
+    sliding_per_rotation,
+    sliding_speed,
+    specific_sliding,
+)
 
 
 def test_specific_sliding_is_the_difference_of_the_arcs_that_roll_and_slide(paper_pair):
-    """Authority: the arcs s = rb v^2/2 of the involutes; while the pinion turns a little, contact passes ds1 of its flank and ds2 of the
+    """Authority: the arcs s = rb v^2/2 of the involutes; while the pinion turns a little, contact passes ds1 of its
+    flank and ds2 of the
     wheel's, and slides over ds1 - ds2 (central differences)."""
     positions = np.linspace(paper_pair.path_start, paper_pair.path_end, 9)
     advance = 1e-4
@@ -40,7 +47,8 @@ def test_sliding_speed_is_the_distance_from_the_pitch_point_times_both_speeds(pa
 
 
 def test_specific_sliding_at_the_ends_by_the_closed_forms(paper_pair):
-    """Authority: Niemann/Winter, zeta_f1 = 1 - rho_A2/(u rho_A1) at the pinion's root, zeta_f2 = 1 - u rho_E1/rho_E2 at the wheel's,
+    """Authority: Niemann/Winter, zeta_f1 = 1 - rho_A2/(u rho_A1) at the pinion's root, zeta_f2 = 1 - u rho_E1/rho_E2 at
+    the wheel's,
     with the curvatures from tip and base circles: rho_A2 = sqrt(ra2^2 - rb2^2), rho_E1 = sqrt(ra1^2 - rb1^2)."""
     pinion, wheel = paper_pair.pinion, paper_pair.wheel
     ratio, length = wheel.teeth / pinion.teeth, paper_pair.line_of_action_length
@@ -54,7 +62,8 @@ def test_specific_sliding_at_the_ends_by_the_closed_forms(paper_pair):
 
 
 def test_contact_points_are_in_order_and_a_base_pitch_apart(paper_pair):
-    """Identity: A and D are a base pitch apart where one pair is alone in between, so are B and E; with more pairs as many pitches."""
+    """Identity: A and D are a base pitch apart where one pair is alone in between, so are B and E; with more pairs as
+    many pitches."""
     first, begin, _, end, last = contact_points(paper_pair)
     assert end - first == pytest.approx(paper_pair.base_pitch) and last - begin == pytest.approx(paper_pair.base_pitch)
     assert np.all(np.diff(contact_points(paper_pair)) > 0.0)

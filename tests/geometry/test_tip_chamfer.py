@@ -29,8 +29,11 @@ def chamfered(paper_data):
 
 
 def test_contact_ends_at_the_tip_form_circle(paper_data, chamfered):
-    """ISO 21771: d_Fa = d_a - 2 h_K ends the usable flank, so that the path of contact is that of tips turned down to it; tip clearances are those of the tips."""
-    turned_down = gear_pair(changed(paper_data, {"pinion.tip_diameter": 82.64 - 2 * CHAMFER, "wheel.tip_diameter": 118.64 - 2 * CHAMFER}))
+    """ISO 21771: d_Fa = d_a - 2 h_K ends the usable flank, so that the path of contact is that of tips turned down to
+    it; tip clearances are those of the tips."""
+    turned_down = gear_pair(
+        changed(paper_data, {"pinion.tip_diameter": 82.64 - 2 * CHAMFER, "wheel.tip_diameter": 118.64 - 2 * CHAMFER})
+    )
     for name in ("path_start", "path_end", "contact_ratio", "hpstc", "lpstc"):
         assert getattr(chamfered, name) == pytest.approx(getattr(turned_down, name), rel=1e-12)
     assert chamfered.tip_clearances == gear_pair(paper_data).tip_clearances
@@ -86,7 +89,9 @@ def test_a_chamfer_takes_the_tip_corner_out_of_a_fillet(paper_data, chamfered):
     """Limit and order: a vanishing chamfer leaves the clearance of the sharp corner; a chamfer opens it."""
     pair = gear_pair(paper_data)
     hair = replace(pair.wheel, tip_chamfer=1e-9)
-    sharp, almost, open_ = (fillet_clearance(pair.pinion, wheel, pair.centre_distance) for wheel in (pair.wheel, hair, chamfered.wheel))
+    sharp, almost, open_ = (
+        fillet_clearance(pair.pinion, wheel, pair.centre_distance) for wheel in (pair.wheel, hair, chamfered.wheel)
+    )
     assert almost == pytest.approx(sharp, abs=1e-7)
     assert open_ > sharp + 0.1 * CHAMFER
 
@@ -94,13 +99,21 @@ def test_a_chamfer_takes_the_tip_corner_out_of_a_fillet(paper_data, chamfered):
 GEARS = {
     "chamfer": {"tip_chamfer": CHAMFER},
     "protuberance": {"protuberance": 0.12, "protuberance_angle": radians(10.0)},
-    "undercut and chamfer": {"teeth": 12, "profile_shift": 0.0, "tip_radius": 31.5, "root_radius": 21.375, "bore_radius": 10.0, "tip_chamfer": CHAMFER},
+    "undercut and chamfer": {
+        "teeth": 12,
+        "profile_shift": 0.0,
+        "tip_radius": 31.5,
+        "root_radius": 21.375,
+        "bore_radius": 10.0,
+        "tip_chamfer": CHAMFER,
+    },
 }
 
 
 @pytest.mark.parametrize("name", GEARS)
 def test_the_mesh_fills_the_section(name, paper_data):
-    """Identity: the elements' area and polar moment are those of the outline, by closed forms; chords along fillet and bore take off some 0.1 per mille."""
+    """Identity: the elements' area and polar moment are those of the outline, by closed forms; chords along fillet and
+    bore take off some 0.1 per mille."""
     gear = replace(gear_pair(paper_data).pinion, **GEARS[name])
     mesh, whole = sector_mesh(gear, FINE), gear_section(gear)
     found = cells_section(mesh.points, mesh.cells)

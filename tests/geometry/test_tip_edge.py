@@ -13,7 +13,8 @@ from fenics_gears.geometry.tip_edge import tip_edge
 
 @given(valid_pairs(), st.floats(0.001, 0.04))
 def test_the_arc_is_tangent_to_flank_and_tip_circle(pair, share):
-    """Definition: at its ends the arc has the point and the normal of the involute, and of the tip circle; it lies inside that circle."""
+    """Definition: at its ends the arc has the point and the normal of the involute, and of the tip circle; it lies
+    inside that circle."""
     for gear in (pair.pinion, pair.wheel):
         edge = tip_edge(gear, share * min(gear.tip_thickness, gear.module))
         start, end = edge.points(np.array([0.0, 1.0]))

@@ -7,9 +7,11 @@ import pytest
 
 @pytest.fixture
 def measured(request, record_property):
-    """`measured(what, value, limit, unit="")`: a line of the table for this file's row; `value` a number or words, `limit` as words.
+    """`measured(what, value, limit, unit="")`: a line of the table for this file's row; `value` a number or words,
+    `limit` as words.
 
-    Call it before the assertion, so that a failing case shows its number too. A file that belongs to several rows says `row=`.
+    Call it before the assertion, so that a failing case shows its number too. A file that belongs to several rows says
+    `row=`.
     """
     own = re.match(r"test_row_(\d\d)_", request.path.name)
 

@@ -1,4 +1,5 @@
-"""What must hold at every step of every run (rows 1 to 3), computed from the equations and not from what the solver says of itself."""
+"""What must hold at every step of every run (rows 1 to 3), computed from the equations and not from what the solver
+says of itself."""
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ from fenics_gears.simulation.rigid_route import rigid_cycle
 
 @dataclass(frozen=True)
 class Run:
-    """A march with all of its steps, and the contact that they were solved on; `failure` where a step did not converge."""
+    """A march with all of its steps, and the contact that they were solved on; `failure` where a step did not
+    converge."""
 
     model: Model
     marcher: Marcher
@@ -36,20 +38,25 @@ class Run:
         return self.model.scene.friction.coefficient if self.model.scene.friction else 0.0
 
 
-# Not numbers by design: contact nodes that do not stand, the place of the largest pressure where none is off the edges, the share at a point of the path that no loaded pair passes, and those of rigid pairs
-# that touch together.
-NODES_OF_THEIR_OWN, SHARES = ("contact_offset", "contact_roll_angle", "_opening", "load_share", "pressure_roll_angle"), ("pair_normal_force", "pair_coast_normal_force")
+# Not numbers by design: contact nodes that do not stand, the place of the largest pressure where none is off the edges,
+# the share at a point of the path that no loaded pair passes, and those of rigid pairs that touch together.
+NODES_OF_THEIR_OWN, SHARES = (
+    ("contact_offset", "contact_roll_angle", "_opening", "load_share", "pressure_roll_angle"),
+    ("pair_normal_force", "pair_coast_normal_force"),
+)
 
 
 def cycle_of(model: Model, compliances) -> Cycle:
-    """Contact on given gears: rigid ones (None), plane ones, or over a face, of which there are the sections and the bodies."""
+    """Contact on given gears: rigid ones (None), plane ones, or over a face, of which there are the sections and the
+    bodies."""
     if compliances is None:
         return rigid_cycle(model)
     return mesh_cycle(model, compliances) if model.face is None else face_cycle(model, *compliances)
 
 
 def run_of(model: Model, compliances: Compliances | tuple | None) -> Run:
-    """March a scene on given gears (as of `cycle_of`) and keep every step; its result is made too, and is of numbers where it can be."""
+    """March a scene on given gears (as of `cycle_of`) and keep every step; its result is made too, and is of numbers
+    where it can be."""
     cycle = cycle_of(model, compliances)
     without_number = NODES_OF_THEIR_OWN + (SHARES if compliances is None else ())
     marcher = Marcher(cycle, model.equations_of_motion)
@@ -78,10 +85,11 @@ def worst_of(run: Run) -> dict[str, float]:
 def step_residuals(run: Run, before, record) -> dict[str, float]:
     """How far one step misses rows 1 to 3; `before` is the step before it, None at the start.
 
-    penetration: um. tension, cone, equilibrium: of the largest force of the step. complementarity: p_n gap of that force
-    times the largest length that a gap is the difference of (centre coordinates, deflections, gaps). wrong_way: -p_t slip
-    likewise; dissipation: the same of the sum. sum_of_forces, sum_of_moments, couples_by_base_radii: of the sum of all nodal
-    forces (times the centre distance).
+    penetration: um. tension, cone, equilibrium: of the largest force of the step. complementarity: p_n gap of that
+        force
+    times the largest length that a gap is the difference of (centre coordinates, deflections, gaps). wrong_way: -p_t
+    slip likewise; dissipation: the same of the sum. sum_of_forces, sum_of_moments, couples_by_base_radii: of the sum of
+    all nodal forces (times the centre distance).
     """
     operator, forces = record.position.operator, record.solution.forces
     n = operator.nodes
@@ -95,7 +103,8 @@ def step_residuals(run: Run, before, record) -> dict[str, float]:
     found = {
         "penetration": 1e3 * laws["penetration"],
         "tension": laws["tension"] / force,
-        "complementarity": float(np.max(np.abs(forces[:n] * (operator.gap - displacement[:n])), initial=0.0)) / (force * length),
+        "complementarity": float(np.max(np.abs(forces[:n] * (operator.gap - displacement[:n])), initial=0.0))
+        / (force * length),
     }
     if len(forces) > n and slip_before is not None:
         slip = displacement[n:] + slip_before
@@ -109,14 +118,19 @@ def step_residuals(run: Run, before, record) -> dict[str, float]:
 def _slip_before(operator, before) -> np.ndarray | None:
     if operator.rigid_slip is None:
         return None
-    return operator.rigid_slip - (operator.previous_jacobian @ before.state.position - operator.previous_compliance @ before.solution.forces)
+    return operator.rigid_slip - (
+        operator.previous_jacobian @ before.state.position - operator.previous_compliance @ before.solution.forces
+    )
 
 
 def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, float]:
-    """Forces of the contact on the two gears and their moments about the pinion's centre, summed: zero, whatever the forces are."""
+    """Forces of the contact on the two gears and their moments about the pinion's centre, summed: zero, whatever the
+    forces are."""
     pair = run.model.pair
     (radius_1, radius_2), frictional = operator.base_radii, len(forces) > operator.nodes
-    rows = displacement_jacobian(operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential=frictional, face=operator.face)
+    rows = displacement_jacobian(
+        operator.pairs, operator.base_radii, operator.normal_lever_arms, tangential=frictional, face=operator.face
+    )
     on_pinion, on_wheel = -(rows.T @ forces)[:3], -(rows.T @ forces)[3:6]
     total = float(np.abs(forces).sum()) or 1.0
     # In the frame of the drive flanks' line of action, the wheel's centre seen from the pinion's.
@@ -128,15 +142,21 @@ def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, fl
     }
     if operator.face is not None:
         axial, moments = _along_the_axes(operator, -(rows.T @ forces)[7:], on_wheel, (along, across))
-        found |= {"sum_of_axial_forces": axial / total, "sum_of_tilting_moments": moments / (total * pair.centre_distance)}
+        found |= {
+            "sum_of_axial_forces": axial / total,
+            "sum_of_tilting_moments": moments / (total * pair.centre_distance),
+        }
     # A tip's edge touches along a line of its own, with another lever arm.
     if not frictional and all(each.place.line is None for each in operator.pairs):
         found["couples_by_base_radii"] = abs(on_pinion[2] - on_wheel[2]) / total
     return found
 
 
-def _along_the_axes(operator, on_gears: np.ndarray, on_wheel: np.ndarray, centre: tuple[float, float]) -> tuple[float, float]:
-    """Sum of the axial forces, N, and of the moments about x and y through the pinion's mid-width, N mm, of forces (6,) on both gears."""
+def _along_the_axes(
+    operator, on_gears: np.ndarray, on_wheel: np.ndarray, centre: tuple[float, float]
+) -> tuple[float, float]:
+    """Sum of the axial forces, N, and of the moments about x and y through the pinion's mid-width, N mm, of forces (6,)
+    on both gears."""
     (radius_1, radius_2), (along, across) = operator.base_radii, centre
     (axial_1, x_1, y_1), (axial_2, x_2, y_2) = on_gears.reshape(2, 3)
     beside = operator.face.middles[1] - operator.face.middles[0]

@@ -1,6 +1,8 @@
-"""Any set of effects with any valid values, as sections of a scene's text; whoever adds an effect adds its drawing here.
+"""Any set of effects with any valid values, as sections of a scene's text; whoever adds an effect adds its drawing
+here.
 
-Each function gives one section's text. Lengths go with the module, stiffnesses with the teeth's own, so that all sizes of gears are alike.
+Each function gives one section's text. Lengths go with the module, stiffnesses with the teeth's own, so that all sizes
+of gears are alike.
 """
 
 from collections.abc import Callable
@@ -16,8 +18,8 @@ from fenics_gears.geometry.tip_edge import tip_edge
 # Of steel teeth: stiffness of a pair (N/mm^2), density.
 PAIR_STIFFNESS, DENSITY = 14e3, 7.8e-9
 GEARS = ("pinion", "wheel")
-# No edge is rounder than the tip is thick, nor leaves a contact ratio below this; no error of manufacture is larger than this part of the
-# module; no more waves a tooth than half the steps of a mesh cycle can show.
+# No edge is rounder than the tip is thick, nor leaves a contact ratio below this; no error of manufacture is larger
+# than this part of the module; no more waves a tooth than half the steps of a mesh cycle can show.
 WIDEST_EDGE, LEAST_CONTACT_RATIO, LARGEST_ERROR, MOST_WAVES = 0.45, 1.02, 1e-2, 9
 Draw = Callable
 
@@ -27,7 +29,9 @@ def decades(lowest: float, highest: float) -> st.SearchStrategy[float]:
     return st.floats(log10(lowest), log10(highest)).map(lambda exponent: 10.0**exponent)
 
 
-def random_effects(draw: Draw, pair, width: float, torque: float, mesh_frequency: float, cycles: int, elastic: bool, coast: bool) -> list[str]:
+def random_effects(
+    draw: Draw, pair, width: float, torque: float, mesh_frequency: float, cycles: int, elastic: bool, coast: bool
+) -> list[str]:
     """Sections of any set of effects but the material and the coast flanks, which the rest of a scene asks for.
 
     `torque`: couple on the wheel, N mm; `mesh_frequency`: Hz; `elastic`: whether the flanks give way.
@@ -58,7 +62,10 @@ def _drivetrain(draw: Draw, pair, width: float, mesh_frequency: float, cycles: i
     found.append(f'[inertia]\nmass = "{mass!r} t"\nmoment_of_inertia = "{inertia!r} t mm^2"')
     if draw(st.booleans()):
         of_stiffness = draw(decades(1e-7, 1e-2)) if shafts or supported else 0.0
-        found.append(f'[damping]\nstiffness_proportional = "{of_stiffness!r} s"\nmass_proportional = "{draw(decades(1e-3, 1e4))!r} 1/s"')
+        found.append(
+            f'[damping]\nstiffness_proportional = "{of_stiffness!r} s"\nmass_proportional ='
+            f' "{draw(decades(1e-3, 1e4))!r} 1/s"'
+        )
     if draw(st.booleans()):
         found.append(speed_ramp(draw, mesh_frequency, cycles))
     return found
@@ -76,12 +83,15 @@ def _flanks(draw: Draw, pair) -> list[str]:
 
 
 def bearings(draw: Draw, teeth: float) -> str:
-    """Supports alike or not along and off the line of action, and with values of one gear's own; `teeth`: their stiffness, N/mm."""
+    """Supports alike or not along and off the line of action, and with values of one gear's own; `teeth`: their
+    stiffness, N/mm."""
 
     def stiffness(*names):
         return "".join(f'{name} = "{draw(decades(1e-4, 1e5)) * teeth!r} N/mm"\n' for name in names)
 
-    text = "[bearings]\n" + stiffness(*draw(st.sampled_from((("stiffness",), ("stiffness_x", "stiffness_y"), ("stiffness", "stiffness_y")))))
+    text = "[bearings]\n" + stiffness(
+        *draw(st.sampled_from((("stiffness",), ("stiffness_x", "stiffness_y"), ("stiffness", "stiffness_y"))))
+    )
     for gear in draw(st.sampled_from(((), (), ("pinion",), ("wheel",), GEARS))):
         text += f"\n[bearings.{gear}]\n" + stiffness(draw(st.sampled_from(("stiffness", "stiffness_x", "stiffness_y"))))
     return text
@@ -90,7 +100,10 @@ def bearings(draw: Draw, teeth: float) -> str:
 def speed_ramp(draw: Draw, mesh_frequency: float, cycles: int) -> str:
     """Up or down, by a millionth up to a factor of ten, at once or after all cycles but one."""
     factor = (1.0 + draw(decades(1e-6, 9.0))) ** draw(st.sampled_from((1, -1)))
-    return f'[speed_ramp]\nend_frequency = "{factor * mesh_frequency!r} Hz"\nhold_cycles = {draw(st.integers(0, cycles - 1))}'
+    return (
+        f'[speed_ramp]\nend_frequency = "{factor * mesh_frequency!r} Hz"\nhold_cycles ='
+        f" {draw(st.integers(0, cycles - 1))}"
+    )
 
 
 def torque_ripple(draw: Draw, torque: float, coast: bool) -> str:
@@ -127,7 +140,8 @@ def _depth(draw: Draw, pair) -> float:
 def eccentricity(draw: Draw, pair) -> str:
     """Of either gear or both."""
     return "\n\n".join(
-        f'[eccentricity.{gear}]\ndistance = "{_error(draw, pair)!r} mm"\nphase = "{draw(st.floats(-360.0, 360.0))!r} deg"'
+        f'[eccentricity.{gear}]\ndistance = "{_error(draw, pair)!r} mm"\nphase = "{draw(st.floats(-360.0, 360.0))!r}'
+        ' deg"'
         for gear in draw(st.sampled_from((("pinion",), ("wheel",), GEARS)))
     )
 
@@ -157,7 +171,10 @@ def _errors_of(draw: Draw, pair, gear: str) -> str:
             values -= values.mean()
         text += f"{name} = [{', '.join(f'{chr(34)}{1e3 * value:.3f} um{chr(34)}' for value in values)}]\n"
     if draw(st.booleans()):
-        waves = f'amplitude = "{0.1 * _error(draw, pair)!r} mm"\nwaves = {draw(st.integers(1, MOST_WAVES * teeth))}\nphase = "{draw(st.floats(-360.0, 360.0))!r} deg"'
+        waves = (
+            f'amplitude = "{0.1 * _error(draw, pair)!r} mm"\nwaves = {draw(st.integers(1, MOST_WAVES * teeth))}\nphase'
+            f' = "{draw(st.floats(-360.0, 360.0))!r} deg"'
+        )
         text += f"\n[flank_errors.{gear}.waviness]\n{waves}\n"
     return text
 
@@ -173,7 +190,9 @@ def corner_contact(draw: Draw, pair) -> str:
     assume(_contact_ratio(pair, (pinion, wheel)) >= LEAST_CONTACT_RATIO)
     if kind == "alike":
         return f'[corner_contact]\nedge_radius = "{pinion!r} mm"'
-    return "\n\n".join(f'[corner_contact.{gear}]\nedge_radius = "{radius!r} mm"' for gear, radius in zip(GEARS, (pinion, wheel)))
+    return "\n\n".join(
+        f'[corner_contact.{gear}]\nedge_radius = "{radius!r} mm"' for gear, radius in zip(GEARS, (pinion, wheel))
+    )
 
 
 def _contact_ratio(pair, radii: tuple[float, float]) -> float:

@@ -1,4 +1,5 @@
-"""Scenes of any valid gears, loads, springs, speeds and effects, coarse enough to be run by the hundred (issue 4, property-based runs)."""
+"""Scenes of any valid gears, loads, springs, speeds and effects, coarse enough to be run by the hundred (issue 4,
+property-based runs)."""
 
 from math import degrees
 
@@ -22,7 +23,8 @@ MOST_LOAD = 1e3
 
 @st.composite
 def valid_scenes(draw, torques=decades(1e-4, 1e2)) -> Scene:
-    """A scene whose text any file could have; torque over six decades, springs over nine, 0.01 Hz to 20 kHz, any set of effects.
+    """A scene whose text any file could have; torque over six decades, springs over nine, 0.01 Hz to 20 kHz, any set of
+    effects.
 
     `torques`: in parts of the usual one.
     """
@@ -36,20 +38,27 @@ def valid_scenes(draw, torques=decades(1e-4, 1e2)) -> Scene:
     if coast:
         torque *= draw(st.sampled_from((1, -1)))
     mesh_frequency, cycles = draw(decades(1e-2, 2e4)), draw(st.integers(1, 2))
-    sections = [_gears(pair, width, elastic), f'[load]\nwheel_torque = "{torque!r} N mm"', _motion(mesh_frequency, cycles)]
+    sections = [
+        _gears(pair, width, elastic),
+        f'[load]\nwheel_torque = "{torque!r} N mm"',
+        _motion(mesh_frequency, cycles),
+    ]
     sections += random_effects(draw, pair, width, torque, mesh_frequency, cycles, elastic, coast)
     sections += (["[coast_flanks]"] if coast else []) + [_accuracy(draw, module)]
     text = "\n\n".join(sections) + "\n"
     scene = scene_from_text(text)
     try:
         assume(_speed_changes_slowly(model_of(scene), MOST_LOAD * USUAL_LOAD * module * width))
-    except GeometryError:  # a contact ratio at its limit, lost in the text's degrees; reliefs of more than the flank, or off it
+    except (
+        GeometryError
+    ):  # a contact ratio at its limit, lost in the text's degrees; reliefs of more than the flank, or off it
         assume(False)
     return scene
 
 
 def _speed_changes_slowly(model, most: float) -> bool:
-    """Whether the inertia of a changing speed asks no more than `most` (N) of the teeth, and does not pull the wheel off them at the start;
+    """Whether the inertia of a changing speed asks no more than `most` (N) of the teeth, and does not pull the wheel
+    off them at the start;
     with coast flanks it may."""
     if model.scene.speed_ramp is None:
         return True
@@ -62,15 +71,16 @@ def _gears(pair, width: float, elastic: bool) -> str:
     def gear(name):
         each = getattr(pair, name)
         return (
-            f"[gears.{name}]\nteeth = {each.teeth}\nprofile_shift = {each.profile_shift!r}\ntip_diameter = \"{2 * each.tip_radius!r} mm\"\n"
-            f'root_diameter = "{2 * each.root_radius!r} mm"\nbore_diameter = "{each.root_radius!r} mm"\n'
-            f"rack_tip_radius = {each.rack_tip_radius / each.module!r}"
+            f"[gears.{name}]\nteeth = {each.teeth}\nprofile_shift = {each.profile_shift!r}\ntip_diameter ="
+            f' "{2 * each.tip_radius!r} mm"\nroot_diameter = "{2 * each.root_radius!r} mm"\nbore_diameter ='
+            f' "{each.root_radius!r} mm"\nrack_tip_radius = {each.rack_tip_radius / each.module!r}'
         )
 
     material = '\n\n[gears.material]\nyoungs_modulus = "206 GPa"\npoissons_ratio = 0.3' if elastic else ""
     return (
-        f'[gears]\nmodule = "{pair.pinion.module!r} mm"\npressure_angle = "{degrees(pair.pinion.pressure_angle)!r} deg"\n'
-        f'centre_distance = "{pair.centre_distance!r} mm"\nface_width = "{width!r} mm"\n\n{gear("pinion")}\n\n{gear("wheel")}{material}'
+        f'[gears]\nmodule = "{pair.pinion.module!r} mm"\npressure_angle = "{degrees(pair.pinion.pressure_angle)!r}'
+        f' deg"\ncentre_distance = "{pair.centre_distance!r} mm"\nface_width = "{width!r}'
+        f' mm"\n\n{gear("pinion")}\n\n{gear("wheel")}{material}'
     )
 
 
@@ -80,7 +90,8 @@ def _motion(mesh_frequency: float, cycles: int) -> str:
 
 def _accuracy(draw, module: float) -> str:
     return (
-        f'[accuracy]\nelement = "{draw(st.sampled_from(("P1", "P2")))}"\nflank_element_size = "{draw(st.floats(0.08, 0.2)) * module!r} mm"\n'
-        f'contact_length = "{draw(st.floats(0.2, 1.0)) * module!r} mm"\ncontact_nodes = {draw(st.integers(2, 9))}\n'
-        f'interpolation = "{draw(st.sampled_from(("averaged", "collocated")))}"\nsteps_per_mesh_cycle = {draw(st.integers(20, 40))}'
+        f'[accuracy]\nelement = "{draw(st.sampled_from(("P1", "P2")))}"\nflank_element_size ='
+        f' "{draw(st.floats(0.08, 0.2)) * module!r} mm"\ncontact_length = "{draw(st.floats(0.2, 1.0)) * module!r}'
+        f' mm"\ncontact_nodes = {draw(st.integers(2, 9))}\ninterpolation ='
+        f' "{draw(st.sampled_from(("averaged", "collocated")))}"\nsteps_per_mesh_cycle = {draw(st.integers(20, 40))}'
     )

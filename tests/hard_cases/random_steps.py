@@ -1,4 +1,5 @@
-"""Rows 1 and 2 on single steps: what a solution must obey, from its forces and coordinates, and steps drawn at random."""
+"""Rows 1 and 2 on single steps: what a solution must obey, from its forces and coordinates, and steps drawn at
+random."""
 
 from __future__ import annotations
 
@@ -37,7 +38,8 @@ def solved(problem: StepProblem, start: np.ndarray) -> StepSolution | None:
 
 
 def judged_steps(measured, drawn, limits, examples: int) -> None:
-    """Draw steps, hold each solution against `limits` (name: words, limit, unit), and tell the worst also where one fails."""
+    """Draw steps, hold each solution against `limits` (name: words, limit, unit), and tell the worst also where one
+    fails."""
     worst, count = dict.fromkeys(limits, 0.0), {"solved": 0, "typed": 0}
 
     @settings(max_examples=examples)
@@ -61,7 +63,8 @@ def judged_steps(measured, drawn, limits, examples: int) -> None:
 
 
 def violations(problem: StepProblem, solution: StepSolution) -> dict[str, float]:
-    """How far a solution misses the laws: lengths in um, forces in parts of the largest force, works of that times the largest length."""
+    """How far a solution misses the laws: lengths in um, forces in parts of the largest force, works of that times the
+    largest length."""
     forces, n = solution.forces, len(problem.gap)
     deflection, moved = problem.compliance @ forces, problem.jacobian @ solution.coordinates
     displacement = moved - deflection
@@ -74,7 +77,8 @@ def violations(problem: StepProblem, solution: StepSolution) -> dict[str, float]
         "penetration": 1e3 * laws["penetration"],
         "tension": laws["tension"] / force,
         "complementarity": float(np.max(np.abs(forces[:n] * (problem.gap - displacement[:n])))) / (force * length),
-        # The system holds loads beside lengths over compliances: those are the terms whose round-off is left of the balance.
+        # The system holds loads beside lengths over compliances: those are the terms whose round-off is left of the
+        # balance.
         "balance": float(np.abs(balance).max()) / max(force, length / float(np.diag(problem.compliance)[:n].min())),
     }
     if slip_before is not None:

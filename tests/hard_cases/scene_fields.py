@@ -25,20 +25,27 @@ INSTEAD = {
     **{("load", name): ["wheel_torque"] for name in ("pinion_torque", "power")},
     **{(*path, "density"): [*LUMPED] for path in (("inertia",), ("inertia", "pinion"), ("inertia", "wheel"))},
     **{("damping", name): [*RAYLEIGH, "pinion", "wheel"] for name in ("ratio", "ratios")},
-    **{(section, *gear, "exponent"): ["shape"] for section in ("tip_relief", "root_relief") for gear in ((), ("pinion",), ("wheel",))},
+    **{
+        (section, *gear, "exponent"): ["shape"]
+        for section in ("tip_relief", "root_relief")
+        for gear in ((), ("pinion",), ("wheel",))
+    },
 }
 SUPPORT = dict.fromkeys(("stiffness", "stiffness_x", "stiffness_y"), "0.155e6 N/mm")
 # Units of every kind of quantity that a scene has, by what `units` calls it.
 UNITS = {
-    "a length": "mm", "an angle": "deg", "a stress": "GPa", "a torque": "N m", "a frequency (1/time)": "Hz", "an angular speed": "rpm",
-    "a torsional stiffness": "N mm/rad", "a stiffness": "N/mm", "a mass": "kg", "a moment of inertia": "kg m^2", "a density": "g/cm^3", "a time": "s",
+    "a length": "mm", "an angle": "deg", "a stress": "GPa", "a torque": "N m", "a frequency (1/time)": "Hz",
+    "an angular speed": "rpm",
+    "a torsional stiffness": "N mm/rad", "a stiffness": "N/mm", "a mass": "kg", "a moment of inertia": "kg m^2",
+    "a density": "g/cm^3", "a time": "s",
     "a percentage": "%", "a power": "kW", "a dynamic viscosity": "mPa s",
 }  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Field:
-    """A field of a scene: its path, what it allows, whether it must be there, and its bounds in N, mm, s, rad (None without)."""
+    """A field of a scene: its path, what it allows, whether it must be there, and its bounds in N, mm, s, rad (None
+    without)."""
 
     path: tuple[str, ...]
     allowed: Allowed
@@ -71,7 +78,13 @@ class Field:
     @property
     def kinds(self) -> tuple[str, ...]:
         """The kinds of quantity that the field takes; none for one without unit."""
-        return tuple(self.allowed.ranges) if isinstance(self.allowed, AllowedEither) else (self.allowed.kind,) if self.allowed.kind else ()
+        return (
+            tuple(self.allowed.ranges)
+            if isinstance(self.allowed, AllowedEither)
+            else (self.allowed.kind,)
+            if self.allowed.kind
+            else ()
+        )
 
     def literal(self, number: Any) -> str:
         """A number as this field's text in TOML; a list of it alone where the field takes lists."""
@@ -90,10 +103,18 @@ def _fields() -> Iterator[Field]:
             continue
         section: Any = SceneText
         for name in path[:-1]:
-            kinds = (section.model_fields[name].annotation, *getattr(section.model_fields[name].annotation, "__args__", ()))
+            kinds = (
+                section.model_fields[name].annotation,
+                *getattr(section.model_fields[name].annotation, "__args__", ()),
+            )
             section = next(kind for kind in kinds if hasattr(kind, "model_fields"))
         info = section.model_fields[path[-1]]
-        limits = {key: getattr(item, key) for item in info.metadata for key in ("ge", "gt", "le", "lt") if getattr(item, key, None) is not None}
+        limits = {
+            key: getattr(item, key)
+            for item in info.metadata
+            for key in ("ge", "gt", "le", "lt")
+            if getattr(item, key, None) is not None
+        }
         low, high = limits.get("ge", limits.get("gt")), limits.get("le", limits.get("lt"))
         allowed = allowed_in(section, path[-1])
         bounds = _own_bounds(allowed) if low is None else (low, high)
@@ -117,24 +138,51 @@ def whole_scene() -> dict[str, Any]:
     tree["eccentricity"] = {"pinion": {"distance": "10 um"}, "wheel": {"distance": "10 um"}}
     tree["bearings"] = {**SUPPORT, "pinion": SUPPORT, "wheel": SUPPORT}
     for gear in ("pinion", "wheel"):
-        tree["gears"][gear] |= {"rack_tip_radius": 0.38, "face_width": "15 mm", "axial_offset": "1 mm", "material": {**tree["gears"]["material"]}}
+        tree["gears"][gear] |= {
+            "rack_tip_radius": 0.38,
+            "face_width": "15 mm",
+            "axial_offset": "1 mm",
+            "material": {**tree["gears"]["material"]},
+        }
     tree["shafts"] = {**SHAFT, "input": {**SHAFT}, "output": {**SHAFT}}
-    tree["inertia"] = {**LUMPED, "pinion": {**LUMPED}, "wheel": {**LUMPED}, "load": {"moment_of_inertia": "24.5e-3 kg m^2"}}
+    tree["inertia"] = {
+        **LUMPED,
+        "pinion": {**LUMPED},
+        "wheel": {**LUMPED},
+        "load": {"moment_of_inertia": "24.5e-3 kg m^2"},
+    }
     tree["damping"] = {**RAYLEIGH, "pinion": {**RAYLEIGH}, "wheel": {**RAYLEIGH}}
     tree["gears"] |= {"helix_angle": "1 deg", "pinion_hand": "right"}
     end_relief = {"depth": "10 um", "length": "4 mm", "sides": "both", "shape": "linear"}
-    tree["lead_modifications"] = {gear: {"crowning": "6 um", "helix_slope": "8 um", "end_relief": {**end_relief}} for gear in ("pinion", "wheel")}
+    tree["lead_modifications"] = {
+        gear: {"crowning": "6 um", "helix_slope": "8 um", "end_relief": {**end_relief}} for gear in ("pinion", "wheel")
+    }
     tree["misalignment"] = {"in_plane": "12 um", "out_of_plane": "1 um"}
     tree["accuracy"] |= {"slices": 40, "layers": 12}
-    tree["accuracy"] |= {"body_element_size": "1.3 mm", "interpolation": "averaged", "elastic_teeth": 2, "model": "elastic"}
+    tree["accuracy"] |= {
+        "body_element_size": "1.3 mm",
+        "interpolation": "averaged",
+        "elastic_teeth": 2,
+        "model": "elastic",
+    }
     ripple = {"harmonics": [{"order": 1, "amplitude": "20 N m", "phase": "30 deg"}]}
-    return tree | {"coast_flanks": {}, "output": {"root_stress": True}, "torque_ripple": ripple, "speed_ramp": {"end_frequency": "260 Hz", "hold_cycles": 0}}
+    return tree | {
+        "coast_flanks": {},
+        "output": {"root_stress": True},
+        "torque_ripple": ripple,
+        "speed_ramp": {"end_frequency": "260 Hz", "hold_cycles": 0},
+    }
 
 
 def plane_scene_with_webs() -> dict[str, Any]:
     """The whole scene without what makes it three-dimensional, which webs are not for."""
     tree = whole_scene()
-    for path in (("lead_modifications",), ("misalignment",), *(("gears", name) for name in ("helix_angle", "pinion_hand")), *(("accuracy", name) for name in ("slices", "layers"))):
+    for path in (
+        ("lead_modifications",),
+        ("misalignment",),
+        *(("gears", name) for name in ("helix_angle", "pinion_hand")),
+        *(("accuracy", name) for name in ("slices", "layers")),
+    ):
         tree = changed(tree, path, ABSENT)
     for gear, rim, hub in (("pinion", "50 mm", "36 mm"), ("wheel", "80 mm", "50 mm")):
         tree = changed(tree, ("gears", gear, "axial_offset"), ABSENT)
@@ -143,7 +191,8 @@ def plane_scene_with_webs() -> dict[str, Any]:
 
 
 def scene_with(path: tuple[str, ...], literal: str | None, name: str | None = None) -> str:
-    """The whole scene's text with `literal` (TOML) at a path, nothing there where that is None; under another `name` if given."""
+    """The whole scene's text with `literal` (TOML) at a path, nothing there where that is None; under another `name` if
+    given."""
     tree = whole_scene() if "web" not in path else plane_scene_with_webs()
     for other in INSTEAD.get(path, ()):
         tree = changed(tree, (*path[:-1], other), ABSENT)

@@ -34,7 +34,8 @@ class Collector:
         self.tests = defaultdict(lambda: defaultdict(int))
 
     def pytest_runtest_logreport(self, report):
-        """Count the test for its file's row, or else for the rows that it recorded for, and keep the lines that it recorded."""
+        """Count the test for its file's row, or else for the rows that it recorded for, and keep the lines that it
+        recorded."""
         name = Path(report.fspath).name
         if report.when != "call" and report.outcome == "passed":
             return
@@ -54,7 +55,13 @@ def page(collector: Collector) -> str:
     lines = [HEADING, f"Python {platform.python_version()} on {platform.machine()}."]
     for row, (name, must_hold) in CASES.items():
         outcomes = ", ".join(f"{count} {outcome}" for outcome, count in sorted(collector.tests[row].items())) or "none"
-        lines += ["", f"## {row}. {name[0].upper()}{name[1:]}", "", f"**Must hold:** {must_hold}. **Tests:** {outcomes}.", ""]
+        lines += [
+            "",
+            f"## {row}. {name[0].upper()}{name[1:]}",
+            "",
+            f"**Must hold:** {must_hold}. **Tests:** {outcomes}.",
+            "",
+        ]
         lines += table(collector.measured[row])
         if collector.over_the_face[row]:
             lines += ["", "Over the face:", "", *table(collector.over_the_face[row])]
@@ -64,11 +71,14 @@ def page(collector: Collector) -> str:
 def table(measured: dict) -> list[str]:
     """A table of what was measured."""
     lines = ["| quantity | measured | limit |", "|---|---|---|"]
-    return lines + [f"| {what} | {spread([each for each, _ in values])} | {values[-1][1]} |" for what, values in measured.items()]
+    return lines + [
+        f"| {what} | {spread([each for each, _ in values])} | {values[-1][1]} |" for what, values in measured.items()
+    ]
 
 
 def spread(values: list[str]) -> str:
-    """One measurement as it is; of several under one name the smallest and the largest, or all that differ where they are words."""
+    """One measurement as it is; of several under one name the smallest and the largest, or all that differ where they
+    are words."""
     different = list(dict.fromkeys(values))
     if len(different) == 1:
         return different[0]

@@ -1,8 +1,10 @@
-"""Rows 1 to 3 at every step of scenes drawn at random: any valid gears, loads over six decades, springs over nine, any set of effects.
+"""Rows 1 to 3 at every step of scenes drawn at random: any valid gears, loads over six decades, springs over nine, any
+set of effects.
 
-A step converges, or the run ends with a typed error; without friction the step is a convex problem, whose solution exists wherever the
-load closes the contact, and no error is accepted but that of rigid teeth which are wider than the spaces between them. Each law's limit is that of hard_cases.md; the exact ones are round-off of what a
-residual is the difference of.
+A step converges, or the run ends with a typed error; without friction the step is a convex problem, whose solution
+exists wherever the load closes the contact, and no error is accepted but that of rigid teeth which are wider than the
+spaces between them. Each law's limit is that of hard_cases.md; the exact ones are round-off of what a residual is the
+difference of.
 """
 
 import pytest
@@ -45,7 +47,11 @@ class Tally:
         """Run a scene and hold every step against the laws; returns the run."""
         model = model_of(scene)
         run = run_of(model, compliances_of(model))
-        self.scenes, self.steps, self.failed = self.scenes + 1, self.steps + len(run.records), self.failed + (run.failure is not None)
+        self.scenes, self.steps, self.failed = (
+            self.scenes + 1,
+            self.steps + len(run.records),
+            self.failed + (run.failure is not None),
+        )
         event("converged" if run.failure is None else run.failure.reason)
         residuals = worst_of(run)
         for name, value in residuals.items():
@@ -77,12 +83,16 @@ def on_stand_ins(model):
     if model.scene.tooth_elasticity is None:
         return None
     reach, coast = model.touching.reach.farthest, model.scene.coast_flanks is not None
-    return tuple(stand_in_compliance(gear, offsets=reach, coast_flank=coast) for gear in (model.pair.pinion, model.pair.wheel))
+    return tuple(
+        stand_in_compliance(gear, offsets=reach, coast_flank=coast) for gear in (model.pair.pinion, model.pair.wheel)
+    )
 
 
 def on_elements(cache):
     """The real teeth, coarse."""
-    return lambda model: None if model.scene.tooth_elasticity is None else gear_compliances(model, SilentProgress(), cache)
+    return lambda model: (
+        None if model.scene.tooth_elasticity is None else gear_compliances(model, SilentProgress(), cache)
+    )
 
 
 def judged(tally, measured, gears, compliances_of, examples, scenes=valid_scenes()):
@@ -101,7 +111,8 @@ def judged(tally, measured, gears, compliances_of, examples, scenes=valid_scenes
 
 @pytest.mark.parametrize("examples", [10, pytest.param(40, marks=pytest.mark.nightly)])
 def test_every_step_of_any_scene_on_stand_in_teeth(measured, examples):
-    """Authority: the contact laws and Newton's third law, from the equations; teeth without finite elements, so that many can be drawn."""
+    """Authority: the contact laws and Newton's third law, from the equations; teeth without finite elements, so that
+    many can be drawn."""
     judged(Tally(), measured, "stand-in teeth", on_stand_ins, examples)
 
 
@@ -112,7 +123,8 @@ def test_every_step_of_any_scene(measured, tmp_path):
 
 @pytest.mark.parametrize("examples", [8, pytest.param(30, marks=pytest.mark.nightly)])
 def test_every_step_of_any_frictionless_scene_without_load(measured, examples):
-    """Authority: as above. One scene in fifteen had failed: with no load to measure by, round-off of stiff springs and teeth was taken
+    """Authority: as above. One scene in fifteen had failed: with no load to measure by, round-off of stiff springs and
+    teeth was taken
     for a force that nothing balances."""
     scenes = valid_scenes(torques=st.just(0.0)).filter(lambda scene: scene.friction is None)
     judged(Tally(), measured, "stand-in teeth, no load, no friction", on_stand_ins, examples, scenes)

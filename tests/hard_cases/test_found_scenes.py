@@ -21,13 +21,16 @@ def checked(file, cache):
     assert len(run.records) == model.steps + 1
     for name, value in worst_of(run).items():
         # Without load there is no direction to speak of where friction acts.
-        assert value <= LAWS[name][2] or (model.scene.load.wheel_torque == 0.0 and name in ("wrong_way", "dissipation")), name
+        assert value <= LAWS[name][2] or (
+            model.scene.load.wheel_torque == 0.0 and name in ("wrong_way", "dissipation")
+        ), name
     return run
 
 
 @pytest.mark.parametrize("file", [file for file in FOUND if "no_load" in file.stem], ids=lambda file: file.stem)
 def test_a_scene_without_load_that_failed_once_converges(file, suite_cache):
-    """Row 16: without load there is no force; nothing may be asked of the friction at nodes that carry no more than round-off."""
+    """Row 16: without load there is no force; nothing may be asked of the friction at nodes that carry no more than
+    round-off."""
     run = checked(file, suite_cache)
     spurious = max(np.abs(record.solution.forces).max(initial=0.0) for record in run.records)
     assert run.model.scene.load.wheel_torque == 0.0 and spurious <= 1e-8

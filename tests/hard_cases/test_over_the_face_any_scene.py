@@ -1,4 +1,5 @@
-"""Rows 1 to 3 at every step of pairs whose flanks are resolved over the face, drawn at random: helix angles to 35 degrees, hands, widths, misalignment of
+"""Rows 1 to 3 at every step of pairs whose flanks are resolved over the face, drawn at random: helix angles to 35
+degrees, hands, widths, misalignment of
 either sign, crowning, loads over five decades, gears that tilt on springs over six decades, coast flanks, inertia."""
 
 from collections import Counter
@@ -21,9 +22,15 @@ def face_scenes(draw, frictions=st.one_of(st.just(0.0), decades(1e-4, 0.2))):
     width, coast = draw(st.floats(6.0, 60.0)), draw(st.booleans())
     torque = MOST_TORQUE * draw(decades(1e-5, 1.0)) * (draw(st.sampled_from((1, -1))) if coast else 1)
     sign, friction = draw(st.sampled_from((1, -1))), draw(frictions)
-    more = f'[misalignment]\nin_plane = "{sign * draw(decades(1e-4, 0.2))!r} mm"\nout_of_plane = "{draw(st.floats(-0.02, 0.02))!r} mm"\n'
+    more = (
+        f'[misalignment]\nin_plane = "{sign * draw(decades(1e-4, 0.2))!r} mm"\nout_of_plane ='
+        f' "{draw(st.floats(-0.02, 0.02))!r} mm"\n'
+    )
     if draw(st.booleans()):
-        more += f'[lead_modifications.{draw(st.sampled_from(("pinion", "wheel")))}]\ncrowning = "{draw(decades(1e-4, 0.03))!r} mm"\n'
+        more += (
+            f"[lead_modifications.{draw(st.sampled_from(('pinion', 'wheel')))}]\ncrowning ="
+            f' "{draw(decades(1e-4, 0.03))!r} mm"\n'
+        )
     if draw(st.booleans()):
         more += _bearings(draw)
     more += SHAFTS if draw(st.booleans()) else ""
@@ -31,15 +38,21 @@ def face_scenes(draw, frictions=st.one_of(st.just(0.0), decades(1e-4, 0.2))):
     more += f"[friction]\ncoefficient = {friction!r}\n" if friction else ""
     return helical_scene(
         more + ("[coast_flanks]\n" if coast else ""),
-        teeth=(draw(st.integers(18, 40)), draw(st.integers(18, 90))), helix=draw(st.one_of(st.just(0.0), st.floats(1.0, 35.0))),
-        hand=draw(st.sampled_from(("right", "left"))), width=width, torque=torque, offset=draw(st.floats(-0.2, 0.2)) * width, frequency=draw(decades(0.1, 1e4)), cycles=2,
-        accuracy=f"slices = {draw(st.integers(2, 9))}\ncontact_nodes = {draw(st.integers(2, 13))}\nsteps_per_mesh_cycle = 20",
+        teeth=(draw(st.integers(18, 40)), draw(st.integers(18, 90))),
+        helix=draw(st.one_of(st.just(0.0), st.floats(1.0, 35.0))),
+        hand=draw(st.sampled_from(("right", "left"))), width=width, torque=torque,
+        offset=draw(st.floats(-0.2, 0.2)) * width, frequency=draw(decades(0.1, 1e4)), cycles=2,
+        accuracy=f"slices = {draw(st.integers(2, 9))}\ncontact_nodes = "
+            f"{draw(st.integers(2, 13))}\nsteps_per_mesh_cycle = 20",
     )  # fmt: skip
 
 
 def _bearings(draw) -> str:
     stiffness, axial = (f"{draw(decades(1e3, 1e9))!r} N/mm" for _ in range(2))
-    return f'[bearings]\nstiffness = "{stiffness}"\naxial_stiffness = "{axial}"\nplaces = {{ pinion = ["-40 mm", "60 mm"], wheel = ["-45 mm", "50 mm"] }}\n'
+    return (
+        f'[bearings]\nstiffness = "{stiffness}"\naxial_stiffness = "{axial}"\nplaces = {{ pinion = ["-40 mm", "60 mm"],'
+        ' wheel = ["-45 mm", "50 mm"] }\n'
+    )
 
 
 class MethodsToo(Tally):
@@ -58,7 +71,9 @@ class MethodsToo(Tally):
         """Also the methods."""
         super().tell(measured, gears)
         solved = sum(self.methods.values())
-        fallbacks = ", ".join(f"{count} {method}" for method, count in self.methods.most_common() if method != NEWTON) or "none"
+        fallbacks = (
+            ", ".join(f"{count} {method}" for method, count in self.methods.most_common() if method != NEWTON) or "none"
+        )
         measured(f"steps by another method than Newton's, {gears}", f"of {solved}: {fallbacks}", "recorded", row=1)
 
 
@@ -71,4 +86,11 @@ def test_every_step_of_any_scene_over_the_face(measured, examples):
 @pytest.mark.nightly
 def test_every_step_with_strong_friction(measured):
     """Authority: as above, with friction up to 1."""
-    judged(MethodsToo(), measured, "stand-in bodies, friction to 1", on_stand_in_bodies, 60, face_scenes(decades(0.05, 1.0)))
+    judged(
+        MethodsToo(),
+        measured,
+        "stand-in bodies, friction to 1",
+        on_stand_in_bodies,
+        60,
+        face_scenes(decades(0.05, 1.0)),
+    )

@@ -1,4 +1,5 @@
-"""Rows 4, 17, 23 and 24 on flanks resolved over the face: gears with inertia that tilt; bodies without finite elements."""
+"""Rows 4, 17, 23 and 24 on flanks resolved over the face: gears with inertia that tilt; bodies without finite
+elements."""
 
 from dataclasses import replace
 
@@ -32,7 +33,10 @@ def with_torque(more, part, **changes):
     """A run whose load is multiplied by `part(step)`; it starts in equilibrium under the whole load."""
     model = model_of(helical_scene(more, **{"accuracy": FEW, **changes}))
     cycle, load = cycle_of(model, on_stand_in_bodies(model)), (lambda step: (part(step) - 1.0) * model.drivetrain.load,)
-    marcher, recorder = Marcher(cycle, replace(model.equations_of_motion, loads=load)), Recorder(model, cycle, loads=load)
+    marcher, recorder = (
+        Marcher(cycle, replace(model.equations_of_motion, loads=load)),
+        Recorder(model, cycle, loads=load),
+    )
     march = marcher.run(model.steps, model.steps + 1, observe=recorder.take)
     return Run(model, marcher, list(march.records), dataset(recorder, march))
 
@@ -45,13 +49,28 @@ def obeys_the_laws(found):
     return worst["penetration"]
 
 
-@pytest.mark.parametrize("more", [pytest.param(INERTIA + FRICTION + SHAFTS, marks=BY_NIGHT), pytest.param(INERTIA + BEARINGS, marks=BY_NIGHT), DAMPED + BEARINGS + SHAFTS + FRICTION], ids=["shafts", "bearings", "whole drivetrain"])
+@pytest.mark.parametrize(
+    "more",
+    [
+        pytest.param(INERTIA + FRICTION + SHAFTS, marks=BY_NIGHT),
+        pytest.param(INERTIA + BEARINGS, marks=BY_NIGHT),
+        DAMPED + BEARINGS + SHAFTS + FRICTION,
+    ],
+    ids=["shafts", "bearings", "whole drivetrain"],
+)
 def test_account_of_energy_closes(more, measured):
-    """Row 4. Exact identity, the geometry moving: energy gained = input - output - damping - friction + changes of contact."""
+    """Row 4. Exact identity, the geometry moving: energy gained = input - output - damping - friction + changes of
+    contact."""
     result = run(more + CROWNED).result
     works = {name: result[name].values for name in result if name.startswith("work_")}
     gained = result["energy"].values - result["energy"].values[0]
-    balance = works["work_input"] - works["work_output"] - works.get("work_damping", 0.0) - works.get("work_friction", 0.0) + works["work_contact_changes"]
+    balance = (
+        works["work_input"]
+        - works["work_output"]
+        - works.get("work_damping", 0.0)
+        - works.get("work_friction", 0.0)
+        + works["work_contact_changes"]
+    )
     scale = max(np.abs(value).max() for value in works.values())
     defect = float(np.abs(gained - balance).max() / scale)
     measured("a run with inertia: defect of the account of energy / largest work", defect, "1e-9", row=4)
@@ -60,22 +79,33 @@ def test_account_of_energy_closes(more, measured):
 
 @pytest.mark.parametrize("hand", [pytest.param("right", marks=BY_NIGHT), "left"])
 def test_torque_reversed_while_running(hand, measured):
-    """Row 17. The teeth part, fly, cross the backlash, touch on their coast flanks and come back; axial forces turn round with the flank; laws hold."""
+    """Row 17. The teeth part, fly, cross the backlash, touch on their coast flanks and come back; axial forces turn
+    round with the flank; laws hold."""
     found = with_torque(DAMPED + BOTH + BEARINGS, lambda step: -1.0 if 20 <= step < 100 else 1.0, hand=hand, cycles=10)
     result, sign = found.result, 1.0 if hand == "right" else -1.0
     penetration = obeys_the_laws(found)
     driving, coasting = result["normal_force"].values > 0.0, result["coast_normal_force"].values > 0.0
     free = ~driving & ~coasting
     axial = sign * result["reaction_z"].sel(gear="pinion").values
-    measured("reversal while running: steps on drive flanks, on coast flanks, in free flight", f"{driving.sum()}, {coasting.sum()}, {free.sum()} of {len(free)}", "all occur", row=17)
+    measured(
+        "reversal while running: steps on drive flanks, on coast flanks, in free flight",
+        f"{driving.sum()}, {coasting.sum()}, {free.sum()} of {len(free)}",
+        "all occur",
+        row=17,
+    )
     measured("reversal while running: largest penetration", penetration, "1e-4 um", "um", row=17)
     assert driving[:20].all() and coasting[20:110].any() and free.any() and driving[-20:].any()
-    assert np.all(axial[driving & ~coasting] > 0.0) and np.all(axial[coasting & ~driving] < 0.0) and np.abs(axial[free]).max() == 0.0
+    assert (
+        np.all(axial[driving & ~coasting] > 0.0)
+        and np.all(axial[coasting & ~driving] < 0.0)
+        and np.abs(axial[free]).max() == 0.0
+    )
     assert "lose contact" in result.attrs["warnings"]
 
 
 def test_sudden_release(measured):
-    """Row 17. Exact: without load and contact nothing acts on rigid shafts, and the wheel flies at constant speed; the result says that contact is lost."""
+    """Row 17. Exact: without load and contact nothing acts on rigid shafts, and the wheel flies at constant speed; the
+    result says that contact is lost."""
     found = with_torque(INERTIA + BOTH, lambda step: 0.0 if step >= 4 else 1.0, cycles=2)
     obeys_the_laws(found)
     result = found.result
@@ -88,17 +118,25 @@ def test_sudden_release(measured):
 
 
 def test_resonance_without_damping(measured):
-    """Row 17. At its own frequency an undamped pair parts and comes back; laws hold at every step and the energy stays finite."""
+    """Row 17. At its own frequency an undamped pair parts and comes back; laws hold at every step and the energy stays
+    finite."""
     model = model_of(helical_scene(INERTIA + BOTH + BEARINGS))
     frequency = max(vibration.frequency for vibration in model.vibrations)
     found = run(INERTIA + BOTH + BEARINGS, frequency=frequency, cycles=15, helix=0.0, torque=5e3)
     penetration, energy = obeys_the_laws(found), found.result["energy"].values
     lost = int((found.result["normal_force"].values == 0.0).sum())
-    measured("undamped resonance: steps without contact on drive flanks, largest / first energy", f"{lost} of {len(energy)}, {energy.max() / energy[0]:.2g}", "finite", row=17)
+    measured(
+        "undamped resonance: steps without contact on drive flanks, largest / first energy",
+        f"{lost} of {len(energy)}, {energy.max() / energy[0]:.2g}",
+        "finite",
+        row=17,
+    )
     assert penetration <= 1e-4 and np.all(np.isfinite(energy))
 
 
-@pytest.mark.parametrize("more", [FRICTION + BEARINGS, pytest.param(CROWNED, marks=BY_NIGHT)], ids=["tilting, friction", "rigid shafts"])
+@pytest.mark.parametrize(
+    "more", [FRICTION + BEARINGS, pytest.param(CROWNED, marks=BY_NIGHT)], ids=["tilting, friction", "rigid shafts"]
+)
 def test_slow_is_quasi_static(more, measured):
     """Row 23. Known limit: at 0.01 Hz inertia does nothing."""
     slow, static = (run(more + extra, frequency=0.01).result["transmission_error"].values for extra in (DAMPED, ""))
@@ -109,7 +147,12 @@ def test_slow_is_quasi_static(more, measured):
 
 def test_fast_gears_follow_the_mean_motion(measured):
     """Row 23. Known limit: far above all natural frequencies the gears no longer follow the teeth's stiffness."""
-    slow, fast = (run(DAMPED + BEARINGS + CROWNED, frequency=frequency, cycles=cycles, helix=0.0).result["transmission_error"].values for frequency, cycles in ((200.0, 2), (20e3, 40)))
+    slow, fast = (
+        run(DAMPED + BEARINGS + CROWNED, frequency=frequency, cycles=cycles, helix=0.0)
+        .result["transmission_error"]
+        .values
+        for frequency, cycles in ((200.0, 2), (20e3, 40))
+    )
     ratio = float(np.ptp(fast[-17:]) / np.ptp(slow[-17:]))
     measured("20 kHz: peak-to-peak transmission error / that of 200 Hz", ratio, "below 0.1", row=23)
     assert ratio < 0.1
@@ -117,11 +160,17 @@ def test_fast_gears_follow_the_mean_motion(measured):
 
 @pytest.mark.parametrize("damping", [pytest.param(True, marks=BY_NIGHT), False])
 def test_large_steps(damping, measured):
-    """Row 24. Energy: finite and bounded by twice the static one with two steps to a mesh cycle; a warning names what is resolved."""
+    """Row 24. Energy: finite and bounded by twice the static one with two steps to a mesh cycle; a warning names what
+    is resolved."""
     accuracy = "slices = 4\ncontact_nodes = 9\nsteps_per_mesh_cycle = 2"
     changes = {"frequency": 17.0, "cycles": 30, "accuracy": accuracy}
-    found, static = run((DAMPED if damping else INERTIA) + BEARINGS + FRICTION, **changes), run(BEARINGS + FRICTION, **changes)
+    found, static = (
+        run((DAMPED if damping else INERTIA) + BEARINGS + FRICTION, **changes),
+        run(BEARINGS + FRICTION, **changes),
+    )
     ratio = float(found.result["energy"].values.max() / static.result["energy"].values.max())
     words = "damped" if damping else "undamped"
     measured(f"2 steps to a mesh cycle at 17 Hz, {words}: largest energy / static energy", ratio, "2", row=24)
-    assert ratio <= 2.0 and any(f"up to {resolved_frequency(found.model.time_step):.4g} Hz" in words for words in found.model.warnings)
+    assert ratio <= 2.0 and any(
+        f"up to {resolved_frequency(found.model.time_step):.4g} Hz" in words for words in found.model.warnings
+    )

@@ -17,8 +17,8 @@ RELIEF = '\n[tip_relief]\ndepth = "40 um"\nstart = "HPSTC"\nshape = "parabolic"\
 
 def accuracy(slices=5, layers=2, body=1.5, nodes=11, steps=8):
     return (
-        f'slices = {slices}\nlayers = {layers}\nbody_element_size = "{body} mm"\nflank_element_size = "0.5 mm"\nelement = "P2"\n'
-        f"contact_nodes = {nodes}\nsteps_per_mesh_cycle = {steps}"
+        f'slices = {slices}\nlayers = {layers}\nbody_element_size = "{body} mm"\nflank_element_size = "0.5 mm"\nelement'
+        f' = "P2"\ncontact_nodes = {nodes}\nsteps_per_mesh_cycle = {steps}'
     )
 
 
@@ -40,53 +40,104 @@ def run(suite_cache):
 def test_hands_in_the_mirror(run, measured):
     """Row 9. Exact symmetry: z -> -z turns hands and misalignment round, from the mesh to the transmission error."""
     right, left = (
-        run(FRICTION + CROWNED + f'[misalignment]\nin_plane = "{sign * 0.02!r} mm"\nout_of_plane = "{sign * 0.01!r} mm"\n', hand=hand)
+        run(
+            FRICTION
+            + CROWNED
+            + f'[misalignment]\nin_plane = "{sign * 0.02!r} mm"\nout_of_plane = "{sign * 0.01!r} mm"\n',
+            hand=hand,
+        )
         for hand, sign in (("right", 1.0), ("left", -1.0))
     )
-    apart = [float(np.abs(sign * left[name].values - right[name].values).max() / np.abs(right[name].values).max()) for name, sign in (("transmission_error", 1.0), ("reaction_z", -1.0), ("reaction_moment_x", -1.0))]
-    loads = float(np.abs(left["line_load"].values[..., ::-1] - right["line_load"].values).max() / right["line_load"].values.max())
-    measured("finite elements, hands mirrored: transmission error, axial force, moment", ", ".join(f"{each:.1g}" for each in apart), "1e-10", row=9)
+    apart = [
+        float(np.abs(sign * left[name].values - right[name].values).max() / np.abs(right[name].values).max())
+        for name, sign in (("transmission_error", 1.0), ("reaction_z", -1.0), ("reaction_moment_x", -1.0))
+    ]
+    loads = float(
+        np.abs(left["line_load"].values[..., ::-1] - right["line_load"].values).max() / right["line_load"].values.max()
+    )
+    measured(
+        "finite elements, hands mirrored: transmission error, axial force, moment",
+        ", ".join(f"{each:.1g}" for each in apart),
+        "1e-10",
+        row=9,
+    )
     measured("finite elements, hands mirrored: line load", loads, "1e-9", row=9)
     assert max(apart) <= 1e-10 and loads <= 1e-9
 
 
 def test_slices_refined(run, measured):
-    """Row 22. Known order: means over slices are midpoint rules, of second order once slices are thinner than the layers (6 mm), where flanks enter contact
+    """Row 22. Known order: means over slices are midpoint rules, of second order once slices are thinner than the
+    layers (6 mm), where flanks enter contact
     smoothly; from slice to slice the phases fall differently on the steps, so that 1.2 is asked for."""
     slices = (6, 12, 24)
-    results = [run(RELIEF + CROWNED, accuracy=accuracy(number, layers=4, nodes=17, steps=7))["transmission_error"].values for number in slices]
+    results = [
+        run(RELIEF + CROWNED, accuracy=accuracy(number, layers=4, nodes=17, steps=7))["transmission_error"].values
+        for number in slices
+    ]
     means, ranges = ([of(each) for each in results] for of in (np.mean, np.ptp))
     steps = np.abs(np.diff(means))
-    measured("finite elements, slices 12 to 24: change of mean, of peak-to-peak transmission error", f"{steps[-1] / means[-1]:.1e}, {abs(ranges[-1] / ranges[-2] - 1.0):.1e}", "3e-3, recorded", row=22)
-    measured("finite elements, order of the mean in the slices' width, from 6, 12 and 24", float(np.log2(steps[-2] / steps[-1])), "above 1.2", row=22)
+    measured(
+        "finite elements, slices 12 to 24: change of mean, of peak-to-peak transmission error",
+        f"{steps[-1] / means[-1]:.1e}, {abs(ranges[-1] / ranges[-2] - 1.0):.1e}",
+        "3e-3, recorded",
+        row=22,
+    )
+    measured(
+        "finite elements, order of the mean in the slices' width, from 6, 12 and 24",
+        float(np.log2(steps[-2] / steps[-1])),
+        "above 1.2",
+        row=22,
+    )
     assert steps[-1] <= 3e-3 * means[-1] and steps[-1] < 2.0**-1.2 * steps[-2]
 
 
 @pytest.mark.nightly
 def test_nearly_incompressible_bodies(run, measured):
-    """Row 14. Second-order wedges do not lock: halving the elements moves the deflection little more than at 0.3, and softer material in shear is not stiffer."""
+    """Row 14. Second-order wedges do not lock: halving the elements moves the deflection little more than at 0.3, and
+    softer material in shear is not stiffer."""
     changes = {}
     for poissons_ratio in (0.3, 0.499):
         coarse, fine = (
-            run(CROWNED, poissons_ratio=poissons_ratio, accuracy=accuracy(layers=layers, body=size))["transmission_error"].values.mean()
+            run(CROWNED, poissons_ratio=poissons_ratio, accuracy=accuracy(layers=layers, body=size))[
+                "transmission_error"
+            ].values.mean()
             for layers, size in ((2, 1.5), (4, 0.75))
         )
         changes[poissons_ratio] = fine / coarse - 1.0
-        measured(f"finite elements, Poisson's ratio {poissons_ratio}: change of the mean transmission error with half the element size", changes[poissons_ratio], "2 %", row=14)
+        measured(
+            f"finite elements, Poisson's ratio {poissons_ratio}: change of the mean transmission error with half the"
+            " element size",
+            changes[poissons_ratio],
+            "2 %",
+            row=14,
+        )
     assert max(changes.values()) <= 0.02
 
 
-@pytest.mark.parametrize("elasticities", [(206e3, 2e3), pytest.param((2e3, 206e3), marks=pytest.mark.nightly), pytest.param((206e3, 206e9), marks=pytest.mark.nightly)])
+@pytest.mark.parametrize(
+    "elasticities",
+    [
+        (206e3, 2e3),
+        pytest.param((2e3, 206e3), marks=pytest.mark.nightly),
+        pytest.param((206e3, 206e9), marks=pytest.mark.nightly),
+    ],
+)
 def test_gears_of_different_stiffness(elasticities, run, measured):
     """Row 16. Equilibrium and the laws at every step, whatever the ratio of the moduli; torques are carried."""
     result = run(BEARINGS + FRICTION, elasticities=elasticities, torque=20e3)
     apart = float(np.abs(result["reaction_couple"].sel(gear="wheel").values + 20e3).max() / 20e3)
-    measured(f"finite elements, Young's moduli {elasticities[0]:g} and {elasticities[1]:g} MPa: error of the torque", apart, "1e-9", row=16)
+    measured(
+        f"finite elements, Young's moduli {elasticities[0]:g} and {elasticities[1]:g} MPa: error of the torque",
+        apart,
+        "1e-9",
+        row=16,
+    )
     assert apart <= 1e-9
 
 
 def test_gears_that_tilt_a_lot(run, measured):
-    """Row 15. Bearings a thousandth of the usual stiffness: the laws hold, and the result says that rotations and tilts are no longer small."""
+    """Row 15. Bearings a thousandth of the usual stiffness: the laws hold, and the result says that rotations and tilts
+    are no longer small."""
     soft = BEARINGS.replace('"0.2e6', '"200').replace('"0.1e6', '"100')
     result = run(soft + FRICTION)
     tilt = float(np.abs(result["tilt_y"].values).max())

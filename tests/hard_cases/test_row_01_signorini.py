@@ -15,7 +15,8 @@ LIMITS = {
 
 
 def test_any_step_obeys_signorini(measured):
-    """Authority: Signorini's law and equilibrium, from forces and coordinates; frictionless steps must be solved, being convex."""
+    """Authority: Signorini's law and equilibrium, from forces and coordinates; frictionless steps must be solved, being
+    convex."""
     judged_steps(measured, steps(FRICTIONS), LIMITS, 120)
 
 

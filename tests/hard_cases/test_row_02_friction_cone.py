@@ -1,4 +1,5 @@
-"""Row 2: single steps with random loads, gaps, slips and starts, friction up to 2; whole runs are judged in `test_any_scene.py`."""
+"""Row 2: single steps with random loads, gaps, slips and starts, friction up to 2; whole runs are judged in
+`test_any_scene.py`."""
 
 import numpy as np
 import pytest
@@ -29,12 +30,15 @@ def test_many_steps_obey_coulomb(measured):
 
 
 def test_friction_dissipates_what_it_bounds(measured):
-    """Exact: a node loses mu p_n per length that it slips, no less and no more; one that sticks has no slip to lose it by."""
+    """Exact: a node loses mu p_n per length that it slips, no less and no more; one that sticks has no slip to lose it
+    by."""
     worst = 0.0
     for seed in range(200):
         problem = random_problem(seed, 6, friction=0.2)
         solution = solve_step(problem, all_open(problem))
-        slip = (problem.jacobian @ solution.coordinates - problem.compliance @ solution.forces)[6:] + problem.slip_before
+        slip = (problem.jacobian @ solution.coordinates - problem.compliance @ solution.forces)[
+            6:
+        ] + problem.slip_before
         lost = solution.forces[6:] * slip
         full = 0.2 * solution.forces[:6] * np.abs(slip)
         scale = np.abs(solution.forces).max() * np.abs(slip).max()

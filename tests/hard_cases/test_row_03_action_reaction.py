@@ -1,4 +1,5 @@
-"""Row 3: what one gear does to the other comes back: forces and moments of the pair, and of each gear with its shaft."""
+"""Row 3: what one gear does to the other comes back: forces and moments of the pair, and of each gear with its
+shaft."""
 
 from dataclasses import replace
 
@@ -30,7 +31,8 @@ def case(request, paper_scene):
 
 
 def test_contact_forces_sum_to_nothing(case, measured):
-    """Newton's third law: forces on either gear are opposite, and so are their moments about one point, here the pinion's centre."""
+    """Newton's third law: forces on either gear are opposite, and so are their moments about one point, here the
+    pinion's centre."""
     name, scene, result = case
     pair = gear_pair(scene.gears)
     centre = (pair.line_of_action_length, -(pair.pinion.base_radius + pair.wheel.base_radius))
@@ -71,5 +73,9 @@ def test_couples_are_as_the_base_radii_without_friction(frequency, paper_scene, 
     pair, result = gear_pair(scene.gears), simulate(scene)
     by_radius = result.reaction_couple.values / np.array([pair.pinion.base_radius, pair.wheel.base_radius])
     difference = np.abs(by_radius[:, 0] - by_radius[:, 1]).max() / np.abs(by_radius).max()
-    measured(f"difference of T1/rb1 and T2/rb2, {'quasi-static' if frequency is None else f'{frequency:g} Hz'}", difference, "1e-12")
+    measured(
+        f"difference of T1/rb1 and T2/rb2, {'quasi-static' if frequency is None else f'{frequency:g} Hz'}",
+        difference,
+        "1e-12",
+    )
     assert difference <= 1e-12

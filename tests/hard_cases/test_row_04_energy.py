@@ -25,17 +25,21 @@ def march(marcher, record, steps):
 
 
 def pushed(marcher, shafts, **speeds):
-    """The start, with speeds (mm/s) of some coordinates and the accelerations that the equations of motion then ask for."""
+    """The start, with speeds (mm/s) of some coordinates and the accelerations that the equations of motion then ask
+    for."""
     rest = marcher.start()
     velocity = np.array([speeds.get(name, 0.0) for name in shafts.coordinates])
-    acceleration = np.zeros_like(velocity) if shafts.damping is None else -np.linalg.solve(shafts.mass, shafts.damping @ velocity)
+    acceleration = (
+        np.zeros_like(velocity) if shafts.damping is None else -np.linalg.solve(shafts.mass, shafts.damping @ velocity)
+    )
     return Record(0, State(rest.state.position, velocity, acceleration), rest.position, rest.solution)
 
 
 @pytest.mark.parametrize("damped", [True, False])
 @pytest.mark.parametrize("speed", [200.0, 2000.0])
 def test_frozen_frictionless_step_balances(paper_scene, paper_pair, stand_in_flanks, measured, damped, speed):
-    """Exact identity of average acceleration with Signorini contact: change of energy = work of the loads + 1/2 sum(p0 g1 - p1 g0) - damping."""
+    """Exact identity of average acceleration with Signorini contact: change of energy = work of the loads + 1/2 sum(p0
+    g1 - p1 g0) - damping."""
     scene = replace(paper_scene, friction=None, damping=paper_scene.damping if damped else None)
     marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 2e-5)
     records = march(marcher, pushed(marcher, shafts, rotation_1=speed), 400)
@@ -54,12 +58,17 @@ def test_frozen_frictionless_step_balances(paper_scene, paper_pair, stand_in_fla
     closed = [np.count_nonzero(record.solution.status) for record in records]
     assert len(set(closed)) > 1
     worst = np.abs(defect).max() / max(work)
-    measured(f"{'damped' if damped else 'undamped'}, started with {speed:g} mm/s: defect of a step / work of the step", worst, "1e-11")
+    measured(
+        f"{'damped' if damped else 'undamped'}, started with {speed:g} mm/s: defect of a step / work of the step",
+        worst,
+        "1e-11",
+    )
     assert worst <= 1e-11
 
 
 def test_frozen_account_closes_with_friction(paper_scene, paper_pair, stand_in_flanks, measured):
-    """Exact identity: with friction (no rolling) the account closes to 1e-9 of the work done, and nothing comes from the rotation."""
+    """Exact identity: with friction (no rolling) the account closes to 1e-9 of the work done, and nothing comes from
+    the rotation."""
     scene = replace(paper_scene, friction=Friction(0.3))
     marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 2e-5)
     records = march(marcher, pushed(marcher, shafts, centre_y1=80.0, rotation_1=40.0), 400)
@@ -74,7 +83,8 @@ def test_frozen_account_closes_with_friction(paper_scene, paper_pair, stand_in_f
 
 
 def test_undamped_bounce_is_bounded(paper_scene, paper_pair, stand_in_flanks, measured):
-    """Dropped on the flanks by the load, undamped, 400 flights long: what the algorithm takes at impacts it gives back at releases."""
+    """Dropped on the flanks by the load, undamped, 400 flights long: what the algorithm takes at impacts it gives back
+    at releases."""
     scene = replace(paper_scene, friction=None, damping=None, shafts=None, bearings=None)
     marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 2e-5)
     rest = marcher.start()
@@ -105,9 +115,12 @@ def total_energy(record, shafts):
     return 0.5 * v @ shafts.mass @ v + teeth - shafts.load @ x
 
 
-@pytest.mark.parametrize("absent", [(), ("friction",), ("damping",), ("inertia", "damping"), ("shafts", "bearings", "friction")])
+@pytest.mark.parametrize(
+    "absent", [(), ("friction",), ("damping",), ("inertia", "damping"), ("shafts", "bearings", "friction")]
+)
 def test_account_of_a_run_closes(paper_scene, measured, absent):
-    """Exact identity, the geometry moving: energy gained = input - output - damping - friction + changes of contact, to round-off."""
+    """Exact identity, the geometry moving: energy gained = input - output - damping - friction + changes of contact, to
+    round-off."""
     result = simulate(replace(paper_scene, accuracy=COARSE, motion=Motion(200.0, 3, 2), **dict.fromkeys(absent)))
     gained = result.energy - result.energy[0]
     taken = result.work_output + result.get("work_damping", 0.0) + result.get("work_friction", 0.0)
@@ -120,25 +133,34 @@ def test_account_of_a_run_closes(paper_scene, measured, absent):
 
 
 def test_term_at_changes_of_contact_vanishes_with_the_step(paper_scene, measured):
-    """Known limit: without friction the algorithm's own term falls faster than the step, and what damping takes the drive gives."""
+    """Known limit: without friction the algorithm's own term falls faster than the step, and what damping takes the
+    drive gives."""
     scene = replace(paper_scene, friction=None, motion=Motion(200.0, 2, 2))
     terms = []
     for steps in (160, 640):
         result = simulate(replace(scene, accuracy=replace(COARSE, steps_per_mesh_cycle=steps)))
         terms.append(abs(float(result.work_contact_changes[-1])) / float(result.work_damping[-1]))
     measured("`work_contact_changes` / damping loss, 160 steps per mesh cycle", terms[0], "recorded")
-    measured("`work_contact_changes` / damping loss, 640 steps per mesh cycle", terms[1], "a quarter of that with 160 steps")
+    measured(
+        "`work_contact_changes` / damping loss, 640 steps per mesh cycle", terms[1], "a quarter of that with 160 steps"
+    )
     assert terms[1] <= 0.25 * terms[0]
 
 
 def test_friction_loss_is_that_of_the_literature(paper_scene, measured):
-    """Niemann/Winter, Maschinenelemente 2, mesh loss factor: P/P0 = mu H_v, H_v = pi (u + 1)/(z1 u) (1 - e + e1^2 + e2^2), for
-    a load that stands whole on a single pair and half on each of two; elastic teeth share it more smoothly, by some per cent."""
+    """Niemann/Winter, Maschinenelemente 2, mesh loss factor: P/P0 = mu H_v, H_v = pi (u + 1)/(z1 u) (1 - e + e1^2 +
+    e2^2), for
+    a load that stands whole on a single pair and half on each of two; elastic teeth share it more smoothly, by some per
+    cent."""
     scene = replace(paper_scene, inertia=None, damping=None, accuracy=COARSE, motion=Motion(200.0, 2, 2))
     result = simulate(scene)
     loss = result.attrs["friction_loss"]
     factor = loss_factor(scene)
-    measured("friction loss of the paper's pair at mu = 0.1 (quasi-static)", loss, f"{0.1 * factor:.4f} by Niemann/Winter, 5 %")
+    measured(
+        "friction loss of the paper's pair at mu = 0.1 (quasi-static)",
+        loss,
+        f"{0.1 * factor:.4f} by Niemann/Winter, 5 %",
+    )
     assert loss == pytest.approx(0.1 * factor, rel=0.05)
 
 
@@ -147,6 +169,11 @@ def loss_factor(scene):
 
     pair = gear_pair(scene.gears)
     z_1, ratio = scene.gears.pinion.teeth, scene.gears.wheel.teeth / scene.gears.pinion.teeth
-    pitch_point = pair.line_of_action_length * pair.pinion.base_radius / (pair.pinion.base_radius + pair.wheel.base_radius)
-    approach, recess = (pitch_point - pair.path_start) / pair.base_pitch, (pair.path_end - pitch_point) / pair.base_pitch
+    pitch_point = (
+        pair.line_of_action_length * pair.pinion.base_radius / (pair.pinion.base_radius + pair.wheel.base_radius)
+    )
+    approach, recess = (
+        (pitch_point - pair.path_start) / pair.base_pitch,
+        (pair.path_end - pitch_point) / pair.base_pitch,
+    )
     return np.pi * (ratio + 1.0) / (z_1 * ratio) * (1.0 - approach - recess + approach**2 + recess**2)

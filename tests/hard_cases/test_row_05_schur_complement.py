@@ -39,9 +39,12 @@ def test_kernel_of_a_sector(name, poissons_ratio, measured):
     check_kernel(sector.stiffness, centre_motion(points), f"sector, {name}, nu {poissons_ratio:g}", measured)
 
 
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.nightly] if name == "Q2" else []) for name in ELEMENTS])
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.nightly] if name == "Q2" else []) for name in ELEMENTS]
+)
 def test_kernel_of_the_gear(name, measured):
-    """The ring of sectors over the flanks of three teeth and the centre (dx, dy, phi), the couple taken at the tip radius."""
+    """The ring of sectors over the flanks of three teeth and the centre (dx, dy, phi), the couple taken at the tip
+    radius."""
     sector = coarse_condensed_sector(name)
     stiffness = ring_stiffness(sector, PINION.teeth, TEETH)
     rigid = np.vstack([flank_motion(sector, PINION, TEETH), np.eye(3)])

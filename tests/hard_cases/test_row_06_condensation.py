@@ -57,7 +57,8 @@ def held_gear(name: str):
 
 @pytest.mark.parametrize("name", ["P1", "P2", "Q1 incompatible", "Q2"])
 def test_condensed_equals_uncondensed(name, measured):
-    """Exact identity: the full system of the whole gear, solved for random forces on a flank by another solver than PETSc."""
+    """Exact identity: the full system of the whole gear, solved for random forces on a flank by another solver than
+    PETSc."""
     element = ELEMENTS[name]
     mesh, space, free, factors = held_gear(name)
     flank, ahead = (nodes_at(space, by_radius(mesh.edge_nodes(f"flank {tooth}", element.order))) for tooth in (0, 1))

@@ -1,7 +1,10 @@
-"""Row 8: Hertz line contact at the paper's pitch point, meshed so that a half-width b spans 2, 4 and 8 flank elements h.
+"""Row 8: Hertz line contact at the paper's pitch point, meshed so that a half-width b spans 2, 4 and 8 flank elements
+h.
 
-Literature: K. L. Johnson, Contact Mechanics, 1985, section 4.2. One tooth pair alone, contact nodes 0.7 elements apart (the default),
-over loads that move the edges of contact across the nodes and positions that move it across the elements: the worst error counts.
+Literature: K. L. Johnson, Contact Mechanics, 1985, section 4.2. One tooth pair alone, contact nodes 0.7 elements apart
+    (the default),
+over loads that move the edges of contact across the nodes and positions that move it across the elements: the worst
+error counts.
 """
 
 from dataclasses import replace
@@ -34,7 +37,8 @@ LOADS, SHIFTS = np.linspace(1.0, 1.25, 6) ** 2, (0.0, 0.3)
 
 @pytest.fixture(scope="module")
 def errors(paper_scene):
-    """Errors of peak (nodal, averaged) and half-width over all loads and positions, (cases, 3), for an element and b/h."""
+    """Errors of peak (nodal, averaged) and half-width over all loads and positions, (cases, 3), for an element and
+    b/h."""
     scene = teeth_alone(paper_scene)
     pair, material = model_of(scene).pair, scene.gears.material
     nominal = scene.load.wheel_torque / pair.wheel.base_radius
@@ -75,7 +79,8 @@ def pressed(flanks, xi, force, spacing, length):
     nodes = tooth_pair(flanks, ContactGrid(cells * spacing, cells + 1), drive_place(flanks.pair, 0, xi))
     operator = contact_operator(flanks, CompliancePairing(flanks), (nodes,), coordinates=[5])
     problem = StepProblem(
-        np.zeros((1, 1)), np.array([force]), operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0, np.ones(1),
+        np.zeros((1, 1)), np.array([force]), operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0,
+        np.ones(1),
         Tolerance.of_load(force),
     )  # fmt: skip
     solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
@@ -87,7 +92,8 @@ def pressed(flanks, xi, force, spacing, length):
 def test_peak_pressure(element, ratio, errors, measured):
     """The peak of the averaged pressure, at its worst; the nodal values' own for comparison."""
     nodal, averaged, _ = errors(element, ratio).max(axis=0)
-    measured(f"{element}, b/h = {ratio}: peak pressure, averaged (nodal)", f"{100 * averaged:.2g} % ({100 * nodal:.2g} %)",
+    measured(f"{element}, b/h = {ratio}: peak pressure, averaged (nodal)", f"{100 * averaged:.2g} % "
+        f"({100 * nodal:.2g} %)",
              f"{100 * LIMITS[ratio]:g} %")  # fmt: skip
     assert averaged <= LIMITS[ratio]
 
@@ -97,22 +103,34 @@ def test_order_of_the_half_width(element, errors, measured):
     """Known order: at least 1, from the worst errors at b/h = 2, 4, 8."""
     worst = [errors(element, ratio)[:, 2].max() for ratio in LIMITS]
     orders = np.log2(np.array(worst[:-1]) / worst[1:])
-    measured(f"{element}: half-width, error at b/h = 2, 4, 8", ", ".join(f"{100 * error:.2g} %" for error in worst), "recorded")
+    measured(
+        f"{element}: half-width, error at b/h = 2, 4, 8",
+        ", ".join(f"{100 * error:.2g} %" for error in worst),
+        "recorded",
+    )
     measured(f"{element}: half-width, order", ", ".join(f"{order:.2g}" for order in orders), "at least 1")
     assert orders.min() >= 1.0
 
 
 @pytest.mark.parametrize("element", [pytest.param("P1", marks=NIGHTLY), "Q1"])
 def test_first_order_elements(element, errors, measured):
-    """What first-order elements are worth here: on record; the peak converges, with order 1 at least from b/h = 2 to 8."""
+    """What first-order elements are worth here: on record; the peak converges, with order 1 at least from b/h = 2 to
+    8."""
     worst = [errors(element, ratio, 1.0)[:, 1].max() for ratio in LIMITS]
-    measured(f"{element}, nodes one element apart: peak at b/h = 2, 4, 8", ", ".join(f"{100 * error:.2g} %" for error in worst), "recorded")
+    measured(
+        f"{element}, nodes one element apart: peak at b/h = 2, 4, 8",
+        ", ".join(f"{100 * error:.2g} %" for error in worst),
+        "recorded",
+    )
     assert worst[2] <= 0.25 * worst[0]
 
 
 def test_peak_that_a_run_reports(paper_scene, measured):
-    """The same through a whole run at the default accuracy, b/h = 4.6 at the pitch point: what the result's attribute is made of."""
-    scene = frictionless(teeth_alone(replace(paper_scene, accuracy=Accuracy(steps_per_mesh_cycle=25), motion=Motion(200.0, 1, 1))))
+    """The same through a whole run at the default accuracy, b/h = 4.6 at the pitch point: what the result's attribute
+    is made of."""
+    scene = frictionless(
+        teeth_alone(replace(paper_scene, accuracy=Accuracy(steps_per_mesh_cycle=25), motion=Motion(200.0, 1, 1)))
+    )
     pair, result = model_of(scene).pair, simulate(scene)
     phases = (pair.pitch_point - pair.path_start) / pair.base_pitch
     step = [int(np.argmin(np.abs(result.mesh_phase.values - phases)))]
@@ -128,7 +146,8 @@ def test_peak_that_a_run_reports(paper_scene, measured):
 
 
 def test_average_keeps_cubics_and_removes_what_alternates():
-    """Exact: weights (-1, 4, 10, 4, -1)/16 reproduce cubics and vanish on (-1)^j; ends and short contacts stay as they are."""
+    """Exact: weights (-1, 4, 10, 4, -1)/16 reproduce cubics and vanish on (-1)^j; ends and short contacts stay as they
+    are."""
     places = np.arange(12.0)
     cubic = 3.0 + 2.0 * places - 0.7 * places**2 + 0.1 * places**3
     np.testing.assert_allclose(without_oscillation(cubic), cubic, rtol=1e-13)

@@ -34,20 +34,30 @@ def elastic(pair, scene, element="P1", coast_flank=False):
     """Flank compliances of both gears by finite elements."""
     return tuple(
         flank_compliance(
-            gear, scene.gears.material, Discretisation(element, scene.accuracy.flank_element_size), Reach(5, (-5, 5) if coast_flank else None),
+            gear, scene.gears.material, Discretisation(element, scene.accuracy.flank_element_size),
+            Reach(5, (-5, 5) if coast_flank else None),
         )
         for gear in (pair.pinion, pair.wheel)
     )  # fmt: skip
 
 
 def approach(flanks, pairing, grid, phase, force, flank=DRIVE):
-    """Rotation of the wheel (mm on its base circle) under a force at a phase of the mesh, the pinion held; and the forces of contact."""
+    """Rotation of the wheel (mm on its base circle) under a force at a phase of the mesh, the pinion held; and the
+    forces of contact."""
     places = pair_places(flanks.pair, grid, phase % 1.0, coast_flanks=flank == COAST)
     pairs = tuple(tooth_pair(flanks, grid, place) for place in places if place.flank == flank)
     operator = contact_operator(flanks, pairing, pairs, coordinates=[5])
     load, free = np.array([force]), np.array([np.sign(force)])
     problem = StepProblem(
-        np.zeros((1, 1)), load, operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0, free, Tolerance.of_load(abs(force))
+        np.zeros((1, 1)),
+        load,
+        operator.compliance,
+        operator.jacobian,
+        operator.gap,
+        np.empty(0),
+        0.0,
+        free,
+        Tolerance.of_load(abs(force)),
     )
     solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
     return solution.coordinates[0], solution.forces
@@ -56,7 +66,8 @@ def approach(flanks, pairing, grid, phase, force, flank=DRIVE):
 @pytest.mark.parametrize("start", [1, 7, 23, 39])
 @pytest.mark.parametrize("make", [frictionless, lambda scene: scene], ids=["frictionless", "friction"])
 def test_any_start_angle(make, start, scene, measured):
-    """Quasi-static gears forget where they began: after two mesh cycles the same transmission error at the same angle."""
+    """Quasi-static gears forget where they began: after two mesh cycles the same transmission error at the same
+    angle."""
     scene = make(quasi_static(replace(scene, motion=replace(scene.motion, mesh_cycles=3, recorded_cycles=1))))
 
     def begun_later(model, progress, cache):
@@ -76,7 +87,8 @@ def test_any_start_angle(make, start, scene, measured):
 
 
 def test_finer_steps_stand_at_the_same_angles(scene, measured):
-    """Exact identity: without friction and inertia a position's answer does not know the steps between; every third of 120 is one of 40."""
+    """Exact identity: without friction and inertia a position's answer does not know the steps between; every third of
+    120 is one of 40."""
     scene = frictionless(teeth_alone(scene))
     fine = replace(scene, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=120))
     errors = [simulate(each).transmission_error.values for each in (scene, fine)]
@@ -106,9 +118,19 @@ def test_gears_swapped(element, relieved, scene, measured):
     assert max(changes) <= 1e-10
 
 
-@pytest.mark.parametrize("element", ["stand-in", "P1", "P2", *(pytest.param(name, marks=pytest.mark.nightly) for name in ("Q1", "Q1 incompatible")), "Q2"])
+@pytest.mark.parametrize(
+    "element",
+    [
+        "stand-in",
+        "P1",
+        "P2",
+        *(pytest.param(name, marks=pytest.mark.nightly) for name in ("Q1", "Q1 incompatible")),
+        "Q2",
+    ],
+)
 def test_mirrored_pair(element, scene, measured):
-    """Exact identity: mirrored at the line of centres the pair drives on its coast flanks; without backlash these stand as the drive
+    """Exact identity: mirrored at the line of centres the pair drives on its coast flanks; without backlash these stand
+    as the drive
     flanks do at another phase, and the wheel gives way as far the other way."""
     pair = gear_pair(scene.gears)
     pair = replace(pair, centre_distance=pair.centre_distance_without_backlash)

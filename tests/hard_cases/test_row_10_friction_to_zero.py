@@ -16,7 +16,8 @@ COEFFICIENTS = (1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
 
 @pytest.mark.parametrize("name", SCENES)
 def test_effect_of_friction_is_of_its_order(name, paper_scene, measured):
-    """Known order: the laws are piecewise linear in mu, so the difference over mu tends to a constant, until round-off."""
+    """Known order: the laws are piecewise linear in mu, so the difference over mu tends to a constant, until
+    round-off."""
     scene = SCENES[name](coarse_scene(paper_scene))
     plain = simulate(frictionless(scene)).transmission_error.values
     scale, rates = np.abs(plain).max(), []
@@ -44,7 +45,9 @@ def test_frictionless_scene_has_nothing_tangential(paper_scene, measured):
     surplus = max(len(operator.compliance) - operator.nodes for operator in operators)
     motion = np.abs(result.centre_y.values).max()
     tangential = [name for name in result.data_vars if "friction" in name or "traction" in name]
-    measured("without friction: tangential unknowns, motion off the line of action", f"{surplus}, {motion:.1g} mm", "0, 0")
+    measured(
+        "without friction: tangential unknowns, motion off the line of action", f"{surplus}, {motion:.1g} mm", "0, 0"
+    )
     assert surplus == 0
     assert all(operator.rigid_slip is None and operator.previous_compliance is None for operator in operators)
     assert all(len(operator.jacobian) == operator.nodes for operator in operators)

@@ -1,4 +1,5 @@
-"""Row 11: the r of the projections [24], [25] scaled by 1e-6 ... 1e6. It steers which sets are tried, never what a solution is."""
+"""Row 11: the r of the projections [24], [25] scaled by 1e-6 ... 1e6. It steers which sets are tried, never what a
+solution is."""
 
 import numpy as np
 import pytest
@@ -45,9 +46,15 @@ def test_random_steps_do_not_depend_on_r(scale, friction, measured):
         expected = solve_step(problem, all_open(problem))
         by_itself += run_newton(problem, all_open(problem), 40, r_scale=scale)[0][0] == CONVERGED
         found = scaled_step(problem, all_open(problem), scale)
-        worst = max(worst, float(np.abs(found.forces - expected.forces).max() / np.abs(expected.forces).max(initial=1.0)))
+        worst = max(
+            worst, float(np.abs(found.forces - expected.forces).max() / np.abs(expected.forces).max(initial=1.0))
+        )
     measured(f"r x {scale:g}, friction {friction:g}: difference of forces in {PROBLEMS} random steps", worst, "1e-9")
-    measured(f"r x {scale:g}, friction {friction:g}: solved without fallbacks", f"{by_itself} of {PROBLEMS}", "the others by a fallback")
+    measured(
+        f"r x {scale:g}, friction {friction:g}: solved without fallbacks",
+        f"{by_itself} of {PROBLEMS}",
+        "the others by a fallback",
+    )
     assert worst <= 1e-9
 
 
@@ -58,12 +65,20 @@ def test_the_paper_s_pair_does_not_depend_on_r(scale, paper_scene, paper_pair, s
     for kind in (MeshCycle, Scaled):
         cycle = kind(stand_in_flanks, ContactGrid(1.5, 20), 40, shafts.indices, tangential=True)
         cycle.scale = scale
-        marches.append(Marcher(cycle, EquationsOfMotion(shafts, 1.0 / (200.0 * 40), paper_scene.friction.coefficient)).run(40, 41))
+        marches.append(
+            Marcher(cycle, EquationsOfMotion(shafts, 1.0 / (200.0 * 40), paper_scene.friction.coefficient)).run(40, 41)
+        )
     pairs = list(zip(*(march.records for march in marches)))
     worst = max(np.abs(a.solution.forces - b.solution.forces).max() / np.abs(a.solution.forces).max() for a, b in pairs)
-    used = ", ".join(f"{count} by {rung}" for rung, count in marches[1].steps_by_method.items() if count and rung != NEWTON)
+    used = ", ".join(
+        f"{count} by {rung}" for rung, count in marches[1].steps_by_method.items() if count and rung != NEWTON
+    )
     # Newton solves the static start, three steps of its own, too.
     measured(f"r x {scale:g}, the paper's pair: difference of forces over 40 steps", worst, "1e-9")
-    measured(f"r x {scale:g}, the paper's pair: solved without fallbacks", f"{cycle.by_itself} of 43" + (f" ({used})" if used else ""), "the others by a fallback")
+    measured(
+        f"r x {scale:g}, the paper's pair: solved without fallbacks",
+        f"{cycle.by_itself} of 43" + (f" ({used})" if used else ""),
+        "the others by a fallback",
+    )
     assert worst <= 1e-9
     assert sum(marches[1].steps_by_method.values()) == 40

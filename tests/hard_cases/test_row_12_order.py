@@ -23,13 +23,20 @@ SCENES = {
 @pytest.mark.parametrize("seed", [1, 2])
 @pytest.mark.parametrize("name", SCENES)
 def test_order_of_contact_nodes_and_gears(name, seed, paper_scene, measured):
-    """Exact identity: a step's equations with contact nodes and both gears' coordinates shuffled have the same solution."""
+    """Exact identity: a step's equations with contact nodes and both gears' coordinates shuffled have the same
+    solution."""
     scene = SCENES[name](coarse_scene(paper_scene))
     plain, shuffled = simulate(scene), solved_in_other_order(scene, seed)
-    change = relative(shuffled.transmission_error.values - plain.transmission_error.values, plain.transmission_error.values)
+    change = relative(
+        shuffled.transmission_error.values - plain.transmission_error.values, plain.transmission_error.values
+    )
     pressures = [result.contact_pressure.fillna(0.0).values for result in (shuffled, plain)]
     pressure = relative(pressures[0] - pressures[1], pressures[1])
-    measured(f"contact nodes and gears shuffled, {name}: change of transmission error, of pressure", f"{change:.1g}, {pressure:.1g}", "1e-11")
+    measured(
+        f"contact nodes and gears shuffled, {name}: change of transmission error, of pressure",
+        f"{change:.1g}, {pressure:.1g}",
+        "1e-11",
+    )
     assert change <= 1e-11
     assert pressure <= 1e-11
 

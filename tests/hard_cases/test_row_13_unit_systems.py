@@ -71,7 +71,8 @@ def default_accuracy(scene):
 
 
 MAKERS = {
-    "quasi-static": quasi_static, "frictionless": frictionless, "all": lambda scene: scene, "default accuracy": default_accuracy
+    "quasi-static": quasi_static, "frictionless": frictionless, "all": lambda scene: scene,
+    "default accuracy": default_accuracy
 }  # fmt: skip
 
 
@@ -92,10 +93,15 @@ BY_NIGHT = [("default accuracy", "E x 1e6, forces with it"), ("default accuracy"
 
 
 @pytest.mark.parametrize(
-    ("maker", "system"), [pytest.param(*each, marks=[pytest.mark.nightly] if each in BY_NIGHT else []) for each in itertools.product(MAKERS, SYSTEMS)]
+    ("maker", "system"),
+    [
+        pytest.param(*each, marks=[pytest.mark.nightly] if each in BY_NIGHT else [])
+        for each in itertools.product(MAKERS, SYSTEMS)
+    ],
 )
 def test_units_scale_out(system, maker, usual, measured):
-    """Exact identity (dimensional analysis): angles and force ratios are the same in any units, and so is every iteration."""
+    """Exact identity (dimensional analysis): angles and force ratios are the same in any units, and so is every
+    iteration."""
     scene, here = usual(maker)
     length, force, time = SYSTEMS[system]
     there = simulate(in_units(scene, length, force, time))
@@ -112,7 +118,8 @@ def test_units_scale_out(system, maker, usual, measured):
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0 / 25.4, 1.0 / 3.0, 3.0, 7.0 / 3.0])
 def test_similar_gears_share_their_compliance(scale, paper_pair, paper_scene, tmp_path, monkeypatch, measured):
-    """Exact identity: in plane strain displacement per line force has no length in it; the similar gear is found in the cache."""
+    """Exact identity: in plane strain displacement per line force has no length in it; the similar gear is found in the
+    cache."""
     gear, material, cache = paper_pair.pinion, paper_scene.gears.material, Cache(tmp_path)
     lengths = ("module", "tip_radius", "root_radius", "bore_radius", "rack_tip_radius")
     similar = replace(gear, **{name: scale * getattr(gear, name) for name in lengths})

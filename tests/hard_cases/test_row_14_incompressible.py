@@ -23,7 +23,8 @@ SECOND_ORDER, FIRST_ORDER = ("P2", "Q2"), ("P1", "Q1")
 
 @pytest.mark.parametrize("name", SECOND_ORDER)
 def test_second_order_elements_are_right_in_a_thick_ring(name, measured):
-    """Exact solution (Lame): a ring pressed outwards at nu = 0.499, where nearly all resistance is against change of volume."""
+    """Exact solution (Lame): a ring pressed outwards at nu = 0.499, where nearly all resistance is against change of
+    volume."""
     error = error_under_pressure(name, 0.499)
     measured(f"thick ring under pressure, {name}: error", error, f"{TOLERANCE[name]:.1g}, (h/r)^4")
     assert error <= TOLERANCE[name]
@@ -43,7 +44,11 @@ def tooth_compliance(name: str, poissons_ratio: float) -> float:
     element = ELEMENTS[name]
     mesh = sector_mesh(PINION, element_sizes(PINION, element, 0.12), element.quadrilateral)
     sector = condensed_sector(mesh, element, poissons_ratio)
-    arc = 0.5 * PINION.base_radius * np.linspace(PINION.form_roll_angle**2, PINION.tip_roll_angle**2, len(sector.points["flank"]))
+    arc = (
+        0.5
+        * PINION.base_radius
+        * np.linspace(PINION.form_roll_angle**2, PINION.tip_roll_angle**2, len(sector.points["flank"]))
+    )
     share = np.ones(len(arc))
     if element.order == 2:
         share[1::2], share[2:-1:2] = 4.0, 2.0  # Simpson's rule
@@ -65,7 +70,8 @@ def test_tooth_of_a_nearly_incompressible_gear(measured):
 
 @pytest.mark.parametrize("name", ELEMENTS)
 def test_elements_that_lock_are_named(name, paper_scene, measured):
-    """From the task: a warning that names element, value and remedy, before the run and with the result; none for the others."""
+    """From the task: a warning that names element, value and remedy, before the run and with the result; none for the
+    others."""
     scene = frictionless(teeth_alone(coarse_scene(paper_scene)))
     gears = replace(scene.gears, material=replace(scene.gears.material, poissons_ratio=0.499))
     soft = replace(scene, gears=gears, accuracy=replace(scene.accuracy, element=name))

@@ -34,7 +34,9 @@ def test_any_torque_is_carried(absent, friction, torque, coarse, measured):
     scene = scene if friction else frictionless(scene)
     result = simulate(scene)
     difference = np.abs(result.reaction_couple.sel(gear="wheel").values + torque).max()
-    measured(f"torque {torque:g} N mm: largest spurious torque", difference, "1e-9 of the torque, at least 1e-9 N mm", "N mm")
+    measured(
+        f"torque {torque:g} N mm: largest spurious torque", difference, "1e-9 of the torque, at least 1e-9 N mm", "N mm"
+    )
     assert result.attrs["complete"]
     assert np.all(np.isfinite(result.transmission_error.values))
     # Without load the touching node's force is the round-off of zero, of either sign.
@@ -51,7 +53,8 @@ def test_no_load_no_force(coarse, measured):
 
 
 def test_contact_narrower_than_a_node_spacing_carries_the_load(coarse, measured):
-    """Exact identity: T = rb2 sum p with one closed node a pair or two; and the scene is told that it does not resolve contact."""
+    """Exact identity: T = rb2 sum p with one closed node a pair or two; and the scene is told that it does not resolve
+    contact."""
     scene = frictionless(teeth_alone(replace(coarse, load=replace(coarse.load, wheel_torque=10.0))))
     resolution, result = model_of(scene).resolution, simulate(scene)
     force = 10.0 / result.attrs["base_radius_wheel"]

@@ -1,4 +1,5 @@
-"""Row 17: torque reversal, undamped resonance, sudden release: the teeth part, fly free, cross the backlash, touch behind and come back."""
+"""Row 17: torque reversal, undamped resonance, sudden release: the teeth part, fly free, cross the backlash, touch
+behind and come back."""
 
 from dataclasses import replace
 
@@ -36,7 +37,8 @@ def backwards(scene):
 
 
 def with_torque(scene, part):
-    """The result of a scene whose load is multiplied by `part(step)` during the run; it starts in equilibrium under the whole load."""
+    """The result of a scene whose load is multiplied by `part(step)` during the run; it starts in equilibrium under the
+    whole load."""
     model = model_of(scene)
     _, cycle = prepared(model, SilentProgress(), user_cache())
     change = (lambda step: (part(step) - 1.0) * model.drivetrain.load,)
@@ -49,7 +51,8 @@ def with_torque(scene, part):
 def test_reversed_torque_is_the_mirror_image(both_flanks, paper_pair, absent, measured):
     """Symmetry: driven backwards the pair deflects as driven forwards, mirrored, after crossing the backlash.
 
-    Only to 0.5 %: displacements are small ones about the nominal position, from which the wheel is a backlash away: its tips pass
+    Only to 0.5 %: displacements are small ones about the nominal position, from which the wheel is a backlash away: its
+    tips pass
     0.1 mm beside where the model has them, 0.75 % of a base pitch.
     """
     scene = replace(quasi_static(both_flanks), accuracy=FINE, **dict.fromkeys(absent))
@@ -58,7 +61,12 @@ def test_reversed_torque_is_the_mirror_image(both_flanks, paper_pair, absent, me
     assert backward.coast_normal_force.values == pytest.approx(forward.normal_force.values, rel=1e-9)
     crossed = -backward.transmission_error.values - paper_pair.backlash / paper_pair.wheel.base_radius
     apart = [abs(of(crossed) / of(forward.transmission_error.values) - 1.0) for of in (np.mean, np.min, np.max)]
-    measured(f"static reversal, {'without shafts and bearings' if absent else 'with shafts and bearings'}: relative difference from the mirror image", max(apart), "5e-3")
+    measured(
+        f"static reversal, {'without shafts and bearings' if absent else 'with shafts and bearings'}: relative"
+        " difference from the mirror image",
+        max(apart),
+        "5e-3",
+    )
     assert max(apart) <= 5e-3
     assert backward.reaction_couple.sel(gear="wheel").values == pytest.approx(scene.load.wheel_torque, rel=1e-9)
     assert backward.coast_flank_opening.values.max() <= 1e-12
@@ -74,28 +82,42 @@ def test_reversed_torque_with_friction_balances(both_flanks, paper_scene, measur
     # Across the coast flanks' own line of action: the reaction's part that the normal force does not explain.
     force = np.hypot(result.reaction_x.sel(gear="pinion").values, result.reaction_y.sel(gear="pinion").values)
     ratio = (force / result.coast_normal_force.values).max()
-    measured("static reversal with friction: reaction / normal force, relative difference from sqrt(1 + mu^2)", ratio / np.hypot(1.0, 0.1) - 1.0, "1e-6")
+    measured(
+        "static reversal with friction: reaction / normal force, relative difference from sqrt(1 + mu^2)",
+        ratio / np.hypot(1.0, 0.1) - 1.0,
+        "1e-6",
+    )
     assert ratio == pytest.approx(np.hypot(1.0, 0.1), rel=1e-6)
 
 
 def test_coast_flanks_stand_a_backlash_apart(both_flanks, paper_pair, measured):
-    """Exact: with the centres fixed the openings of drive and coast flanks sum to the geometry's backlash. The contact nodes'
+    """Exact: with the centres fixed the openings of drive and coast flanks sum to the geometry's backlash. The contact
+    nodes'
     averages are exact for parabolas; what they add falls faster than the square of the node spacing."""
     scene, excess = replace(quasi_static(both_flanks), shafts=None, bearings=None), []
     compliances = gear_compliances(model_of(scene), SilentProgress(), user_cache())
     for nodes in (26, 51, 101):
         cycle = mesh_cycle(model_of(replace(scene, accuracy=replace(COARSE, contact_nodes=nodes))), compliances)
         operators = [cycle.position(step).operator for step in range(20)]
-        sums = [sum(operator.gap[operator.on_drive_flanks == drive].min() for drive in (True, False)) for operator in operators]
+        sums = [
+            sum(operator.gap[operator.on_drive_flanks == drive].min() for drive in (True, False))
+            for operator in operators
+        ]
         excess.append(np.mean(sums) - paper_pair.backlash)
     order = 0.5 * np.log2(abs(excess[0] / excess[-1]))
-    measured("gaps of drive and coast flanks minus backlash, contact nodes 0.12 mm apart", excess[0] * 1e3, "above order 2", "um")
+    measured(
+        "gaps of drive and coast flanks minus backlash, contact nodes 0.12 mm apart",
+        excess[0] * 1e3,
+        "above order 2",
+        "um",
+    )
     measured("order of this difference in the node spacing", order, "above 2")
     assert order > 2.0 and abs(excess[-1]) < 1e-4 * paper_pair.backlash
 
 
 def test_torque_reversed_and_turned_back_while_running(both_flanks, measured):
-    """Uniqueness of the damped periodic motion: once the transient has died the pair moves as one that always had that torque."""
+    """Uniqueness of the damped periodic motion: once the transient has died the pair moves as one that always had that
+    torque."""
     scene = replace(both_flanks, motion=Motion(200.0, 26, 26))
     result = with_torque(scene, lambda step: -1.0 if 80 < step <= 560 else 1.0)
     error = result.transmission_error.values
@@ -103,7 +125,11 @@ def test_torque_reversed_and_turned_back_while_running(both_flanks, measured):
     for name, run, last in (("forwards", scene, 1040), ("backwards", backwards(scene), 560)):
         always = shown(simulate(replace(run, motion=Motion(200.0, 12, 1)))).transmission_error.values
         settled[name] = np.abs(error[last - 40 : last + 1] - always).max() / np.abs(always).max()
-        measured(f"reversal while running, settled {name}: relative difference from a run without reversal", settled[name], "1e-4")
+        measured(
+            f"reversal while running, settled {name}: relative difference from a run without reversal",
+            settled[name],
+            "1e-4",
+        )
     assert max(settled.values()) <= 1e-4
     driving, coasting = result.normal_force.values > 0.0, result.coast_normal_force.values > 0.0
     free = ~driving & ~coasting
@@ -116,7 +142,8 @@ def test_torque_reversed_and_turned_back_while_running(both_flanks, measured):
 
 
 def test_sudden_release_flies_to_the_coast_flanks_and_comes_back(both_flanks, paper_pair, measured):
-    """Newton's first law: released, with rigid shafts and bearings and no damping, the wheel crosses the backlash at constant speed, and
+    """Newton's first law: released, with rigid shafts and bearings and no damping, the wheel crosses the backlash at
+    constant speed, and
     between the flanks its energy stays what the teeth gave it."""
     scene = replace(both_flanks, damping=None, bearings=None, shafts=None, accuracy=FINE, motion=Motion(200.0, 12, 12))
     result = with_torque(scene, lambda step: 0.0 if step > 20 else 1.0)
@@ -124,12 +151,16 @@ def test_sudden_release_flies_to_the_coast_flanks_and_comes_back(both_flanks, pa
     free = ~driving & ~coasting
     assert not np.any(driving & coasting)
     touches = [flank for before, now, flank in _touches(driving, coasting)]
-    assert {"drive", "coast"} <= set(touches) and touches.index("coast") < len(touches) - 1 - touches[::-1].index("drive")
+    assert {"drive", "coast"} <= set(touches) and touches.index("coast") < len(touches) - 1 - touches[::-1].index(
+        "drive"
+    )
     place = result.rotation.sel(gear="wheel").values * paper_pair.wheel.base_radius
     inside = free[:-2] & free[1:-1] & free[2:] & (np.arange(len(free) - 2) > 20)
     bend = np.abs(np.diff(place, 2))[inside].max() / np.ptp(place)
     measured("sudden release: change of the motion per step in flight / motion per step", bend, "1e-12")
-    openings = (result.drive_flank_opening.values + result.coast_flank_opening.values)[free & (np.arange(len(free)) > 20)]
+    openings = (result.drive_flank_opening.values + result.coast_flank_opening.values)[
+        free & (np.arange(len(free)) > 20)
+    ]
     apart = np.abs(openings / paper_pair.backlash - 1.0).max()
     measured("sudden release: gaps of both flanks in flight / backlash - 1", apart, "0.01")
     assert bend <= 1e-12
@@ -145,9 +176,13 @@ def _touches(driving, coasting):
     return sorted(found)
 
 
-def test_flight_of_the_whole_drivetrain_follows_the_matrix_exponential(paper_scene, paper_pair, stand_in_flanks, measured):
-    """Exact solution: released, the teeth part, and from then on springs, dampers and masses move as the exponential of their linear
-    system; average acceleration approaches it with order 2, and is itself, step by step, that of the drivetrain without gears."""
+def test_flight_of_the_whole_drivetrain_follows_the_matrix_exponential(
+    paper_scene, paper_pair, stand_in_flanks, measured
+):
+    """Exact solution: released, the teeth part, and from then on springs, dampers and masses move as the exponential of
+    their linear
+    system; average acceleration approaches it with order 2, and is itself, step by step, that of the drivetrain without
+    gears."""
     scene, errors = frictionless(paper_scene), []
     for count in (100, 200, 400):
         step = 2e-3 / count
@@ -178,8 +213,10 @@ def test_flight_of_the_whole_drivetrain_follows_the_matrix_exponential(paper_sce
 
 
 def test_undamped_resonance_crosses_the_backlash_and_comes_back(both_flanks, paper_pair, measured):
-    """Claim 10 and what the paper's model lacks: undamped at resonance the teeth part, cross the backlash, touch on the coast flanks and
-    return, again and again; in free flight, centres fixed, both openings sum to the backlash but for the hat average."""
+    """Claim 10 and what the paper's model lacks: undamped at resonance the teeth part, cross the backlash, touch on the
+    coast flanks and
+    return, again and again; in free flight, centres fixed, both openings sum to the backlash but for the hat
+    average."""
     fine = replace(COARSE, steps_per_mesh_cycle=160)
     result = simulate(replace(both_flanks, damping=None, bearings=None, accuracy=fine, motion=Motion(270.0, 40, 40)))
     driving, coasting = result.normal_force.values > 0.0, result.coast_normal_force.values > 0.0
@@ -188,8 +225,14 @@ def test_undamped_resonance_crosses_the_backlash_and_comes_back(both_flanks, pap
     returns = sum(before == "coast" and after == "drive" for before, after in zip(order[:-1], order[1:]))
     openings = (result.drive_flank_opening.values + result.coast_flank_opening.values)[free]
     measured("undamped resonance: returns from the coast flanks in 40 mesh cycles", returns, "1 or more")
-    measured("undamped resonance: gaps of both flanks in flight / backlash - 1", np.abs(openings / paper_pair.backlash - 1.0).max(), "0.01")
-    measured("undamped resonance: share of the time without drive contact", result.attrs["contact_loss_share"], "reported")
+    measured(
+        "undamped resonance: gaps of both flanks in flight / backlash - 1",
+        np.abs(openings / paper_pair.backlash - 1.0).max(),
+        "0.01",
+    )
+    measured(
+        "undamped resonance: share of the time without drive contact", result.attrs["contact_loss_share"], "reported"
+    )
     assert returns >= 1 and not np.any(driving & coasting)
     assert openings == pytest.approx(paper_pair.backlash, rel=0.01)
     assert "lose contact" in result.attrs["warnings"] and "no meaning" not in result.attrs["warnings"]

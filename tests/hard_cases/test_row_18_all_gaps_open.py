@@ -1,4 +1,5 @@
-"""Row 18: no flank touches. With inertia the gears fly free; without, the error says which load is not held and which motion is free."""
+"""Row 18: no flank touches. With inertia the gears fly free; without, the error says which load is not held and which
+motion is free."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -33,12 +34,15 @@ def test_a_step_without_contact_is_the_drivetrain_alone(friction, measured):
 
 def thrown_apart(start, position, velocity, acceleration):
     """A record with every gap open and nothing touching."""
-    nothing = replace(start.solution, status=np.zeros_like(start.solution.status), forces=np.zeros_like(start.solution.forces))
+    nothing = replace(
+        start.solution, status=np.zeros_like(start.solution.status), forces=np.zeros_like(start.solution.forces)
+    )
     return Record(0, State(position, velocity, acceleration), start.position, nothing)
 
 
 def test_free_flight_is_exact(paper_scene, paper_pair, stand_in_flanks, measured):
-    """Exact: thrown apart, without springs or damping, the wheel flies at constant acceleration C/J and no force acts."""
+    """Exact: thrown apart, without springs or damping, the wheel flies at constant acceleration C/J and no force
+    acts."""
     scene = replace(paper_scene, friction=None, damping=None, shafts=None, bearings=None)
     marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-5)
     start = marcher.start()
@@ -51,14 +55,19 @@ def test_free_flight_is_exact(paper_scene, paper_pair, stand_in_flanks, measured
         forces = max(forces, float(np.abs(record.solution.forces).max()))
     exact = thrown - 50.0 * 1e-3 + 0.5 * free * 1e-3**2
     error = abs(record.state.position[0] - exact) / abs(exact)
-    measured("free flight of the wheel, 100 steps: relative difference from rotation at the acceleration torque / J", error, "1e-11")
+    measured(
+        "free flight of the wheel, 100 steps: relative difference from rotation at the acceleration torque / J",
+        error,
+        "1e-11",
+    )
     measured("largest contact force in flight", forces, "0", "N")
     assert forces == 0.0
     assert error <= 1e-11
 
 
 def test_free_flight_of_the_whole_drivetrain(paper_scene, paper_pair, stand_in_flanks, measured):
-    """Exact identity: apart, with friction, springs and damping in the scene, each step is that of the drivetrain without any gears."""
+    """Exact identity: apart, with friction, springs and damping in the scene, each step is that of the drivetrain
+    without any gears."""
     marcher, shafts = frozen_marcher(paper_scene, paper_pair, stand_in_flanks, 1e-5)
     start = marcher.start()
     away = np.zeros(len(shafts.coordinates))
@@ -70,7 +79,9 @@ def test_free_flight_of_the_whole_drivetrain(paper_scene, paper_pair, stand_in_f
         state = scheme.advance(state, np.linalg.solve(scheme.stiffness, scheme.load(state, shafts.load)))
         assert np.all(record.solution.forces == 0.0)
         worst = max(worst, float(np.abs(record.state.position - state.position).max() / np.abs(state.position).max()))
-    measured("flight of the drivetrain, 100 steps: relative difference from the drivetrain without gears", worst, "1e-11")
+    measured(
+        "flight of the drivetrain, 100 steps: relative difference from the drivetrain without gears", worst, "1e-11"
+    )
     assert worst <= 1e-11
 
 
@@ -79,8 +90,11 @@ ABSENT = [(), ("bearings",), ("shafts",), ("shafts", "bearings")]
 
 @pytest.mark.parametrize("frictional", [False, True], ids=["frictionless", "friction"])
 @pytest.mark.parametrize("absent", ABSENT, ids=["all"] + ["without " + " and ".join(names) for names in ABSENT[1:]])
-def test_a_static_load_that_opens_all_gaps_is_named(absent, frictional, paper_scene, paper_pair, stand_in_flanks, measured):
-    """Message: the other way round, without coast flanks, the couple opens every gap; whatever else gives way, it turns the wheel."""
+def test_a_static_load_that_opens_all_gaps_is_named(
+    absent, frictional, paper_scene, paper_pair, stand_in_flanks, measured
+):
+    """Message: the other way round, without coast flanks, the couple opens every gap; whatever else gives way, it turns
+    the wheel."""
     scene = replace(paper_scene, inertia=None, damping=None, **dict.fromkeys(absent))
     scene = scene if frictional else replace(scene, friction=None)
     scene = replace(scene, load=replace(scene.load, wheel_torque=-scene.load.wheel_torque))
@@ -89,7 +103,9 @@ def test_a_static_load_that_opens_all_gaps_is_named(absent, frictional, paper_sc
     marcher = Marcher(cycle, EquationsOfMotion(shafts, 1e-4, scene.friction.coefficient if frictional else 0.0))
     with pytest.raises(NoStaticEquilibrium) as failure:
         marcher.run(1, 2)
-    measured(f"error, {'friction' if frictional else 'frictionless'}", failure.value.reason, "names load and free motion")
+    measured(
+        f"error, {'friction' if frictional else 'frictionless'}", failure.value.reason, "names load and free motion"
+    )
     assert failure.value.reason.startswith("no equilibrium")
     assert "all gaps open" in failure.value.reason
     assert failure.value.reason.endswith("the wheel turns freely under its torque of -437 N m")

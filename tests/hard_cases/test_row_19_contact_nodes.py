@@ -38,7 +38,8 @@ def flanks(model):
 def pressed(operator, force):
     """Only the wheel turns, under `force` (N)."""
     problem = StepProblem(
-        np.zeros((1, 1)), np.array([force]), operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0, np.ones(1),
+        np.zeros((1, 1)), np.array([force]), operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0,
+        np.ones(1),
         Tolerance.of_load(force),
     )  # fmt: skip
     return solve_step(problem, cold_start(operator.gap, operator.node_pair))
@@ -61,7 +62,10 @@ def test_one_contact_node(model, flanks, measured):
     pair, force = flanks.pair, model.drivetrain.load[-1]
     place = drive_place(pair, 0, pair.pitch_point)
     operator = contact_operator(
-        flanks, CompliancePairing(flanks), (tooth_pair(flanks, model.resolution.contact_grid, place),), coordinates=ROTATION_2
+        flanks,
+        CompliancePairing(flanks),
+        (tooth_pair(flanks, model.resolution.contact_grid, place),),
+        coordinates=ROTATION_2,
     )
     errors = []
     for node in (0, operator.nodes // 2, operator.nodes - 1):
@@ -74,11 +78,13 @@ def test_one_contact_node(model, flanks, measured):
 
 
 def test_coincident_contact_nodes_share_alike(model, flanks, measured):
-    """Exact by symmetry: the same nodes twice carry half each, together what they carry once; the lost rank is counted."""
+    """Exact by symmetry: the same nodes twice carry half each, together what they carry once; the lost rank is
+    counted."""
     pair, force = flanks.pair, model.drivetrain.load[-1]
     nodes = tooth_pair(flanks, model.resolution.contact_grid, drive_place(pair, 0, pair.pitch_point))
     once, twice = (
-        contact_operator(flanks, CompliancePairing(flanks), pairs, coordinates=ROTATION_2) for pairs in ((nodes,), (nodes, nodes))
+        contact_operator(flanks, CompliancePairing(flanks), pairs, coordinates=ROTATION_2)
+        for pairs in ((nodes,), (nodes, nodes))
     )
     first, second = pressed(once, force), pressed(twice, force)
     half = second.forces.reshape(2, -1)
@@ -86,7 +92,11 @@ def test_coincident_contact_nodes_share_alike(model, flanks, measured):
     together = np.abs(half.sum(axis=0) - first.forces).max() / first.forces.max()
     approach = abs(second.coordinates[0] / first.coordinates[0] - 1.0)
     measured("coincident nodes: relative difference of their forces", split, "1e-10")
-    measured("coincident nodes: difference of force and of approach from single nodes", f"{together:.1g}, {approach:.1g}", "1e-3, 1e-4")
+    measured(
+        "coincident nodes: difference of force and of approach from single nodes",
+        f"{together:.1g}, {approach:.1g}",
+        "1e-3, 1e-4",
+    )
     measured("coincident nodes: dependent equations counted", float(twice.dependent_rows), f"{once.nodes}")
     assert (once.dependent_rows, twice.dependent_rows) == (0, once.nodes)
     assert split <= 1e-10
@@ -96,14 +106,16 @@ def test_coincident_contact_nodes_share_alike(model, flanks, measured):
 
 @pytest.mark.parametrize(("element", "nodes"), [("P1", 101), ("P1", 201), ("P2", 101), ("P2", 201)])
 def test_nodes_closer_than_elements_are_reported(element, nodes, scene, model, measured):
-    """From the task: rank checked, never silent. The force is carried to round-off; what becomes of the transmission error is on record."""
+    """From the task: rank checked, never silent. The force is carried to round-off; what becomes of the transmission
+    error is on record."""
     dense = replace(scene, accuracy=replace(scene.accuracy, element=element, contact_nodes=nodes))
     usual, result = simulate(replace(scene, accuracy=replace(scene.accuracy, element=element))), simulate(dense)
     force = scene.load.wheel_torque / result.attrs["base_radius_wheel"]
     carried = np.abs(result.normal_force.values / force - 1.0).max()
     change = np.abs(result.transmission_error.values / usual.transmission_error.values - 1.0).max()
     spacing = dense.accuracy.contact_length / (nodes - 1) / dense.accuracy.flank_element_size
-    measured(f"{element}, node spacing {spacing:.3g} of an element: error of the total force, change of the transmission error", f"{carried:.1g}, {change:.1g}",
+    measured(f"{element}, node spacing {spacing:.3g} of an element: error of the total force, change of the "
+        f"transmission error", f"{carried:.1g}, {change:.1g}",
              "1e-11, recorded; warnings on rank and spacing")  # fmt: skip
     assert carried <= 1e-11
     assert "contact compliance is singular" in result.attrs["warnings"]
@@ -112,7 +124,8 @@ def test_nodes_closer_than_elements_are_reported(element, nodes, scene, model, m
 
 
 def test_rank_is_that_of_the_elements(flanks, measured):
-    """Brute force: the rank by Cholesky is the number of singular values above round-off, for grids from coarse to far too fine."""
+    """Brute force: the rank by Cholesky is the number of singular values above round-off, for grids from coarse to far
+    too fine."""
     pair, differing = flanks.pair, 0
     for nodes in (26, 51, 101, 151, 201):
         contact_nodes = tooth_pair(flanks, ContactGrid(3.0, nodes), drive_place(pair, 0, pair.pitch_point))

@@ -1,4 +1,5 @@
-"""Row 20: friction of 0.3 to 2 on the paper's pair, with inertia and without: it converges, or says what friction does."""
+"""Row 20: friction of 0.3 to 2 on the paper's pair, with inertia and without: it converges, or says what friction
+does."""
 
 from dataclasses import replace
 
@@ -56,7 +57,8 @@ def rungs_of(result):
 
 
 def locks_from(pair):
-    """Friction at the first point of the path of contact outweighs the normal force on the wheel from this coefficient on."""
+    """Friction at the first point of the path of contact outweighs the normal force on the wheel from this coefficient
+    on."""
     return pair.wheel.base_radius / (pair.line_of_action_length - pair.path_start)
 
 
@@ -64,14 +66,22 @@ def locks_from(pair):
 @pytest.mark.parametrize("dynamic", DYNAMIC)
 @pytest.mark.parametrize("friction", [0.3, pytest.param(0.6, marks=pytest.mark.nightly), 1.0, 2.0])
 def test_strong_friction_converges_or_says_why(friction, dynamic, absent, coarse, paper_pair, measured):
-    """Authority: Coulomb's law at every step from the equations, and the moment balance of the wheel: normal force and friction have
-    the lever arms rb2 and L - x, so that friction can lock from mu = rb2/(L - x) on (1.65 at the start of contact), and not below."""
+    """Authority: Coulomb's law at every step from the equations, and the moment balance of the wheel: normal force and
+    friction have
+    the lever arms rb2 and L - x, so that friction can lock from mu = rb2/(L - x) on (1.65 at the start of contact), and
+    not below."""
     run = marched(with_friction(DYNAMIC[dynamic](coarse), friction, absent))
     (said, converged, rungs), worst = outcome(run), worst_of(run)
     case = f"mu = {friction:g}, {dynamic}, {'all springs' if not absent else 'without ' + ' and '.join(absent)}"
     fallbacks = ", ".join(f"{count} by {method}" for method, count in rungs.items() if method != "newton")
     causes = "; ".join(each.partition(":")[0] for each in said.split("; ") if ":" in each)
-    measured(case, ("converges" if converged else "error") + (f" ({fallbacks})" if fallbacks else "") + (f"; {causes}" if causes else ""), "converges, or names the cause")
+    measured(
+        case,
+        ("converges" if converged else "error")
+        + (f" ({fallbacks})" if fallbacks else "")
+        + (f"; {causes}" if causes else ""),
+        "converges, or names the cause",
+    )
     for name, (words, limit, unit) in LIMITS.items():
         measured(f"mu = {friction:g}: {words}", worst[name], f"{limit:g} {unit}".rstrip(), unit)
         assert worst[name] <= limit, name
@@ -83,14 +93,24 @@ def test_strong_friction_converges_or_says_why(friction, dynamic, absent, coarse
 
 @pytest.mark.parametrize("dynamic", DYNAMIC)
 def test_locking_begins_where_the_lever_arms_say(dynamic, coarse, paper_pair, measured):
-    """Exact: rb2/(L - x) at the first point where the teeth touch; just below nothing locks, well above something does."""
+    """Exact: rb2/(L - x) at the first point where the teeth touch; just below nothing locks, well above something
+    does."""
     limit = locks_from(paper_pair)
     below, above = (
-        outcome(marched(with_friction(DYNAMIC[dynamic](coarse), factor * limit, ("shafts", "bearings"))))[0] for factor in (0.98, 1.15)
+        outcome(marched(with_friction(DYNAMIC[dynamic](coarse), factor * limit, ("shafts", "bearings"))))[0]
+        for factor in (0.98, 1.15)
     )
     measured(f"{dynamic}: friction coefficient above which the paper's pair can lock", limit, "rb2/(L - x)")
-    measured(f"{dynamic}: 2 % below this coefficient", "self-locking" if "self-locking" in below else "no self-locking", "no self-locking")
-    measured(f"{dynamic}: 15 % above this coefficient", "self-locking" if "self-locking" in above else "no self-locking", "self-locking")
+    measured(
+        f"{dynamic}: 2 % below this coefficient",
+        "self-locking" if "self-locking" in below else "no self-locking",
+        "no self-locking",
+    )
+    measured(
+        f"{dynamic}: 15 % above this coefficient",
+        "self-locking" if "self-locking" in above else "no self-locking",
+        "self-locking",
+    )
     assert "self-locking" not in below
     assert "self-locking" in above
 

@@ -1,4 +1,5 @@
-"""Row 21: a step that lands on the pitch point, exactly or 1e-12 mm beside it. There rigid slip vanishes and friction turns its sign."""
+"""Row 21: a step that lands on the pitch point, exactly or 1e-12 mm beside it. There rigid slip vanishes and friction
+turns its sign."""
 
 import itertools
 from dataclasses import replace
@@ -14,7 +15,8 @@ from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.model.drivetrain import drivetrain
 
 BESIDE = (0.0, 1e-12, -1e-12)
-# Before the pitch point, and after it until all nodes slip again; short enough that one step's slip is less than the teeth give way.
+# Before the pitch point, and after it until all nodes slip again; short enough that one step's slip is less than the
+# teeth give way.
 AT, AFTER, FINE = 10, 60, 400
 
 
@@ -36,7 +38,9 @@ def past_the_pitch_point(scene, pair, flanks, beside, steps):
     shafts = drivetrain(scene, pair)
     cycle = Shifted(flanks, ContactGrid(1.5, 20), steps, shafts.indices, tangential=True)
     cycle.beside = beside
-    return Marcher(cycle, EquationsOfMotion(shafts, 1.0 / (200.0 * steps), scene.friction.coefficient)).run(AT + AFTER, AT + AFTER + 1)
+    return Marcher(cycle, EquationsOfMotion(shafts, 1.0 / (200.0 * steps), scene.friction.coefficient)).run(
+        AT + AFTER, AT + AFTER + 1
+    )
 
 
 def on_line(record):
@@ -47,14 +51,23 @@ def on_line(record):
 
 @pytest.mark.parametrize("friction", [0.1, 0.3])
 @pytest.mark.parametrize("changes", [{}, {"inertia": None, "damping": None}], ids=["dynamic", "quasi-static"])
-@pytest.mark.parametrize("absent", [pytest.param((), id="elastic shafts"), pytest.param(("shafts", "bearings"), id="rigid shafts", marks=pytest.mark.nightly)])
+@pytest.mark.parametrize(
+    "absent",
+    [
+        pytest.param((), id="elastic shafts"),
+        pytest.param(("shafts", "bearings"), id="rigid shafts", marks=pytest.mark.nightly),
+    ],
+)
 def test_friction_turns_through_stick(absent, changes, friction, paper_scene, paper_pair, stand_in_flanks, measured):
-    """Known course: the nodes slip backward, stick, slip forward; none turns from one slip to the other without sticking between.
+    """Known course: the nodes slip backward, stick, slip forward; none turns from one slip to the other without
+    sticking between.
 
-    With mu = 0.1 no node that slips forward turns back. With 0.3 friction moves the gears enough to turn some nodes to and fro.
-    No step fails, 1e-12 mm change nothing, and friction is full on either side, against the slip.
+    With mu = 0.1 no node that slips forward turns back. With 0.3 friction moves the gears enough to turn some nodes to
+    and fro. No step fails, 1e-12 mm change nothing, and friction is full on either side, against the slip.
     """
-    scene = replace(paper_scene, friction=replace(paper_scene.friction, coefficient=friction), **changes, **dict.fromkeys(absent))
+    scene = replace(
+        paper_scene, friction=replace(paper_scene.friction, coefficient=friction), **changes, **dict.fromkeys(absent)
+    )
     marches = [past_the_pitch_point(scene, paper_pair, stand_in_flanks, beside, FINE) for beside in BESIDE]
     courses, forces = set(), []
     for march in marches:
@@ -67,12 +80,21 @@ def test_friction_turns_through_stick(absent, changes, friction, paper_scene, pa
     difference = max(np.abs(other - forces[0]).max() for other in forces[1:]) / np.abs(forces[0]).max()
     case = f"mu = {friction:g}"
     methods = ", ".join(f"{count} by {method}" for method, count in marches[0].steps_by_method.items() if count)
-    measured(f"{case}: smallest nominal slip of a node in the step on the pitch point", on_line(marches[0].records[AT]), "recorded", "mm")
+    measured(
+        f"{case}: smallest nominal slip of a node in the step on the pitch point",
+        on_line(marches[0].records[AT]),
+        "recorded",
+        "mm",
+    )
     measured(f"{case}: steps solved", methods, "none fails")
     measured(f"{case}: change of forces with the step 1e-12 mm beside / largest force", difference, "1e-9")
     measured(f"{case}: friction force before and after", f"{total[0]:.0f} N, {total[-1]:.0f} N", "changes its sign")
     touching, turns = courses - {(OPEN,)}, {turn for course in courses for turn in itertools.pairwise(course)}
-    measured(f"{case}: different sequences of slip and stick of the nodes", f"{len(touching)}", "never from slip to opposite slip")
+    measured(
+        f"{case}: different sequences of slip and stick of the nodes",
+        f"{len(touching)}",
+        "never from slip to opposite slip",
+    )
     assert (SLIP_BACKWARD, SLIP_FORWARD) not in turns and (SLIP_FORWARD, SLIP_BACKWARD) not in turns
     assert (SLIP_BACKWARD, STICK, SLIP_FORWARD) in touching
     assert friction > 0.1 or (SLIP_FORWARD, STICK) not in turns
@@ -85,7 +107,10 @@ def test_friction_turns_through_stick(absent, changes, friction, paper_scene, pa
 @pytest.mark.parametrize("changes", [{}, {"inertia": None, "damping": None}], ids=["dynamic", "quasi-static"])
 def test_no_step_fails_at_the_pitch_point(changes, steps, paper_scene, paper_pair, stand_in_flanks, measured):
     """Any length of step: slip may turn within one. No step fails, and 1e-12 mm change nothing."""
-    marches = [past_the_pitch_point(replace(paper_scene, **changes), paper_pair, stand_in_flanks, beside, steps) for beside in BESIDE]
+    marches = [
+        past_the_pitch_point(replace(paper_scene, **changes), paper_pair, stand_in_flanks, beside, steps)
+        for beside in BESIDE
+    ]
     last = [march.records[-1].state.position for march in marches]
     difference = max(np.abs(other - last[0]).max() for other in last[1:]) / np.abs(last[0]).max()
     case = f"{'quasi-static' if changes else 'dynamic'}, {steps} steps per mesh cycle"

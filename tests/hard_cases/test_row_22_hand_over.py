@@ -31,19 +31,33 @@ def largest_step(scene, steps, size=0.12):
 
 @pytest.mark.parametrize("kind", ["teeth alone", "paper's drivetrain", "with friction"])
 def test_transmission_error_is_continuous_in_time(coarse, kind, measured):
-    """Continuity: the largest change from step to step is that of a finite slope; it halves with the step, hand-over included."""
-    scene = {"teeth alone": teeth_alone(frictionless(coarse)), "paper's drivetrain": quasi_static(frictionless(coarse)), "with friction": quasi_static(coarse)}[kind]
+    """Continuity: the largest change from step to step is that of a finite slope; it halves with the step, hand-over
+    included."""
+    scene = {
+        "teeth alone": teeth_alone(frictionless(coarse)),
+        "paper's drivetrain": quasi_static(frictionless(coarse)),
+        "with friction": quasi_static(coarse),
+    }[kind]
     changes = [largest_step(scene, steps) for steps in (60, 120, 240)]
     orders = np.log2(np.array(changes[:-1]) / changes[1:])
-    measured(f"{kind}: largest change of the transmission error in 1/240 mesh cycle / peak-to-peak value", changes[-1], "proportional to the step")
+    measured(
+        f"{kind}: largest change of the transmission error in 1/240 mesh cycle / peak-to-peak value",
+        changes[-1],
+        "proportional to the step",
+    )
     measured(f"{kind}: order of this change in the step", orders[-1], "1 +- 0.2")
     assert orders[-1] == pytest.approx(1.0, abs=0.2)
 
 
 def test_transmission_error_stays_continuous_as_the_mesh_is_refined(coarse, measured):
-    """Continuity as h goes to 0: the steepest slope does not grow with refinement, as that of a jump in the making would (as 1/h)."""
+    """Continuity as h goes to 0: the steepest slope does not grow with refinement, as that of a jump in the making
+    would (as 1/h)."""
     slopes = [100 * largest_step(teeth_alone(frictionless(coarse)), 100, size) for size in (0.16, 0.08, 0.04)]
-    measured("steepest slope, in peak-to-peak values per mesh cycle, with elements of 0.16, 0.08, 0.04 mm", ", ".join(f"{slope:.3g}" for slope in slopes), "bounded")
+    measured(
+        "steepest slope, in peak-to-peak values per mesh cycle, with elements of 0.16, 0.08, 0.04 mm",
+        ", ".join(f"{slope:.3g}" for slope in slopes),
+        "bounded",
+    )
     assert slopes[2] <= 1.25 * slopes[0]
 
 
@@ -57,14 +71,27 @@ def at_the_edge(scene, size):
 
 
 def test_pressure_at_a_sharp_edge_grows_without_bound_and_is_flagged(coarse, measured):
-    """Elasticity: a stress singularity at the corner; the nodal pressure grows with every refinement, the transmission error converges."""
+    """Elasticity: a stress singularity at the corner; the nodal pressure grows with every refinement, the transmission
+    error converges."""
     found = [at_the_edge(teeth_alone(frictionless(coarse)), size) for size in (0.16, 0.08, 0.04)]
     pressures, errors = np.array([each[0] for each in found]), np.array([each[1] for each in found])
-    measured("pressure on the pinion's tip edge with elements of 0.16, 0.08, 0.04 mm", ", ".join(f"{p:.0f}" for p in pressures), "grows: no limit", "MPa")
-    measured("relative change of the mean transmission error at the last halving", abs(errors[2] / errors[1] - 1.0), "smaller than at the halving before")
+    measured(
+        "pressure on the pinion's tip edge with elements of 0.16, 0.08, 0.04 mm",
+        ", ".join(f"{p:.0f}" for p in pressures),
+        "grows: no limit",
+        "MPa",
+    )
+    measured(
+        "relative change of the mean transmission error at the last halving",
+        abs(errors[2] / errors[1] - 1.0),
+        "smaller than at the halving before",
+    )
     assert np.all(np.diff(pressures) > 0.0)
     assert abs(errors[2] - errors[1]) < abs(errors[1] - errors[0])
-    assert all("sharp edge of the pinion's and the wheel's tip" in said and "does not converge with the mesh" in said for *_, said in found)
+    assert all(
+        "sharp edge of the pinion's and the wheel's tip" in said and "does not converge with the mesh" in said
+        for *_, said in found
+    )
 
 
 def test_relieved_tips_carry_nothing_on_their_edges_and_are_not_flagged(coarse, measured):

@@ -1,4 +1,5 @@
-"""Row 23: mesh frequencies from 0.01 Hz to 20 kHz, from quasi-static to the rigid mean motion, and no failed step between."""
+"""Row 23: mesh frequencies from 0.01 Hz to 20 kHz, from quasi-static to the rigid mean motion, and no failed step
+between."""
 
 from dataclasses import replace
 
@@ -32,7 +33,8 @@ def at(scene, mesh_frequency, cycles=CYCLES):
 
 
 def difference(scene, mesh_frequency):
-    """Root of the mean square over each cycle of the difference to the quasi-static transmission error, in parts of its mean."""
+    """Root of the mean square over each cycle of the difference to the quasi-static transmission error, in parts of its
+    mean."""
     dynamic = simulate(at(scene, mesh_frequency)).transmission_error.values
     static = simulate(at(quasi_static(scene), mesh_frequency)).transmission_error.values
     apart = (dynamic - static)[1:].reshape(CYCLES, -1)
@@ -42,12 +44,17 @@ def difference(scene, mesh_frequency):
 @pytest.mark.parametrize("damping", ["damped", "undamped"])
 @pytest.mark.parametrize("friction", ["friction", "frictionless"])
 def test_low_end_is_quasi_static_and_does_not_ring(coarse, friction, damping, measured):
-    """Limit: as the mesh frequency falls inertia and damping vanish. What the start or a kink left to ring would grow from cycle to cycle."""
+    """Limit: as the mesh frequency falls inertia and damping vanish. What the start or a kink left to ring would grow
+    from cycle to cycle."""
     scene = coarse if friction == "friction" else frictionless(coarse)
     scene = scene if damping == "damped" else replace(scene, damping=None)
     cycles = difference(scene, 0.01)
     measured(f"0.01 Hz, {friction}, {damping}: relative difference from quasi-static", cycles.max(), "1e-6")
-    measured(f"0.01 Hz, {friction}, {damping}: relative growth of this difference from first to third mesh cycle", cycles[2] / cycles[0] - 1.0, "0.05")
+    measured(
+        f"0.01 Hz, {friction}, {damping}: relative growth of this difference from first to third mesh cycle",
+        cycles[2] / cycles[0] - 1.0,
+        "0.05",
+    )
     assert cycles.max() <= 1e-6
     assert cycles[2] <= 1.05 * cycles[0]
 
@@ -69,7 +76,12 @@ def test_steps_that_sample_the_slowest_vibration_go_by_average_acceleration(coar
         marcher = Marcher(_AnyCycle(model.pair), model.equations_of_motion)
         assert isinstance(marcher.dynamic, AverageAcceleration if steps >= 2.0 else BackwardEuler)
     slowest = model_of(coarse).vibrations[0].frequency
-    measured("mesh frequency below which backward Euler is used, 40 steps per mesh cycle", 2.0 * slowest / 40, "2 f0/steps", "Hz")
+    measured(
+        "mesh frequency below which backward Euler is used, 40 steps per mesh cycle",
+        2.0 * slowest / 40,
+        "2 f0/steps",
+        "Hz",
+    )
 
 
 class _AnyCycle:
@@ -80,8 +92,10 @@ class _AnyCycle:
 
 
 def test_high_end_is_the_rigid_mean_motion(coarse, measured):
-    """Newton's law: far above every natural frequency the mesh force's fluctuation meets mass alone, the ripple falls as 1/f^2, and what
-    the start leaves to ring shows as a drift of the cycles' means, here over a period of the slowest vibration, without damping."""
+    """Newton's law: far above every natural frequency the mesh force's fluctuation meets mass alone, the ripple falls
+    as 1/f^2, and what
+    the start leaves to ring shows as a drift of the cycles' means, here over a period of the slowest vibration, without
+    damping."""
     scene = frictionless(replace(coarse, damping=None))
     static = simulate(at(quasi_static(scene), 200.0)).transmission_error.values
     ripple = {}
@@ -91,7 +105,9 @@ def test_high_end_is_the_rigid_mean_motion(coarse, measured):
         means = error[1:].reshape(cycles, -1).mean(axis=1)
         ripple[mesh_frequency] = np.ptp(error[-41:])
         drift = np.ptp(means) / np.ptp(static)
-        measured(f"{mesh_frequency / 1e3:g} kHz: vibration left from the start / static peak-to-peak value", drift, "0.01")
+        measured(
+            f"{mesh_frequency / 1e3:g} kHz: vibration left from the start / static peak-to-peak value", drift, "0.01"
+        )
         assert drift <= 0.01
         assert means.mean() == pytest.approx(static.mean(), rel=0.01)
     order = np.log2(ripple[10e3] / ripple[20e3])
@@ -103,7 +119,8 @@ def test_high_end_is_the_rigid_mean_motion(coarse, measured):
 
 @pytest.mark.nightly
 def test_high_end_with_friction_stays_in_contact(coarse, measured):
-    """The same with friction, whose mean force the start takes as that of full slip: some of it rings, in a few per cent."""
+    """The same with friction, whose mean force the start takes as that of full slip: some of it rings, in a few per
+    cent."""
     static = simulate(at(quasi_static(coarse), 200.0)).transmission_error.values
     result = simulate(at(replace(coarse, damping=None), 20e3, 100))
     drift = np.ptp(result.transmission_error.values[1:].reshape(100, -1).mean(axis=1)) / np.ptp(static)
@@ -137,7 +154,10 @@ def test_no_step_fails_at_any_frequency_and_friction(coarse, measured, count):
     """Every step converges or the run raises: the paper's pair over six decades of mesh frequency, mu from 0 to 0.6."""
     pairs = zip(np.geomspace(0.01, 20e3, count), 2 * (0.0, 0.3, 0.05, 0.6, 0.1, 0.45, 0.2))
     told = [swept(coarse, [frequency], [friction], 3) for frequency, friction in pairs]
-    rungs = {name: sum(found.get(name, 0) for _, _, found in told) for name in {name for _, _, found in told for name in found}}
+    rungs = {
+        name: sum(found.get(name, 0) for _, _, found in told)
+        for name in {name for _, _, found in told for name in found}
+    }
     measured("failed steps, coarse", _outcome(sum(t[0] for t in told), sum(t[1] for t in told), rungs), "none")
     assert sum(t[0] for t in told) == count
 
@@ -152,7 +172,11 @@ def test_no_step_fails_in_a_dense_sweep(coarse, kind, measured):
     if kind == "relieved":
         scene = replace(scene, tip_relief=TIP_RELIEF)
     if "mm" in kind:
-        scene = replace(scene, accuracy=replace(scene.accuracy, element="P2", flank_element_size=0.06, contact_nodes=51))
-    runs, steps, rungs = swept(scene, np.geomspace(0.01, 20e3, 25), (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.45, 0.6), 4)
+        scene = replace(
+            scene, accuracy=replace(scene.accuracy, element="P2", flank_element_size=0.06, contact_nodes=51)
+        )
+    runs, steps, rungs = swept(
+        scene, np.geomspace(0.01, 20e3, 25), (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.45, 0.6), 4
+    )
     measured(f"failed steps, dense sweep, {kind}", _outcome(runs, steps, rungs), "none")
     assert runs == 225

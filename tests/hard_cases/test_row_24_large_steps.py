@@ -22,7 +22,12 @@ def coarse(paper_scene):
 def light(scene):
     """The same with a millionth of the inertia: every natural frequency a thousand times as high."""
     inertia = scene.inertia
-    return replace(scene, inertia=replace(inertia, **{name: 1e-6 * value for name, value in vars(inertia).items() if isinstance(value, float)}))
+    return replace(
+        scene,
+        inertia=replace(
+            inertia, **{name: 1e-6 * value for name, value in vars(inertia).items() if isinstance(value, float)}
+        ),
+    )
 
 
 CASES = {
@@ -36,8 +41,10 @@ CASES = {
 @pytest.mark.parametrize("damped", [True, False])
 @pytest.mark.parametrize("name", CASES)
 def test_large_steps_are_finite_bounded_and_named(coarse, name, damped, measured):
-    """Energy: backward Euler takes energy and gives none, so that nothing exceeds what the quasi-static solution holds, but for the
-    kinetic energy of following it; average acceleration may carry what the start brought. Twice the static energy bounds both."""
+    """Energy: backward Euler takes energy and gives none, so that nothing exceeds what the quasi-static solution holds,
+    but for the
+    kinetic energy of following it; average acceleration may carry what the start brought. Twice the static energy
+    bounds both."""
     scene, mesh_frequency, steps = CASES[name](coarse if damped else replace(coarse, damping=None))
     scene = replace(scene, accuracy=replace(COARSE, steps_per_mesh_cycle=steps), motion=Motion(mesh_frequency, 60, 60))
     result, static = simulate(scene), simulate(quasi_static(scene))
@@ -65,7 +72,8 @@ def test_the_remedy_is_a_remedy(coarse):
 
 
 def test_resolved_means_a_period_right_within_one_per_cent(measured):
-    """Exact: average acceleration turns a phase by 2 atan(omega dt/2) a step; its period is too long by (omega dt)^2/12, to leading order."""
+    """Exact: average acceleration turns a phase by 2 atan(omega dt/2) a step; its period is too long by (omega
+    dt)^2/12, to leading order."""
     resolved = Vibration(resolved_frequency(1e-4), 0.0, True)
     measured("steps per resolved period", STEPS_OF_A_RESOLVED_PERIOD, "2 pi/sqrt(0.12)")
     measured("error of a period with that many steps", resolved.period_error(1e-4), "0.01")

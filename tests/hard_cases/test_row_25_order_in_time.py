@@ -20,11 +20,14 @@ from fenics_gears.dynamics.steps import Record
 
 
 def pushed(marcher, shafts, speed):
-    """Static equilibrium with the pinion's hub pushed at `speed` (mm/s along its base circle); acceleration from the equations of motion."""
+    """Static equilibrium with the pinion's hub pushed at `speed` (mm/s along its base circle); acceleration from the
+    equations of motion."""
     rest = marcher.start()
     push = np.zeros(len(shafts.coordinates))
     push[shafts.coordinates.index("rotation_1")] = speed
-    acceleration = np.zeros_like(push) if shafts.damping is None else -np.linalg.solve(shafts.mass, shafts.damping @ push)
+    acceleration = (
+        np.zeros_like(push) if shafts.damping is None else -np.linalg.solve(shafts.mass, shafts.damping @ push)
+    )
     return rest, Record(0, State(rest.state.position, push, acceleration), rest.position, rest.solution)
 
 
@@ -35,7 +38,9 @@ def tied_solution(rest, shafts, closed, push, duration):
     contact = rigid.T @ np.linalg.solve(operator.compliance[np.ix_(closed, closed)], rigid)
     k = len(push)
     inverse = np.linalg.inv(shafts.mass)
-    system = np.block([[np.zeros((k, k)), np.eye(k)], [-inverse @ (shafts.stiffness + contact), -inverse @ shafts.damping]])
+    system = np.block(
+        [[np.zeros((k, k)), np.eye(k)], [-inverse @ (shafts.stiffness + contact), -inverse @ shafts.damping]]
+    )
     return (expm(system * duration) @ np.concatenate([np.zeros(k), push]))[:k]
 
 
@@ -73,7 +78,8 @@ def test_backward_euler_is_of_order_one(paper_scene, paper_pair, stand_in_flanks
 
 
 def bounce(scene, pair, flanks, steps, speed):
-    """Position after 4 ms of a hub pushed at `speed`, the steps at which the closed nodes changed, and those at which the teeth parted."""
+    """Position after 4 ms of a hub pushed at `speed`, the steps at which the closed nodes changed, and those at which
+    the teeth parted."""
     marcher, shafts = frozen_marcher(replace(scene, damping=None), pair, flanks, 4e-3 / steps)
     _, record = pushed(marcher, shafts, speed)
     touching, changes, parted = record.solution.status, 0, 0
@@ -94,21 +100,25 @@ BOUNCES = {
 
 @pytest.mark.parametrize("name", BOUNCES)
 def test_order_across_changes_of_status(paper_scene, paper_pair, stand_in_flanks, name, measured):
-    """Known order: a change of status is met at the end of its step. Forces of elastic teeth do not jump but kink there, and slip over a step is
+    """Known order: a change of status is met at the end of its step. Forces of elastic teeth do not jump but kink
+    there, and slip over a step is
     exact, so that the order stays 2. Mean order over two halvings, against steps 8 times finer."""
     speed, coefficient, least = BOUNCES[name]
     friction = replace(paper_scene.friction, coefficient=coefficient) if coefficient else None
     scene = replace(paper_scene, friction=friction)
     exact, changes, parted = bounce(scene, paper_pair, stand_in_flanks, 12800, speed)
     counts = 400 * 2 ** np.arange(3)
-    errors = [np.abs(bounce(scene, paper_pair, stand_in_flanks, int(steps), speed)[0] - exact).max() for steps in counts]
+    errors = [
+        np.abs(bounce(scene, paper_pair, stand_in_flanks, int(steps), speed)[0] - exact).max() for steps in counts
+    ]
     order = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
     measured(f"order where {name}, {changes} changes of status", order, "about 2")
     assert changes > 5 and parted >= least
     assert order >= 1.5
 
 
-# A block on a spring, pressed on a surface whose speed rises in proportion to time and turns, as that of flanks at the pitch point. N, mm, s.
+# A block on a spring, pressed on a surface whose speed rises in proportion to time and turns, as that of flanks at the
+# pitch point. N, mm, s.
 FORCE, FRICTION, NORMAL, TANGENTIAL, MASS, RISE, TURN, LAST = 1000.0, 0.3, 1e-5, 2e-5, 1e-3, 4000.0, 2.5e-3, 10e-3
 
 
@@ -135,12 +145,29 @@ def marched_block(spring: float, inert: bool, steps: int):
     duration, bound = LAST / steps, FRICTION * FORCE
     stiffness = np.diag([0.0, spring])
     problem = StepProblem(
-        stiffness, np.array([FORCE, 0.0]), np.diag([NORMAL, TANGENTIAL]), np.eye(2), np.zeros(1), np.zeros(1), FRICTION, np.empty(0), Tolerance.of_load(FORCE)
+        stiffness,
+        np.array([FORCE, 0.0]),
+        np.diag([NORMAL, TANGENTIAL]),
+        np.eye(2),
+        np.zeros(1),
+        np.zeros(1),
+        FRICTION,
+        np.empty(0),
+        Tolerance.of_load(FORCE),
     )
-    block = Drivetrain(("rotation_2", "centre_y1"), np.ones(2), stiffness, problem.load, MASS * np.eye(2) if inert else None, None)
+    block = Drivetrain(
+        ("rotation_2", "centre_y1"), np.ones(2), stiffness, problem.load, MASS * np.eye(2) if inert else None, None
+    )
     marcher = Marcher(TurningSurface(problem, duration), EquationsOfMotion(block, duration, FRICTION))
     place, rest = np.array([NORMAL * FORCE, bound / spring]), np.zeros(2)
-    start = StepSolution(np.array([FORCE, -bound]), place, np.array([0.0, place[1] + TANGENTIAL * bound]), np.array([SLIP_BACKWARD]), 0, NEWTON)
+    start = StepSolution(
+        np.array([FORCE, -bound]),
+        place,
+        np.array([0.0, place[1] + TANGENTIAL * bound]),
+        np.array([SLIP_BACKWARD]),
+        0,
+        NEWTON,
+    )
     record, passed, forces = Record(0, State(place, rest, rest), marcher.cycle.position(0), start), [SLIP_BACKWARD], []
     for step in range(1, steps + 1):
         record = marcher.step(marcher.dynamic, record, step)
@@ -155,7 +182,11 @@ def exact_block(spring: float):
     bound, time, state, status, held = FRICTION * FORCE, 0.0, [FRICTION * FORCE / spring, 0.0], SLIP_BACKWARD, 0.0
 
     def force(time, place):
-        return (place + slid(time) - held) / TANGENTIAL if status == STICK else bound * (1.0 if status == SLIP_FORWARD else -1.0)
+        return (
+            (place + slid(time) - held) / TANGENTIAL
+            if status == STICK
+            else bound * (1.0 if status == SLIP_FORWARD else -1.0)
+        )
 
     def turns(time, state):
         return state[1] + RISE * (time - TURN)
@@ -166,7 +197,15 @@ def exact_block(spring: float):
     while time < LAST:
         event = gives if status == STICK else turns
         event.terminal, event.direction = True, 1.0 if status == SLIP_BACKWARD else -1.0
-        found = solve_ivp(lambda t, y: [y[1], -(spring * y[0] + force(t, y[0])) / MASS], (time, LAST), state, "DOP853", events=event, rtol=1e-12, atol=1e-14)
+        found = solve_ivp(
+            lambda t, y: [y[1], -(spring * y[0] + force(t, y[0])) / MASS],
+            (time, LAST),
+            state,
+            "DOP853",
+            events=event,
+            rtol=1e-12,
+            atol=1e-14,
+        )
         time, state, last = found.t[-1], found.y[:, -1], force(found.t[-1], found.y[0, -1])
         if found.status == 1:
             held = state[0] + slid(time) - TANGENTIAL * last
@@ -175,14 +214,17 @@ def exact_block(spring: float):
 
 
 def test_order_two_through_stick_and_reversal(measured):
-    """Exact solution by pieces: a block on a spring slips back, sticks as the surface turns, and is carried into slip, to and fro."""
+    """Exact solution by pieces: a block on a spring slips back, sticks as the surface turns, and is carried into slip,
+    to and fro."""
     spring, counts, errors = 1e5, 200 * 2 ** np.arange(4), []
     force, place = exact_block(spring)
     for steps in counts:
         forces, last, passed = marched_block(spring, True, int(steps))
         errors.append(max(abs(forces[-1] - force), spring * abs(last - place)))
     order = -np.polyfit(np.log(counts), np.log(errors), 1)[0]
-    measured(f"order of a sliding block with inertia, {len(passed) - 1} changes between slip and stick", order, "2 or better")
+    measured(
+        f"order of a sliding block with inertia, {len(passed) - 1} changes between slip and stick", order, "2 or better"
+    )
     assert STICK in passed and SLIP_FORWARD in passed and order > 1.8
 
 
@@ -192,4 +234,8 @@ def test_friction_at_a_reversal_is_exact_without_inertia(steps):
     spring, bound, after = 1e5, FRICTION * FORCE, np.maximum(LAST * np.arange(1, steps + 1) / steps - TURN, 0.0)
     forces, _, passed = marched_block(spring, False, steps)
     expected = np.minimum(-bound + 0.5 * RISE * after**2 / (TANGENTIAL + 1.0 / spring), bound)
-    assert forces == pytest.approx(expected, abs=1e-12 * bound * steps) and passed == [SLIP_BACKWARD, STICK, SLIP_FORWARD]
+    assert forces == pytest.approx(expected, abs=1e-12 * bound * steps) and passed == [
+        SLIP_BACKWARD,
+        STICK,
+        SLIP_FORWARD,
+    ]

@@ -1,8 +1,9 @@
 """Row 26: a wrong value in any field of a scene is refused before any computation.
 
-Authority throughout: hard case 26. The refusal names file, field, value as written, what is allowed and the nearest known name; the
-exit code is 2; nothing is written. The fields come from the schema itself, so that a new one is tried too. How messages are
-worded for mistakes as people make them is told by tests/scene/test_wrong_scenes.py.
+Authority throughout: hard case 26. The refusal names file, field, value as written, what is allowed and the nearest
+    known name; the
+exit code is 2; nothing is written. The fields come from the schema itself, so that a new one is tried too. How messages
+are worded for mistakes as people make them is told by tests/scene/test_wrong_scenes.py.
 """
 
 import re
@@ -30,7 +31,8 @@ class Computed(Exception):
 
 @pytest.fixture
 def outcome(tmp_path, monkeypatch, capsys):
-    """A function that runs a scene's text: the refusal's words, None where the scene is taken; it fails where anything is written."""
+    """A function that runs a scene's text: the refusal's words, None where the scene is taken; it fails where anything
+    is written."""
     monkeypatch.chdir(tmp_path)
 
     def compute(scene, **options):
@@ -85,14 +87,32 @@ def wrong_unit(field: Field) -> list[str]:
     if not field.allowed.kind:
         return [f'"3 {unit}"' for unit in ("mm", "1/s")] if field.path[-1] != "title" else []
     others = [f'"3 {unit}"' for kind, unit in UNITS.items() if kind not in field.kinds]
-    return [*others, f'"3 {field.unit}x"', '"3"', "3.5", "3", "nan", f'"3,5 {field.unit}"', f'"3 {field.unit} {field.unit}"', f'"{field.unit}"']
+    return [
+        *others,
+        f'"3 {field.unit}x"',
+        '"3"',
+        "3.5",
+        "3",
+        "nan",
+        f'"3,5 {field.unit}"',
+        f'"3 {field.unit} {field.unit}"',
+        f'"{field.unit}"',
+    ]
 
 
 def wrong_type(field: Field) -> list[str]:
     if field.path[-1] == "title":
         return ["true", "3", "[1, 2]", '"' + 501 * "x" + '"']
-    right = ("true", "false") if field.allowed.description == "true or false" or field.path == ("output", "contact_fields") else ()
-    return [*(each for each in WRONG_TYPES if each not in right), *(["1.5"] if field.whole else []), *(['"3"'] if not field.allowed.kind else [])]
+    right = (
+        ("true", "false")
+        if field.allowed.description == "true or false" or field.path == ("output", "contact_fields")
+        else ()
+    )
+    return [
+        *(each for each in WRONG_TYPES if each not in right),
+        *(["1.5"] if field.whole else []),
+        *(['"3"'] if not field.allowed.kind else []),
+    ]
 
 
 KINDS = {
@@ -106,19 +126,27 @@ KINDS = {
 
 
 # By day every field has one mistake of every other kind, another one than its neighbours; by night all of them.
-breadth = pytest.mark.parametrize("every", [pytest.param(False, id="one each"), pytest.param(True, id="all", marks=pytest.mark.nightly)])
+breadth = pytest.mark.parametrize(
+    "every", [pytest.param(False, id="one each"), pytest.param(True, id="all", marks=pytest.mark.nightly)]
+)
 
 
 def tries_of(every: bool, mistakes) -> list[tuple[Field, str]]:
     """Fields with the mistakes (a function of the field) that are made in them."""
     found = [(field, mistakes(field)) for field in fields()]
-    return [(field, literal) for at, (field, all_of) in enumerate(found) if all_of for literal in (all_of if every else [all_of[at % len(all_of)]])]
+    return [
+        (field, literal)
+        for at, (field, all_of) in enumerate(found)
+        if all_of
+        for literal in (all_of if every else [all_of[at % len(all_of)]])
+    ]
 
 
 @breadth
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_wrong_value_in_any_field_is_refused(outcome, measured, kind, every):
-    """Every field that the kind of mistake can be made in; "negative" and "zero" only where the field's own range leaves them out."""
+    """Every field that the kind of mistake can be made in; "negative" and "zero" only where the field's own range
+    leaves them out."""
     tries = tries_of(every, KINDS[kind])
     tries = tries if every else tries[list(KINDS).index(kind) % 2 :: 2]
     wrong = []
@@ -128,17 +156,30 @@ def test_a_wrong_value_in_any_field_is_refused(outcome, measured, kind, every):
         named = f"{field.name} = {shown[:50]}" if shown and len(shown) <= 60 else field.name
         if said is None or named not in said or "Allowed: " not in said or not re.match(r"pair\.toml:\d+: ", said):
             wrong.append((field.name, literal, said))
-    measured(f"{kind}: refused", f"{len(tries) - len(wrong)} of {len(tries)} in {len({field.name for field, _ in tries})} fields", "all")
+    measured(
+        f"{kind}: refused",
+        f"{len(tries) - len(wrong)} of {len(tries)} in {len({field.name for field, _ in tries})} fields",
+        "all",
+    )
     assert len(tries) > 10 and wrong == []
 
 
 def test_a_missing_field_is_named(outcome, measured):
-    """Every field without a default, and the demo's own choice among alternatives of which one is required; one with a default may be left out, or a rule
+    """Every field without a default, and the demo's own choice among alternatives of which one is required; one with a
+    default may be left out, or a rule
     between fields says what then is missing."""
-    chosen = {"gears.pinion.profile_shift", "gears.wheel.profile_shift", "load.wheel_torque", "gears.material.youngs_modulus", "gears.material.poissons_ratio"}
+    chosen = {
+        "gears.pinion.profile_shift",
+        "gears.wheel.profile_shift",
+        "load.wheel_torque",
+        "gears.material.youngs_modulus",
+        "gears.material.poissons_ratio",
+    }
     required = [field for field in fields() if field.required or field.name in chosen]
     said = {field.name: outcome(scene_with(field.path, None)) for field in required}
-    wrong = [name for name, words in said.items() if words is None or f": {name}\n    is missing. Allowed: " not in words]
+    wrong = [
+        name for name, words in said.items() if words is None or f": {name}\n    is missing. Allowed: " not in words
+    ]
     measured("missing fields named", f"{len(required) - len(wrong)} of {len(required)} fields", "all")
     assert len(required) > 20 and wrong == []
     for field in fields():
@@ -154,7 +195,11 @@ def test_a_misspelt_field_is_answered_with_the_right_one(outcome, measured):
         key = field.path[-1]
         misspelt = key[:2] + key[3:]
         said = outcome(scene_with(field.path, '"1 mm"', misspelt))
-        if said is None or f'{".".join((*field.path[:-1], misspelt))} = "1 mm"\n' not in said or f'Did you mean "{key}"?' not in said:
+        if (
+            said is None
+            or f'{".".join((*field.path[:-1], misspelt))} = "1 mm"\n' not in said
+            or f'Did you mean "{key}"?' not in said
+        ):
             wrong.append((field.name, said))
         elif field.required and "1 mistake in" not in said:
             wrong.append((field.name, said))
@@ -163,7 +208,8 @@ def test_a_misspelt_field_is_answered_with_the_right_one(outcome, measured):
 
 
 def bounds_of(field: Field) -> list[str]:
-    """Both ends of a field's range, or the numbers next to them where an end is left out; not those that only cost time."""
+    """Both ends of a field's range, or the numbers next to them where an end is left out; not those that only cost
+    time."""
     found = []
     for end, excluded, inwards in zip(field.bounds, field.excluded, (1, -1)):
         number = end + inwards * (1e-12 * abs(end) or 1e-12) if excluded else end
@@ -183,7 +229,8 @@ def scale(field: Field) -> float:
 
 @breadth
 def test_either_end_of_every_range_is_a_scene_or_refused(tmp_path, monkeypatch, capsys, measured, every):
-    """What a range lets pass neither overflows nor divides by zero on the way to a model: `gears check` describes it, or refuses it in words, or says that it cannot fit. By day every fifth one."""
+    """What a range lets pass neither overflows nor divides by zero on the way to a model: `gears check` describes it,
+    or refuses it in words, or says that it cannot fit. By day every fifth one."""
     monkeypatch.chdir(tmp_path)
     outcomes = []
     for field, literal in tries_of(every, lambda field: bounds_of(field) if field.bounds else [])[:: 1 if every else 5]:
@@ -191,18 +238,30 @@ def test_either_end_of_every_range_is_a_scene_or_refused(tmp_path, monkeypatch, 
         code, said = main(["check", "pair.toml"]), capsys.readouterr()
         outcomes.append((field.name, literal, code, "nan" in said.out.lower().split(), said.err))
     taken = sum(code == 0 for _, _, code, _, _ in outcomes)
-    measured("ends of ranges", f"{taken} accepted by `gears check`, {len(outcomes) - taken} refused with a message", "all one or the other, no NaN")
-    assert all(code in (0, 2, 3) and not nan and (code == 0) == (err == "") for _, _, code, nan, err in outcomes), outcomes
+    measured(
+        "ends of ranges",
+        f"{taken} accepted by `gears check`, {len(outcomes) - taken} refused with a message",
+        "all one or the other, no NaN",
+    )
+    assert all(code in (0, 2, 3) and not nan and (code == 0) == (err == "") for _, _, code, nan, err in outcomes), (
+        outcomes
+    )
     # What the memory of no machine holds is a right scene all the same.
     assert all(err.startswith("CANNOT FIT") for _, _, code, _, err in outcomes if code == 3)
 
 
-COSTLY = {"accuracy.steps_per_mesh_cycle", "accuracy.contact_nodes", "accuracy.flank_element_size", "motion.mesh_cycles"}
+COSTLY = {
+    "accuracy.steps_per_mesh_cycle",
+    "accuracy.contact_nodes",
+    "accuracy.flank_element_size",
+    "motion.mesh_cycles",
+}
 
 
 @pytest.mark.nightly
 def test_either_end_of_every_range_can_be_run(tmp_path, monkeypatch, capsys, measured):
-    """A run at either end of a range ends with a result or a typed error, and holds no NaN; those that only cost time are left out."""
+    """A run at either end of a range ends with a result or a typed error, and holds no NaN; those that only cost time
+    are left out."""
     from fenics_gears import results
 
     monkeypatch.chdir(tmp_path)
@@ -210,7 +269,11 @@ def test_either_end_of_every_range_can_be_run(tmp_path, monkeypatch, capsys, mea
     codes, wrong = [], []
     for field in fields():
         for literal in bounds_of(field) if field.bounds and field.name not in COSTLY else []:
-            text = scene_with(field.path, literal).replace("mesh_cycles = 30", "mesh_cycles = 1").replace("recorded_cycles = 2", "recorded_cycles = 1")
+            text = (
+                scene_with(field.path, literal)
+                .replace("mesh_cycles = 30", "mesh_cycles = 1")
+                .replace("recorded_cycles = 2", "recorded_cycles = 1")
+            )
             if field.path[0] != "accuracy":
                 text = text[: text.index("[accuracy]")] + ACCURACY + "\n" + text[text.index("[tip_relief]") :]
             (tmp_path / "pair.toml").write_text(text, encoding="utf-8")
@@ -220,19 +283,27 @@ def test_either_end_of_every_range_can_be_run(tmp_path, monkeypatch, capsys, mea
                 wrong.append((field.name, literal, codes[-1], said))
             if codes[-1] == 0 and not results.load("here/run.nc").transmission_error.notnull().all():
                 wrong.append((field.name, literal, "NaN"))
-    measured("runs at the ends of ranges", f"{codes.count(0)} results, {codes.count(2)} refused, {codes.count(3)} errors with their cause", "all")
+    measured(
+        "runs at the ends of ranges",
+        f"{codes.count(0)} results, {codes.count(2)} refused, {codes.count(3)} errors with their cause",
+        "all",
+    )
     assert wrong == []
 
 
 ANY_VALUE = (
-    "0", "-1", "1e-320", "nan", "-inf", '""', '"mm"', '"1 mm"', '"HPSTC"', "true", "[]", "{}", "{depth = 3}", "12:30:00", "9" * 60, '"1e308 m"', "'''3 mm'''"
+    "0", "-1", "1e-320", "nan", "-inf", '""', '"mm"', '"1 mm"', '"HPSTC"', "true", "[]", "{}", "{depth = 3}",
+    "12:30:00", "9" * 60, '"1e308 m"', "'''3 mm'''"
 )  # fmt: skip
 LEFT_OUT = ("", "shafts", "bearings", "inertia", "motion", "gears", "coast_flanks")
 
 
-@pytest.mark.parametrize("every", [pytest.param(97, id="by day"), pytest.param(5, id="by night", marks=pytest.mark.nightly)])
+@pytest.mark.parametrize(
+    "every", [pytest.param(97, id="by day"), pytest.param(5, id="by night", marks=pytest.mark.nightly)]
+)
 def test_any_value_in_any_field_is_taken_or_refused(every):
-    """A scene or a refusal, never another error; also where another section is missing. Mistakes are counted; a gear that cannot be is named with its field."""
+    """A scene or a refusal, never another error; also where another section is missing. Mistakes are counted; a gear
+    that cannot be is named with its field."""
     for field, value, missing in list(product(fields(), ANY_VALUE, LEFT_OUT))[::every]:
         text = scene_with(field.path, value)
         if missing:
@@ -240,7 +311,11 @@ def test_any_value_in_any_field_is_taken_or_refused(every):
         try:
             scene = scene_from_text(text)
         except GeometryError as error:
-            assert re.search(r"(pinion|wheel|gears)\b.*\n?.*Nothing was computed or written\.", str(error)), (field.name, value, missing)
+            assert re.search(r"(pinion|wheel|gears)\b.*\n?.*Nothing was computed or written\.", str(error)), (
+                field.name,
+                value,
+                missing,
+            )
         except SceneError as error:
             assert "mistake" in str(error), (field.name, value, missing)
         else:
@@ -256,7 +331,9 @@ EDIT = st.one_of(
     st.tuples(st.just("move"), ANY_LINE, ANY_LINE),
     st.tuples(st.just("swap values"), st.sampled_from(WRITTEN), st.sampled_from(WRITTEN)),
     st.tuples(st.just("swap names"), st.sampled_from(WRITTEN), st.sampled_from(WRITTEN)),
-    st.tuples(st.just("character"), ANY_LINE, st.tuples(st.integers(0, 60), st.characters(blacklist_categories=("Cs",)))),
+    st.tuples(
+        st.just("character"), ANY_LINE, st.tuples(st.integers(0, 60), st.characters(blacklist_categories=("Cs",)))
+    ),
     st.tuples(st.just("cut"), ANY_LINE, st.integers(0, 60)),
 )
 
@@ -306,7 +383,8 @@ def check_edited(place: Path, edits, capsys) -> int:
 
 @pytest.mark.parametrize("examples", [80, pytest.param(250, marks=pytest.mark.nightly)])
 def test_a_scene_edited_at_random_is_described_or_refused(place, capsys, measured, examples):
-    """Lines deleted, doubled, moved, cut, values and names exchanged, a character overwritten: exit code 0 or 2, never a traceback."""
+    """Lines deleted, doubled, moved, cut, values and names exchanged, a character overwritten: exit code 0 or 2, never
+    a traceback."""
     codes = []
 
     @settings(max_examples=examples)
@@ -315,13 +393,24 @@ def test_a_scene_edited_at_random_is_described_or_refused(place, capsys, measure
         codes.append(check_edited(place, each, capsys))
 
     edits()
-    measured("scenes edited at random", f"{codes.count(0)} accepted, {codes.count(2)} refused with a message", "all one or the other")
+    measured(
+        "scenes edited at random",
+        f"{codes.count(0)} accepted, {codes.count(2)} refused with a message",
+        "all one or the other",
+    )
     assert len(codes) >= examples
 
 
 def in_a_study(field: Field) -> list[str]:
     """A mistake of each kind."""
-    return [*not_numbers(field)[:1], *huge(field)[:1], *negative(field)[:1], *zero(field)[:1], *wrong_unit(field)[:1], wrong_type(field)[0]]
+    return [
+        *not_numbers(field)[:1],
+        *huge(field)[:1],
+        *negative(field)[:1],
+        *zero(field)[:1],
+        *wrong_unit(field)[:1],
+        wrong_type(field)[0],
+    ]
 
 
 @breadth
@@ -332,10 +421,18 @@ def test_a_wrong_value_in_a_study_is_refused(tmp_path, monkeypatch, capsys, meas
     made = [(field, literal) for field, literal in tries_of(every, in_a_study) if field.path != ("title",)]
     tries, wrong = 0, []
     for at, (field, literal) in enumerate(made):
-        both = (f"[sweep]\n{field.name} = [{literal}]", f'[set]\n{field.name} = {literal}\n[sweep]\nfriction = ["absent", "present"]')
+        both = (
+            f"[sweep]\n{field.name} = [{literal}]",
+            f'[set]\n{field.name} = {literal}\n[sweep]\nfriction = ["absent", "present"]',
+        )
         for study in both if every else both[at % 2 : at % 2 + 1]:
             tries += 1
-            text = 'scene = "pair.toml"\n' + ('without = ["motion.mesh_frequency"]\n' if "pinion_speed" in field.name else "") + study + "\n"
+            text = (
+                'scene = "pair.toml"\n'
+                + ('without = ["motion.mesh_frequency"]\n' if "pinion_speed" in field.name else "")
+                + study
+                + "\n"
+            )
             (tmp_path / "study.toml").write_text(text, encoding="utf-8")
             code, said = main(["study", "study.toml"]), capsys.readouterr()
             if code != 2 or field.name not in said.err or "Nothing was computed or written." not in said.err:

@@ -1,6 +1,7 @@
 """Row 27: damaged cache entries and results; nothing that is read back can be code.
 
-Authority throughout: hard case 27: recomputed or resumed; never a wrong number, never half a result under its final name. Where a number
+Authority throughout: hard case 27: recomputed or resumed; never a wrong number, never half a result under its final
+    name. Where a number
 is compared, the reference is the same run undisturbed, and the two are the same to the last bit.
 """
 
@@ -38,7 +39,10 @@ def own_cache(tmp_path):
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
     """A result like that of a run, small."""
-    values = {"transmission_error": ("time", np.sin(np.arange(40.0))), "own_field": (("time", "node"), np.arange(120.0).reshape(40, 3))}
+    values = {
+        "transmission_error": ("time", np.sin(np.arange(40.0))),
+        "own_field": (("time", "node"), np.arange(120.0).reshape(40, 3)),
+    }
     coordinates = {"time": np.arange(40.0), "mesh_phase": ("time", np.arange(40.0))}
     coordinates |= {"gear": ("gear", ["pinion", "wheel"], {"long_name": "gear"})}
     made = xr.Dataset(values, coordinates).assign_attrs(scene="[gears]\n", complete=1, peak=0.25, warnings="")
@@ -94,7 +98,18 @@ def without_permission(path):
     path.chmod(0)
 
 
-DAMAGES = [truncated, lengthened, empty, foreign, one_bit_flipped, array_missing, array_added, other_format, directory_instead, without_permission]
+DAMAGES = [
+    truncated,
+    lengthened,
+    empty,
+    foreign,
+    one_bit_flipped,
+    array_missing,
+    array_added,
+    other_format,
+    directory_instead,
+    without_permission,
+]
 
 
 @pytest.mark.parametrize("damage", DAMAGES)
@@ -103,7 +118,11 @@ def test_a_damaged_cache_entry_is_reported_and_not_used(own_cache, damage, caplo
     damage(own_cache.path(KEY))
     with caplog.at_level(logging.WARNING):
         loaded = own_cache.load(KEY)
-    measured(f"cache entry {damage.__name__.replace('_', ' ')}", "used" if loaded is not None else "computed again", "computed again")
+    measured(
+        f"cache entry {damage.__name__.replace('_', ' ')}",
+        "used" if loaded is not None else "computed again",
+        "computed again",
+    )
     assert loaded is None and str(own_cache.path(KEY)) in caplog.text
     own_cache.store(KEY, ARRAYS)
     again = own_cache.load(KEY)
@@ -115,7 +134,9 @@ def test_an_entry_under_another_name_is_not_used(own_cache, caplog, measured):
     other = content_key({"gear": {"teeth": 17}})
     os.replace(own_cache.path(KEY), own_cache.path(other))
     loaded = own_cache.load(other)
-    measured("another gear's entry under the name", "used" if loaded is not None else "computed again", "computed again")
+    measured(
+        "another gear's entry under the name", "used" if loaded is not None else "computed again", "computed again"
+    )
     assert loaded is None and "computed again" in caplog.text
 
 
@@ -136,16 +157,25 @@ def test_any_one_bit_flipped_in_a_cache_entry(own_cache, measured):
     def flip(place, bit):
         path.write_bytes(flipped(content, place, bit))
         loaded = own_cache.load(KEY)
-        same = loaded is not None and loaded.keys() == ARRAYS.keys() and all(np.array_equal(loaded[name], ARRAYS[name]) for name in ARRAYS)
+        same = (
+            loaded is not None
+            and loaded.keys() == ARRAYS.keys()
+            and all(np.array_equal(loaded[name], ARRAYS[name]) for name in ARRAYS)
+        )
         counts["none" if loaded is None else "same" if same else "wrong"] += 1
 
     flip()
-    measured("one bit of a cache entry flipped", "{none} refused, {same} without effect, {wrong} wrong".format(**counts), "all refused")
+    measured(
+        "one bit of a cache entry flipped",
+        "{none} refused, {same} without effect, {wrong} wrong".format(**counts),
+        "all refused",
+    )
     assert counts["wrong"] == counts["same"] == 0 and counts["none"] >= 300
 
 
 def test_any_one_bit_flipped_in_a_result(run, tmp_path, measured):
-    """Likewise a run's file: what `gears plot` draws and a study keeps is what was written, or an error that names the file."""
+    """Likewise a run's file: what `gears plot` draws and a study keeps is what was written, or an error that names the
+    file."""
     path, counts = tmp_path / "run.nc", {"none": 0, "same": 0, "wrong": 0}
     results.save(run, path)
     content = path.read_bytes()
@@ -162,7 +192,11 @@ def test_any_one_bit_flipped_in_a_result(run, tmp_path, measured):
             counts["none"] += 1
 
     flip()
-    measured("one bit of a result flipped", "{none} refused, {same} without effect, {wrong} wrong".format(**counts), "all refused")
+    measured(
+        "one bit of a result flipped",
+        "{none} refused, {same} without effect, {wrong} wrong".format(**counts),
+        "all refused",
+    )
     assert counts["wrong"] == counts["same"] == 0 and counts["none"] >= 300
 
 
@@ -210,7 +244,11 @@ def test_a_damaged_case_is_computed_again(folder, undrawn, caplog, measured):
         assert main(["study", str(study), "--quiet", "--output", "here"]) == 0
         after = stamps("here")
         repeated = [name for name in before if before[name] != after[name]]
-        measured(f"case of a study damaged: {damage}", f"{len(repeated)} computed again", "1, with the same numbers to the bit")
+        measured(
+            f"case of a study damaged: {damage}",
+            f"{len(repeated)} computed again",
+            "1, with the same numbers to the bit",
+        )
         assert repeated == [first.name] and "computed again" in caplog.text
         assert load("here").drop_vars("wall_time").equals(combined.drop_vars("wall_time"))
 
@@ -247,7 +285,11 @@ def test_a_planted_pickle_is_never_loaded(tmp_path, capsys, measured, wrapped):
     refused = [own.load(KEY) is None, main(["plot", str(tmp_path / "run.nc")]) == 2]
     capsys.readouterr()
     ran = "executed" if mark.exists() else "not executed"
-    measured("pickle " + ("within HDF5" if wrapped else "as a file"), f"{sum(refused)} of 2 refused, {ran}", "refused, not executed")
+    measured(
+        "pickle " + ("within HDF5" if wrapped else "as a file"),
+        f"{sum(refused)} of 2 refused, {ran}",
+        "refused, not executed",
+    )
     assert all(refused) and not mark.exists()
 
 
@@ -265,7 +307,11 @@ def unsafe_in(path: Path) -> list[str]:
             found.append(node.module)
         elif isinstance(node, ast.Call):
             name = node.func.id if isinstance(node.func, ast.Name) else ""
-            of_numpy = isinstance(node.func, ast.Attribute) and isinstance(node.func.value, ast.Name) and node.func.value.id in ("np", "numpy")
+            of_numpy = (
+                isinstance(node.func, ast.Attribute)
+                and isinstance(node.func.value, ast.Name)
+                and node.func.value.id in ("np", "numpy")
+            )
             if name in UNSAFE_CALLS or (of_numpy and node.func.attr in ("load", "fromfile", "memmap")):
                 found.append(name or f"numpy.{node.func.attr}")
             found += [word.arg for word in node.keywords if word.arg == "allow_pickle"]
@@ -273,7 +319,8 @@ def unsafe_in(path: Path) -> list[str]:
 
 
 def test_no_source_file_makes_code_of_data(measured):
-    """Every module of the program: no pickle, no yaml, no numpy.load, no eval. What mpi4py sends between ranks is no file."""
+    """Every module of the program: no pickle, no yaml, no numpy.load, no eval. What mpi4py sends between ranks is no
+    file."""
     files = sorted(Path(fenics_gears.__file__).parent.rglob("*.py"))
     found = [each for path in files for each in unsafe_in(path)]
     measured("source files that could execute data as code", f"{len(found)} of {len(files)}", "none")

@@ -1,6 +1,7 @@
 """Row 27: a full disk.
 
-Authority throughout: hard case 27: recomputed or resumed; never a wrong number, never half a result under its final name. Where a number
+Authority throughout: hard case 27: recomputed or resumed; never a wrong number, never half a result under its final
+    name. Where a number
 is compared, the reference is the same run undisturbed, and the two are the same to the last bit.
 """
 
@@ -23,17 +24,24 @@ from fenics_gears.elasticity.cache import Cache
 
 
 def within(size):
-    """A process's files may have so many bytes and no more: what a full disk does to a file, in every C library and file system alike."""
+    """A process's files may have so many bytes and no more: what a full disk does to a file, in every C library and
+    file system alike."""
     return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
 
-IN_ONE_PROCESS = "import json, sys; from fenics_gears.commands.cli import main; print(json.dumps([main(call) for call in json.loads(sys.argv[1])]))"
+IN_ONE_PROCESS = (
+    "import json, sys; from fenics_gears.commands.cli import main; print(json.dumps([main(call) for call in"
+    " json.loads(sys.argv[1])]))"
+)
 
 
 def limited(folder, size, *calls):
-    """Calls of `gears` one after another in a process with a limit on its files: their exit codes, and what was said of errors."""
+    """Calls of `gears` one after another in a process with a limit on its files: their exit codes, and what was said of
+    errors."""
     call = [sys.executable, "-c", IN_ONE_PROCESS, json.dumps(calls)]
-    ended = subprocess.run(call, cwd=folder, env=environment(), capture_output=True, text=True, timeout=120, preexec_fn=within(size))
+    ended = subprocess.run(
+        call, cwd=folder, env=environment(), capture_output=True, text=True, timeout=120, preexec_fn=within(size)
+    )
     return json.loads(ended.stdout), ended.stderr
 
 
@@ -44,8 +52,8 @@ def run_into(directory):
 
 @pytest.mark.parametrize("size", [pytest.param(100, marks=pytest.mark.nightly), 8192])
 def test_a_full_disk_leaves_no_half_result(folder, undrawn, measured, size):
-    """`gears run` and `gears study` on a full disk: exit code 3, the reason in words, nothing half under a final name, an earlier result bit for
-    bit as it was; with room again both run, and the study is the undisturbed one.
+    """`gears run` and `gears study` on a full disk: exit code 3, the reason in words, nothing half under a final name,
+    an earlier result bit for bit as it was; with room again both run, and the study is the undisturbed one.
 
     The gears are in the cache: what MPI does without room for its own files is not this program's.
     """
@@ -58,9 +66,21 @@ def test_a_full_disk_leaves_no_half_result(folder, undrawn, measured, size):
     same = {path.name: path.read_bytes() for path in Path("earlier").iterdir()} == before
     of_study, unfinished_of_study = left_over("study")
     halves = [name for name in of_study if name.endswith(".nc")]
-    measured(f"disk full after {size} bytes of a file", f"exit code {codes[0]}, {len(names) + len(unfinished)} files", "3, none")
-    measured("full disk over an earlier result", f"exit code {codes[1]}, " + ("unchanged" if same else "changed"), "3, unchanged")
-    measured("study on a full disk", f"exit code {codes[2]}, {len(halves)} results, {len(unfinished_of_study)} unfinished", "3, none, none")
+    measured(
+        f"disk full after {size} bytes of a file",
+        f"exit code {codes[0]}, {len(names) + len(unfinished)} files",
+        "3, none",
+    )
+    measured(
+        "full disk over an earlier result",
+        f"exit code {codes[1]}, " + ("unchanged" if same else "changed"),
+        "3, unchanged",
+    )
+    measured(
+        "study on a full disk",
+        f"exit code {codes[2]}, {len(halves)} results, {len(unfinished_of_study)} unfinished",
+        "3, none, none",
+    )
     assert codes == [3, 3, 3] and said.count("could not be written: File too large") >= 3 and "Traceback" not in said
     assert names == unfinished == halves == unfinished_of_study == [] and same
     assert main(run_into("here")) == main(in_study) == 0
@@ -69,7 +89,8 @@ def test_a_full_disk_leaves_no_half_result(folder, undrawn, measured, size):
 
 
 def test_a_cache_on_a_full_disk_keeps_nothing(tmp_path, measured):
-    """An entry that does not fit: a warning, no file, and the process goes on. What a run does without its cache is told by
+    """An entry that does not fit: a warning, no file, and the process goes on. What a run does without its cache is
+    told by
     tests/studies/test_run_study.py."""
     program = (
         "import logging, numpy\n"
@@ -80,10 +101,19 @@ def test_a_cache_on_a_full_disk_keeps_nothing(tmp_path, measured):
         "print('went on')\n"
     )
     call = [sys.executable, "-c", program]
-    ended = subprocess.run(call, cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=60, preexec_fn=within(10_000))
+    ended = subprocess.run(
+        call, cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=60, preexec_fn=within(10_000)
+    )
     names, unfinished = left_over(tmp_path / "cache")
-    measured("cache full", f"exit code {ended.returncode}, {len(names) + len(unfinished)} files left", "0, none, a warning")
-    assert ended.returncode == 0 and ended.stdout == "went on\n" and "nothing is kept" in ended.stderr and names == unfinished == []
+    measured(
+        "cache full", f"exit code {ended.returncode}, {len(names) + len(unfinished)} files left", "0, none, a warning"
+    )
+    assert (
+        ended.returncode == 0
+        and ended.stdout == "went on\n"
+        and "nothing is kept" in ended.stderr
+        and names == unfinished == []
+    )
 
 
 @pytest.mark.parametrize("code", [errno.ENOSPC, errno.EDQUOT, errno.EACCES])

@@ -1,6 +1,7 @@
 """Row 27: kill -9 at any moment, and several runs at once on one cache.
 
-Authority throughout: hard case 27: recomputed or resumed; never a wrong number, never half a result under its final name. Where a number
+Authority throughout: hard case 27: recomputed or resumed; never a wrong number, never half a result under its final
+    name. Where a number
 is compared, the reference is the same run undisturbed, and the two are the same to the last bit.
 """
 
@@ -28,14 +29,17 @@ from fenics_gears.studies.case_files import sole_writer
 
 def killed_after(seconds, call, folder, **settings):
     """Start a process and kill it after some time; whether it was still running."""
-    process = subprocess.Popen(call, cwd=folder, env={**environment(), **settings}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    process = subprocess.Popen(
+        call, cwd=folder, env={**environment(), **settings}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
     time.sleep(seconds)
     os.kill(process.pid, signal.SIGKILL)
     return process.wait(timeout=60) == -signal.SIGKILL
 
 
 def kills(folder, measured, moments, what):
-    """Kill a run on an empty cache at so many moments of its time; every result and cache entry that is there is the whole one."""
+    """Kill a run on an empty cache at so many moments of its time; every result and cache entry that is there is the
+    whole one."""
     reference = Path("usual")
     begun = time.monotonic()
     assert gears(folder, "run", "pair.toml", "--output", reference, "--quiet", "--no-pictures").returncode == 0
@@ -54,11 +58,21 @@ def kills(folder, measured, moments, what):
             assert Cache(own).load(entry.stem) is not None
     ended = gears(folder, "run", "pair.toml", "--output", directory, "--quiet", "--no-pictures")
     again = results.load(directory / "run.nc").transmission_error.equals(usual.transmission_error)
-    measured(what, f"{killed} of {moments} killed, {kept} complete results, none incomplete", "no incomplete result; run again, the same to the bit")
+    measured(
+        what,
+        f"{killed} of {moments} killed, {kept} complete results, none incomplete",
+        "no incomplete result; run again, the same to the bit",
+    )
     assert ended.returncode == 0 and again
 
 
-@pytest.mark.parametrize(("number", "what"), [pytest.param(2, "before its second gear is kept", marks=pytest.mark.nightly), (3, "before its result has its name")])
+@pytest.mark.parametrize(
+    ("number", "what"),
+    [
+        pytest.param(2, "before its second gear is kept", marks=pytest.mark.nightly),
+        (3, "before its result has its name"),
+    ],
+)
 def test_a_run_killed_between_its_files(folder, measured, number, what):
     """kill -9 with the first gear kept and the second written aside, and with the result written aside."""
     program = (
@@ -69,34 +83,67 @@ def test_a_run_killed_between_its_files(folder, measured, number, what):
         "os.replace = killed\n"
         "cli.main(sys.argv[2:])\n"
     )
-    call = [sys.executable, "-c", program, str(number), "run", "pair.toml", "--output", "here", "--quiet", "--no-pictures"]
+    call = [
+        sys.executable,
+        "-c",
+        program,
+        str(number),
+        "run",
+        "pair.toml",
+        "--output",
+        "here",
+        "--quiet",
+        "--no-pictures",
+    ]
     ended = subprocess.run(call, cwd=folder, env={**environment(), "FENICS_GEARS_CACHE": "own"}, timeout=60)
     results_kept, entries = list(Path("here").glob("*.nc")), list(Path("own").glob("*.h5"))
-    measured(f"a run killed {what}", f"{len(results_kept)} results, {len(entries)} gears kept", "none incomplete; run again, the same to the bit")
+    measured(
+        f"a run killed {what}",
+        f"{len(results_kept)} results, {len(entries)} gears kept",
+        "none incomplete; run again, the same to the bit",
+    )
     assert ended.returncode == -signal.SIGKILL and results_kept == [] and len(entries) == number - 1
     assert all(Cache(Path("own")).load(entry.stem) is not None for entry in entries)
-    assert main(["run", "pair.toml", "--output", "usual", "--quiet", "--no-pictures"]) == main(["run", "pair.toml", "--output", "here", "--quiet", "--no-pictures"]) == 0
+    assert (
+        main(["run", "pair.toml", "--output", "usual", "--quiet", "--no-pictures"])
+        == main(["run", "pair.toml", "--output", "here", "--quiet", "--no-pictures"])
+        == 0
+    )
     assert results.load("here/run.nc").transmission_error.equals(results.load("usual/run.nc").transmission_error)
 
 
 def lengthened(folder, cycles):
     """The coarse scene with more mesh cycles, fields of the last one recorded; its name."""
-    text = Path("pair.toml").read_text(encoding="utf-8").replace("mesh_cycles = 2 ", f"mesh_cycles = {cycles} ").replace("recorded_cycles = 2", "recorded_cycles = 1")
+    text = (
+        Path("pair.toml")
+        .read_text(encoding="utf-8")
+        .replace("mesh_cycles = 2 ", f"mesh_cycles = {cycles} ")
+        .replace("recorded_cycles = 2", "recorded_cycles = 1")
+    )
     (folder / "long.toml").write_text(text, encoding="utf-8")
     return "long.toml"
 
 
 @pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.nightly)])
 def test_a_run_killed_while_it_marches_has_its_steps_on_disk(folder, measured, capsys, kills):
-    """kill -9 at moments drawn at random: every step that is there is the undisturbed run's to the last bit, `gears plot` and `gears report` draw
-    them and say that the run did not end. The run keeps a journal from its first block of steps on, not only after two seconds."""
+    """kill -9 at moments drawn at random: every step that is there is the undisturbed run's to the last bit, `gears
+    plot` and `gears report` draw
+    them and say that the run did not end. The run keeps a journal from its first block of steps on, not only after two
+    seconds."""
     scene = lengthened(folder, 400)
-    program = "import sys\nfrom fenics_gears.results import journal\njournal.SECONDS_WITHOUT = 0.0\nfrom fenics_gears.commands import cli\ncli.main(sys.argv[1:])\n"
+    program = (
+        "import sys\nfrom fenics_gears.results import journal\njournal.SECONDS_WITHOUT = 0.0\nfrom"
+        " fenics_gears.commands import cli\ncli.main(sys.argv[1:])\n"
+    )
     assert main(["run", scene, "--output", "usual", "--quiet", "--no-pictures"]) == 0
     usual, moments, there, wrong = results.load("usual/run.nc"), np.random.default_rng().uniform(0.0, 0.3, kills), [], 0
     for number, moment in enumerate(moments):
         directory = folder / f"out{number}"
-        process = subprocess.Popen([sys.executable, "-c", program, "run", scene, "--output", str(directory), "--quiet", "--no-pictures"], cwd=folder, env=environment())
+        process = subprocess.Popen(
+            [sys.executable, "-c", program, "run", scene, "--output", str(directory), "--quiet", "--no-pictures"],
+            cwd=folder,
+            env=environment(),
+        )
         deadline = time.monotonic() + 60
         while not is_journal(directory / "run.nc.part") and process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.002)
@@ -107,38 +154,57 @@ def test_a_run_killed_while_it_marches_has_its_steps_on_disk(folder, measured, c
         found = results.load(directory / "run.nc") if ended else unfinished(directory / "run.nc.part")
         steps, of_field = found.sizes["time"], found.sizes["contact_time"]
         there.append(steps)
-        wrong += sum(not variable.equals(usual.variables[name][:steps]) for name, variable in found.variables.items() if variable.dims[:1] == ("time",))
+        wrong += sum(
+            not variable.equals(usual.variables[name][:steps])
+            for name, variable in found.variables.items()
+            if variable.dims[:1] == ("time",)
+        )
         np.testing.assert_array_equal(found["contact_time"], usual["time"][steps - of_field : steps])
-        assert ended or (found.attrs["complete"], found.attrs["stopped"], found.attrs["steps"]) == (0, "not ended", steps - 1)
-    measured(f"a run killed at {kills} moments of its march: steps on disk", f"{min(there)} to {max(there)} of {usual.sizes['time']}, {wrong} curves wrong", "those done, none wrong")
+        assert ended or (found.attrs["complete"], found.attrs["stopped"], found.attrs["steps"]) == (
+            0,
+            "not ended",
+            steps - 1,
+        )
+    measured(
+        f"a run killed at {kills} moments of its march: steps on disk",
+        f"{min(there)} to {max(there)} of {usual.sizes['time']}, {wrong} curves wrong",
+        "those done, none wrong",
+    )
     assert wrong == 0 and min(there) > 0
     # Killed before its first block a run has nothing to draw but its start.
     if kills == 1 and not ended and steps > 1:
         assert main(["plot", str(directory)]) == main(["report", str(directory), "--no-stress"]) == 0
-        assert capsys.readouterr().err.count(f"has not come to its end (its process was killed, or still runs): {steps - 1} of its {usual.attrs['steps']} steps are there") == 2
-        assert "INCOMPLETE RUN. Its process was killed, or still runs." in (directory / "report.html").read_text(encoding="utf-8")
+        assert (
+            capsys.readouterr().err.count(
+                f"has not come to its end (its process was killed, or still runs): {steps - 1} of its"
+                f" {usual.attrs['steps']} steps are there"
+            )
+            == 2
+        )
+        assert "INCOMPLETE RUN. Its process was killed, or still runs." in (directory / "report.html").read_text(
+            encoding="utf-8"
+        )
 
 
 @pytest.mark.nightly
 def test_a_run_killed_at_many_moments(folder, measured):
-    """kill -9 while gears are meshed, the cache and the result written, at moments a few hundredths of a second apart."""
+    """kill -9 while gears are meshed, the cache and the result written, at moments a few hundredths of a second
+    apart."""
     kills(folder, measured, 60, "a run killed, by night")
 
 
-@pytest.mark.parametrize("pauses", [(0.011,), pytest.param((0.0, 0.003, 0.007, 0.017, 0.023), marks=pytest.mark.nightly)])
+@pytest.mark.parametrize(
+    "pauses", [(0.011,), pytest.param((0.0, 0.003, 0.007, 0.017, 0.023), marks=pytest.mark.nightly)]
+)
 def test_writers_killed_while_they_write(tmp_path, measured, pauses):
-    """Processes that do nothing but store one large cache entry and one result again and again, killed: readers see whole ones."""
+    """Processes that do nothing but store one large cache entry and one result again and again, killed: readers see
+    whole ones."""
     program = (
-        "import sys, numpy, xarray\n"
-        "from pathlib import Path\n"
-        "from fenics_gears import results\n"
-        "from fenics_gears.elasticity.cache import Cache\n"
-        "number, steps = 0.0, numpy.arange(400_000.0)\n"
-        "while True:\n"
-        "    number += 1.0\n"
-        "    values = numpy.full(400_000, number)\n"
-        "    Cache(Path('cache')).store('key', {'values': values})\n"
-        "    results.save(xarray.Dataset({'transmission_error': ('time', values), 'mesh_phase': ('time', steps)}, {'time': steps}, {'scene': ''}), 'run.nc')\n"
+        "import sys, numpy, xarray\nfrom pathlib import Path\nfrom fenics_gears import results\nfrom"
+        " fenics_gears.elasticity.cache import Cache\nnumber, steps = 0.0, numpy.arange(400_000.0)\nwhile True:\n   "
+        " number += 1.0\n    values = numpy.full(400_000, number)\n    Cache(Path('cache')).store('key', {'values':"
+        " values})\n    results.save(xarray.Dataset({'transmission_error': ('time', values), 'mesh_phase': ('time',"
+        " steps)}, {'time': steps}, {'scene': ''}), 'run.nc')\n"
     )
     seen = 0
     for pause in pauses:
@@ -152,7 +218,10 @@ def test_writers_killed_while_they_write(tmp_path, measured, pauses):
             if killed:
                 os.kill(process.pid, signal.SIGKILL)
                 process.wait(timeout=60)
-            stored, saved = Cache(tmp_path / "cache").load("key")["values"], results.load(tmp_path / "run.nc").transmission_error.values
+            stored, saved = (
+                Cache(tmp_path / "cache").load("key")["values"],
+                results.load(tmp_path / "run.nc").transmission_error.values,
+            )
             assert len(stored) == len(saved) == 400_000 and np.ptp(stored) == np.ptp(saved) == 0.0
             seen += 2
     measured("files read while a writer is killed", f"{seen} of {seen} complete", "all")
@@ -188,11 +257,17 @@ def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder, undrawn, meas
 
 @pytest.mark.parametrize("count", [2, pytest.param(5, marks=pytest.mark.nightly)])
 def test_runs_at_once_on_one_empty_cache(folder, measured, tmp_path, count):
-    """Processes condense the same gears into one cache at the same time: each has the number of a run alone, to the bit."""
+    """Processes condense the same gears into one cache at the same time: each has the number of a run alone, to the
+    bit."""
     own = tmp_path / "shared"
-    calls = [command("run", "pair.toml", "--output", f"out{number}", "--quiet", "--no-pictures") for number in range(count)]
+    calls = [
+        command("run", "pair.toml", "--output", f"out{number}", "--quiet", "--no-pictures") for number in range(count)
+    ]
     processes = [
-        subprocess.Popen(call, cwd=folder, env={**environment(), "FENICS_GEARS_CACHE": str(own)}, stderr=subprocess.PIPE, text=True) for call in calls
+        subprocess.Popen(
+            call, cwd=folder, env={**environment(), "FENICS_GEARS_CACHE": str(own)}, stderr=subprocess.PIPE, text=True
+        )
+        for call in calls
     ]
     said = [process.communicate(timeout=120)[1] for process in processes]
     assert [process.returncode for process in processes] == [0] * count, said

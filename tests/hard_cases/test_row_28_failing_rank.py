@@ -1,4 +1,5 @@
-"""Row 28: a rank of an MPI study fails. Its case is recorded with the reason, the others finish, nothing hangs, the exit code says so.
+"""Row 28: a rank of an MPI study fails. Its case is recorded with the reason, the others finish, nothing hangs, the
+exit code says so.
 
 Authority throughout: hard case 28 and the exit codes of docs/promises.md.
 """
@@ -27,12 +28,16 @@ def in_the_way(study, index, directory="here"):
     return case
 
 
-@pytest.mark.parametrize("failing", [(1,), *(pytest.param(cases, marks=pytest.mark.nightly) for cases in ((0,), (2,), (0, 2)))])
+@pytest.mark.parametrize(
+    "failing", [(1,), *(pytest.param(cases, marks=pytest.mark.nightly) for cases in ((0,), (2,), (0, 2)))]
+)
 def test_the_case_of_a_failing_rank_is_recorded_and_the_others_finish(folder, measured, capsys, failing):
-    """Whichever of two ranks has the case, or both one each: rank 0 takes them from the last on, rank 1 from the first on. At the end the dataset
+    """Whichever of two ranks has the case, or both one each: rank 0 takes them from the last on, rank 1 from the first
+    on. At the end the dataset
     is that of a study alone: a case's run does not depend on where it runs.
 
-    `gears study -n 2` starts mpirun itself, as root too, where mpirun alone would refuse: the settings are the program's.
+    `gears study -n 2` starts mpirun itself, as root too, where mpirun alone would refuse: the settings are the
+    program's.
     """
     study = write_study(folder, THREE)
     cases = [in_the_way(study, index) for index in failing]
@@ -44,7 +49,9 @@ def test_the_case_of_a_failing_rank_is_recorded_and_the_others_finish(folder, me
     done, failed = int(np.isfinite(combined["mean_transmission_error"]).sum()), int(combined["failed"].sum())
     outcome = f"exit code {ended.returncode}, {done} done, {failed} failed"
     expected = f"exit code 3, {3 - len(cases)} done, {len(cases)} failed"
-    measured(f"cases {' and '.join(map(str, failing))} of 0 to 2 cannot be written, 2 ranks", outcome, f"{expected}, no hang")
+    measured(
+        f"cases {' and '.join(map(str, failing))} of 0 to 2 cannot be written, 2 ranks", outcome, f"{expected}, no hang"
+    )
     assert ended.returncode == 3, ended.stderr
     assert list(combined["failed"].values) == [int(index in failing) for index in range(3)]
     assert all("directory" in str(combined["failure"].values[index]).lower() for index in failing)
@@ -83,7 +90,8 @@ def test_a_killed_rank_loses_nothing_that_was_done(folder, measured, capsys):
 
 @pytest.mark.nightly
 def test_an_outcome_that_cannot_be_reported_is_the_failure_of_its_case(folder, measured):
-    """A worker's answer travels to rank 0 as bytes; one that cannot be sent, or is no exception that can be made again, is a failure, not a
+    """A worker's answer travels to rank 0 as bytes; one that cannot be sent, or is no exception that can be made again,
+    is a failure, not a
     rank waiting for ever."""
     program = (
         "import time\n"
@@ -103,7 +111,18 @@ def test_an_outcome_that_cannot_be_reported_is_the_failure_of_its_case(folder, m
         "        print(*(found[i] if isinstance(found[i], int) else 'failed' for i in range(5)))\n"
     )
     Path("program.py").write_text(program)
-    told = subprocess.run([*mpirun(2), sys.executable, "program.py"], cwd=folder, env=environment(), capture_output=True, text=True, timeout=60)
-    measured("outcomes that cannot be sent back or made again", told.stdout.strip() or f"exit code {told.returncode}", "the other three outcomes come back")
+    told = subprocess.run(
+        [*mpirun(2), sys.executable, "program.py"],
+        cwd=folder,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    measured(
+        "outcomes that cannot be sent back or made again",
+        told.stdout.strip() or f"exit code {told.returncode}",
+        "the other three outcomes come back",
+    )
     outcomes = told.stdout.split()
     assert len(outcomes) == 5 and [outcomes[0], *outcomes[3:]] == ["0", "3", "4"], told.stderr

@@ -1,4 +1,5 @@
-"""What engineers call a field that has another name here. Authority: the schema itself, and ISO 21771's and ISO 1328's symbols."""
+"""What engineers call a field that has another name here. Authority: the schema itself, and ISO 21771's and ISO 1328's
+symbols."""
 
 from pathlib import Path
 
@@ -14,7 +15,8 @@ FIELDS = {".".join(path) for path in known_paths()}
 
 
 def test_every_synonym_is_of_a_field_and_of_one_alone():
-    """Authority: the schema: a hint names what there is, and no word of a section stands for two of its fields, nor is it one itself."""
+    """Authority: the schema: a hint names what there is, and no word of a section stands for two of its fields, nor is
+    it one itself."""
     for section, fields in SYNONYMS.items():
         assert {f"{section}.{name}".lstrip(".") for name in fields} <= FIELDS
         words = [word for each in fields.values() for word in each]
@@ -33,14 +35,23 @@ def test_every_synonym_is_of_a_field_and_of_one_alone():
         ("teeth = 16", "z = 16", 'Did you mean "teeth"?'),
         ("coefficient = 0.1", "mu = 0.1", 'Did you mean "coefficient"?'),
         ("[friction]\ncoefficient", "[coulomb]\ncoefficient", 'Did you mean "friction"?'),
-        ("coefficient = 0.1", 'coefficient = 0.1\n[tip_relief]\namount = "31 um"\nstart = "HPSTC"', 'Did you mean "depth"?'),
-        ("coefficient = 0.1", 'coefficient = 0.1\n[tip_relief.wheel]\nCa = "31 um"\nstart = "HPSTC"', 'Did you mean "depth"?'),
+        (
+            "coefficient = 0.1",
+            'coefficient = 0.1\n[tip_relief]\namount = "31 um"\nstart = "HPSTC"',
+            'Did you mean "depth"?',
+        ),
+        (
+            "coefficient = 0.1",
+            'coefficient = 0.1\n[tip_relief.wheel]\nCa = "31 um"\nstart = "HPSTC"',
+            'Did you mean "depth"?',
+        ),
         ("[damping]", 'mass_moment = "3 kg m^2"\n[damping]', 'Did you mean "moment_of_inertia"?'),
         ("[shafts]", '[shafts]\nmass_moment = "3 kg m^2"', 'Did you mean "moment_of_inertia" of [inertia]?'),
     ],
 )
 def test_a_synonym_is_answered_with_the_name(old, new, hint):
-    """Authority: the interface: one mistake, which names the field that is meant and does not call it missing besides."""
+    """Authority: the interface: one mistake, which names the field that is meant and does not call it missing
+    besides."""
     assert old in DEMO
     with pytest.raises(SceneError) as error:
         scene_from_text(DEMO.replace(old, new, 1), "pair")
@@ -49,7 +60,8 @@ def test_a_synonym_is_answered_with_the_name(old, new, hint):
 
 
 def test_a_word_means_what_its_section_has():
-    """Authority: the field's symbols: mu is friction's coefficient and, of a material, often Poisson's ratio; unknown words mean nothing."""
+    """Authority: the field's symbols: mu is friction's coefficient and, of a material, often Poisson's ratio; unknown
+    words mean nothing."""
     assert meant(["friction"], "mu", ["coefficient"]) == "coefficient"
     assert meant(["gears", "material"], "mu", ["youngs_modulus", "poissons_ratio"]) == "poissons_ratio"
     assert meant(["gears", "wheel"], "z", ["teeth"]) == "teeth"

@@ -1,4 +1,5 @@
-"""Units at the edge of the program, against the definitions of the units (SI brochure, international inch and pound)."""
+"""Units at the edge of the program, against the definitions of the units (SI brochure, international inch and
+pound)."""
 
 import math
 
@@ -64,14 +65,19 @@ def test_a_quantity_is_what_its_unit_says(text, value, kind):
     "written", ["min^-1", "min⁻¹", "min**-1", "1/min", "1 / min", "U/min", "r/min", "rev/min", "U min^-1", "rpm"]
 )
 def test_revolutions_a_minute_as_data_sheets_write_them(written):
-    """Authority: DIN 1301 and ISO 80000-3: 1/min is the rotational frequency's unit where it is wanted, a turn being 2 pi rad."""
+    """Authority: DIN 1301 and ISO 80000-3: 1/min is the rotational frequency's unit where it is wanted, a turn being 2
+    pi rad."""
     for blank in ("", " ") if written[0] != "1" else (" ",):
-        assert of_kind(f"750{blank}{written}", AN_ANGULAR_SPEED) == (pytest.approx(25 * math.pi, rel=ROUND_OFF), AN_ANGULAR_SPEED)
+        assert of_kind(f"750{blank}{written}", AN_ANGULAR_SPEED) == (
+            pytest.approx(25 * math.pi, rel=ROUND_OFF),
+            AN_ANGULAR_SPEED,
+        )
 
 
 @pytest.mark.parametrize("written", ["12.5 1/s", "12.5 Hz", "12.5 s^-1"])
 def test_what_may_be_radians_is_no_speed(written):
-    """Authority: the same; 1/s stands for rad/s as well, so that it is not taken for a speed, nor is 1/min where a frequency is wanted."""
+    """Authority: the same; 1/s stands for rad/s as well, so that it is not taken for a speed, nor is 1/min where a
+    frequency is wanted."""
     with pytest.raises(QuantityError, match="is a frequency .1/time., not an angular speed"):
         of_kind(written, AN_ANGULAR_SPEED)
     assert of_kind("60 1/min", "a frequency (1/time)") == (pytest.approx(1.0, rel=ROUND_OFF), "a frequency (1/time)")
@@ -79,7 +85,13 @@ def test_what_may_be_radians_is_no_speed(written):
 
 @pytest.mark.parametrize(
     ("one", "other"),
-    [("437 N m", "437 N m/rad"), ("200 Hz", "200 rad/s"), ("200 Hz", "200 rpm"), ("1 mm", "1 rad"), ("1 1/s", "1 rad/s")],
+    [
+        ("437 N m", "437 N m/rad"),
+        ("200 Hz", "200 rad/s"),
+        ("200 Hz", "200 rpm"),
+        ("1 mm", "1 rad"),
+        ("1 1/s", "1 rad/s"),
+    ],
 )
 def test_an_angle_is_a_dimension(one, other):
     """Authority: docs/promises.md's units; a torque is no torsional stiffness and a frequency no angular speed."""

@@ -1,4 +1,5 @@
-"""Slices and layers over the face that follow from the scene: which end where, how many a helix asks for, and what is refused or warned of."""
+"""Slices and layers over the face that follow from the scene: which end where, how many a helix asks for, and what is
+refused or warned of."""
 
 from dataclasses import replace
 
@@ -33,9 +34,12 @@ def slice_ends(model):
 @pytest.mark.parametrize("wider", [0.0, 0.02, 0.7, 11.0])
 @pytest.mark.parametrize(("width", "helix"), [(2.0, 0.0), (24.7, 8.0), (31.3, 38.0)])
 def test_slices_end_where_layers_do(width, helix, wider):
-    """Condition of a smooth line load: each layer of either gear on the common face has the same number of whole slices, also where a gear is wider."""
+    """Condition of a smooth line load: each layer of either gear on the common face has the same number of whole
+    slices, also where a gear is wider."""
     scene = helical_scene(CROWNED, helix=helix, width=width, accuracy="")
-    model = model_of(replace(scene, gears=replace(scene.gears, pinion=replace(scene.gears.pinion, face_width=width + 2.0 * wider))))
+    model = model_of(
+        replace(scene, gears=replace(scene.gears, pinion=replace(scene.gears.pinion, face_width=width + 2.0 * wider)))
+    )
     whole = slice_ends(model)[::SLICES_OF_A_LAYER]
     # An overhang of less than a tenth of a layer is part of the layer beside it.
     off = (wider if wider < 0.1 * (whole[1] - whole[0]) else 0.0) + 1e-9 * width
@@ -51,7 +55,8 @@ def test_slices_end_where_layers_do(width, helix, wider):
 
 @pytest.mark.parametrize(("helix", "width"), [(1.0, 40.0), (20.0, 3.0), (20.0, 33.0), (40.0, 17.0)])
 def test_defaults_are_as_fine_as_they_say(helix, width):
-    """What docs/scene.md promises: no layer thicker than that part of the module, none in which the line of contact moves further than that part of the base pitch."""
+    """What docs/scene.md promises: no layer thicker than that part of the module, none in which the line of contact
+    moves further than that part of the base pitch."""
     model = model_with(helix=helix, width=width)
     thickness = np.diff(boundaries(model, 0)).max()
     assert thickness <= LAYER_THICKNESS * model.scene.gears.module * (1.0 + 1e-9)
@@ -60,17 +65,25 @@ def test_defaults_are_as_fine_as_they_say(helix, width):
 
 
 def test_steeper_helices_have_more_slices():
-    """Geometry: at 8 degrees the module says how many, at 38 the turn of the helix: 24 mm of 3 mm and tau = 0.7086 move the line by 17.0 mm, 1.566 base pitches."""
+    """Geometry: at 8 degrees the module says how many, at 38 the turn of the helix: 24 mm of 3 mm and tau = 0.7086 move
+    the line by 17.0 mm, 1.566 base pitches."""
     assert model_with(helix=8.0).face.slices == model_with(CROWNED, helix=0.0).face.slices == 24
     assert model_with(helix=38.0).face.slices == 2 * 27
 
 
 @pytest.mark.parametrize(
     ("asked", "slices", "layers"),
-    [(Accuracy(slices=40, layers=12), 40, 12), (Accuracy(slices=40), 40, 20), (Accuracy(layers=8), 24, 8), (Accuracy(slices=6), 6, 12), (Accuracy(slices=25), 25, 13)],
+    [
+        (Accuracy(slices=40, layers=12), 40, 12),
+        (Accuracy(slices=40), 40, 20),
+        (Accuracy(layers=8), 24, 8),
+        (Accuracy(slices=6), 6, 12),
+        (Accuracy(slices=25), 25, 13),
+    ],
 )
 def test_what_the_scene_asks_for_is_taken(asked, slices, layers):
-    """Convention: `slices` and `layers` are as given; of one alone the other follows so that slices end where layers do, if a number near the default does that."""
+    """Convention: `slices` and `layers` are as given; of one alone the other follows so that slices end where layers
+    do, if a number near the default does that."""
     model = model_of(replace(helical_scene(accuracy="", helix=8.0), accuracy=asked))
     assert model.face.slices == slices
     assert [face_discretisation(model, gear).layers for gear in range(2)] == [layers, layers]
@@ -78,7 +91,8 @@ def test_what_the_scene_asks_for_is_taken(asked, slices, layers):
 
 @pytest.mark.parametrize("offset", [0.0, 1.3])
 def test_layers_are_alike_towards_both_ends_of_a_gear(offset):
-    """What folding a sector needs (docs/third_dimension.md): boundaries are each other's opposites, wherever the common face is."""
+    """What folding a sector needs (docs/third_dimension.md): boundaries are each other's opposites, wherever the common
+    face is."""
     scene = helical_scene(accuracy="", offset=offset)
     wider = replace(scene, gears=replace(scene.gears, wheel=replace(scene.gears.wheel, face_width=29.0)))
     for gear in range(2):
@@ -87,9 +101,15 @@ def test_layers_are_alike_towards_both_ends_of_a_gear(offset):
 
 
 def test_layers_that_turn_too_far_are_refused_before_anything_is_computed():
-    """Hard case 26: half a radian is what parabolas follow; one layer of 45 mm at 35 degrees turns by 0.906 rad, 45 tan(beta_b)/r_b."""
-    coarse = replace(helical_scene(accuracy="", helix=35.0, width=45.0, teeth=(19, 25)), accuracy=Accuracy(slices=4, layers=1))
-    with pytest.raises(SceneError, match=r"accuracy.layers = 1: a layer would turn by 0.9\d* rad, at most 0.5 is accurate; take 2 or more"):
+    """Hard case 26: half a radian is what parabolas follow; one layer of 45 mm at 35 degrees turns by 0.906 rad, 45
+    tan(beta_b)/r_b."""
+    coarse = replace(
+        helical_scene(accuracy="", helix=35.0, width=45.0, teeth=(19, 25)), accuracy=Accuracy(slices=4, layers=1)
+    )
+    with pytest.raises(
+        SceneError,
+        match=r"accuracy.layers = 1: a layer would turn by 0.9\d* rad, at most 0.5 is accurate; take 2 or more",
+    ):
         model_of(coarse)
     assert model_of(replace(coarse, accuracy=Accuracy(slices=4, layers=2))).face.slices == 4
 
@@ -100,7 +120,8 @@ def misaligned(amount, torque=200e3, **accuracy):
 
 
 def test_part_of_a_face_that_carries():
-    """Exact for a uniform foundation: a load F on a slope s touches over sqrt(2 F/(c s)), all of the face where that is wider."""
+    """Exact for a uniform foundation: a load F on a slope s touches over sqrt(2 F/(c s)), all of the face where that is
+    wider."""
     model = misaligned(300.0, torque=20e3)
     force, slope = 20e3 / model.pair.wheel.base_radius, 0.3 / 24.0
     assert loaded_part(model) == pytest.approx(np.sqrt(2.0 * force / (0.1 * 206e3 * slope)) / 24.0, rel=0.02)
@@ -108,8 +129,12 @@ def test_part_of_a_face_that_carries():
 
 
 def test_few_slices_under_the_load_are_warned_of():
-    """Finding: 60 um over 6 mm at light load, where a pair that carried on part of a slice was missed; slices that the sentence asks for end it."""
+    """Finding: 60 um over 6 mm at light load, where a pair that carried on part of a slice was missed; slices that the
+    sentence asks for end it."""
     (sentence,) = (each for each in misaligned(300.0, torque=20e3).warnings if "accuracy.slices" in each)
     asked = int(sentence.rsplit("= ", 1)[1])
     for amount, slices in ((300.0, asked), (20.0, None)):
-        assert not any("accuracy.slices" in each for each in misaligned(amount, torque=20e3 if slices else 200e3, slices=slices).warnings)
+        assert not any(
+            "accuracy.slices" in each
+            for each in misaligned(amount, torque=20e3 if slices else 200e3, slices=slices).warnings
+        )

@@ -46,7 +46,8 @@ def test_elements_follow_the_half_width(paper_scene):
 
 @pytest.mark.parametrize("torque, part", [(0.0, FINEST_ELEMENT), (437e7, COARSEST_ELEMENT)])
 def test_elements_stay_reasonable_whatever_the_load(paper_scene, torque, part):
-    """No load has no half-width; an absurd one has a half-width of teeth: elements stay between two parts of the module."""
+    """No load has no half-width; an absurd one has a half-width of teeth: elements stay between two parts of the
+    module."""
     scene = replace(paper_scene, load=replace(paper_scene.load, wheel_torque=torque))
     assert of_scene(scene).flank_element_size == pytest.approx(part * 4.5)
 
@@ -64,7 +65,8 @@ def test_steps_follow_the_highest_frequency(paper_scene, paper_pair):
 
 
 def test_natural_frequencies_against_single_oscillators(paper_scene, paper_pair):
-    """Exact: without the mesh the translations are sqrt(k_b/m)/2 pi, phi1 is sqrt(k_s/J)/2 pi, phi2 and phi3 a free pair of sqrt(2 k_s/J)/2 pi."""
+    """Exact: without the mesh the translations are sqrt(k_b/m)/2 pi, phi1 is sqrt(k_s/J)/2 pi, phi2 and phi3 a free
+    pair of sqrt(2 k_s/J)/2 pi."""
     frequencies = natural_frequencies(drivetrain(paper_scene, paper_pair), 0.0)
     translation, torsion = sqrt(0.155e6 / 4.9e-3) / (2.0 * pi), sqrt(0.203e9 / 24.5) / (2.0 * pi)
     expected = sorted([0.0, *[translation] * 4, torsion, sqrt(2.0) * torsion])
@@ -78,7 +80,10 @@ def test_description_says_what_a_run_will_use(paper_scene):
     assert accuracy["flank element size"] == 0.08
     assert accuracy["steps"] == "3000, curves are stored for all, contact fields for the last 201"
     assert "Natural frequencies with one tooth pair in mesh (about)" in sections
-    rows = {label: (value, unit) for label, value, unit in sections["Natural frequencies with one tooth pair in mesh (about)"]}
+    rows = {
+        label: (value, unit)
+        for label, value, unit in sections["Natural frequencies with one tooth pair in mesh (about)"]
+    }
     frequency, said = rows["mode 1"]
     assert said.startswith(f"Hz: {1.0 / (frequency * 5e-5):.3g} steps per period, damping ratio")
     # (omega dt)^2/12 = 1 %, and Nyquist's two steps.
@@ -89,19 +94,28 @@ def test_description_says_what_a_run_will_use(paper_scene):
 
 
 def test_damping_ratios_and_what_the_mesh_excites(paper_scene, paper_pair):
-    """Exact: Rayleigh damping gives a translation of frequency w the ratio (alpha w + beta/w)/2; without friction nothing moves it off the
+    """Exact: Rayleigh damping gives a translation of frequency w the ratio (alpha w + beta/w)/2; without friction
+    nothing moves it off the
     line of action."""
     for friction in (False, True):
         modes = vibrations(drivetrain(paper_scene, paper_pair), mesh_stiffness(paper_scene), friction)
         omega = sqrt(0.155e6 / 4.9e-3)
         across = [mode for mode in modes if mode.frequency == pytest.approx(omega / (2.0 * pi), rel=1e-9)]
-        assert [mode.damping_ratio for mode in across] == pytest.approx(3 * [0.5 * (0.4e-3 * omega + 0.5e-3 / omega)], rel=1e-9)
+        assert [mode.damping_ratio for mode in across] == pytest.approx(
+            3 * [0.5 * (0.4e-3 * omega + 0.5e-3 / omega)], rel=1e-9
+        )
         assert any(mode.excited for mode in across) == friction
         assert sum(mode.excited for mode in modes) >= 4
 
 
 def test_steps_too_few_to_see_the_transmission_error_are_named(paper_scene):
-    """Authority: measured, quasi-static. Of 200 steps' peak-to-peak value 20 see 99 %, 10 as little as 95 %, 4 as little as half."""
-    few, enough = (model_of(replace(paper_scene, accuracy=Accuracy(steps_per_mesh_cycle=steps), inertia=None, damping=None)).warnings for steps in (19, 20))
+    """Authority: measured, quasi-static. Of 200 steps' peak-to-peak value 20 see 99 %, 10 as little as 95 %, 4 as
+    little as half."""
+    few, enough = (
+        model_of(
+            replace(paper_scene, accuracy=Accuracy(steps_per_mesh_cycle=steps), inertia=None, damping=None)
+        ).warnings
+        for steps in (19, 20)
+    )
     assert any("steps_per_mesh_cycle is 19" in warning for warning in few)
     assert not any("steps_per_mesh_cycle" in warning for warning in enough)

@@ -17,8 +17,10 @@ MATERIALS = (Material(206e3, 0.3), Material(206e3, 0.3))
 
 
 def test_it_is_the_temperature_under_a_moving_band(paper_pair):
-    """Exact: a semi-elliptic band of heat on a half-space that moves fast, T(x) = 1/(B sqrt(pi v)) int q(s)/sqrt(x - s) ds; heat splits so that both flanks, the one slower than
-    the other, have the same largest temperature. The formula's 0.80 is the rounded largest value, 0.7924 by the integral."""
+    """Exact: a semi-elliptic band of heat on a half-space that moves fast, T(x) = 1/(B sqrt(pi v)) int q(s)/sqrt(x - s)
+    ds; heat splits so that both flanks, the one slower than
+    the other, have the same largest temperature. The formula's 0.80 is the rounded largest value, 0.7924 by the
+    integral."""
     position, force, friction, speed = 0.75 * paper_pair.path_end, 400.0, 0.1, 1500.0
     first, second = position, paper_pair.line_of_action_length - position
     radius = first * second / (first + second)
@@ -31,7 +33,9 @@ def test_it_is_the_temperature_under_a_moving_band(paper_pair):
     def largest(v, power):
         def at(x):
             # s = x - u^2 takes the singularity away.
-            return quad(lambda u: 2.0 * sqrt(max(1.0 - ((x - u**2) / half_width) ** 2, 0.0)), 0.0, sqrt(x + half_width))[0]
+            return quad(
+                lambda u: 2.0 * sqrt(max(1.0 - ((x - u**2) / half_width) ** 2, 0.0)), 0.0, sqrt(x + half_width)
+            )[0]
 
         peak = max(at(x) for x in np.linspace(0.0, 0.9, 40) * half_width)
         return 2.0 * power / (pi * half_width) * peak / (contact * sqrt(pi * v))
@@ -57,14 +61,30 @@ def test_load_share_of_unmodified_teeth(paper_pair):
 
 
 def test_computed_forces_enter_in_the_transverse_section_as_the_standards_do():
-    """Statics: a tooth pair of a helical gear that carries F_bt/cos(beta_b) along the contact normal has the flash temperature of the line force F_bt/b."""
+    """Statics: a tooth pair of a helical gear that carries F_bt/cos(beta_b) along the contact normal has the flash
+    temperature of the line force F_bt/b."""
     scene = wide_pair("[friction]\ncoefficient = 0.05\n")
     operation = _operation(scene)
     pair, force = operation.pair, scene.load.wheel_torque / operation.pair.wheel.base_radius
     phase = np.linspace(0.0, 0.95 * pair.contact_ratio, 40)
     dims = ("time", "slot")
-    coordinates = {"time": phase, "mesh_phase": ("time", phase), "pair_number": (dims, np.ones((40, 1), dtype=int), {"number_at_phase_0": 1})}
-    result = xr.Dataset({"pair_normal_force": (dims, np.full((40, 1), force / pair.cosine))}, coordinates, {"friction_coefficient": 0.05})
-    expected = flash_temperature(pair, operation.materials, pair.path_start + phase * pair.base_pitch, np.full(40, force / pair.face_width), 0.05, operation.pinion_speed)
+    coordinates = {
+        "time": phase,
+        "mesh_phase": ("time", phase),
+        "pair_number": (dims, np.ones((40, 1), dtype=int), {"number_at_phase_0": 1}),
+    }
+    result = xr.Dataset(
+        {"pair_normal_force": (dims, np.full((40, 1), force / pair.cosine))},
+        coordinates,
+        {"friction_coefficient": 0.05},
+    )
+    expected = flash_temperature(
+        pair,
+        operation.materials,
+        pair.path_start + phase * pair.base_pitch,
+        np.full(40, force / pair.face_width),
+        0.05,
+        operation.pinion_speed,
+    )
     (row,) = _flash(operation, Finish(), result)
     assert pair.cosine < 0.98 and row.computed == pytest.approx(expected.max())

@@ -20,11 +20,16 @@ ACCURACY = replace(COARSE, contact_length=2.0, contact_nodes=41, steps_per_mesh_
 def relieved(paper_scene, pinion=None, wheel=None):
     """The paper's gears on rigid shafts with reliefs of 31 um from HPSTC, linear or parabolic."""
     reliefs = [shape and Relief(0.031, None, shape) for shape in (pinion, wheel)]
-    return replace(frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1))), accuracy=ACCURACY, tip_relief=TipRelief(*reliefs))
+    return replace(
+        frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1))),
+        accuracy=ACCURACY,
+        tip_relief=TipRelief(*reliefs),
+    )
 
 
 def along_flanks(pair, result):
-    """Arcs (2, time, slot, node), mm, of the nodes along both involutes, from where they lie in the plane: the circles through them give their roll angles."""
+    """Arcs (2, time, slot, node), mm, of the nodes along both involutes, from where they lie in the plane: the circles
+    through them give their roll angles."""
     rb1, rb2, span = pair.pinion.base_radius, pair.wheel.base_radius, pair.line_of_action_length
     offset, roll = result.contact_offset.values, result.contact_roll_angle.values
     height = rb1 - offset
@@ -35,7 +40,8 @@ def along_flanks(pair, result):
 
 @pytest.mark.parametrize(("pinion", "wheel"), [(LINEAR, None), (PARABOLIC, LINEAR)])
 def test_pressures_are_told_apart_by_distance_along_the_flanks(paper_scene, pinion, wheel):
-    """Brute force: every node's distance from tips and from starts of linear relief, by its place in the plane, against the Hertz half-width at full load, twice that for tips."""
+    """Brute force: every node's distance from tips and from starts of linear relief, by its place in the plane, against
+    the Hertz half-width at full load, twice that for tips."""
     scene = relieved(paper_scene, pinion, wheel)
     result, model = simulate(scene), model_of(scene)
     pair, reach, arcs = model.pair, model.resolution.half_width, along_flanks(model.pair, result)
@@ -65,10 +71,18 @@ def test_a_pair_without_kinks_has_no_pressure_there(paper_scene):
 
 @pytest.mark.nightly
 def test_the_peak_pressure_beside_linear_relief_converges(paper_scene):
-    """Limit, and Johnson, Contact Mechanics, 1985, 5.2: the pressure at a kink grows without bound as the mesh is refined, that elsewhere tends to a limit."""
+    """Limit, and Johnson, Contact Mechanics, 1985, 5.2: the pressure at a kink grows without bound as the mesh is
+    refined, that elsewhere tends to a limit."""
     peaks = []
     for size, nodes in ((0.08, 20), (0.04, 39), (0.02, 77)):
-        accuracy = replace(ACCURACY, element="P2", flank_element_size=size, contact_length=1.5, contact_nodes=nodes, steps_per_mesh_cycle=100)
+        accuracy = replace(
+            ACCURACY,
+            element="P2",
+            flank_element_size=size,
+            contact_length=1.5,
+            contact_nodes=nodes,
+            steps_per_mesh_cycle=100,
+        )
         attributes = simulate(replace(relieved(paper_scene, LINEAR, LINEAR), accuracy=accuracy)).attrs
         assert f"{attributes['peak_kink_pressure']:.4g} MPa" in attributes["warnings"]
         peaks.append((attributes["peak_contact_pressure"], attributes["peak_kink_pressure"]))

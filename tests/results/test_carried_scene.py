@@ -55,7 +55,10 @@ def test_tables_that_have_changed_are_named(measured, caplog):
     table.unlink()
     carried_scene(result)
     said = [record.getMessage() for record in caplog.records]
-    assert len(said) == 2 and all(words.startswith("pinion.csv, which the scene names, is not what it was") and measured.folder in words for words in said)
+    assert len(said) == 2 and all(
+        words.startswith("pinion.csv, which the scene names, is not what it was") and measured.folder in words
+        for words in said
+    )
 
 
 def test_a_body_mesh_that_was_overwritten_is_named(tmp_path, caplog):
@@ -74,7 +77,8 @@ def test_a_body_mesh_that_was_overwritten_is_named(tmp_path, caplog):
 
 
 def test_a_scene_that_no_file_gives_is_none_of_another_one(paper_scene):
-    """A negative Poisson's ratio beyond the range of files: readers are refused in words, pictures go without a scene."""
+    """A negative Poisson's ratio beyond the range of files: readers are refused in words, pictures go without a
+    scene."""
     result = result_of(replace(paper_scene, gears=replace(paper_scene.gears, material=Material(206e3, -1.5))))
     with pytest.raises(SceneError, match=r"No scene file gives this scene, .*gears.*poissons_ratio = -1.5"):
         carried_scene(result)

@@ -1,4 +1,5 @@
-"""Extrema between steps against exact ones: of made-up curves, of springs in closed form, and of teeth by many more steps."""
+"""Extrema between steps against exact ones: of made-up curves, of springs in closed form, and of teeth by many more
+steps."""
 
 from dataclasses import replace
 
@@ -22,7 +23,9 @@ CREST = 7.3137
 CURVES = {
     "smooth crest": lambda x: np.cos(0.35 * (x - CREST)),
     "corner of straight lines": lambda x: np.where(x < CREST, 0.8, -0.05) * (x - CREST),
-    "corner of curves": lambda x: np.where(x < CREST, 0.4 * (x - CREST) + 0.05 * (x - CREST) ** 2, np.exp(0.1 * (CREST - x)) - 1.0),
+    "corner of curves": lambda x: np.where(
+        x < CREST, 0.4 * (x - CREST) + 0.05 * (x - CREST) ** 2, np.exp(0.1 * (CREST - x)) - 1.0
+    ),
     "jump down": lambda x: 0.1 * (x - CREST) - 1.0 * (x > CREST),
     "jump up": lambda x: 0.1 * (CREST - x) - 1.0 * (x < CREST),
 }
@@ -30,7 +33,8 @@ CURVES = {
 
 @pytest.mark.parametrize("name", CURVES)
 def test_the_highest_place_of_a_curve_between_its_steps(name):
-    """Exact: every curve is highest at 7.3137, by construction; the steps next to it lie lower by up to a tenth of what is seen of the curve."""
+    """Exact: every curve is highest at 7.3137, by construction; the steps next to it lie lower by up to a tenth of what
+    is seen of the curve."""
     curve, steps, asked = CURVES[name], np.arange(16.0), []
 
     def value(place):
@@ -46,7 +50,8 @@ def test_the_highest_place_of_a_curve_between_its_steps(name):
 
 
 def test_what_is_lower_is_not_looked_at():
-    """Economy: of two crests at steps, only what may lie above the higher one is asked for; a flat curve needs nothing."""
+    """Economy: of two crests at steps, only what may lie above the higher one is asked for; a flat curve needs
+    nothing."""
     steps = np.arange(40.0)
     curve = np.maximum(10.0 - 2.0 * abs(steps - 10.0), 8.0 - 2.0 * abs(steps - 30.2))
     asked = []
@@ -67,7 +72,11 @@ def test_cubics_are_of_fourth_order_and_leave_corners_alone():
     assert np.log2(errors[0] / errors[1]) > 3.8 and np.log2(errors[1] / errors[2]) > 3.8
     for corner in np.linspace(7.0, 8.0, 21):
         x = np.arange(16.0)
-        for curve in (-abs(x - corner), np.where(x < corner, 0.1, -2.0) * (x - corner), np.where(x < corner, 2.0, -0.1) * (x - corner)):
+        for curve in (
+            -abs(x - corner),
+            np.where(x < corner, 0.1, -2.0) * (x - corner),
+            np.where(x < corner, 2.0, -0.1) * (x - corner),
+        ):
             assert curve.max() <= largest_of_cubics(x, curve)[1] <= 1e-12
 
 
@@ -76,12 +85,16 @@ def on_stand_ins(scene, flanks, steps):
     scene = replace(scene, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=steps))
     model = model_of(scene)
     grid, tangential = model.resolution.contact_grid, scene.friction is not None
-    return simulate(scene, preparation=lambda *_: ((), MeshCycle(flanks, grid, steps, model.drivetrain.indices, tangential=tangential)))
+    return simulate(
+        scene,
+        preparation=lambda *_: ((), MeshCycle(flanks, grid, steps, model.drivetrain.indices, tangential=tangential)),
+    )
 
 
 @pytest.mark.parametrize("friction", [False, True], ids=["frictionless", "with friction"])
 def test_peak_to_peak_does_not_depend_on_the_steps(paper_scene, stand_in_flanks, friction):
-    """Brute force: 20 and 320 steps a mesh cycle give T_EPP and the largest force within 0.05 %, where samples of 20 miss ten times as much of T_EPP. No sample
+    """Brute force: 20 and 320 steps a mesh cycle give T_EPP and the largest force within 0.05 %, where samples of 20
+    miss ten times as much of T_EPP. No sample
     is outside, and 320 miss less than the curve changes in a step."""
     scene = quasi_static(coarse_scene(paper_scene, cycles=1))
     scene = scene if friction else frictionless(scene)
@@ -98,24 +111,36 @@ def test_peak_to_peak_does_not_depend_on_the_steps(paper_scene, stand_in_flanks,
 
 
 def test_at_a_crawl_extremes_are_those_of_the_quasi_static_run(paper_scene, stand_in_flanks):
-    """Limit: with inertia, at steps too long for any vibration, T_EPP of 20 steps is that without inertia, also where corners lie between steps; what is left falls with the speed."""
+    """Limit: with inertia, at steps too long for any vibration, T_EPP of 20 steps is that without inertia, also where
+    corners lie between steps; what is left falls with the speed."""
     moving = replace(coarse_scene(paper_scene, cycles=3), motion=Motion(0.005, 3, 1))
     for scene in (moving, frictionless(moving)):
         slow, still = (on_stand_ins(each, stand_in_flanks, 20) for each in (scene, quasi_static(scene)))
-        assert not model_of(replace(scene, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=20))).time_scales.averages_acceleration
+        assert not model_of(
+            replace(scene, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=20))
+        ).time_scales.averages_acceleration
         for name in ("peak_to_peak_transmission_error", "largest_pair_force"):
             assert slow.attrs[name] == pytest.approx(still.attrs[name], rel=1e-4)
         assert slow.attrs["peak_to_peak_transmission_error"] > 1.003 * np.ptp(slow.transmission_error.values)
 
 
 def test_springs_in_closed_form(paper_scene):
-    """Exact: one pair of stiffness k (1 + 0.3 cos) on rigid shafts deflects by F/k, so that T_EPP is F/k (1/0.7 - 1/1.3) at phases 0.637 and 0.137."""
+    """Exact: one pair of stiffness k (1 + 0.3 cos) on rigid shafts deflects by F/k, so that T_EPP is F/k (1/0.7 -
+    1/1.3) at phases 0.637 and 0.137."""
     scene = teeth_alone(frictionless(coarse_scene(paper_scene, cycles=2)))
     scene = replace(scene, accuracy=Accuracy(model=ISO_6336, steps_per_mesh_cycle=20))
     model, stiffness = model_of(scene), 2e5
 
     def springs(phase):
-        return [PairSprings(0, DRIVE, np.zeros(1), np.zeros(1), np.array([stiffness * (1.0 + 0.3 * np.cos(2.0 * np.pi * (phase - 0.137)))]))]
+        return [
+            PairSprings(
+                0,
+                DRIVE,
+                np.zeros(1),
+                np.zeros(1),
+                np.array([stiffness * (1.0 + 0.3 * np.cos(2.0 * np.pi * (phase - 0.137)))]),
+            )
+        ]
 
     cycle = SpringCycle(model.pair, springs, 1, 20, model.drivetrain.indices, tangential=False, coast_flanks=False)
     attributes = simulate(scene, preparation=lambda *_: ((), cycle)).attrs
@@ -127,7 +152,8 @@ def test_springs_in_closed_form(paper_scene):
 
 
 def test_a_step_solved_again_is_that_of_the_march(paper_scene, stand_in_flanks):
-    """Identity: where the place between steps is the next step itself, the march's position and forces, with friction and its turning at the pitch point."""
+    """Identity: where the place between steps is the next step itself, the march's position and forces, with friction
+    and its turning at the pitch point."""
     scene = quasi_static(coarse_scene(paper_scene, cycles=2))
     model, records = model_of(scene), []
     cycle = MeshCycle(stand_in_flanks, model.resolution.contact_grid, 40, model.drivetrain.indices, tangential=True)
@@ -140,16 +166,23 @@ def test_a_step_solved_again_is_that_of_the_march(paper_scene, stand_in_flanks):
     for step in range(1, 81):
         again = between.at(float(step))
         np.testing.assert_allclose(again.state.position, records[step].state.position, rtol=1e-8, atol=1e-12)
-        np.testing.assert_allclose(again.solution.forces, records[step].solution.forces, atol=1e-6 * records[step].solution.forces.max())
+        np.testing.assert_allclose(
+            again.solution.forces, records[step].solution.forces, atol=1e-6 * records[step].solution.forces.max()
+        )
 
 
 def test_how_extrema_were_found_is_said(paper_scene, stand_in_flanks):
-    """Definition: with inertia by cubics, which lie above the samples; of rigid flanks, which have no positions between steps, by the samples."""
+    """Definition: with inertia by cubics, which lie above the samples; of rigid flanks, which have no positions between
+    steps, by the samples."""
     moving = on_stand_ins(coarse_scene(paper_scene, cycles=3), stand_in_flanks, 40)
     assert moving.attrs["peak_to_peak_transmission_error_from"] == moving.attrs["largest_pair_force_from"] == CUBICS
     settled = moving.transmission_error.values[moving.time.values >= moving.attrs["settled_from"]]
     assert np.ptp(settled) < moving.attrs["peak_to_peak_transmission_error"] < 1.01 * np.ptp(settled)
-    rigid = replace(without(frictionless(quasi_static(paper_scene)), "tooth_elasticity"), motion=Motion(200.0, 1, 1), accuracy=Accuracy(steps_per_mesh_cycle=20))
+    rigid = replace(
+        without(frictionless(quasi_static(paper_scene)), "tooth_elasticity"),
+        motion=Motion(200.0, 1, 1),
+        accuracy=Accuracy(steps_per_mesh_cycle=20),
+    )
     rigid = simulate(rigid)
     assert rigid.attrs["peak_to_peak_transmission_error_from"] == STEPS
     assert rigid.attrs["peak_to_peak_transmission_error"] == np.ptp(rigid.transmission_error.values)

@@ -16,7 +16,14 @@ from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.measures import FACE_LOAD, LINE_LOAD, OVER_FACE, PART_OF_FACE, answer
 from fenics_gears.studies.combine import record_of
 
-OF_FACE = {"overlap_ratio", "total_contact_ratio", "face_load_factor", "largest_line_load_factor", "edge_line_load_factor", "transverse_load_factor"}
+OF_FACE = {
+    "overlap_ratio",
+    "total_contact_ratio",
+    "face_load_factor",
+    "largest_line_load_factor",
+    "edge_line_load_factor",
+    "transverse_load_factor",
+}
 
 
 def test_journal_keeps_fields_over_the_face(tmp_path, monkeypatch):
@@ -49,7 +56,9 @@ def test_line_loads_that_settings_are_judged_by():
     whose first and last step count half; the factors are the result's."""
     run = helical_run()
     found, load = answer(run, 1.0), run["line_load"].sum("slot").values
-    assert found[LINE_LOAD][len(found[LINE_LOAD]) // 2] == pytest.approx((0.5 * (load[0] + load[-1]) + load[1:-1].sum(axis=0))[2] / (len(load) - 1), rel=1e-12)
+    assert found[LINE_LOAD][len(found[LINE_LOAD]) // 2] == pytest.approx(
+        (0.5 * (load[0] + load[-1]) + load[1:-1].sum(axis=0))[2] / (len(load) - 1), rel=1e-12
+    )
     assert len(np.unique(found[LINE_LOAD])) > 4 and PART_OF_FACE <= 0.8
     assert found[FACE_LOAD][0] == run.attrs["face_load_factor"]
 
@@ -57,15 +66,26 @@ def test_line_loads_that_settings_are_judged_by():
 def test_peak_pressure_is_not_of_an_end_of_the_face():
     """By definition, from the result's own fields: of a misaligned pair the ends of the face, as deep as a tenth of
     it, press most. Theirs is a pressure at edges, the headline's that of the rest of the face."""
-    model = model_of(helical_scene('[misalignment]\nin_plane = "20 um"\n', helix=0.0, width=8.0, accuracy="slices = 12\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8"))
+    model = model_of(
+        helical_scene(
+            '[misalignment]\nin_plane = "20 um"\n',
+            helix=0.0,
+            width=8.0,
+            accuracy="slices = 12\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8",
+        )
+    )
     result = run_of(model, on_stand_in_bodies(model)).result
     order = "contact_time", "slot", "face_position", "contact_node"
-    pressure = read_off(result["contact_pressure"].transpose(*order).values, result["contact_roll_angle"].transpose(*order).values).max(axis=(1, 3))
+    pressure = read_off(
+        result["contact_pressure"].transpose(*order).values, result["contact_roll_angle"].transpose(*order).values
+    ).max(axis=(1, 3))
     ends, rest = pressure[:, [0, -1]].max(axis=1), pressure[:, 1:-1].max(axis=1)
     largest, edge = (result[f"largest_{name}_pressure"].values for name in ("contact", "edge"))
     assert (ends > rest).any() and (edge >= ends).all() and (largest <= rest).all()
     # Tips press at the other steps.
-    assert (largest == rest).any() and result.attrs["peak_contact_pressure"] == largest[:-1].max() < result.attrs["peak_edge_pressure"]
+    assert (largest == rest).any() and result.attrs["peak_contact_pressure"] == largest[:-1].max() < result.attrs[
+        "peak_edge_pressure"
+    ]
 
 
 def test_pairs_have_their_own_fields():
@@ -73,4 +93,6 @@ def test_pairs_have_their_own_fields():
     result = helical_run()
     loads = by_pair(result["line_load"], absent=0.0)
     assert set(loads.dims) == {"contact_time", "pair", "face_position"}
-    np.testing.assert_allclose(loads.sum(["pair", "face_position"]), result["line_load"].sum(["slot", "face_position"]), rtol=1e-12)
+    np.testing.assert_allclose(
+        loads.sum(["pair", "face_position"]), result["line_load"].sum(["slot", "face_position"]), rtol=1e-12
+    )

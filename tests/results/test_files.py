@@ -17,7 +17,8 @@ from fenics_gears.results.netcdf import read_netcdf, write_netcdf
 
 
 def several_kinds(steps: int) -> xr.Dataset:
-    """A dataset with all kinds of values that results have: numbers with gaps, whole numbers, switches, texts, a dimension without values."""
+    """A dataset with all kinds of values that results have: numbers with gaps, whole numbers, switches, texts, a
+    dimension without values."""
     values = np.linspace(0.0, 1.0, 2 * steps).reshape(steps, 2)
     values[:1] = np.nan
     return xr.Dataset(
@@ -28,25 +29,34 @@ def several_kinds(steps: int) -> xr.Dataset:
             "why": ("gear", np.array(["", "Größe µm"], dtype=object)),
             "single": ((), 2.5),
         },
-        coords={"time": ("time", np.arange(steps) * 0.1, {"units": "mm"}), "gear": ["pinion", "wheel"], "phase": ("time", np.arange(steps) / 2.0)},
+        coords={
+            "time": ("time", np.arange(steps) * 0.1, {"units": "mm"}),
+            "gear": ["pinion", "wheel"],
+            "phase": ("time", np.arange(steps) / 2.0),
+        },
         attrs={"title": "größer", "number": 3.5, "steps": steps, "empty": ""},
     )
 
 
 def test_a_file_is_read_as_if_another_program_had_written_it():
-    """Authority: another program; xarray writes the same dataset by h5netcdf, and both files are read as the same, of no step too."""
+    """Authority: another program; xarray writes the same dataset by h5netcdf, and both files are read as the same, of
+    no step too."""
     for steps in (0, 5):
         ours = several_kinds(steps)
         theirs = _by_h5netcdf(ours)
         content = io.BytesIO()
         write_netcdf(ours, content)
-        with xr.open_dataset(content, engine="h5netcdf") as read, xr.open_dataset(theirs, engine="h5netcdf") as expected:
+        with (
+            xr.open_dataset(content, engine="h5netcdf") as read,
+            xr.open_dataset(theirs, engine="h5netcdf") as expected,
+        ):
             assert read.load().identical(expected.load())
             assert read.identical(ours)
 
 
 def test_files_are_read_as_another_program_reads_them():
-    """Authority: another program; what xarray reads by h5netcdf, of files that it or this program has written: values, types, attributes and order."""
+    """Authority: another program; what xarray reads by h5netcdf, of files that it or this program has written: values,
+    types, attributes and order."""
     for steps in (0, 5):
         ours = io.BytesIO()
         write_netcdf(several_kinds(steps), ours)
@@ -54,10 +64,16 @@ def test_files_are_read_as_another_program_reads_them():
             found = read_netcdf(content)
             with xr.open_dataset(content, engine="h5netcdf") as opened:
                 expected = opened.load()
-            assert found.identical(expected) and list(found.variables) == list(expected.variables) and list(found.attrs) == list(expected.attrs)
+            assert (
+                found.identical(expected)
+                and list(found.variables) == list(expected.variables)
+                and list(found.attrs) == list(expected.attrs)
+            )
             for name, each in found.variables.items():
                 assert _kind(each.dtype) == _kind(expected[name].dtype)
-                assert {key: type(value) for key, value in each.attrs.items()} == {key: type(value) for key, value in expected[name].attrs.items()}
+                assert {key: type(value) for key, value in each.attrs.items()} == {
+                    key: type(value) for key, value in expected[name].attrs.items()
+                }
 
 
 def _kind(type_of_values: np.dtype):
@@ -75,9 +91,12 @@ def test_a_file_made_on_disk_is_the_one_made_in_memory(monkeypatch):
 
 
 def test_a_file_begun_as_a_copy_has_nothing_of_the_one_before():
-    """Authority: identity; of datasets that differ in values, in an attribute or only in its type, each is read back as itself."""
+    """Authority: identity; of datasets that differ in values, in an attribute or only in its type, each is read back as
+    itself."""
     first = several_kinds(5)
-    other = first.map(lambda each: each if each.dtype.kind == "O" else each + each.dtype.type(1), keep_attrs=True).assign_attrs(title="other", more=1)
+    other = first.map(
+        lambda each: each if each.dtype.kind == "O" else each + each.dtype.type(1), keep_attrs=True
+    ).assign_attrs(title="other", more=1)
     written = [first, other]
     for offset in (1, 1.0, np.int32(1)):
         written.append(first.assign(force=first["force"].assign_attrs(offset=offset)))
@@ -91,7 +110,8 @@ def test_a_file_begun_as_a_copy_has_nothing_of_the_one_before():
 
 
 def test_large_arrays_are_compressed_in_chunks_that_a_reader_holds():
-    """Authority: the format; arrays of several dimensions beyond the least size are packed, others are not, and values come back."""
+    """Authority: the format; arrays of several dimensions beyond the least size are packed, others are not, and values
+    come back."""
     values = np.arange(400_000.0).reshape(-1, 4)
     ours, content = xr.Dataset({"large": (("a", "b"), values), "small": (("c", "b"), values[:3])}), io.BytesIO()
     write_netcdf(ours, content)
@@ -115,7 +135,9 @@ DAMAGES = {
     "it has no pair_normal_force": lambda run: run.drop_vars("pair_normal_force"),
     "it has no time": lambda run: run.drop_vars("time"),
     "it has contact fields and no contact_pair_number": lambda run: run.drop_vars("contact_pair_number"),
-    "transmission_error is over (gear), not over (time)": lambda run: run.assign(transmission_error=("gear", [1.0, 2.0])),
+    "transmission_error is over (gear), not over (time)": lambda run: run.assign(
+        transmission_error=("gear", [1.0, 2.0])
+    ),
     "contact_pressure is over": lambda run: run.assign(contact_pressure=run["contact_pressure"].transpose("slot", ...)),
     "normal_force holds": lambda run: run.assign(normal_force=run["normal_force"].astype(str).astype(object)),
     "its attribute base_radius_wheel is 'fifty'": lambda run: run.assign_attrs(base_radius_wheel="fifty"),
@@ -123,13 +145,16 @@ DAMAGES = {
     "time does not go on": lambda run: run.isel(time=slice(None, None, -1)),
     "not at its steps": lambda run: run.assign_coords(contact_time=run["contact_time"] + 1.0),
     "pair_number has no whole number": lambda run: run.assign_coords(pair_number=run["pair_number"] * 1),
-    "pair_number has a tooth pair in a slot": lambda run: run.assign_coords(pair_number=run["pair_number"].copy(data=run["pair_number"].values[:, ::-1])),
+    "pair_number has a tooth pair in a slot": lambda run: run.assign_coords(
+        pair_number=run["pair_number"].copy(data=run["pair_number"].values[:, ::-1])
+    ),
 }
 
 
 @pytest.mark.parametrize("words", DAMAGES)
 def test_a_result_whose_layout_is_not_one_is_refused_by_its_first_mistake(tmp_path, words):
-    """Authority: docs/result.md's names, dimensions and types; a file with a valid digest can still lack one of them."""
+    """Authority: docs/result.md's names, dimensions and types; a file with a valid digest can still lack one of
+    them."""
     results.save(made_up_run(), tmp_path / "run.nc")
     assert results.load(tmp_path / "run.nc").equals(made_up_run())
     written = made_up_run(fenics_gears_version="0.1.0")
@@ -164,8 +189,11 @@ print(refused, ended, failed)
 
 
 def test_bytes_damaged_under_a_digest_made_anew_end_in_words(tmp_path):
-    """Authority: house rule on errors; HDF5 itself ends the process at one of six such files, so that a copy of it reads them first: a copy that a signal ends is told from one that fails."""
+    """Authority: house rule on errors; HDF5 itself ends the process at one of six such files, so that a copy of it
+    reads them first: a copy that a signal ends is told from one that fails."""
     results.save(made_up_run(steps=400), tmp_path / "run.nc")
-    found = subprocess.run([sys.executable, "-c", DAMAGE, tmp_path / "run.nc"], capture_output=True, text=True, check=True)
+    found = subprocess.run(
+        [sys.executable, "-c", DAMAGE, tmp_path / "run.nc"], capture_output=True, text=True, check=True
+    )
     refused, ended, failed = found.stdout.split()
     assert int(refused) > 2 and (ended, failed) == ("False", "True")

@@ -31,7 +31,11 @@ def at_once(monkeypatch):
 
 def march_of(steps):
     """Counts that say themselves of which step they are."""
-    return SimpleNamespace(**dict.fromkeys(COUNTS, steps), separations=[(each, each / 2.0) for each in range(0, steps, 50)], locked=list(range(0, steps, 70)))
+    return SimpleNamespace(
+        **dict.fromkeys(COUNTS, steps),
+        separations=[(each, each / 2.0) for each in range(0, steps, 50)],
+        locked=list(range(0, steps, 70)),
+    )
 
 
 def block(first, end):
@@ -48,13 +52,19 @@ def written(tmp_path, until, length):
     return own
 
 
-@pytest.mark.parametrize(("until", "length"), [(100, 100), (299, 30), (2 * SPARE + 17, LONGEST_BLOCK), (SPARE + LAST + 1, 77)])
+@pytest.mark.parametrize(
+    ("until", "length"), [(100, 100), (299, 30), (2 * SPARE + 17, LONGEST_BLOCK), (SPARE + LAST + 1, 77)]
+)
 def test_it_holds_what_was_put(tmp_path, at_once, until, length):
-    """Identity: what is read, by the run itself and by another process, is what was put, also where a block was begun and not ended."""
+    """Identity: what is read, by the run itself and by another process, is what was put, also where a block was begun
+    and not ended."""
     own = written(tmp_path, until, length)
     # A block that the kill came into the middle of: values without the word that they are whole.
     own._write(until, LONGEST_BLOCK, block(until, until + LONGEST_BLOCK))
-    found, expected = read(tmp_path / "run.nc.part"), block(0, until) | {"field": block(max(until - LAST, 0), until)["field"]}
+    found, expected = (
+        read(tmp_path / "run.nc.part"),
+        block(0, until) | {"field": block(max(until - LAST, 0), until)["field"]},
+    )
     for name, values in expected.items():
         np.testing.assert_array_equal(found.values[name], values)
         np.testing.assert_array_equal(own.get(name, until), values)
@@ -78,7 +88,8 @@ def test_a_journal_that_begins_late_holds_what_was_put(tmp_path, monkeypatch):
 
 
 def test_fields_that_are_written_over_meanwhile_are_left_out(tmp_path, at_once, monkeypatch):
-    """Identity, of a reader that is slower than the run: fields that the run has reached again are no fields of their steps."""
+    """Identity, of a reader that is slower than the run: fields that the run has reached again are no fields of their
+    steps."""
     until = 2 * SPARE
     own, text, further, read_before = written(tmp_path, until, LONGEST_BLOCK), journal._text, until + SPARE, []
 
@@ -118,9 +129,12 @@ def test_a_journal_changes_no_number(tmp_path, paper_scene, at_once):
     assert found.equals(whole) and found.attrs["warnings"] == whole.attrs["warnings"]
 
 
-@pytest.mark.parametrize("change", [{"version": "0.0"}, {"kinds": {"time": ["0", "|O", [], 0]}}, {"kinds": {"time": ["0", "<f8", [900], 0]}}])
+@pytest.mark.parametrize(
+    "change", [{"version": "0.0"}, {"kinds": {"time": ["0", "|O", [], 0]}}, {"kinds": {"time": ["0", "<f8", [900], 0]}}]
+)
 def test_another_journal_is_refused(tmp_path, at_once, change):
-    """Row 27: one of another version, one whose values would be taken for addresses of objects, one that is too short; never a wrong number."""
+    """Row 27: one of another version, one whose values would be taken for addresses of objects, one that is too short;
+    never a wrong number."""
     written(tmp_path, 100, 100)
     path = tmp_path / "run.nc.part" / HEADER
     changed = json.dumps(journal._text(path) | change).encode()
@@ -131,14 +145,18 @@ def test_another_journal_is_refused(tmp_path, at_once, change):
 
 
 def test_every_damaged_file_is_noticed(tmp_path, at_once):
-    """Row 27: one bit flipped at random in any file, or a page of zeros as a failing power supply may leave; never a wrong number."""
+    """Row 27: one bit flipped at random in any file, or a page of zeros as a failing power supply may leave; never a
+    wrong number."""
     until, random = SPARE + LAST + LAST // 2, np.random.default_rng(4)
     own = written(tmp_path, until, 90)
     fields = [str(own._files[name].name) for name in ("field", "check: fields")]
     for path in sorted((tmp_path / "run.nc.part").iterdir()):
         content = path.read_bytes()
         places = random.integers(len(content), size=20)
-        damaged = [content[:place] + bytes([content[place] ^ 1 << int(random.integers(8))]) + content[place + 1 :] for place in places]
+        damaged = [
+            content[:place] + bytes([content[place] ^ 1 << int(random.integers(8))]) + content[place + 1 :]
+            for place in places
+        ]
         refused = 0
         for other in [*damaged, content[:-4096] + bytes(min(len(content), 4096))]:
             path.write_bytes(other)

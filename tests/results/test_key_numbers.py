@@ -26,26 +26,37 @@ def static(paper_scene):
 
 
 def test_mesh_stiffness_beside_iso_6336(static, paper_scene):
-    """ISO 6336-1, method B: c_gamma within 3 %, and c' of one pair between the standard's c', which 0.8 brings down to measurements, and c'th."""
+    """ISO 6336-1, method B: c_gamma within 3 %, and c' of one pair between the standard's c', which 0.8 brings down to
+    measurements, and c'th."""
     theoretical, single = single_stiffness(paper_scene.gears)
-    assert static.attrs["mean_mesh_stiffness"] == pytest.approx(single * mesh_factor(model_of(paper_scene).pair.contact_ratio), rel=0.03)
+    assert static.attrs["mean_mesh_stiffness"] == pytest.approx(
+        single * mesh_factor(model_of(paper_scene).pair.contact_ratio), rel=0.03
+    )
     assert single < static.attrs["single_pair_stiffness"] < theoretical
 
 
 def test_mesh_stiffness_is_load_over_deflection(paper_scene):
-    """Identity: where only teeth give way, the transmission error of true involutes along the line of action is the flanks' deflection.
+    """Identity: where only teeth give way, the transmission error of true involutes along the line of action is the
+    flanks' deflection.
 
-    Gaps are averaged between contact nodes, which raises the smallest by a part that falls with the square of their distance, 0.02 mm here.
+    Gaps are averaged between contact nodes, which raises the smallest by a part that falls with the square of their
+    distance, 0.02 mm here.
     """
     scene = frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1)))
-    result = simulate(replace(scene, accuracy=replace(COARSE, contact_length=2.0, contact_nodes=101, steps_per_mesh_cycle=20)))
+    result = simulate(
+        replace(scene, accuracy=replace(COARSE, contact_length=2.0, contact_nodes=101, steps_per_mesh_cycle=20))
+    )
     deflection = result.transmission_error.values * model_of(scene).pair.wheel.base_radius
     assert result.mesh_stiffness.values == pytest.approx(result.normal_force.values / deflection, rel=1e-3)
 
 
 def test_the_printed_stiffness_is_the_tangent(paper_scene):
-    """Definition: a gap that opens the flanks alike at all steps, here by a slope of the profile, is deflection to the secant alone; the tangent hardly moves."""
-    scene = replace(frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1))), accuracy=replace(COARSE, steps_per_mesh_cycle=20))
+    """Definition: a gap that opens the flanks alike at all steps, here by a slope of the profile, is deflection to the
+    secant alone; the tangent hardly moves."""
+    scene = replace(
+        frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1))),
+        accuracy=replace(COARSE, steps_per_mesh_cycle=20),
+    )
     modifications = ProfileModifications(ProfileModification(slope=0.02))
     plain, run = (simulate(each) for each in (scene, replace(scene, profile_modifications=modifications)))
     plain, sloped = plain.attrs, run.attrs
@@ -68,13 +79,15 @@ def test_peak_pressure_is_that_of_hertz(static, paper_scene):
 
 
 def test_pressure_of_edges_is_told_apart(static):
-    """Known limit: without tip relief tips press with their edges, where the pressure is several times that of the flanks."""
+    """Known limit: without tip relief tips press with their edges, where the pressure is several times that of the
+    flanks."""
     assert static.attrs["peak_edge_pressure"] > 1.5 * static.attrs["peak_contact_pressure"]
     assert "sharp edge" in static.attrs["warnings"]
 
 
 def test_harmonics_are_fourier_s_sums(static):
-    """Brute force: 2/N times the sums of the curve with cosine and sine of the mesh phase, the last step left out, in um at the base circle."""
+    """Brute force: 2/N times the sums of the curve with cosine and sine of the mesh phase, the last step left out, in
+    um at the base circle."""
     curve = static.transmission_error.values[:-1] * static.attrs["base_radius_wheel"] * 1e3
     phase = static.mesh_phase.values[:-1]
     for n, name in enumerate(HARMONIC_NAMES, 1):
@@ -90,7 +103,8 @@ def test_power_by_torque_and_speed(static, paper_scene):
 
 
 def test_efficiency_by_the_energy_account(paper_scene):
-    """Energy account: with friction and without damping what comes out, is stored or is the time stepping's own is what friction leaves."""
+    """Energy account: with friction and without damping what comes out, is stored or is the time stepping's own is what
+    friction leaves."""
     result = simulate(replace(quasi_static(paper_scene), accuracy=COARSE, motion=Motion(200.0, 2, 1)))
     names = ("work_input", "work_output", "work_friction", "work_contact_changes", "energy_defect", "energy")
     work, attributes = {name: float(result[name][-1] - result[name][0]) for name in names}, result.attrs
@@ -98,11 +112,14 @@ def test_efficiency_by_the_energy_account(paper_scene):
     seconds = float(result.time[-1] - result.time[0])
     assert attributes["mesh_efficiency"] == pytest.approx(came_out / work["work_input"], rel=1e-9)
     assert attributes["friction_power"] == pytest.approx(1e-3 * work["work_friction"] / seconds, rel=1e-9)
-    assert attributes["friction_power"] == pytest.approx((1.0 - attributes["mesh_efficiency"]) * attributes["input_power"], rel=1e-9)
+    assert attributes["friction_power"] == pytest.approx(
+        (1.0 - attributes["mesh_efficiency"]) * attributes["input_power"], rel=1e-9
+    )
 
 
 def test_dynamic_factor_without_root_stress(paper_scene):
-    """Definition: the largest force of a tooth pair over that of a run of the same scene without inertia, which has none itself."""
+    """Definition: the largest force of a tooth pair over that of a run of the same scene without inertia, which has
+    none itself."""
     scene = coarse_scene(paper_scene, cycles=4)
     moving, still = simulate(scene), simulate(quasi_static(scene))
     assert moving.attrs["quasi_static_pair_normal_force"] == pytest.approx(still.attrs["largest_pair_force"], rel=1e-6)
@@ -112,16 +129,20 @@ def test_dynamic_factor_without_root_stress(paper_scene):
 
 
 def test_cycles_that_differ_are_not_run_twice_unasked(paper_scene):
-    """Definition: with torque ripple a quasi-static march as long as the run's own is left out, and the result says why."""
+    """Definition: with torque ripple a quasi-static march as long as the run's own is left out, and the result says
+    why."""
     scene = replace(coarse_scene(paper_scene), torque_ripple=TorqueRipple((Harmonic(1, 1e4, 0.0),)))
     attributes = simulate(scene).attrs
     assert "mesh cycles differ" in attributes["dynamic_factor_unknown"] and "dynamic_factor_by_force" not in attributes
 
 
 def test_load_shares_at_the_contact_points(static):
-    """Definition of the contact ratio: A and D, B and E are a base pitch apart, so their shares add up to all; at C one pair carries."""
+    """Definition of the contact ratio: A and D, B and E are a base pitch apart, so their shares add up to all; at C one
+    pair carries."""
     share = {str(point): float(value) for point, value in zip(static.path_point.values, static.load_share.values)}
-    assert share["A"] + share["D"] == pytest.approx(1.0, abs=0.02) and share["B"] + share["E"] == pytest.approx(1.0, abs=0.02)
+    assert share["A"] + share["D"] == pytest.approx(1.0, abs=0.02) and share["B"] + share["E"] == pytest.approx(
+        1.0, abs=0.02
+    )
     assert share["C"] == pytest.approx(1.0) and 0.2 < share["A"] < 0.6
 
 

@@ -186,7 +186,8 @@ def test_unequal_slices_have_their_own_ends(spur):
 
 
 def test_lengths_of_contact_lines(helical):
-    """Brute force: lengths, summed over points along the face whose contact is on the path; and all pairs together are the path times the face over the base pitch on average."""
+    """Brute force: lengths, summed over points along the face whose contact is on the path; and all pairs together are
+    the path times the face over the base pitch on average."""
     positions = np.linspace(helical.path_start - 10.0, helical.path_end + 10.0, 301)
     z = helical.face_width * ((np.arange(20_000) + 0.5) / 20_000 - 0.5)
     there = [

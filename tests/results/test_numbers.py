@@ -8,7 +8,8 @@ from fenics_gears.results.numbers import harmonics, largest_of_one_pair, mean_wh
 
 @pytest.mark.parametrize("cycles", [1, 3])
 def test_harmonics_of_a_curve_that_is_made_of_them(cycles):
-    """Exact: amplitudes, phases and mean chosen; a tone between two harmonics leaves them as they are over whole cycles."""
+    """Exact: amplitudes, phases and mean chosen; a tone between two harmonics leaves them as they are over whole
+    cycles."""
     phase = np.arange(40 * cycles) / 40
     amplitudes = np.array([3.0, 0.0, 1.5, 0.25, 0.125])
     curve = 7.0 + sum(a * np.cos(2.0 * np.pi * n * phase + n) for n, a in enumerate(amplitudes, 1))
@@ -18,7 +19,8 @@ def test_harmonics_of_a_curve_that_is_made_of_them(cycles):
 
 
 def test_harmonics_have_the_power_of_the_curve():
-    """Parseval: half the sum of the squared amplitudes is the mean square of a curve about its mean; the last one counts as sampled."""
+    """Parseval: half the sum of the squared amplitudes is the mean square of a curve about its mean; the last one
+    counts as sampled."""
     curve = np.random.default_rng(1).normal(size=31)
     power = 0.5 * np.sum(harmonics(curve, 1, count=15) ** 2)
     assert power == pytest.approx(np.var(curve), rel=1e-12)
@@ -30,7 +32,8 @@ def test_harmonics_that_are_not_sampled_are_not_told():
 
 
 def test_shares_of_pairs_that_hand_over_in_a_straight_line():
-    """Exact: a contact ratio of 1.5; a pair's share rises from 1/3 to 2/3, is 1 alone, and falls the other way; positions in cycles."""
+    """Exact: a contact ratio of 1.5; a pair's share rises from 1/3 to 2/3, is 1 alone, and falls the other way;
+    positions in cycles."""
     phase = np.linspace(2.0, 4.0, 81)
     numbers = np.tile(np.arange(0, 5), (len(phase), 1))
     passed = phase[:, None] - numbers
@@ -43,18 +46,23 @@ def test_shares_of_pairs_that_hand_over_in_a_straight_line():
 
 
 def test_shares_by_slots_are_those_by_pairs():
-    """Identity: pairs that change their columns with the cycle, as slots do, have the shares of pairs with a column each."""
+    """Identity: pairs that change their columns with the cycle, as slots do, have the shares of pairs with a column
+    each."""
     phase = np.linspace(0.0, 3.0, 61)
     numbers = np.tile(np.arange(-1, 4), (len(phase), 1))
     forces = np.clip(0.75 - np.abs(phase[:, None] - numbers - 0.75), 0.0, None)
     present = np.floor(phase).astype(int)[:, None] - np.array([0, 1])
     slots = np.take_along_axis(forces, present + 1, axis=1)
     places = [0.1, 0.5, 0.75, 1.2]
-    assert shares_at(places, phase, present, slots) == pytest.approx(shares_at(places, phase, numbers, forces), abs=1e-12)
+    assert shares_at(places, phase, present, slots) == pytest.approx(
+        shares_at(places, phase, numbers, forces), abs=1e-12
+    )
 
 
 def test_means_are_of_steps_that_touch():
     """Definition."""
     values = np.array([0.0, 2.0, 4.0, 0.0])
     assert mean_where_positive(values) == 3.0 and np.isnan(mean_where_positive(np.zeros(3)))
-    assert largest_of_one_pair(values, np.array([0, 1, 2, 0])) == 2.0 and np.isnan(largest_of_one_pair(values, np.array([0, 2, 2, 0])))
+    assert largest_of_one_pair(values, np.array([0, 1, 2, 0])) == 2.0 and np.isnan(
+        largest_of_one_pair(values, np.array([0, 2, 2, 0]))
+    )

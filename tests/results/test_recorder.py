@@ -42,11 +42,20 @@ def marched(paper_scene):
 
 
 def in_old_layout(model, cycle, records) -> xr.Dataset:
-    """A result as versions before slots had it, by pair counted through the run, written out of the records one by one: brute force."""
-    numbers = sorted({int(cycle.pair_number(r.step, p.place.index)) for r in records for p in r.position.operator.pairs})
+    """A result as versions before slots had it, by pair counted through the run, written out of the records one by one:
+    brute force."""
+    numbers = sorted(
+        {int(cycle.pair_number(r.step, p.place.index)) for r in records for p in r.position.operator.pairs}
+    )
     shape = (len(records), len(numbers), cycle.grid.most_nodes)
-    fields = {name: np.full(shape, np.nan if name.endswith(("offset", "angle")) else 0.0) for name in FIELDS + tuple(f"coast_{each}" for each in FIELDS)}
-    forces = {name: np.zeros(shape[:2]) for name in ("pair_normal_force", "pair_friction_force", "pair_coast_normal_force", "unused")}
+    fields = {
+        name: np.full(shape, np.nan if name.endswith(("offset", "angle")) else 0.0)
+        for name in FIELDS + tuple(f"coast_{each}" for each in FIELDS)
+    }
+    forces = {
+        name: np.zeros(shape[:2])
+        for name in ("pair_normal_force", "pair_friction_force", "pair_coast_normal_force", "unused")
+    }
     for i, record in enumerate(records):
         start, count = 0, record.position.operator.nodes
         for pair in record.position.operator.pairs:
@@ -57,7 +66,10 @@ def in_old_layout(model, cycle, records) -> xr.Dataset:
             values = (normal / area, tangential / area, pair.offsets, pair.pinion_roll)
             for name, each in zip(FIELDS, values):
                 fields[f"coast_{name}" if coast else name][i, row, : len(each)] = each
-            for name, force in zip(("pair_coast_normal_force", "unused") if coast else ("pair_normal_force", "pair_friction_force"), (normal, tangential)):
+            for name, force in zip(
+                ("pair_coast_normal_force", "unused") if coast else ("pair_normal_force", "pair_friction_force"),
+                (normal, tangential),
+            ):
                 forces[name][i, row] = force.sum()
     fields.pop("coast_contact_offset"), forces.pop("unused")
     steps = np.array([record.step for record in records])
@@ -73,12 +85,23 @@ def test_slots_hold_what_pairs_held(marched):
     model, cycle, records, result = marched
     old = in_old_layout(model, cycle, list(records))
     first = result["pair_number"].attrs["number_at_phase_0"]
-    assert result["pair_number"].values.max() == old["pair"].values.max() + first and result["pair_number"].values[0].min() >= 0
+    assert (
+        result["pair_number"].values.max() == old["pair"].values.max() + first
+        and result["pair_number"].values[0].min() >= 0
+    )
     assert 1 in result["pair_number"].values[0]
     for name in ("pair_normal_force", "pair_friction_force", "pair_coast_normal_force"):
         found = results.by_pair(result[name], absent=0.0)
-        np.testing.assert_allclose(found.values, old[name].sel(pair=found["pair"].values - first).values, rtol=1e-12, atol=1e-9)
-    assert result.sizes["contact_time"] == model.contact_steps == 2 * cycle.steps + 1 < result.sizes["time"] == model.steps + 1
+        np.testing.assert_allclose(
+            found.values, old[name].sel(pair=found["pair"].values - first).values, rtol=1e-12, atol=1e-9
+        )
+    assert (
+        result.sizes["contact_time"]
+        == model.contact_steps
+        == 2 * cycle.steps + 1
+        < result.sizes["time"]
+        == model.steps + 1
+    )
     for name in [name for name in old.data_vars if "contact_" in name]:
         found = results.by_pair(result[name], absent=np.nan if name.endswith(("offset", "angle")) else 0.0)
         expected = old[name].sel(pair=found["pair"].values - first).values[-model.contact_steps :]
@@ -86,7 +109,8 @@ def test_slots_hold_what_pairs_held(marched):
 
 
 def test_a_file_of_before_slots_is_read_as_one_of_now(marched, tmp_path):
-    """Round trip: a file in the old layout, made by brute force, has the same curves and fields pair by pair when it is read."""
+    """Round trip: a file in the old layout, made by brute force, has the same curves and fields pair by pair when it is
+    read."""
     model, cycle, records, result = marched
     old = in_old_layout(model, cycle, list(records)[-model.contact_steps :])
     results.save(old, tmp_path / "run.nc")
@@ -97,18 +121,23 @@ def test_a_file_of_before_slots_is_read_as_one_of_now(marched, tmp_path):
         theirs = read[name].values, read["pair_number"].values
         for life in lives(theirs[1]):
             number = life.number - read["pair_number"].attrs["number_at_phase_0"]
-            np.testing.assert_array_equal(theirs[0][life.steps, life.slot], old[name].sel(pair=number).values[life.steps])
+            np.testing.assert_array_equal(
+                theirs[0][life.steps, life.slot], old[name].sel(pair=number).values[life.steps]
+            )
     np.testing.assert_array_equal(contact_times(read)["transmission_error"].values, old["transmission_error"].values)
 
 
 def test_the_account_goes_on_from_block_to_block(marched):
-    """Identity: energies and works gathered while marching are those of all records at once, and nothing is left but round-off."""
+    """Identity: energies and works gathered while marching are those of all records at once, and nothing is left but
+    round-off."""
     model, cycle, records, result = marched
     steps = Steps.of(records)
     energies = energy_variables(model.scene, model.drivetrain, steps)
     works = work_variables(model.scene, cycle, model.drivetrain, model.clock, model.loads, steps, energies["energy"])
     for name, values in (energies | works).items():
-        np.testing.assert_allclose(result[name].values, values, rtol=1e-9, atol=1e-9 * np.abs(result["work_input"].values).max())
+        np.testing.assert_allclose(
+            result[name].values, values, rtol=1e-9, atol=1e-9 * np.abs(result["work_input"].values).max()
+        )
     assert np.abs(result["energy_defect"].values).max() <= 1e-10 * np.abs(result["work_input"].values).max()
 
 
@@ -127,25 +156,41 @@ def test_compiled_contact_work_is_that_of_whole_arrays(marched):
 @pytest.mark.parametrize("root_stress", [False, True])
 def test_memory_is_as_it_was_counted(paper_scene, coast, friction, root_stress):
     """Count: what `gears check` counts is what the result's arrays over time take, to the byte."""
-    scene = replace(quasi_static(coarse_scene(paper_scene)), coast_flanks=CoastFlanks() if coast else None, output=Output(root_stress=root_stress))
+    scene = replace(
+        quasi_static(coarse_scene(paper_scene)),
+        coast_flanks=CoastFlanks() if coast else None,
+        output=Output(root_stress=root_stress),
+    )
     result = simulate(scene if friction else frictionless(scene))
     held = sum(each.nbytes for each in result.variables.values() if {"time", "contact_time"} & set(each.dims))
     assert held == model_of(scene if friction else frictionless(scene)).stored_bytes
 
 
 def test_a_long_ramp_is_stored_as_curves(paper_scene):
-    """Count: 300 cycles of a run-up with friction and coast flanks, all curves, fields of the last two cycles; by pair they took gigabytes."""
+    """Count: 300 cycles of a run-up with friction and coast flanks, all curves, fields of the last two cycles; by pair
+    they took gigabytes."""
     motion = Motion(150.0, 300, 2)
-    scene = replace(paper_scene, accuracy=replace(COARSE, steps_per_mesh_cycle=12), motion=motion, coast_flanks=CoastFlanks(), speed_ramp=SpeedRamp(250.0))
+    scene = replace(
+        paper_scene,
+        accuracy=replace(COARSE, steps_per_mesh_cycle=12),
+        motion=motion,
+        coast_flanks=CoastFlanks(),
+        speed_ramp=SpeedRamp(250.0),
+    )
     result = simulate(scene)
-    assert result.sizes["time"] == 300 * 12 + 1 and result.sizes["contact_time"] == 2 * 12 + 1 and result.sizes["slot"] <= 5
+    assert (
+        result.sizes["time"] == 300 * 12 + 1
+        and result.sizes["contact_time"] == 2 * 12 + 1
+        and result.sizes["slot"] <= 5
+    )
     assert result.nbytes < 3e6 and result["pair_normal_force"].dims == ("time", "slot")
     assert result["pair_number"].values.max() >= 300
     np.testing.assert_allclose(result["pair_normal_force"].sum("slot"), result["normal_force"], rtol=1e-12)
 
 
 def test_without_contact_fields_what_needs_them_says_so(paper_scene):
-    """Authority: docs/scene.md; curves and the peak pressure are there, the field is not, and what would draw it names the key."""
+    """Authority: docs/scene.md; curves and the peak pressure are there, the field is not, and what would draw it names
+    the key."""
     scene = quasi_static(coarse_scene(paper_scene))
     result, whole = simulate(replace(scene, output=Output(contact_fields=False))), simulate(scene)
     assert not [name for name in result.variables if name.startswith("contact_")]

@@ -1,4 +1,5 @@
-"""Which steps numbers are of: whole common periods after the start has died down, and what is said where they are not."""
+"""Which steps numbers are of: whole common periods after the start has died down, and what is said where they are
+not."""
 
 from dataclasses import replace
 from math import ceil, log, pi
@@ -60,11 +61,14 @@ steps_per_mesh_cycle = 8
 def by_cycles():
     """The pair, its scene and results by 23, 47 and 1081 mesh cycles, on the standard's springs."""
     scene = scene_from_text(PAIR, "pair")
-    return scene, {cycles: simulate(replace(scene, motion=replace(scene.motion, mesh_cycles=cycles))) for cycles in (23, 47, 1081)}
+    return scene, {
+        cycles: simulate(replace(scene, motion=replace(scene.motion, mesh_cycles=cycles))) for cycles in (23, 47, 1081)
+    }
 
 
 def test_numbers_are_of_all_cycles_that_were_run(by_cycles):
-    """Definition, and brute force over the longest run: each shorter one is its beginning, and T_EPP is the span of all of its steps or larger."""
+    """Definition, and brute force over the longest run: each shorter one is its beginning, and T_EPP is the span of all
+    of its steps or larger."""
     _, found = by_cycles
     whole = found[1081]["transmission_error"].values
     spans = {}
@@ -80,16 +84,20 @@ def test_numbers_are_of_all_cycles_that_were_run(by_cycles):
 
 
 def test_extremes_lie_between_the_steps_also_where_cycles_differ_and_springs_jump(by_cycles):
-    """Brute force: of 512 steps a mesh cycle the samples span T_EPP within 1e-4; eight, at which the standard's springs jump unseen, miss 1.8 %."""
+    """Brute force: of 512 steps a mesh cycle the samples span T_EPP within 1e-4; eight, at which the standard's springs
+    jump unseen, miss 1.8 %."""
     scene, found = by_cycles
-    fine = replace(scene, motion=replace(scene.motion, mesh_cycles=23), accuracy=replace(scene.accuracy, steps_per_mesh_cycle=512))
+    fine = replace(
+        scene, motion=replace(scene.motion, mesh_cycles=23), accuracy=replace(scene.accuracy, steps_per_mesh_cycle=512)
+    )
     span = np.ptp(simulate(fine)["transmission_error"].values)
     assert found[23].attrs["peak_to_peak_transmission_error"] == pytest.approx(span, rel=2e-4)
     assert np.ptp(found[23]["transmission_error"].values) < 0.985 * span
 
 
 def test_fewer_cycles_than_the_common_period_are_told_first(by_cycles):
-    """Authority: z1 z2 without common factor; warning, summary and `gears check` say 1081, and a whole period has no such warning."""
+    """Authority: z1 z2 without common factor; warning, summary and `gears check` say 1081, and a whole period has no
+    such warning."""
     scene, found = by_cycles
     assert common_period(scene) == 1081 == 23 * 47
     for cycles in (23, 47):
@@ -106,16 +114,25 @@ def test_fewer_cycles_than_the_common_period_are_told_first(by_cycles):
     ("order", "cycles"), [(1.0, 24), (24.0, 1), (12.0, 2), (1.5, 16), (0.5, 48), (5.0, 24)], ids=str
 )
 def test_a_ripple_repeats_after_whole_turns_of_its_order(paper_scene, order, cycles):
-    """Arithmetic: the least whole number of mesh cycles, 1/24 of the wheel's turn each, that is a multiple of 1/order of a turn."""
+    """Arithmetic: the least whole number of mesh cycles, 1/24 of the wheel's turn each, that is a multiple of 1/order
+    of a turn."""
     ripple = TorqueRipple((Harmonic(order, 1e3),))
     assert common_period(replace(paper_scene, torque_ripple=ripple)) == cycles
     assert order * cycles / 24 == round(order * cycles / 24)
 
 
 def test_the_start_has_died_down(paper_scene):
-    """Exponential decay of the slowest mode: exp(-zeta omega t) = 0.001 at the first step that counts; a warning where it is above 0.01 before the last cycles."""
+    """Exponential decay of the slowest mode: exp(-zeta omega t) = 0.001 at the first step that counts; a warning where
+    it is above 0.01 before the last cycles."""
     model = model_of(coarse_scene(paper_scene, cycles=30))
-    slowest = min((each.damping_ratio * 2 * pi * each.frequency for each in model.vibrations if each.excited and each.damping_ratio < 1), default=0)
+    slowest = min(
+        (
+            each.damping_ratio * 2 * pi * each.frequency
+            for each in model.vibrations
+            if each.excited and each.damping_ratio < 1
+        ),
+        default=0,
+    )
     a_cycle = model.resolution.steps_per_mesh_cycle
     calm, quiet = (ceil(log(left) / slowest / model.time_step) for left in (100.0, 1000.0))
     expected = model.steps - (model.steps - quiet) // a_cycle * a_cycle

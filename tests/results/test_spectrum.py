@@ -5,7 +5,17 @@ import pytest
 import scipy.signal
 from scipy.special import jv
 
-from fenics_gears.results.spectrum import FLAT_TOP, HANN, NO_WINDOW, SIDEBANDS, WINDOWS, level, order_lines, sidebands, weights_of
+from fenics_gears.results.spectrum import (
+    FLAT_TOP,
+    HANN,
+    NO_WINDOW,
+    SIDEBANDS,
+    WINDOWS,
+    level,
+    order_lines,
+    sidebands,
+    weights_of,
+)
 
 TEETH, PERIOD, STEPS = (16, 24), 48, 40
 
@@ -28,7 +38,8 @@ def test_weights_are_scipys(window, scipys):
 
 @pytest.mark.parametrize("window", WINDOWS)
 def test_a_line_on_a_bin_has_its_amplitude_and_its_square(window):
-    """Exact: a cosine of 3.7 um with an offset; a window of cosines spreads it over as many bins as it has cosines, and nowhere else."""
+    """Exact: a cosine of 3.7 um with an offset; a window of cosines spreads it over as many bins as it has cosines, and
+    nowhere else."""
     found = order_lines(5.0 + cosine(16.0, PERIOD, 3.7), PERIOD, TEETH, window)
     assert found.at(16.0) == pytest.approx(3.7, rel=1e-6)
     assert found.square(16.0) == pytest.approx(3.7**2, rel=1e-6)
@@ -36,10 +47,15 @@ def test_a_line_on_a_bin_has_its_amplitude_and_its_square(window):
     assert found.amplitudes[beyond].max() < 1e-9
 
 
-@pytest.mark.parametrize("window, most, left", [(NO_WINDOW, 1.0 - 2.0 / np.pi, 0.1), (HANN, 1.0 - 8.0 / (3.0 * np.pi), 2.5e-3), (FLAT_TOP, 1.2e-3, 1e-4)])
+@pytest.mark.parametrize(
+    "window, most, left",
+    [(NO_WINDOW, 1.0 - 2.0 / np.pi, 0.1), (HANN, 1.0 - 8.0 / (3.0 * np.pi), 2.5e-3), (FLAT_TOP, 1.2e-3, 1e-4)],
+)
 def test_a_line_between_bins_is_too_low_by_no_more_than_is_known(window, most, left):
-    """Exact for a long record: midway between bins 2/pi of the amplitude without a window and 8/(3 pi) in Hann's; 0.01 dB for the flat top (Harris
-    1978). `left`: of the leakage six bins and more away: 2/(pi d) of a line d bins away without a window, 2/(pi d (d^2 - 1)) in Hann's."""
+    """Exact for a long record: midway between bins 2/pi of the amplitude without a window and 8/(3 pi) in Hann's; 0.01
+    dB for the flat top (Harris
+    1978). `left`: of the leakage six bins and more away: 2/(pi d) of a line d bins away without a window, 2/(pi d (d^2
+    - 1)) in Hann's."""
     order = 16.0 + 0.5 * TEETH[0] / PERIOD
     found = order_lines(cosine(order, PERIOD), PERIOD, TEETH, window)
     assert abs(1.0 - found.amplitudes.max()) <= most * (1.0 + 5e-3)
@@ -54,7 +70,9 @@ def test_levels_are_decibels_of_the_amplitude():
     assert level(np.array([2e-3]), 2e-6)[0] == pytest.approx(60.0)
 
 
-@pytest.mark.parametrize("shaft, window, periods", [("pinion", None, 1), ("wheel", None, 1), ("wheel", HANN, 3), ("pinion", FLAT_TOP, 9)])
+@pytest.mark.parametrize(
+    "shaft, window, periods", [("pinion", None, 1), ("wheel", None, 1), ("wheel", HANN, 3), ("pinion", FLAT_TOP, 9)]
+)
 def test_amplitude_modulation_has_two_sidebands_of_half_its_depth(shaft, window, periods):
     """Exact: A (1 + m cos(Omega t)) cos(omega t) has two sidebands of A m/2 beside A: m^2/2 of the line's square."""
     cycles, depth = periods * PERIOD, 0.3
@@ -69,7 +87,8 @@ def test_amplitude_modulation_has_two_sidebands_of_half_its_depth(shaft, window,
 
 
 def test_phase_modulation_has_bessels_sidebands():
-    """Exact (Jacobi, Anger): cos(omega t + b sin(Omega t)) has the line J_0(b) and the sidebands J_k(b) on either side."""
+    """Exact (Jacobi, Anger): cos(omega t + b sin(Omega t)) has the line J_0(b) and the sidebands J_k(b) on either
+    side."""
     depth = 0.8
     signal = np.cos(2.0 * np.pi * 32.0 * turns(PERIOD) + depth * np.sin(2.0 * np.pi * turns(PERIOD)))
     found = sidebands(order_lines(signal, PERIOD, TEETH), TEETH, 2)
@@ -81,7 +100,8 @@ def test_phase_modulation_has_bessels_sidebands():
 
 
 def test_a_record_that_cannot_tell_sidebands_apart_has_none():
-    """Definition: sidebands of 16 and 24 teeth stand a third of an order apart, 1/48 of a mesh order; Hann's lines are three bins wide."""
+    """Definition: sidebands of 16 and 24 teeth stand a third of an order apart, 1/48 of a mesh order; Hann's lines are
+    three bins wide."""
     for cycles, window in ((PERIOD - 1, HANN), (2 * PERIOD, HANN), (8 * PERIOD, FLAT_TOP), (PERIOD - 8, None)):
         assert sidebands(order_lines(cosine(16.0, cycles), cycles, TEETH, window), TEETH, 1) is None
     assert sidebands(order_lines(cosine(16.0, PERIOD), PERIOD, TEETH), TEETH, STEPS) is None

@@ -29,7 +29,8 @@ def coarse(paper_scene):
 
 
 def test_an_ordinary_run_has_nothing_to_say_but_of_its_sharp_tips(coarse):
-    """The paper's damped pair stays in contact and within the window; unrelieved, its tips carry on their edges at hand-over."""
+    """The paper's damped pair stays in contact and within the window; unrelieved, its tips carry on their edges at
+    hand-over."""
     result = simulate(coarse)
     (said,) = result.attrs["warnings"].splitlines()
     assert said.startswith("contact reaches the sharp edge of the pinion's and the wheel's tip")
@@ -40,9 +41,24 @@ def test_an_ordinary_run_has_nothing_to_say_but_of_its_sharp_tips(coarse):
     ("effects", "said", "unsaid"),
     [
         ({}, ["[tip_relief] takes", "[corner_contact] with"], ["deeper", "parabolic"]),
-        ({"tip_relief": TipRelief(Relief(0.002, None), Relief(0.002, None))}, ["deeper or longer", "parabolic", "[corner_contact] with"], ["[tip_relief] takes"]),
-        ({"tip_relief": TipRelief(Relief(0.002, None), None)}, ["[tip_relief.wheel] takes"], ["[tip_relief] takes", "[tip_relief.pinion]"]),
-        ({"tip_relief": TipRelief(*[Relief(0.002, None, PARABOLIC)] * 2), "corner_contact": CornerContact((0.0, 0.0))}, ["deeper", "[corner_contact] with"], ["shape"]),
+        (
+            {"tip_relief": TipRelief(Relief(0.002, None), Relief(0.002, None))},
+            ["deeper or longer", "parabolic", "[corner_contact] with"],
+            ["[tip_relief] takes"],
+        ),
+        (
+            {"tip_relief": TipRelief(Relief(0.002, None), None)},
+            ["[tip_relief.wheel] takes"],
+            ["[tip_relief] takes", "[tip_relief.pinion]"],
+        ),
+        (
+            {
+                "tip_relief": TipRelief(*[Relief(0.002, None, PARABOLIC)] * 2),
+                "corner_contact": CornerContact((0.0, 0.0)),
+            },
+            ["deeper", "[corner_contact] with"],
+            ["shape"],
+        ),
     ],
 )
 def test_what_takes_the_load_off_a_sharp_edge_is_what_the_scene_lacks(coarse, effects, said, unsaid):
@@ -53,7 +69,8 @@ def test_what_takes_the_load_off_a_sharp_edge_is_what_the_scene_lacks(coarse, ef
 
 
 def test_stresses_above_the_yield_strength_are_named(coarse):
-    """Brute force: Hertz's stresses below a line contact (Johnson, Contact Mechanics, 1985, eq. 4.45) with Tresca's criterion, the shear strength half of that in tension."""
+    """Brute force: Hertz's stresses below a line contact (Johnson, Contact Mechanics, 1985, eq. 4.45) with Tresca's
+    criterion, the shear strength half of that in tension."""
     depth = np.linspace(0.0, 3.0, 30001)
     root = np.sqrt(1.0 + depth**2)
     largest_shear = 0.5 * np.abs(-((1.0 + 2.0 * depth**2) / root - 2.0 * depth) + 1.0 / root).max()
@@ -70,7 +87,8 @@ def test_stresses_above_the_yield_strength_are_named(coarse):
 
 
 def test_a_run_with_a_named_steel_says_that_it_yields(coarse):
-    """The interface: the paper's pair presses its flanks with 1.6 GPa, C45 quenched and tempered has 370 MPa (EN ISO 683-1)."""
+    """The interface: the paper's pair presses its flanks with 1.6 GPa, C45 quenched and tempered has 370 MPa (EN ISO
+    683-1)."""
     scene = replace(coarse, motion=Motion(200.0, 1, 1), inertia=None, damping=None)
     named = replace(scene, gears=replace(scene.gears, material=MATERIALS["C45 QT"][0]))
     assert "1.67 times its yield strength of 370 MPa" in simulate(named).attrs["warnings"]
@@ -79,12 +97,19 @@ def test_a_run_with_a_named_steel_says_that_it_yields(coarse):
 
 @pytest.mark.parametrize(("shape", "kinked"), [(LINEAR, True), (PARABOLIC, False)])
 def test_the_kink_of_linear_relief_is_named_where_it_presses_hardest(coarse, shape, kinked):
-    """Elasticity: a flank with a kink has a logarithmically infinite pressure there (Johnson, Contact Mechanics, 5.2), which elements of any size miss by some part; a
+    """Elasticity: a flank with a kink has a logarithmically infinite pressure there (Johnson, Contact Mechanics, 5.2),
+    which elements of any size miss by some part; a
     parabola has no kink. House rule: a warning and the printed number are the same."""
     relief = Relief(0.06, None, shape)
-    scene = replace(coarse, motion=Motion(200.0, 1, 1), inertia=None, damping=None, tip_relief=TipRelief(relief, relief))
+    scene = replace(
+        coarse, motion=Motion(200.0, 1, 1), inertia=None, damping=None, tip_relief=TipRelief(relief, relief)
+    )
     result = simulate(scene)
-    found = [said for said in result.attrs["warnings"].splitlines() if "beside the kink where the linear tip relief of the pinion or the wheel starts" in said]
+    found = [
+        said
+        for said in result.attrs["warnings"].splitlines()
+        if "beside the kink where the linear tip relief of the pinion or the wheel starts" in said
+    ]
     assert len(found) == kinked
     printed = {label: value for label, value, _ in summary_rows(result)}
     assert ("pressure at kinks of relief" in printed) == kinked
@@ -117,13 +142,20 @@ def test_large_rotations_are_named(coarse):
 
 
 def test_gears_that_have_gone_through_each_other_have_no_meaning(coarse):
-    """Geometry: a transmission error of more than a pitch. It is said before all else; here the couple bends teeth out of the way."""
-    forced = replace(coarse, load=Load(1e4 * coarse.load.wheel_torque), inertia=None, damping=None, motion=Motion(200.0, 1, 1))
+    """Geometry: a transmission error of more than a pitch. It is said before all else; here the couple bends teeth out
+    of the way."""
+    forced = replace(
+        coarse, load=Load(1e4 * coarse.load.wheel_torque), inertia=None, damping=None, motion=Motion(200.0, 1, 1)
+    )
     result = simulate(forced)
     assert np.abs(result.transmission_error.values).max() > 2 * np.pi / 24
     said = result.attrs["warnings"].splitlines()
     assert said[0].startswith("the result has no meaning: the transmission error reaches") and len(said) > 1
-    assert worst_first(["one", "two, and the result has no meaning", "three"]) == ["two, and the result has no meaning", "one", "three"]
+    assert worst_first(["one", "two, and the result has no meaning", "three"]) == [
+        "two, and the result has no meaning",
+        "one",
+        "three",
+    ]
 
 
 def test_an_incomplete_run_says_why(coarse):
@@ -138,7 +170,8 @@ def test_an_incomplete_run_says_why(coarse):
 
 
 def test_energy_put_in_is_judged_by_the_mesh_cycle(coarse):
-    """Arithmetic: 0.9 in each of a hundred cycles, of 10 at most, are 9 % of it by the cycle and nine times it over the run."""
+    """Arithmetic: 0.9 in each of a hundred cycles, of 10 at most, are 9 % of it by the cycle and nine times it over the
+    run."""
     work = np.repeat(0.9 * np.arange(101), 4)[3:]
     result = xr.Dataset({"energy": ("time", np.full(len(work), 10.0)), "work_contact_changes": ("time", work)})
     assert not warnings_of_energy(coarse, result, 4)
@@ -154,7 +187,8 @@ def test_energy_put_in_is_told_in_multiples_of_the_largest(coarse):
 
 
 def test_separation_beyond_the_backlash_is_named(coarse, paper_pair):
-    """Claim 10: undamped at its resonance the pair loses contact globally, which without coast flanks has no meaning from then on."""
+    """Claim 10: undamped at its resonance the pair loses contact globally, which without coast flanks has no meaning
+    from then on."""
     undamped = replace(coarse, damping=None, motion=Motion(213.0, 40, 40))
     result = simulate(undamped)
     (said,) = [line for line in result.attrs["warnings"].splitlines() if "lose contact" in line]
@@ -166,7 +200,9 @@ def test_separation_beyond_the_backlash_is_named(coarse, paper_pair):
     assert result.attrs["contact_loss_count"] == len(starts)
     assert result.attrs["contact_loss_first"] == pytest.approx(result.time.values[1 + starts[0]], rel=1e-12)
     ends = np.flatnonzero(lost & ~np.concatenate((lost[1:], [False]))) + 1
-    assert result.attrs["contact_loss_longest"] == pytest.approx((ends - starts).max() * float(np.diff(result.time.values[:2])[0]), rel=1e-9)
+    assert result.attrs["contact_loss_longest"] == pytest.approx(
+        (ends - starts).max() * float(np.diff(result.time.values[:2])[0]), rel=1e-9
+    )
     assert result.attrs["contact_loss_opening"] > paper_pair.backlash
     assert f"first at {result.attrs['contact_loss_first']:.4g} s" in said
 
@@ -186,7 +222,9 @@ def test_impacts_that_the_time_step_does_not_resolve_are_named(coarse):
     said = []
     for steps in (10, 40):
         result = simulate(replace(undamped, accuracy=replace(COARSE, steps_per_mesh_cycle=steps)))
-        cycles = [result.work_contact_changes.values[first : first + steps + 1] for first in range(0, 12 * steps, steps)][-8:]
+        cycles = [
+            result.work_contact_changes.values[first : first + steps + 1] for first in range(0, 12 * steps, steps)
+        ][-8:]
         part = max(map(np.ptp, cycles)) / result.energy.values[-8 * steps - 1 :].max()
         said.append("impacts are not resolved" in result.attrs["warnings"])
         assert said[-1] == (part > 0.1)

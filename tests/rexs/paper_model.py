@@ -1,4 +1,5 @@
-"""The paper's pair as a REXS model, and models as files of each form, written here from the specification's description of them.
+"""The paper's pair as a REXS model, and models as files of each form, written here from the specification's description
+of them.
 
 A model is the JSON tree of REXS 1.7; `as_xml` writes the same in the XML form.
 """
@@ -12,7 +13,15 @@ from xml.etree import ElementTree
 KINDS = {bool: "boolean", int: "integer", float: "floating_point", str: "string", list: "floating_point_array"}
 
 STAGE, PINION, WHEEL, MATERIAL, LOAD, SHAFT, OUTPUT_SHAFT = 4, 5, 6, 11, 14, 2, 3
-PINION_FLANKS, WHEEL_FLANKS, PINION_DATA, WHEEL_DATA, PINION_TOOL, WHEEL_TOOL, SETTINGS = (7, 8), (9, 10), 12, 13, 15, 16, 17
+PINION_FLANKS, WHEEL_FLANKS, PINION_DATA, WHEEL_DATA, PINION_TOOL, WHEEL_TOOL, SETTINGS = (
+    (7, 8),
+    (9, 10),
+    12,
+    13,
+    15,
+    16,
+    17,
+)
 
 
 def attribute(name, value, unit="none"):
@@ -27,26 +36,41 @@ def _component(number, kind, *attributes, name=""):
 
 def _relation(number, kind, order=None, **roles):
     ordered = {"order": order} if order else {}
-    return {"id": number, "type": kind, **ordered, "refs": [{"id": value, "role": role} for role, value in roles.items()]}
+    return {
+        "id": number,
+        "type": kind,
+        **ordered,
+        "refs": [{"id": value, "role": role} for role, value in roles.items()],
+    }
 
 
 def _gear(number, name, teeth, tip, root, bore):
     return _component(
-        number, "cylindrical_gear", ("normal_module", 4.5, "mm"), ("number_of_teeth", teeth), ("helix_angle_reference_diameter", 0.0, "deg"),
-        ("face_width", 15.0, "mm"), ("tip_diameter", tip, "mm"), ("root_diameter", root, "mm"), ("inner_diameter", bore, "mm"), name=name,
+        number, "cylindrical_gear", ("normal_module", 4.5, "mm"), ("number_of_teeth", teeth),
+        ("helix_angle_reference_diameter", 0.0, "deg"),
+        ("face_width", 15.0, "mm"), ("tip_diameter", tip, "mm"), ("root_diameter", root, "mm"),
+        ("inner_diameter", bore, "mm"), name=name,
     )  # fmt: skip
 
 
 def _flank(number, shift):
-    return _component(number, "cylindrical_gear_flank", ("normal_pressure_angle", 20.0, "deg"), ("addendum_modification_coefficient", shift))
+    return _component(
+        number,
+        "cylindrical_gear_flank",
+        ("normal_pressure_angle", 20.0, "deg"),
+        ("addendum_modification_coefficient", shift),
+    )
 
 
 def _tool(number):
-    return _component(number, "rack_shaped_tool", ("addendum_coefficient_reference_profile", 1.25), ("tip_radius_factor", 0.38))
+    return _component(
+        number, "rack_shaped_tool", ("addendum_coefficient_reference_profile", 1.25), ("tip_radius_factor", 0.38)
+    )
 
 
 def paper_model():
-    """The pair of demos/lundvall2004.toml between two shafts, with the torque on the output shaft and the speed of the input shaft."""
+    """The pair of demos/lundvall2004.toml between two shafts, with the torque on the output shaft and the speed of the
+    input shaft."""
     components = [
         _component(1, "gear_unit", ("support_vector", [0.0, 0.0, 0.0], "mm")),
         _component(SHAFT, "shaft", ("rotational_speed", 750.0, "1 / min"), name="input shaft"),
@@ -57,11 +81,18 @@ def paper_model():
         *(_flank(number, 0.196) for number in PINION_FLANKS),
         *(_flank(number, 0.125) for number in WHEEL_FLANKS),
         _component(
-            MATERIAL, "material", ("elastic_modulus", 206000.0, "N / mm^2"), ("poisson_ratio", 0.3), ("density", 7.85, "kg / dm^3"), name="steel"
+            MATERIAL,
+            "material",
+            ("elastic_modulus", 206000.0, "N / mm^2"),
+            ("poisson_ratio", 0.3),
+            ("density", 7.85, "kg / dm^3"),
+            name="steel",
         ),
         _component(PINION_DATA, "cylindrical_stage_gear_data"),
         _component(WHEEL_DATA, "cylindrical_stage_gear_data"),
-        _component(LOAD, "external_load", ("torque_around_u_axis", -437.0, "N m"), ("transmits_torque", True), name="brake"),
+        _component(
+            LOAD, "external_load", ("torque_around_u_axis", -437.0, "N m"), ("transmits_torque", True), name="brake"
+        ),
         _tool(PINION_TOOL),
         _tool(WHEEL_TOOL),
         _component(SETTINGS, "cylindrical_gear_manufacturing_settings"),
@@ -83,11 +114,15 @@ def paper_model():
     ]
     for tool, flanks in ((PINION_TOOL, PINION_FLANKS), (WHEEL_TOOL, WHEEL_FLANKS)):
         relations += [
-            _relation(20 + flank, "manufacturing_step", order=1, workpiece=flank, tool=tool, manufacturing_settings=SETTINGS) for flank in flanks
+            _relation(
+                20 + flank, "manufacturing_step", order=1, workpiece=flank, tool=tool, manufacturing_settings=SETTINGS
+            )
+            for flank in flanks
         ]
     return {
         "model": {
-            "version": "1.7", "applicationId": "fenics_gears tests", "applicationVersion": "1", "date": "2026-01-01T00:00:00+00:00",
+            "version": "1.7", "applicationId": "fenics_gears tests", "applicationVersion": "1",
+            "date": "2026-01-01T00:00:00+00:00",
             "relations": relations, "components": components,
         }
     }  # fmt: skip
@@ -131,12 +166,16 @@ def as_json(model):
 def as_xml(model, namespace=""):
     """The content of a .rexs file, whose numbers have the digits of the JSON form."""
     tree = model["model"]
-    root = ElementTree.Element("model", {name: tree[name] for name in ("version", "applicationId", "applicationVersion", "date")})
+    root = ElementTree.Element(
+        "model", {name: tree[name] for name in ("version", "applicationId", "applicationVersion", "date")}
+    )
     if namespace:
         root.set("xmlns", namespace)
     relations = ElementTree.SubElement(root, "relations")
     for each in tree["relations"]:
-        relation = ElementTree.SubElement(relations, "relation", {key: str(each[key]) for key in ("id", "type", "order") if key in each})
+        relation = ElementTree.SubElement(
+            relations, "relation", {key: str(each[key]) for key in ("id", "type", "order") if key in each}
+        )
         for reference in each["refs"]:
             ElementTree.SubElement(relation, "ref", {key: str(value) for key, value in reference.items()})
     components = ElementTree.SubElement(root, "components")
@@ -153,9 +192,15 @@ def as_xml(model, namespace=""):
 
 
 def _xml_component(parent, tree):
-    holder = ElementTree.SubElement(parent, "component", {key: str(tree[key]) for key in ("id", "type", "name") if key in tree})
+    holder = ElementTree.SubElement(
+        parent, "component", {key: str(tree[key]) for key in ("id", "type", "name") if key in tree}
+    )
     for each in tree["attributes"]:
-        name, unit, value = each["id"], each["unit"], next(value for key, value in each.items() if key not in ("id", "unit"))
+        name, unit, value = (
+            each["id"],
+            each["unit"],
+            next(value for key, value in each.items() if key not in ("id", "unit")),
+        )
         element = ElementTree.SubElement(holder, "attribute", {"id": name, "unit": unit})
         if isinstance(value, dict):
             ElementTree.SubElement(element, "array", {"code": value["code"]}).text = value["value"]

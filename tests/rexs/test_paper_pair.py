@@ -23,9 +23,21 @@ def imported(tmp_path, content, name="file.rexs", choice=Choice()):
     return scene_from_text(found.text, "imported"), found
 
 
-@pytest.mark.parametrize("form", ["XML", "JSON", "XML in ZIP", "JSON in ZIP", "XML with namespace", "XML with byte-order mark", "JSON with byte-order mark"])
+@pytest.mark.parametrize(
+    "form",
+    [
+        "XML",
+        "JSON",
+        "XML in ZIP",
+        "JSON in ZIP",
+        "XML with namespace",
+        "XML with byte-order mark",
+        "JSON with byte-order mark",
+    ],
+)
 def test_every_form_gives_the_paper_s_pair(paper_scene, tmp_path, form):
-    """All gear fields are equal to the last digit, and so is the load; the speed is, once rpm are mesh cycles a second."""
+    """All gear fields are equal to the last digit, and so is the load; the speed is, once rpm are mesh cycles a
+    second."""
     model = rexs.paper_model()
     xml, json = rexs.as_xml(model), rexs.as_json(model)
     content = {
@@ -46,7 +58,8 @@ def test_every_form_gives_the_paper_s_pair(paper_scene, tmp_path, form):
 
 
 def test_demo_file_is_the_paper_s_pair(paper_scene, tmp_path):
-    """demos/lundvall2004.rexs, which the documentation takes, gives the gears, load and speed of demos/lundvall2004.toml."""
+    """demos/lundvall2004.rexs, which the documentation takes, gives the gears, load and speed of
+    demos/lundvall2004.toml."""
     from tests.conftest import DEMOS
 
     scene, _ = imported(tmp_path, (DEMOS / "lundvall2004.rexs").read_bytes())
@@ -62,13 +75,33 @@ TORQUES = {"N m": 1.0, "Nm": 1.0, "N mm": 1e-3, "kN m": 1e3}
 STRESSES = {"N / mm^2": 1.0, "MPa": 1.0, "GPa": 1e3, "Pa": 1e-6}
 RATIOS = {"none": 1.0, "": 1.0, "%": 0.01}
 QUANTITIES = [
-    (LENGTHS, [(rexs.PINION, name) for name in ("normal_module", "tip_diameter", "root_diameter", "inner_diameter", "face_width")]),
-    (LENGTHS, [(rexs.STAGE, "center_distance"), (rexs.WHEEL, "normal_module"), (rexs.WHEEL, "tip_diameter"), (rexs.WHEEL, "face_width")]),
+    (
+        LENGTHS,
+        [
+            (rexs.PINION, name)
+            for name in ("normal_module", "tip_diameter", "root_diameter", "inner_diameter", "face_width")
+        ],
+    ),
+    (
+        LENGTHS,
+        [
+            (rexs.STAGE, "center_distance"),
+            (rexs.WHEEL, "normal_module"),
+            (rexs.WHEEL, "tip_diameter"),
+            (rexs.WHEEL, "face_width"),
+        ],
+    ),
     (ANGLES, [(flank, "normal_pressure_angle") for flank in rexs.PINION_FLANKS + rexs.WHEEL_FLANKS]),
     (SPEEDS, [(rexs.SHAFT, "rotational_speed")]),
     (TORQUES, [(rexs.LOAD, "torque_around_u_axis")]),
     (STRESSES, [(rexs.MATERIAL, "elastic_modulus")]),
-    (RATIOS, [(rexs.MATERIAL, "poisson_ratio"), *((flank, "addendum_modification_coefficient") for flank in rexs.PINION_FLANKS)]),
+    (
+        RATIOS,
+        [
+            (rexs.MATERIAL, "poisson_ratio"),
+            *((flank, "addendum_modification_coefficient") for flank in rexs.PINION_FLANKS),
+        ],
+    ),
 ]
 
 
@@ -90,7 +123,11 @@ def test_units_do_not_matter(paper_scene, tmp_path_factory, data):
 
 def assert_same_gears(found, expected):
     """All fields of both gears and of the pair, to rounding."""
-    for each, other in ((found.pinion, expected.pinion), (found.wheel, expected.wheel), (found.material, expected.material)):
+    for each, other in (
+        (found.pinion, expected.pinion),
+        (found.wheel, expected.wheel),
+        (found.material, expected.material),
+    ):
         assert astuple(each) == pytest.approx(astuple(other), rel=1e-12)
     plain = [astuple(replace(gears, pinion=None, wheel=None, material=None))[:4] for gears in (found, expected)]
     assert plain[0] == pytest.approx(plain[1], rel=1e-12)
@@ -98,13 +135,25 @@ def assert_same_gears(found, expected):
 
 @given(pair=valid_pairs(), form=st.sampled_from([rexs.as_xml, rexs.as_json]))
 def test_any_pair_comes_back(pair, form, tmp_path_factory):
-    """Property: gears of any proportions, written as REXS, are the ones that the scene has; the one with fewer teeth is the pinion."""
+    """Property: gears of any proportions, written as REXS, are the ones that the scene has; the one with fewer teeth is
+    the pinion."""
     model = rexs.with_value(rexs.paper_model(), rexs.STAGE, "center_distance", pair.centre_distance, "mm")
-    parts = ((pair.pinion, rexs.PINION, rexs.PINION_FLANKS, rexs.PINION_TOOL), (pair.wheel, rexs.WHEEL, rexs.WHEEL_FLANKS, rexs.WHEEL_TOOL))
+    parts = (
+        (pair.pinion, rexs.PINION, rexs.PINION_FLANKS, rexs.PINION_TOOL),
+        (pair.wheel, rexs.WHEEL, rexs.WHEEL_FLANKS, rexs.WHEEL_TOOL),
+    )
     for gear, number, flanks, tool in parts:
-        diameters = {"tip_diameter": gear.tip_radius, "root_diameter": gear.root_radius, "inner_diameter": gear.bore_radius}
+        diameters = {
+            "tip_diameter": gear.tip_radius,
+            "root_diameter": gear.root_radius,
+            "inner_diameter": gear.bore_radius,
+        }
         changes = [(number, name, 2.0 * radius, "mm") for name, radius in diameters.items()]
-        changes += [(number, "normal_module", gear.module, "mm"), (number, "number_of_teeth", gear.teeth), (tool, "tip_radius_factor", gear.rack_tip_radius / gear.module)]
+        changes += [
+            (number, "normal_module", gear.module, "mm"),
+            (number, "number_of_teeth", gear.teeth),
+            (tool, "tip_radius_factor", gear.rack_tip_radius / gear.module),
+        ]
         changes += [(flank, "normal_pressure_angle", gear.pressure_angle, "rad") for flank in flanks]
         changes += [(flank, "addendum_modification_coefficient", gear.profile_shift) for flank in flanks]
         model = rexs.with_values(model, *changes)
@@ -115,4 +164,6 @@ def test_any_pair_comes_back(pair, form, tmp_path_factory):
         assert (found.teeth, found.profile_shift) == (gear.teeth, gear.profile_shift)
         assert (found.tip_diameter, found.root_diameter, found.bore_diameter) == diameters
         assert found.rack_tip_radius == pytest.approx(gear.rack_tip_radius / gear.module, rel=1e-14)
-    assert scene.gears.pressure_angle == pair.pinion.pressure_angle and scene.gears.centre_distance == pair.centre_distance
+    assert (
+        scene.gears.pressure_angle == pair.pinion.pressure_angle and scene.gears.centre_distance == pair.centre_distance
+    )

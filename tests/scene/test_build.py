@@ -49,7 +49,9 @@ def test_mistakes_are_named_by_field_and_without_lines_of_a_text_that_nobody_wro
     with pytest.raises(SceneError) as caught:
         build_scene(DEMO | {"load": {"wheel_torque": 437}, "frictoin": {}}, "mine")
     assert "mine: load.wheel_torque = 437\n    is a number without its unit." in str(caught.value)
-    assert 'mine: [frictoin]\n    is not a known section or field of a scene. Did you mean "friction"?' in str(caught.value)
+    assert 'mine: [frictoin]\n    is not a known section or field of a scene. Did you mean "friction"?' in str(
+        caught.value
+    )
     assert str(caught.value).endswith("2 mistakes in mine. Nothing was computed or written.")
 
 
@@ -62,7 +64,8 @@ def test_mistakes_are_named_by_field_and_without_lines_of_a_text_that_nobody_wro
     ],
 )
 def test_what_no_file_can_hold_is_refused(sections, said):
-    """Authority: TOML, whose keys are texts and whose values are texts, numbers, truth values, lists and tables of them."""
+    """Authority: TOML, whose keys are texts and whose values are texts, numbers, truth values, lists and tables of
+    them."""
     with pytest.raises(SceneError, match=said):
         build_scene(DEMO | sections)
 
@@ -76,14 +79,28 @@ def test_it_is_public():
 def test_a_notebook_shows_fields_with_units_and_meanings(paper_scene):
     """The scene file, whose quantities are those of the table; markup of a title is none of the page's."""
     html = replace(paper_scene, title="<b>paper</b>")._repr_html_()
-    assert "<td style=\"text-align: left\">gears.pinion.tip_diameter</td><td style=\"text-align: left\">82.64 mm</td>" in html
-    assert "<caption>&lt;b&gt;paper&lt;/b&gt;</caption>" in html and "torque that resists the wheel" in html and "437 N m" in html
+    assert (
+        '<td style="text-align: left">gears.pinion.tip_diameter</td><td style="text-align: left">82.64 mm</td>' in html
+    )
+    assert (
+        "<caption>&lt;b&gt;paper&lt;/b&gt;</caption>" in html
+        and "torque that resists the wheel" in html
+        and "437 N m" in html
+    )
     assert str(paper_scene) == paper_scene.text
 
 
 def test_names_of_the_package_are_told_without_loading_them():
-    """The package's own list, by `dir` and `help` in a process of its own, which stays as quick as it was; a name that is none is refused."""
+    """The package's own list, by `dir` and `help` in a process of its own, which stays as quick as it was; a name that
+    is none is refused."""
     assert {"load_scene", "build_scene", "simulate", "__version__"} <= {*dir(fenics_gears)}
     assert [name for name in fenics_gears.__all__ if not hasattr(fenics_gears, name)] == []
-    program = "import sys, fenics_gears; dir(fenics_gears); print(sorted({'numpy', 'xarray', 'pydantic'} & set(sys.modules)))"
-    assert subprocess.run([sys.executable, "-c", program], cwd=DEMOS[0].parents[1], capture_output=True, text=True, check=True).stdout == "[]\n"
+    program = (
+        "import sys, fenics_gears; dir(fenics_gears); print(sorted({'numpy', 'xarray', 'pydantic'} & set(sys.modules)))"
+    )
+    assert (
+        subprocess.run(
+            [sys.executable, "-c", program], cwd=DEMOS[0].parents[1], capture_output=True, text=True, check=True
+        ).stdout
+        == "[]\n"
+    )

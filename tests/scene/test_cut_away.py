@@ -39,12 +39,15 @@ def gears(rack="", pinion=""):
 
 
 def test_what_is_left_of_the_protuberance_is_it_less_the_stock():
-    """ISO 6336-3: s_pr = pr - q; both gears have the rack of `[gears.rack]`, with half the pressure angle as protuberance angle unless given."""
+    """ISO 6336-3: s_pr = pr - q; both gears have the rack of `[gears.rack]`, with half the pressure angle as
+    protuberance angle unless given."""
     data = gears(RACK)
     for gear in (data.pinion, data.wheel):
         assert gear.protuberance == pytest.approx(0.05, rel=1e-12)
         assert gear.protuberance_angle == pytest.approx(radians(10.0), rel=1e-12)
-    assert gears(RACK + 'protuberance_angle = "8 deg"').wheel.protuberance_angle == pytest.approx(radians(8.0), rel=1e-12)
+    assert gears(RACK + 'protuberance_angle = "8 deg"').wheel.protuberance_angle == pytest.approx(
+        radians(8.0), rel=1e-12
+    )
 
 
 def test_a_gear_s_own_rack_goes_before_that_of_both():
@@ -67,9 +70,18 @@ def test_the_chamfer_is_the_gear_s():
 @pytest.mark.parametrize(
     ("rack", "said"),
     [
-        ('[gears.rack]\nfinishing_stock = "0.1 mm"', 'gears.rack.finishing_stock = "0.1 mm"\n    is more than the protuberance of the wheel\'s rack, 0 mm'),
-        (RACK.replace("0.1 mm", "0.2 mm"), 'finishing_stock = "0.2 mm"\n    is more than the protuberance of the wheel\'s rack, 0.15 mm'),
-        ('[gears.rack]\nprotuberance_angle = "10 deg"', 'protuberance_angle = "10 deg"\n    has no meaning without a protuberance'),
+        (
+            '[gears.rack]\nfinishing_stock = "0.1 mm"',
+            'gears.rack.finishing_stock = "0.1 mm"\n    is more than the protuberance of the wheel\'s rack, 0 mm',
+        ),
+        (
+            RACK.replace("0.1 mm", "0.2 mm"),
+            'finishing_stock = "0.2 mm"\n    is more than the protuberance of the wheel\'s rack, 0.15 mm',
+        ),
+        (
+            '[gears.rack]\nprotuberance_angle = "10 deg"',
+            'protuberance_angle = "10 deg"\n    has no meaning without a protuberance',
+        ),
         (RACK + 'protuberance_angle = "25 deg"', "must be less than gears.pressure_angle = 20 deg"),
     ],
 )

@@ -1,4 +1,5 @@
-"""Scenes that need no speed. Authority: quasi-static equilibrium and Coulomb's law, which know no rate: a sequence of positions has no time."""
+"""Scenes that need no speed. Authority: quasi-static equilibrium and Coulomb's law, which know no rate: a sequence of
+positions has no time."""
 
 import re
 from dataclasses import replace
@@ -38,7 +39,10 @@ SPEEDLESS = without(STATIC, "motion")
         ("[motion]\nmesh_cycles = 3", Motion(1.0, 3, 2, speed_given=False)),
         ("[motion]\nrecorded_cycles = 3", Motion(1.0, 3, 3, speed_given=False)),
         ('[motion]\nmesh_frequency = "200 Hz"', Motion(200.0, 1, 1)),
-        ('[eccentricity.wheel]\ndistance = "10 um"', Motion(1.0, 48, 48, fewer_where_too_large=True, speed_given=False)),
+        (
+            '[eccentricity.wheel]\ndistance = "10 um"',
+            Motion(1.0, 48, 48, fewer_where_too_large=True, speed_given=False),
+        ),
         ("[flank_errors]\ntolerance_class = 6\n[motion]\nmesh_cycles = 5", Motion(1.0, 5, 2, speed_given=False)),
     ],
 )
@@ -54,14 +58,19 @@ def run(text):
 
 def on_stand_ins(model, progress, cache):
     """Contact operators on teeth without finite elements."""
-    gears = [replace(stand_in_compliance(gear), timings=dict.fromkeys(TIMES, 0.0)) for gear in (model.pair.pinion, model.pair.wheel)]
+    gears = [
+        replace(stand_in_compliance(gear), timings=dict.fromkeys(TIMES, 0.0))
+        for gear in (model.pair.pinion, model.pair.wheel)
+    ]
     return gears, mesh_cycle(model, gears)
 
 
 def test_one_mesh_cycle_without_speed_is_the_last_of_many_at_any_speed():
     """Every number of the last cycle but the time is the same, bit for bit; curves are stored of all four."""
     alone = run(SPEEDLESS)
-    many = shown(run(STATIC.replace("recorded_cycles = 2", "recorded_cycles = 1").replace("mesh_cycles = 30", "mesh_cycles = 4")))
+    many = shown(
+        run(STATIC.replace("recorded_cycles = 2", "recorded_cycles = 1").replace("mesh_cycles = 30", "mesh_cycles = 4"))
+    )
     for name in ("transmission_error", "normal_force", "friction_force", "closed_nodes"):
         np.testing.assert_array_equal(alone[name].values, many[name].values)
     assert np.ptp(alone["time"].values) == pytest.approx(1.0, rel=1e-12)

@@ -21,7 +21,9 @@ ROUND_OFF = 4e-16
 def numbers(section):
     """The values of a dataclass, those of dataclasses within it too."""
     values = vars(section).values()
-    return [number for value in values for number in (numbers(value) if hasattr(value, "__dataclass_fields__") else [value])]
+    return [
+        number for value in values for number in (numbers(value) if hasattr(value, "__dataclass_fields__") else [value])
+    ]
 
 
 @pytest.mark.parametrize(
@@ -46,16 +48,20 @@ def numbers(section):
     ],
 )
 def test_the_demo_has_the_papers_numbers(section, by_hand):
-    """Authority: Lundvall et al. 2004, Tables 1 and 2, which are in N, mm, s; J and the bore as model.md, section 5, reads them."""
+    """Authority: Lundvall et al. 2004, Tables 1 and 2, which are in N, mm, s; J and the bore as model.md, section 5,
+    reads them."""
     read = numbers(getattr(load_scene(DEMO_FILE), section))
     assert len(read) == len(by_hand)
     for value, expected in zip(read, by_hand):
-        assert value == (expected if isinstance(expected, (str, int, tuple, type(None))) else pytest.approx(expected, rel=ROUND_OFF))
+        assert value == (
+            expected if isinstance(expected, (str, int, tuple, type(None))) else pytest.approx(expected, rel=ROUND_OFF)
+        )
         assert type(value) is type(expected)
 
 
 def test_the_scene_keeps_its_text_and_name():
-    """Authority: docs/promises.md, Result; the scene's text goes into the result, its file's name names the directory."""
+    """Authority: docs/promises.md, Result; the scene's text goes into the result, its file's name names the
+    directory."""
     scene = load_scene(DEMO_FILE)
     assert (scene.text, scene.name, scene.title) == (DEMO, "lundvall2004", "Lundvall, Strömberg, Klarbring 2004")
     assert scene.tip_relief is None
@@ -63,7 +69,8 @@ def test_the_scene_keeps_its_text_and_name():
 
 
 def test_the_speed_of_the_pinion_gives_the_mesh_frequency():
-    """Authority: identity, mesh frequency = teeth * turns a second; 16 * 750/60 = 200 Hz (docs/promises.md's own pair of values)."""
+    """Authority: identity, mesh frequency = teeth * turns a second; 16 * 750/60 = 200 Hz (docs/promises.md's own pair
+    of values)."""
     scene = scene_from_text(DEMO.replace('mesh_frequency = "200 Hz"', 'pinion_speed = "750 rpm"'))
     assert scene.motion.mesh_frequency == pytest.approx(200.0, rel=ROUND_OFF)
 
@@ -109,7 +116,8 @@ def test_relief_of_both_gears_and_of_one(section, pinion, wheel):
 
 
 def test_what_is_left_out_has_its_default():
-    """Authority: docs/promises.md; rack tip radius 0.38 modules, two cycles recorded (as many as there are), accuracy from the scene."""
+    """Authority: docs/promises.md; rack tip radius 0.38 modules, two cycles recorded (as many as there are), accuracy
+    from the scene."""
     text = DEMO[: DEMO.index("[accuracy]")].replace("recorded_cycles = 2\n", "")
     scene = scene_from_text(text, "pair")
     assert scene.accuracy == data.Accuracy()
@@ -121,7 +129,9 @@ def test_what_is_left_out_has_its_default():
 RAMP = '[speed_ramp]\nend_frequency = "260 Hz"\n'
 
 
-@pytest.mark.parametrize(("cycles", "section", "recorded"), [("30", "", 2), ("30", RAMP, 30), ('"hunting tooth period"', "", 48)])
+@pytest.mark.parametrize(
+    ("cycles", "section", "recorded"), [("30", "", 2), ("30", RAMP, 30), ('"hunting tooth period"', "", 48)]
+)
 def test_cycles_that_are_not_alike_are_all_recorded(cycles, section, recorded):
     """Authority: docs/scene.md, which has the field's own words; a number that is given holds for all of them."""
     text = DEMO.replace("mesh_cycles = 30 ", f"mesh_cycles = {cycles} ") + section
@@ -138,7 +148,11 @@ def test_contact_fields_of_cycles_that_a_result_cannot_hold_are_left_out():
     assert f"of the last {model.contact_cycles} of 10000 mesh cycles only" in model.warnings[0]
     assert not any("contact fields" in words for words in model_of(scene_from_text(text)).warnings)
     with pytest.raises(SceneError, match="the result would hold"):
-        model_of(scene_from_text(text.replace("= 10000 ", "= 30000 ").replace("recorded_cycles = 2\n", "recorded_cycles = 30000\n")))
+        model_of(
+            scene_from_text(
+                text.replace("= 10000 ", "= 30000 ").replace("recorded_cycles = 2\n", "recorded_cycles = 30000\n")
+            )
+        )
 
 
 @pytest.mark.parametrize(

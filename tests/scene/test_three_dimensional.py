@@ -1,4 +1,5 @@
-"""Scenes that name what has no meaning in a plane: what they are read as, what `gears check` says of them, and what cannot stand beside them."""
+"""Scenes that name what has no meaning in a plane: what they are read as, what `gears check` says of them, and what
+cannot stand beside them."""
 
 import re
 from math import cos, radians
@@ -63,7 +64,12 @@ def test_what_is_written_is_what_is_read():
     """Authority: the text itself, in mm and rad."""
     scene = scene_from_text(HELICAL + LEAD + MISALIGNED)
     gears = scene.gears
-    assert (gears.module, gears.helix_angle, gears.pinion_hand, gears.axial_offsets) == (3.0, pytest.approx(radians(15.0)), "left", (0.0, 2.0))
+    assert (gears.module, gears.helix_angle, gears.pinion_hand, gears.axial_offsets) == (
+        3.0,
+        pytest.approx(radians(15.0)),
+        "left",
+        (0.0, 2.0),
+    )
     assert (gears.face_width, gears.face_widths) == (28.0, (30.0, 30.0))
     assert scene.lead_modifications == LeadModifications(LeadModification(0.006, -0.008, EndRelief(0.01, 4.0)))
     assert scene.misalignment == Misalignment(0.012)
@@ -73,11 +79,14 @@ def test_what_is_written_is_what_is_read():
 
 
 @pytest.mark.parametrize(("text", "expected"), [
-    (SPUR, False), (HELICAL, True), (SPUR + LEAD, True), (SPUR + MISALIGNED, True), (SPUR + '[misalignment]\nout_of_plane = "0 um"\n', True),
-    (SPUR + '[lead_modifications.wheel]\ncrowning = "0 um"\n', True), (SPUR + '[bearings]\nstiffness = "1e5 N/mm"\n', False),
+    (SPUR, False), (HELICAL, True), (SPUR + LEAD, True), (SPUR + MISALIGNED, True),
+    (SPUR + '[misalignment]\nout_of_plane = "0 um"\n', True),
+    (SPUR + '[lead_modifications.wheel]\ncrowning = "0 um"\n', True),
+    (SPUR + '[bearings]\nstiffness = "1e5 N/mm"\n', False),
 ])  # fmt: skip
 def test_a_scene_is_three_dimensional_where_it_names_what_a_plane_has_not(text, expected):
-    """Authority: the rule; amounts of zero count, for they send a spur pair the three-dimensional way. An axial offset alone makes a face narrower."""
+    """Authority: the rule; amounts of zero count, for they send a spur pair the three-dimensional way. An axial offset
+    alone makes a face narrower."""
     assert scene_from_text(text).three_dimensional is expected
 
 
@@ -93,40 +102,89 @@ def accuracy(line):
 
 
 REFUSED = [
-    (HELICAL + accuracy('element = "Q1 incompatible"'), 'accuracy.element = "Q1 incompatible"', ["beside gears.helix_angle", 'Take "P2"']),
-    (SPUR + LEAD + accuracy('condensation = "every step"'), 'accuracy.condensation = "every step"', ["beside [lead_modifications]", 'Take "once"']),
-    (SPUR + accuracy('condensation = "every step"'), 'accuracy.condensation = "every step"', ["of one face width without axial_offset", 'take condensation = "once"']),
-    (SPUR + MISALIGNED + accuracy('model = "rigid teeth"'), 'accuracy.model = "rigid teeth"', ["beside [misalignment]", 'Take "elastic"']),
+    (
+        HELICAL + accuracy('element = "Q1 incompatible"'),
+        'accuracy.element = "Q1 incompatible"',
+        ["beside gears.helix_angle", 'Take "P2"'],
+    ),
+    (
+        SPUR + LEAD + accuracy('condensation = "every step"'),
+        'accuracy.condensation = "every step"',
+        ["beside [lead_modifications]", 'Take "once"'],
+    ),
+    (
+        SPUR + accuracy('condensation = "every step"'),
+        'accuracy.condensation = "every step"',
+        ["of one face width without axial_offset", 'take condensation = "once"'],
+    ),
+    (
+        SPUR + MISALIGNED + accuracy('model = "rigid teeth"'),
+        'accuracy.model = "rigid teeth"',
+        ["beside [misalignment]", 'Take "elastic"'],
+    ),
     (HELICAL + accuracy('model = "ISO 6336-1"'), 'accuracy.model = "ISO 6336-1"', ["resolved over the face"]),
     (HELICAL + accuracy('model = "stiffness table"'), 'accuracy.model = "stiffness table"', ["resolved over the face"]),
     (HELICAL + '[body_meshes]\npinion = "a.msh"\n', "[body_meshes]", ["beside gears.helix_angle"]),
     (SPUR + LEAD + '[body_meshes]\npinion = "a.msh"\n', "[lead_modifications]", ["beside [body_meshes]"]),
-    (HELICAL.replace('[gears.material]\nyoungs_modulus = "206 GPa"\npoissons_ratio = 0.3\n', ""), 'gears.helix_angle = "15 deg"', ["needs teeth that give way", "Add [gears.material]"]),
+    (
+        HELICAL.replace('[gears.material]\nyoungs_modulus = "206 GPa"\npoissons_ratio = 0.3\n', ""),
+        'gears.helix_angle = "15 deg"',
+        ["needs teeth that give way", "Add [gears.material]"],
+    ),
     (HELICAL.replace('"15 deg"', '"46 deg"'), 'gears.helix_angle = "46 deg"', ["is too large", "to 45 deg"]),
-    (HELICAL.replace('"15 deg"', '"0 deg"'), 'gears.helix_angle = "0 deg"', ["is zero", "For spur gears, leave it out"]),
+    (
+        HELICAL.replace('"15 deg"', '"0 deg"'),
+        'gears.helix_angle = "0 deg"',
+        ["is zero", "For spur gears, leave it out"],
+    ),
     (HELICAL.replace('"15 deg"', '"-15 deg"'), 'gears.helix_angle = "-15 deg"', ["is negative"]),
     (HELICAL.replace('"left"', '"both"'), 'gears.pinion_hand = "both"', ["is not known", '"right", "left"']),
     (HELICAL.replace('helix_angle = "15 deg"\n', ""), "gears.helix_angle", ["is missing", "pinion_hand"]),
-    (SPUR + accuracy("slices = 20"), "accuracy.slices = 20", ["three-dimensional scenes", "gears.helix_angle", "bearings.places"]),
+    (
+        SPUR + accuracy("slices = 20"),
+        "accuracy.slices = 20",
+        ["three-dimensional scenes", "gears.helix_angle", "bearings.places"],
+    ),
     (SPUR + accuracy("layers = 20"), "accuracy.layers = 20", ["three-dimensional scenes"]),
     (HELICAL + accuracy("layers = 900"), "accuracy.layers = 900", ["0.0333 mm thin", "up to 500"]),
-    (HELICAL.replace('"30 mm"\n[gears.p', '"0.05 mm"\n[gears.p'), 'gears.face_width = "0.05 mm"', ["less than a layer", "from 0.06 mm"]),
-    (SPUR + LEAD.replace('"4 mm"', '"15.1 mm"'), 'lead_modifications.pinion.end_relief.length = "15.1 mm"', ["both ends of a face of 30 mm", "up to 15 mm"]),
-    (SPUR + LEAD.replace('"4 mm"', '"31 mm", sides = "left"'), 'lead_modifications.pinion.end_relief.length = "31 mm"', ["the left end", "up to 30 mm"]),
-    (SPUR + LEAD.replace('"10 um"', '"-10 um"'), 'lead_modifications.pinion.end_relief.depth = "-10 um"', ["is negative"]),
+    (
+        HELICAL.replace('"30 mm"\n[gears.p', '"0.05 mm"\n[gears.p'),
+        'gears.face_width = "0.05 mm"',
+        ["less than a layer", "from 0.06 mm"],
+    ),
+    (
+        SPUR + LEAD.replace('"4 mm"', '"15.1 mm"'),
+        'lead_modifications.pinion.end_relief.length = "15.1 mm"',
+        ["both ends of a face of 30 mm", "up to 15 mm"],
+    ),
+    (
+        SPUR + LEAD.replace('"4 mm"', '"31 mm", sides = "left"'),
+        'lead_modifications.pinion.end_relief.length = "31 mm"',
+        ["the left end", "up to 30 mm"],
+    ),
+    (
+        SPUR + LEAD.replace('"10 um"', '"-10 um"'),
+        'lead_modifications.pinion.end_relief.depth = "-10 um"',
+        ["is negative"],
+    ),
     (SPUR + LEAD.replace('"6 um"', '"-6 um"'), 'lead_modifications.pinion.crowning = "-6 um"', ["is negative"]),
     (SPUR + LEAD.replace('"6 um"', '"6 mm"'), 'lead_modifications.pinion.crowning = "6 mm"', ["up to 0.3 mm"]),
     (SPUR + MISALIGNED.replace("12 um", "2 mm"), 'misalignment.in_plane = "2 mm"', ["up to 0.3 mm"]),
     (SPUR + "[misalignment]\n", "[misalignment]", ["names no deviation"]),
     (SPUR + "[lead_modifications]\n", "[lead_modifications]", ["modifies neither gear"]),
     (SPUR + "[lead_modifications.wheel]\n", "[lead_modifications.wheel]", ["names no modification"]),
-    (SPUR + '[lead_modifications.wheel]\nhelix_crowning = "3 um"\n', 'lead_modifications.wheel.helix_crowning = "3 um"', ['Did you mean "crowning"?']),
-]  # fmt: skip
+    (
+        SPUR + '[lead_modifications.wheel]\nhelix_crowning = "3 um"\n',
+        'lead_modifications.wheel.helix_crowning = "3 um"',
+        ['Did you mean "crowning"?'],
+    ),
+]
 
 
 @pytest.mark.parametrize(("text", "place", "fragments"), REFUSED, ids=[place for _, place, _ in REFUSED])
 def test_what_cannot_be_is_refused_by_name(text, place, fragments):
-    """Authority: hard case 26; place, value as written, what is allowed and the remedy, and nothing else is found wrong."""
+    """Authority: hard case 26; place, value as written, what is allowed and the remedy, and nothing else is found
+    wrong."""
     with pytest.raises(SceneError) as raised:
         scene_from_text(text, "pair")
     words = str(raised.value)
@@ -138,35 +196,50 @@ def test_gears_that_do_not_overlap_axially_are_refused():
     """Authority: geometry; widths of 30 mm are apart from an offset of 30 mm on."""
     with pytest.raises(GeometryError, match=re.escape("do not overlap axially")) as raised:
         gear_pair(scene_from_text(HELICAL.replace('"2 mm"', '"31 mm"')).gears)
-    assert "31 mm" in str(raised.value) and "gears.wheel.axial_offset" in str(raised.value) and "less than 30 mm" in str(raised.value)
+    assert (
+        "31 mm" in str(raised.value)
+        and "gears.wheel.axial_offset" in str(raised.value)
+        and "less than 30 mm" in str(raised.value)
+    )
 
 
 def test_check_shows_the_third_dimension(tmp_path, capsys):
-    """Authority: docs/promises.md on `gears check`; numbers by the formulas of ISO 21771: eps_beta = 28 sin(15 deg)/(3 pi) = 0.769, beta_b = 14.08 deg."""
+    """Authority: docs/promises.md on `gears check`; numbers by the formulas of ISO 21771: eps_beta = 28 sin(15 deg)/(3
+    pi) = 0.769, beta_b = 14.08 deg."""
     file = tmp_path / "pair.toml"
     file.write_text(HELICAL + LEAD + MISALIGNED, encoding="utf-8")
     assert main(["check", str(file)]) == 0
     lines = {line.strip() for line in capsys.readouterr().out.splitlines()}
     shown = [" ".join(line.split()) for line in lines]
     for words in (
-        "overlap ratio 0.7689", "helix angle at the reference cylinder 15 deg", "base helix angle 14.076", "hand of the helix pinion left, wheel right",
-        "face width in common 28 mm: pinion 30 mm about -1 mm, wheel 30 mm about 1 mm", "flanks are resolved over the face z from -14 mm to 14 mm",
-        "pinion crowning 6 um", "pinion helix slope -8 um", "pinion end relief 10 um, linear over 4 mm at both ends", "misalignment in plane 12 um",
+        "overlap ratio 0.7689", "helix angle at the reference cylinder 15 deg", "base helix angle 14.076",
+        "hand of the helix pinion left, wheel right",
+        "face width in common 28 mm: pinion 30 mm about -1 mm, wheel 30 mm about 1 mm",
+        "flanks are resolved over the face z from -14 mm to 14 mm",
+        "pinion crowning 6 um", "pinion helix slope -8 um", "pinion end relief 10 um, linear over 4 mm at both ends",
+        "misalignment in plane 12 um",
     ):  # fmt: skip
         assert any(line.startswith(words) for line in shown), (words, shown)
 
 
 def test_a_plane_scene_loads_nothing_of_the_third_dimension():
-    """Authority: house rule; only data classes of sections that a scene may have are loaded where it has none of them."""
+    """Authority: house rule; only data classes of sections that a scene may have are loaded where it has none of
+    them."""
     import subprocess
     import sys
     from pathlib import Path
 
     program = (
-        "import sys; from fenics_gears.scene.read import scene_from_text; from fenics_gears.model.model import model_of;"
-        "model_of(scene_from_text(sys.stdin.read()));"
-        "print([name for name in ('fenics_gears.geometry.face', 'fenics_gears.geometry.helix') if name in sys.modules])"
+        "import sys; from fenics_gears.scene.read import scene_from_text; from fenics_gears.model.model import"
+        " model_of;model_of(scene_from_text(sys.stdin.read()));print([name for name in ('fenics_gears.geometry.face',"
+        " 'fenics_gears.geometry.helix') if name in sys.modules])"
     )
-    done = subprocess.run([sys.executable, "-P", "-c", program], input=SPUR, capture_output=True, text=True, cwd=Path(__file__).parents[2],
-                          env={"PYTHONPATH": str(Path(__file__).parents[2])})  # fmt: skip
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", program],
+        input=SPUR,
+        capture_output=True,
+        text=True,
+        cwd=Path(__file__).parents[2],
+        env={"PYTHONPATH": str(Path(__file__).parents[2])},
+    )
     assert done.stdout.strip() == "[]", done.stderr

@@ -1,4 +1,5 @@
-"""A scene's text follows from its data. Authority throughout: the reader of scene files, `scene_from_text`, which gives the same data, bit for bit."""
+"""A scene's text follows from its data. Authority throughout: the reader of scene files, `scene_from_text`, which gives
+the same data, bit for bit."""
 
 import tomllib
 from dataclasses import replace
@@ -17,21 +18,44 @@ from fenics_gears.scene.read import load_scene, scene_from_text
 from fenics_gears.scene.write import NO_FILE, WORDS, section_trees, text_of
 
 DEMOS = Path(__file__).parents[2] / "demos"
-SCENES = [path for path in sorted(DEMOS.rglob("*.toml")) if "teeth" in path.read_text(encoding="utf-8") and "sweep" not in tomllib.loads(path.read_text(encoding="utf-8"))]
+SCENES = [
+    path
+    for path in sorted(DEMOS.rglob("*.toml"))
+    if "teeth" in path.read_text(encoding="utf-8") and "sweep" not in tomllib.loads(path.read_text(encoding="utf-8"))
+]
 # What no demonstration has, each in a section that the paper's scene then has in place of its own.
 FURTHER = {
-    "reliefs": '[tip_relief.pinion]\ndepth = "31.3 um"\nstart = "29.61 deg"\nexponent = 1.5\n[tip_relief.wheel]\ndepth = "1 um"\nlength_on_flank = "0.7 mm"\n'
-    'shape = "parabolic"\n[root_relief.wheel]\ndepth = "7 um"\nstart = "100.1 mm"\n',
-    "each its own": '[inertia]\ndensity = "7.85 g/cm^3"\n[inertia.pinion]\nmass = "4.9 kg"\nmoment_of_inertia = "24.5e-3 kg m^2"\n[inertia.load]\nmoment_of_inertia = "1 kg m^2"\n'
-    '[shafts]\n[shafts.input]\ntorsional_stiffness = "1e6 N m/rad"\n[shafts.output]\ntorsional_stiffness = "2e6 N m/deg"\n[bearings]\nstiffness_x = "0.1 kN/um"\n'
-    'stiffness_y = "0.2 kN/um"\n[damping]\nratios = [0.05, 0.1]\n',
-    "ripple": '[torque_ripple]\nharmonics = [{ order = 1.5, amplitude = "7 lbf in", phase = "17 deg" }, { order = 3, amplitude = "1 N m" }]\n',
-    "ramp": '[inertia]\nmass = "4.9 kg"\nmoment_of_inertia = "24.5e-3 kg m^2"\n[speed_ramp]\nend_frequency = "0.137 kHz"\nhold_cycles = 0\n',
-    "errors": '[flank_errors]\ntolerance_class = 5\nseed = 3\n[flank_errors.pinion]\nprofile_form = [' + ", ".join(['"1.7 um"'] * 16) + ']\nwaviness = { amplitude = "0.3 um", waves = 31, phase = "12 deg" }\n',
+    "reliefs": (
+        '[tip_relief.pinion]\ndepth = "31.3 um"\nstart = "29.61 deg"\nexponent = 1.5\n[tip_relief.wheel]\ndepth = "1'
+        ' um"\nlength_on_flank = "0.7 mm"\nshape = "parabolic"\n[root_relief.wheel]\ndepth = "7 um"\nstart = "100.1'
+        ' mm"\n'
+    ),
+    "each its own": (
+        '[inertia]\ndensity = "7.85 g/cm^3"\n[inertia.pinion]\nmass = "4.9 kg"\nmoment_of_inertia = "24.5e-3 kg'
+        ' m^2"\n[inertia.load]\nmoment_of_inertia = "1 kg m^2"\n[shafts]\n[shafts.input]\ntorsional_stiffness = "1e6 N'
+        ' m/rad"\n[shafts.output]\ntorsional_stiffness = "2e6 N m/deg"\n[bearings]\nstiffness_x = "0.1'
+        ' kN/um"\nstiffness_y = "0.2 kN/um"\n[damping]\nratios = [0.05, 0.1]\n'
+    ),
+    "ripple": (
+        '[torque_ripple]\nharmonics = [{ order = 1.5, amplitude = "7 lbf in", phase = "17 deg" }, { order = 3,'
+        ' amplitude = "1 N m" }]\n'
+    ),
+    "ramp": (
+        '[inertia]\nmass = "4.9 kg"\nmoment_of_inertia = "24.5e-3 kg m^2"\n[speed_ramp]\nend_frequency = "0.137'
+        ' kHz"\nhold_cycles = 0\n'
+    ),
+    "errors": (
+        "[flank_errors]\ntolerance_class = 5\nseed = 3\n[flank_errors.pinion]\nprofile_form = ["
+        + ", ".join(['"1.7 um"'] * 16)
+        + ']\nwaviness = { amplitude = "0.3 um", waves = 31, phase = "12 deg" }\n'
+    ),
     "corners": '[corner_contact]\n[corner_contact.wheel]\nedge_radius = "0.07 in"\n',
     "formula": '[friction]\nformula = "Schlenk"\nviscosity = "13 mPa s"\nroughness = "0.4 um"\n',
-    "face": '[lead_modifications.pinion]\nend_relief = { depth = "10 um", length = "4 mm", sides = "left", shape = "parabolic" }\nhelix_slope = "-3 um"\n[misalignment]\nout_of_plane = "7 um"\n'
-    '[bearings]\nstiffness = "0.155e6 N/mm"\nplaces = { pinion = ["-40 mm", "61 mm"] }\n',
+    "face": (
+        '[lead_modifications.pinion]\nend_relief = { depth = "10 um", length = "4 mm", sides = "left", shape ='
+        ' "parabolic" }\nhelix_slope = "-3 um"\n[misalignment]\nout_of_plane = "7 um"\n[bearings]\nstiffness = "0.155e6'
+        ' N/mm"\nplaces = { pinion = ["-40 mm", "61 mm"] }\n'
+    ),
 }
 
 
@@ -62,11 +86,27 @@ def test_every_effect_is_written_from_its_data():
 
 
 def test_figures_of_a_drawing_are_written():
-    """The same, of gears that a drawing leaves half open: thickness measured, rack with protuberance, webs, widths and hands of their own."""
-    base, gears = scene_of("tooth_elasticity"), '[gears]\nhelix_angle = "17.3 deg"\npinion_hand = "left"\nbacklash = "0.1 mm"\nrack = { profile = "ISO 53 D", protuberance = "0.15 mm" }\n'
+    """The same, of gears that a drawing leaves half open: thickness measured, rack with protuberance, webs, widths and
+    hands of their own."""
+    base, gears = (
+        scene_of("tooth_elasticity"),
+        (
+            '[gears]\nhelix_angle = "17.3 deg"\npinion_hand = "left"\nbacklash = "0.1 mm"\nrack = { profile = "ISO 53'
+            ' D", protuberance = "0.15 mm" }\n'
+        ),
+    )
     text = base.text.replace("[gears]\n", gears).replace('centre_distance = "91.5 mm"\n', "")
-    text = "\n".join(line for line in text.splitlines() if not line.startswith(("tip_diameter", "root_diameter", "[gears.material", "youngs", "poissons")))
-    scene = scene_from_text(text.replace("[gears.wheel]\n", 'material = "POM"\naxial_offset = "0.7 mm"\nface_width = "13.1 mm"\n[gears.wheel]\nmaterial = "steel"\n'))
+    text = "\n".join(
+        line
+        for line in text.splitlines()
+        if not line.startswith(("tip_diameter", "root_diameter", "[gears.material", "youngs", "poissons"))
+    )
+    scene = scene_from_text(
+        text.replace(
+            "[gears.wheel]\n",
+            'material = "POM"\naxial_offset = "0.7 mm"\nface_width = "13.1 mm"\n[gears.wheel]\nmaterial = "steel"\n',
+        )
+    )
     assert scene.derived and scene.gears.pinion.protuberance
     assert_written(scene)
     for share in (0.3, 1.0 / 3.0, 0.7):
@@ -76,7 +116,13 @@ def test_figures_of_a_drawing_are_written():
 
 @pytest.mark.parametrize(
     "motion",
-    ["", "mesh_cycles = 48", 'mesh_cycles = "hunting tooth period"', 'settling_time = "21 ms"', 'mesh_cycles = 48\nrecorded_cycles = 7'],
+    [
+        "",
+        "mesh_cycles = 48",
+        'mesh_cycles = "hunting tooth period"',
+        'settling_time = "21 ms"',
+        "mesh_cycles = 48\nrecorded_cycles = 7",
+    ],
 )
 def test_lengths_of_runs_are_written(motion):
     """The same, for scenes whose mesh cycles are alike and for those whose are not."""
@@ -98,7 +144,8 @@ def test_random_scenes_are_written_from_their_data(scene):
 @settings(max_examples=500)
 @given(valid_scenes())
 def test_many_random_scenes_are_written_from_their_data(scene):
-    """The same, and with a larger load (a smaller one may be less than a torque ripple), where the other sections stay as they were written."""
+    """The same, and with a larger load (a smaller one may be less than a torque ripple), where the other sections stay
+    as they were written."""
     assert_written(scene)
     changed = replace(scene, load=Load(1.03 * scene.load.wheel_torque))
     assert plain(scene_from_text(changed.text)) == plain(changed) and changed.text.count("\n") > 10
@@ -107,11 +154,26 @@ def test_many_random_scenes_are_written_from_their_data(scene):
 def test_a_change_shows_in_the_text_and_the_rest_stays_as_written(paper_scene):
     """The reader; and untouched sections keep the spelling of the file, which says 62.50 mm."""
     assert "# " in paper_scene.text and paper_scene.text == paper_scene.written
-    changed = replace(paper_scene, title="Another", friction=None, load=Load(1e5), motion=Motion(150.0, 3, 2), accuracy=Accuracy(target=0.01))
+    changed = replace(
+        paper_scene,
+        title="Another",
+        friction=None,
+        load=Load(1e5),
+        motion=Motion(150.0, 3, 2),
+        accuracy=Accuracy(target=0.01),
+    )
     found = scene_from_text(changed.text, paper_scene.name)
     assert found == changed and found.title == "Another"
-    assert '"62.50 mm"' in changed.text and "[friction]" not in changed.text and 'wheel_torque = "100 N m"' in changed.text and 'target = "1 %"' in changed.text
-    assert replace(changed, load=paper_scene.load).load == scene_from_text(replace(changed, load=paper_scene.load).text).load
+    assert (
+        '"62.50 mm"' in changed.text
+        and "[friction]" not in changed.text
+        and 'wheel_torque = "100 N m"' in changed.text
+        and 'target = "1 %"' in changed.text
+    )
+    assert (
+        replace(changed, load=paper_scene.load).load
+        == scene_from_text(replace(changed, load=paper_scene.load).text).load
+    )
 
 
 def test_a_load_that_follows_from_the_speed_stays_what_it_is():
@@ -122,9 +184,17 @@ def test_a_load_that_follows_from_the_speed_stays_what_it_is():
 
 
 def test_what_no_file_gives_is_said(paper_scene):
-    """A Poisson's ratio that no file may have: the text is no scene, so that nobody takes it for that of another one."""
+    """A Poisson's ratio that no file may have: the text is no scene, so that nobody takes it for that of another
+    one."""
     material = Material(206e3, 0.6)
-    odd = replace(paper_scene, gears=replace(paper_scene.gears, material=material, **{name: replace(getattr(paper_scene.gears, name), material=None) for name in ("pinion", "wheel")}))
+    odd = replace(
+        paper_scene,
+        gears=replace(
+            paper_scene.gears,
+            material=material,
+            **{name: replace(getattr(paper_scene.gears, name), material=None) for name in ("pinion", "wheel")},
+        ),
+    )
     text = text_of(odd)
     assert text.startswith(NO_FILE) and "gears.material.poissons_ratio = 0.6" in text and text.count("\n") == 1
     with pytest.raises(SceneError):

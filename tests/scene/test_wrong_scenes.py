@@ -1,6 +1,7 @@
 """Wrong scenes are refused before any computation, in words that a person can act on: how each mistake is worded.
 
-Authority of every test here: hard case 26 and docs/promises.md's scene format. A refusal names file, field, value as written, what is
+Authority of every test here: hard case 26 and docs/promises.md's scene format. A refusal names file, field, value as
+    written, what is
 allowed and the nearest known name; the exit code is 2; nothing is written.
 """
 
@@ -31,7 +32,8 @@ def with_line(text, section, key, line):
 
 @pytest.fixture
 def refusal(tmp_path, monkeypatch, capsys):
-    """A function that runs a scene text and returns the refusal; it fails unless that is complete and nothing was written."""
+    """A function that runs a scene text and returns the refusal; it fails unless that is complete and nothing was
+    written."""
     monkeypatch.chdir(tmp_path)
 
     def refuse(text):
@@ -93,21 +95,22 @@ def test_a_wrong_value_is_refused(refusal, section, key, value, fragment):
 
 
 @pytest.mark.parametrize(
-    "section",
-    "gears load motion shafts bearings inertia damping friction tip_relief accuracy".split(),
+    "section", "gears load motion shafts bearings inertia damping friction tip_relief accuracy".split()
 )
 def test_a_misspelt_section_is_answered_with_the_right_one(refusal, section):
     """A letter lost, in the header and below it; what needs the section is not reported on top of it."""
     misspelt = section[:-2] + section[-1]
     message = refusal((DEMO + RELIEF).replace(f"[{section}]", f"[{misspelt}]").replace(f"[{section}.", f"[{misspelt}."))
-    assert f"[{misspelt}]\n    is not a known section or field of a scene. Did you mean \"{section}\"?" in message
+    assert f'[{misspelt}]\n    is not a known section or field of a scene. Did you mean "{section}"?' in message
     assert "1 mistake in" in message
 
 
 @pytest.mark.parametrize("section", ["gears", "gears.pinion", "gears.wheel", "load", "motion"])
 def test_a_missing_section_is_named(refusal, section):
     """Sections that a scene always has; [motion] is one for its inertia."""
-    headers = re.sub(rf"^\[{re.escape(section)}[\].].*?(?=^\[(?!{re.escape(section)}\.)|\Z)", "", DEMO, flags=re.M | re.S)
+    headers = re.sub(
+        rf"^\[{re.escape(section)}[\].].*?(?=^\[(?!{re.escape(section)}\.)|\Z)", "", DEMO, flags=re.M | re.S
+    )
     message = refusal(headers)
     assert f"{section}\n    is missing. Add the section [{section}] with its fields: " in message
 
@@ -123,34 +126,114 @@ MUTATIONS = [
     ('"20 deg"', '"0.35"', 'gears.pressure_angle = "0.35"', ["not an angle", "from 10 deg to 35 deg"]),
     ('"20 deg"', '"9 deg"', 'gears.pressure_angle = "9 deg"', ["is too small", "from 10 deg to 35 deg"]),
     ('"20 deg"', '"20 rad"', 'gears.pressure_angle = "20 rad"', ["is too large", "from 10 deg to 35 deg"]),
-    ("poissons_ratio = 0.3", "poissons_ratio = 0.5", "gears.material.poissons_ratio = 0.5", ["is too large", "above -1 and below 0.5"]),
-    ("poissons_ratio = 0.3", "poissons_ratio = -1", "gears.material.poissons_ratio = -1", ["is too small", "above -1 and below 0.5"]),
-    ('"437 N m"', '"-437 N m"', 'load.wheel_torque = "-437 N m"', ["is negative", "coast flanks", "with the section [coast_flanks] any sign"]),
+    (
+        "poissons_ratio = 0.3",
+        "poissons_ratio = 0.5",
+        "gears.material.poissons_ratio = 0.5",
+        ["is too large", "above -1 and below 0.5"],
+    ),
+    (
+        "poissons_ratio = 0.3",
+        "poissons_ratio = -1",
+        "gears.material.poissons_ratio = -1",
+        ["is too small", "above -1 and below 0.5"],
+    ),
+    (
+        '"437 N m"',
+        '"-437 N m"',
+        'load.wheel_torque = "-437 N m"',
+        ["is negative", "coast flanks", "with the section [coast_flanks] any sign"],
+    ),
     ('"437 N m"', '"437 N m/rad"', 'load.wheel_torque = "437 N m/rad"', ["is a torsional stiffness, not a torque"]),
-    ('mesh_frequency = "200 Hz"', 'mesh_frequency = "200 rpm"', 'motion.mesh_frequency = "200 rpm"', ["is an angular speed", '"200 Hz"']),
-    ('mesh_frequency = "200 Hz"', 'pinion_speed = "12.5 Hz"', 'motion.pinion_speed = "12.5 Hz"', ["is a frequency", '"750 rpm"']),
-    ('mesh_frequency = "200 Hz"', 'pinion_speed = "nan rpm"', 'motion.pinion_speed = "nan rpm"', ["is not a finite number"]),
-    ('mesh_frequency = "200 Hz"', 'pinion_speed = "-5 rpm"', 'motion.pinion_speed = "-5 rpm"', ["is negative", "1e6 rpm"]),
-    ('mesh_frequency = "200 Hz"', 'mesh_frequency = "200 Hz"\npinion_speed = "750 rpm"', 'motion.pinion_speed = "750 rpm"', ["one of the two"]),
+    (
+        'mesh_frequency = "200 Hz"',
+        'mesh_frequency = "200 rpm"',
+        'motion.mesh_frequency = "200 rpm"',
+        ["is an angular speed", '"200 Hz"'],
+    ),
+    (
+        'mesh_frequency = "200 Hz"',
+        'pinion_speed = "12.5 Hz"',
+        'motion.pinion_speed = "12.5 Hz"',
+        ["is a frequency", '"750 rpm"'],
+    ),
+    (
+        'mesh_frequency = "200 Hz"',
+        'pinion_speed = "nan rpm"',
+        'motion.pinion_speed = "nan rpm"',
+        ["is not a finite number"],
+    ),
+    (
+        'mesh_frequency = "200 Hz"',
+        'pinion_speed = "-5 rpm"',
+        'motion.pinion_speed = "-5 rpm"',
+        ["is negative", "1e6 rpm"],
+    ),
+    (
+        'mesh_frequency = "200 Hz"',
+        'mesh_frequency = "200 Hz"\npinion_speed = "750 rpm"',
+        'motion.pinion_speed = "750 rpm"',
+        ["one of the two"],
+    ),
     ("recorded_cycles = 2", "recorded_cycles = 31", "motion.recorded_cycles = 31", ["is more than mesh_cycles = 30"]),
     ("mesh_cycles = 30", "mesh_cycles = 30.0", "motion.mesh_cycles = 30.0", ["is not a whole number"]),
-    ("coefficient = 0.1", "coefficient = 0", "friction.coefficient = 0", ["is zero", "leave the section [friction] out", "up to 5"]),
+    (
+        "coefficient = 0.1",
+        "coefficient = 0",
+        "friction.coefficient = 0",
+        ["is zero", "leave the section [friction] out", "up to 5"],
+    ),
     ("coefficient = 0.1", "coefficient = -0.1", "friction.coefficient = -0.1", ["is negative", "up to 5"]),
     ("coefficient = 0.1", "coefficient = 5.01", "friction.coefficient = 5.01", ["is too large", "up to 5"]),
     ("coefficient = 0.1", "", "friction.coefficient", ["is missing", "above 0 and up to 5"]),
-    ("[inertia]", "[damping.inertia]", "[damping.inertia]", ["is not a known field of [damping]", "needs the section [inertia]"]),
-    ('"0.4e-3 s"\nmass_proportional = "0.5e-3 1/s"', '"0 s"\nmass_proportional = "0 1/s"', "[damping]", ["damps nothing", "leave the section [damping] out"]),
-    ('element = "P2"', 'element = "P3"', 'accuracy.element = "P3"', ["is not known", '"P1", "P2", "Q1", "Q1 incompatible", "Q2"']),
+    (
+        "[inertia]",
+        "[damping.inertia]",
+        "[damping.inertia]",
+        ["is not a known field of [damping]", "needs the section [inertia]"],
+    ),
+    (
+        '"0.4e-3 s"\nmass_proportional = "0.5e-3 1/s"',
+        '"0 s"\nmass_proportional = "0 1/s"',
+        "[damping]",
+        ["damps nothing", "leave the section [damping] out"],
+    ),
+    (
+        'element = "P2"',
+        'element = "P3"',
+        'accuracy.element = "P3"',
+        ["is not known", '"P1", "P2", "Q1", "Q1 incompatible", "Q2"'],
+    ),
     ('element = "P2"', 'element = "p2"', 'accuracy.element = "p2"', ['Did you mean "P2"?']),
     ('element = "P2"', "element = 2", "accuracy.element = 2", ['"P1", "P2", "Q1", "Q1 incompatible", "Q2"']),
-    ('element = "P2"', 'element = "Q1 compatible"', 'accuracy.element = "Q1 compatible"', ["Did you mean", '"Q1 incompatible"']),
+    (
+        'element = "P2"',
+        'element = "Q1 compatible"',
+        'accuracy.element = "Q1 compatible"',
+        ["Did you mean", '"Q1 incompatible"'],
+    ),
     ('"once"', '"onse"', 'accuracy.condensation = "onse"', ['Did you mean "once"?']),
-    ('"0.08 mm"', '"5 mm"', 'accuracy.flank_element_size = "5 mm"', ["too large for a module of 4.5 mm", "up to 4.5 mm"]),
-    ('"0.08 mm"', '"4 um"', 'accuracy.flank_element_size = "4 um"', ["too small for a module of 4.5 mm", "from 0.0045 mm"]),
+    (
+        '"0.08 mm"',
+        '"5 mm"',
+        'accuracy.flank_element_size = "5 mm"',
+        ["too large for a module of 4.5 mm", "up to 4.5 mm"],
+    ),
+    (
+        '"0.08 mm"',
+        '"4 um"',
+        'accuracy.flank_element_size = "4 um"',
+        ["too small for a module of 4.5 mm", "from 0.0045 mm"],
+    ),
     ("contact_nodes = 20", "contact_nodes = 1001", "accuracy.contact_nodes = 1001", ["is too large", "from 2 to 1000"]),
     ('"1.5 mm"', '"15 mm"', 'accuracy.contact_length = "15 mm"', ["too large for a module of 4.5 mm", "up to 13.5 mm"]),
     ("[load]", "[[load]]", "load = a list", ["is not a section", "Write a line [load]"]),
-    ("[load]\nwheel_torque", "load = 3\n[wheel]\nwheel_torque", "gears.material.load = 3", ["is not a known field of [gears.material]"]),
+    (
+        "[load]\nwheel_torque",
+        "load = 3\n[wheel]\nwheel_torque",
+        "gears.material.load = 3",
+        ["is not a known field of [gears.material]"],
+    ),
     ('title = "', 'friction = 0.3\ntitle2 = "', "friction = 0.3", ["is not a section", "[friction]"]),
     ('title = "Lundvall, Strömberg, Klarbring 2004"', "title = 2004", "title = 2004", ["is not a text"]),
     ('title = "', 'title = "' + 600 * "x", "title = ", ["is too long", "500 characters"]),
@@ -179,56 +262,132 @@ def without(section, text=DEMO):
     ("text", "fragments"),
     [
         (without("inertia"), ["[damping]\n", "needs the section [inertia], which is missing", "leave [damping] out"]),
-        (DEMO.replace('"once"', '"every step"') + "\n[coast_flanks]\n", ["accuracy.condensation", "no contact on the coast flanks"]),
+        (
+            DEMO.replace('"once"', '"every step"') + "\n[coast_flanks]\n",
+            ["accuracy.condensation", "no contact on the coast flanks"],
+        ),
         (DEMO + "\n[coast_flanks]\nbacklash = 3\n", ["coast_flanks.backlash = 3", "is not a known field"]),
         (DEMO + "\n[thermal]\n", ["[thermal]\n", "is not a known section", "tip_relief"]),
-        (DEMO + "\n[tip_relief]\n", ["tip_relief.depth\n", "tip_relief.start\n", "is missing", '"HPSTC"', "2 mistakes"]),
-        (DEMO + '\n[tip_relief]\ndepth = "31 um"\nstart = "hpstc"\n', ['tip_relief.start = "hpstc"', 'Did you mean "HPSTC"?']),
+        (
+            DEMO + "\n[tip_relief]\n",
+            ["tip_relief.depth\n", "tip_relief.start\n", "is missing", '"HPSTC"', "2 mistakes"],
+        ),
+        (
+            DEMO + '\n[tip_relief]\ndepth = "31 um"\nstart = "hpstc"\n',
+            ['tip_relief.start = "hpstc"', 'Did you mean "HPSTC"?'],
+        ),
         (DEMO + '\n[tip_relief]\nstart = "HPSTC"\n[tip_relief.pinion]\n', ["tip_relief.pinion.depth\n", "is missing"]),
         (DEMO + '\n[tip_relief.wheel]\ndepth = "31 um"\n', ["tip_relief.wheel.start\n", "is missing"]),
-        (DEMO + '\n[tip_relief.wheel]\ndepth = "0 um"\nstart = "HPSTC"\n', ['tip_relief.wheel.depth = "0 um"', "leave its depth out"]),
-        (DEMO + '\n[tip_relief.weel]\ndepth = "3 um"\nstart = "HPSTC"\n', ["[tip_relief.weel]\n", 'Did you mean "wheel"?']),
+        (
+            DEMO + '\n[tip_relief.wheel]\ndepth = "0 um"\nstart = "HPSTC"\n',
+            ['tip_relief.wheel.depth = "0 um"', "leave its depth out"],
+        ),
+        (
+            DEMO + '\n[tip_relief.weel]\ndepth = "3 um"\nstart = "HPSTC"\n',
+            ["[tip_relief.weel]\n", 'Did you mean "wheel"?'],
+        ),
         (
             without("shafts", without("bearings")).replace('"0.5e-3 1/s"', '"0 1/s"'),
             ['damping.stiffness_proportional = "0.4e-3 s"', "no stiffness without [shafts] or [bearings]"],
         ),
-        (without("inertia") + '\n[inertia.pinion]\nmass = "1 kg"\nmoment_of_inertia = "1 kg m^2"\n',
-         ["inertia.wheel.mass\n", "inertia.wheel.moment_of_inertia\n", "here or in [inertia] for both gears", 'density = "7.85 g/cm^3"']),
-        (without("inertia") + '\n[inertia]\n', ["inertia.mass\n", "inertia.moment_of_inertia\n", "2 mistakes"]),
-        (without("inertia") + '\n[inertia]\ndensity = "7.85 g/cm^3"\n', ["inertia.load.moment_of_inertia\n", "far end of the output shaft", "leave [shafts] out"]),
-        (without("inertia") + '\n[inertia]\ndensity = "7.85 g/cm^3"\nmass = "1 kg"\n',
-         ['inertia.density = "7.85 g/cm^3"', "stands beside mass, which follow"]),
-        (DEMO + '\n[inertia.wheel]\ndensity = "7.85 g/cm^3"\nmoment_of_inertia = "1 kg m^2"\n', ["inertia.wheel.density", "beside moment_of_inertia"]),
-        (DEMO + '\n[inertia.load]\nmoment_of_inertia = "0 kg m^2"\n', ['inertia.load.moment_of_inertia = "0 kg m^2"', "is zero"]),
-        (DEMO + '\n[inertia.motor]\nmoment_of_inertia = "1 kg m^2"\n', ["[inertia.motor]", "turns as prescribed", "[shafts.input]"]),
-        (without("shafts") + '\n[shafts.input]\ntorsional_stiffness = "1 kN m/rad"\n', ["shafts.output.torsional_stiffness\n", "only the other shaft"]),
+        (
+            without("inertia") + '\n[inertia.pinion]\nmass = "1 kg"\nmoment_of_inertia = "1 kg m^2"\n',
+            [
+                "inertia.wheel.mass\n",
+                "inertia.wheel.moment_of_inertia\n",
+                "here or in [inertia] for both gears",
+                'density = "7.85 g/cm^3"',
+            ],
+        ),
+        (without("inertia") + "\n[inertia]\n", ["inertia.mass\n", "inertia.moment_of_inertia\n", "2 mistakes"]),
+        (
+            without("inertia") + '\n[inertia]\ndensity = "7.85 g/cm^3"\n',
+            ["inertia.load.moment_of_inertia\n", "far end of the output shaft", "leave [shafts] out"],
+        ),
+        (
+            without("inertia") + '\n[inertia]\ndensity = "7.85 g/cm^3"\nmass = "1 kg"\n',
+            ['inertia.density = "7.85 g/cm^3"', "stands beside mass, which follow"],
+        ),
+        (
+            DEMO + '\n[inertia.wheel]\ndensity = "7.85 g/cm^3"\nmoment_of_inertia = "1 kg m^2"\n',
+            ["inertia.wheel.density", "beside moment_of_inertia"],
+        ),
+        (
+            DEMO + '\n[inertia.load]\nmoment_of_inertia = "0 kg m^2"\n',
+            ['inertia.load.moment_of_inertia = "0 kg m^2"', "is zero"],
+        ),
+        (
+            DEMO + '\n[inertia.motor]\nmoment_of_inertia = "1 kg m^2"\n',
+            ["[inertia.motor]", "turns as prescribed", "[shafts.input]"],
+        ),
+        (
+            without("shafts") + '\n[shafts.input]\ntorsional_stiffness = "1 kN m/rad"\n',
+            ["shafts.output.torsional_stiffness\n", "only the other shaft"],
+        ),
         (without("shafts") + "\n[shafts]\n", ["shafts.torsional_stiffness\n", "[shafts.input] and [shafts.output]"]),
-        (DEMO + '\n[shafts.output]\ntorsional_stiffness = "-1 kN m/rad"\n', ["shafts.output.torsional_stiffness", "is negative"]),
-        (without("damping") + "\n[damping]\n", ["damping.stiffness_proportional\n", "damping.mass_proportional\n", "ratio = 0.05"]),
-        (without("damping") + '\n[damping.wheel]\nstiffness_proportional = "1 s"\nmass_proportional = "0 1/s"\n',
-         ["damping.pinion.stiffness_proportional\n", "of [damping] for both gears"]),
-        (without("damping") + '\n[damping]\nratio = 0.05\nmass_proportional = "1 1/s"\n', ['damping.mass_proportional = "1 1/s"', "stands beside ratio"]),
-        (without("damping") + "\n[damping]\nratio = 0.05\nratios = [0.1]\n[damping.pinion]\n", ["damping.ratios", "[damping.pinion]", "stands beside ratio"]),
+        (
+            DEMO + '\n[shafts.output]\ntorsional_stiffness = "-1 kN m/rad"\n',
+            ["shafts.output.torsional_stiffness", "is negative"],
+        ),
+        (
+            without("damping") + "\n[damping]\n",
+            ["damping.stiffness_proportional\n", "damping.mass_proportional\n", "ratio = 0.05"],
+        ),
+        (
+            without("damping") + '\n[damping.wheel]\nstiffness_proportional = "1 s"\nmass_proportional = "0 1/s"\n',
+            ["damping.pinion.stiffness_proportional\n", "of [damping] for both gears"],
+        ),
+        (
+            without("damping") + '\n[damping]\nratio = 0.05\nmass_proportional = "1 1/s"\n',
+            ['damping.mass_proportional = "1 1/s"', "stands beside ratio"],
+        ),
+        (
+            without("damping") + "\n[damping]\nratio = 0.05\nratios = [0.1]\n[damping.pinion]\n",
+            ["damping.ratios", "[damping.pinion]", "stands beside ratio"],
+        ),
         (without("damping") + "\n[damping]\nratio = 0.0\n", ["damping.ratio = 0.0", "is zero"]),
         (without("damping") + "\n[damping]\nratio = 1.0\n", ["damping.ratio = 1.0", "is too large"]),
-        (without("damping") + "\n[damping]\nratios = [0.1, -0.2]\n", ["damping.ratios", "-0.2 at place 2", "is negative"]),
+        (
+            without("damping") + "\n[damping]\nratios = [0.1, -0.2]\n",
+            ["damping.ratios", "-0.2 at place 2", "is negative"],
+        ),
         (without("damping") + '\n[damping]\nratios = ["5 %"]\n', ["damping.ratios", "at place 1", "is not a number"]),
         (without("damping") + "\n[damping]\nratios = [0, 0.0]\n", ["damping.ratios", "damps nothing"]),
-        (without("gears.material") + '\n[gears.pinion.material]\nyoungs_modulus = "100 GPa"\npoissons_ratio = 0.3\n',
-         ["gears.wheel.material\n", "both give way or none", "[gears.material] for both"]),
-        (without("gears.material") + '\n[gears.pinion.material]\nyoungs_modulus = "100 GPa"\n[gears.wheel.material]\npoissons_ratio = 0.3\n',
-         ["gears.pinion.material.poissons_ratio\n", "gears.wheel.material.youngs_modulus\n", "what both gears share"]),
-        (DEMO.replace('face_width = "15 mm"\n', ""), ["gears.face_width\n", "is missing", "face_width of [gears.pinion] and of [gears.wheel]"]),
-        (DEMO.replace('face_width = "15 mm"\n', "").replace("teeth = 16", 'teeth = 16\nface_width = "0 mm"'),
-         ["gears.face_width\n", 'gears.pinion.face_width = "0 mm"', "is zero"]),
+        (
+            without("gears.material") + '\n[gears.pinion.material]\nyoungs_modulus = "100 GPa"\npoissons_ratio = 0.3\n',
+            ["gears.wheel.material\n", "both give way or none", "[gears.material] for both"],
+        ),
+        (
+            without("gears.material")
+            + '\n[gears.pinion.material]\nyoungs_modulus = "100 GPa"\n[gears.wheel.material]\npoissons_ratio = 0.3\n',
+            [
+                "gears.pinion.material.poissons_ratio\n",
+                "gears.wheel.material.youngs_modulus\n",
+                "what both gears share",
+            ],
+        ),
+        (
+            DEMO.replace('face_width = "15 mm"\n', ""),
+            ["gears.face_width\n", "is missing", "face_width of [gears.pinion] and of [gears.wheel]"],
+        ),
+        (
+            DEMO.replace('face_width = "15 mm"\n', "").replace("teeth = 16", 'teeth = 16\nface_width = "0 mm"'),
+            ["gears.face_width\n", 'gears.pinion.face_width = "0 mm"', "is zero"],
+        ),
         (DEMO.replace("[gears]", "[gears"), ["is not valid TOML", "line 7"]),
         (DEMO + "\n[friction]\ncoefficient = 0.2\n", ["is not valid TOML", "line 68"]),
         (DEMO.replace("teeth = 16", "teeth = 16 mm"), ["is not valid TOML", "line 14"]),
         (DEMO.replace("teeth = 16", "teeth = " + 5000 * "9"), ["is not valid TOML", "thousands of digits"]),
         ("a = " + 3000 * "[" + 3000 * "]", ["pair.toml"]),
         ("", ["gears\n", "load\n", "2 mistakes"]),
-        (DEMO.replace('mesh_frequency = "200 Hz"', ""), ["motion.mesh_frequency\n", "is missing", "[inertia] needs one", '"750 rpm"', "1 mistake"]),
-        (DEMO.replace("mesh_cycles = 30", ""), ["motion.mesh_cycles\n", "is missing", "[inertia] needs it", "hunting tooth period", "1 mistake"]),
+        (
+            DEMO.replace('mesh_frequency = "200 Hz"', ""),
+            ["motion.mesh_frequency\n", "is missing", "[inertia] needs one", '"750 rpm"', "1 mistake"],
+        ),
+        (
+            DEMO.replace("mesh_cycles = 30", ""),
+            ["motion.mesh_cycles\n", "is missing", "[inertia] needs it", "hunting tooth period", "1 mistake"],
+        ),
     ],
     ids=lambda value: value[0].split()[0] if isinstance(value, list) else "",
 )
@@ -286,7 +445,8 @@ def test_the_line_is_that_of_the_field():
     ],
 )
 def test_control_characters_are_refused(refusal, line, said):
-    """ECMA-48: a terminal would obey them, and a text of HDF5 ends at NUL, so that the run would be computed and lost."""
+    """ECMA-48: a terminal would obey them, and a text of HDF5 ends at NUL, so that the run would be computed and
+    lost."""
     found = refusal("\n" + line + "\n" + UNTITLED)
     assert said in found and "\0" not in found and "\x1b" not in found
 
@@ -294,7 +454,11 @@ def test_control_characters_are_refused(refusal, line, said):
 def test_of_many_mistakes_the_first_are_told_and_the_others_counted(refusal):
     """The first twenty in the order of their lines; the others cost no search for what they may mean."""
     found = refusal("".join(f"frictoin{number} = 1\n" for number in range(2000)) + DEMO)
-    assert found.count("is not a known section or field of a scene.") == 20 and "frictoin0 = 1" in found and "frictoin19 = 1" in found
+    assert (
+        found.count("is not a known section or field of a scene.") == 20
+        and "frictoin0 = 1" in found
+        and "frictoin19 = 1" in found
+    )
     assert found.endswith("... and 1980 more\n2000 mistakes in pair.toml. Nothing was computed or written.\n")
 
 
@@ -307,7 +471,8 @@ def test_a_name_that_is_no_text_becomes_one(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("content", "fragment"), [(None, "there is no such file"), (b"\xff\xfe\x00", "is not a text in UTF-8"), ("directory", "cannot be read")]
+    ("content", "fragment"),
+    [(None, "there is no such file"), (b"\xff\xfe\x00", "is not a text in UTF-8"), ("directory", "cannot be read")],
 )
 def test_a_file_that_cannot_be_read_is_named(tmp_path, capsys, content, fragment):
     """Missing, binary, a directory."""

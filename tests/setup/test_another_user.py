@@ -39,7 +39,8 @@ def as_another():
 
 
 def test_compiled_loops_find_a_place(as_another):
-    """Numba refuses to be loaded by who can write neither beside the sources nor at home; a sentence says where it writes."""
+    """Numba refuses to be loaded by who can write neither beside the sources nor at home; a sentence says where it
+    writes."""
     run, folder = as_another
     program = "from fenics_gears.system import environment; environment.prepare()\n"
     program += "from fenics_gears.contact import laws; print(laws.opens._cache.cache_path)"
@@ -51,13 +52,22 @@ def test_compiled_loops_find_a_place(as_another):
 
 @pytest.mark.nightly
 def test_every_command_runs(as_another):
-    """A scene is checked, run, drawn and reported, a study is run: matplotlib, DOLFINx and the cache of gears have places."""
+    """A scene is checked, run, drawn and reported, a study is run: matplotlib, DOLFINx and the cache of gears have
+    places."""
     run, folder = as_another
     shutil.copy(ROOT / "demos" / "lundvall2004.toml", folder)
-    study = 'scene = "lundvall2004.toml"\nwithout = ["inertia", "damping"]\n[sweep]\nfriction.coefficient = [0.05, 0.1]\n'
+    study = (
+        'scene = "lundvall2004.toml"\nwithout = ["inertia", "damping"]\n[sweep]\nfriction.coefficient = [0.05, 0.1]\n'
+    )
     (folder / "study.toml").write_text(study, encoding="utf-8")
     made = "results/lundvall2004"
-    for command in ("check lundvall2004.toml", "run lundvall2004.toml", f"picture {made}", f"report {made}", "study study.toml"):
+    for command in (
+        "check lundvall2004.toml",
+        "run lundvall2004.toml",
+        f"picture {made}",
+        f"report {made}",
+        "study study.toml",
+    ):
         done = run("-m", "fenics_gears", *command.split(), "--quiet")
         assert done.returncode == 0 and "Traceback" not in done.stderr, done.stderr
         assert "Matplotlib" not in done.stderr and done.stderr.count("\n") <= 1

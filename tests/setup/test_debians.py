@@ -24,7 +24,8 @@ def green(suite, logs):
 
 
 def test_dockerfile_is_the_debian_13_case_of_the_script():
-    """Issue 7: it starts from Debian 13, is set up by the one command that sets up every Debian, and its container runs the program."""
+    """Issue 7: it starts from Debian 13, is set up by the one command that sets up every Debian, and its container runs
+    the program."""
     docker = read_dockerfile(CHECKOUT / "Dockerfile")
     assert SUITES[docker.suite] == "Debian 13"
     assert docker.commands[0].startswith(f"{docker.copied_to}/gears --set-up-only")
@@ -34,7 +35,12 @@ def test_dockerfile_is_the_debian_13_case_of_the_script():
 
 @pytest.mark.parametrize(
     ("step", "told"),
-    [("USER gears", "USER"), ("FROM ubuntu:24.04", "must start from"), ("COPY setup /setup", "whole checkout"), ("WORKDIR /elsewhere", "once")],
+    [
+        ("USER gears", "USER"),
+        ("FROM ubuntu:24.04", "must start from"),
+        ("COPY setup /setup", "whole checkout"),
+        ("WORKDIR /elsewhere", "once"),
+    ],
 )
 def test_steps_that_the_script_would_not_carry_out_are_refused(tmp_path, step, told):
     """A Dockerfile that does more than what is tried must not be called tried."""
@@ -58,7 +64,8 @@ def test_tests_that_are_chosen_exist():
 
 
 def test_outcomes_of_all_ranks_count(tmp_path):
-    """By construction: what every rank passed, what any failed, the slowest rank's time; a rank without a file makes it incomplete."""
+    """By construction: what every rank passed, what any failed, the slowest rank's time; a rank without a file makes it
+    incomplete."""
     (tmp_path / "0.xml").write_text(JUNIT.format(12, 1, 1, 2, 3.0))
     (tmp_path / "1.xml").write_text(JUNIT.format(12, 0, 0, 2, 5.0))
     both = counted([tmp_path / "0.xml", tmp_path / "1.xml"])
@@ -69,7 +76,8 @@ def test_outcomes_of_all_ranks_count(tmp_path):
 
 
 def test_counts_are_pytests_own(tmp_path):
-    """The file that this pytest writes is read as it reports: one passes, one fails, one is skipped, one breaks off in its fixture."""
+    """The file that this pytest writes is read as it reports: one passes, one fails, one is skipped, one breaks off in
+    its fixture."""
     (tmp_path / "test_four.py").write_text(
         "import pytest\n"
         "def test_passes(): pass\n"

@@ -1,7 +1,7 @@
 """The launcher without installing anything: authority is what the README promises of `./gears`.
 
-Each test has a checkout of its own in a folder with spaces; its program only tells how it was called. The system's tools are
-stood in for by scripts of a few lines, first and only on PATH.
+Each test has a checkout of its own in a folder with spaces; its program only tells how it was called. The system's
+tools are stood in for by scripts of a few lines, first and only on PATH.
 """
 
 import fcntl
@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[2]
 TOOLS = "awk bash cat cksum comm df env flock grep head find mkdir mv readlink rm sed sort tail tr wc".split()
 
 PROGRAM = "import os, sys\nprint(os.getcwd(), *sys.argv[1:], sep='|')\n"
-BARE_PYTHON = f"exec {sys.executable} -I -S \"$@\""
+BARE_PYTHON = f'exec {sys.executable} -I -S "$@"'
 NO_PACKAGES = "exit 0"
 ONLY_FOR_TESTS = {"python3-pytest", "python3-hypothesis", "python3-sphinx", "chromium"}
 
@@ -58,12 +58,16 @@ def this_python(checkout):
     """The tests' own environment, naming the Python they run in, which has the little that this checkout then needs."""
     check = checkout / "setup/check.py"
     check.write_text(re.sub(r"^NEEDED = \([^)]*\)", 'NEEDED = ("tomllib",)', check.read_text(), flags=re.MULTILINE))
-    check.write_text(re.sub(r"^NEEDED_BY_TESTS = \([^)]*\)", 'NEEDED_BY_TESTS = ("pytest",)', check.read_text(), flags=re.MULTILINE))
+    check.write_text(
+        re.sub(r"^NEEDED_BY_TESTS = \([^)]*\)", 'NEEDED_BY_TESTS = ("pytest",)', check.read_text(), flags=re.MULTILINE)
+    )
     return {**os.environ, "FENICS_GEARS_PYTHON": sys.executable}
 
 
 def call(launcher, *arguments, environment, folder="/"):
-    return subprocess.run([launcher, *arguments], env=environment, cwd=folder, capture_output=True, text=True, timeout=60)
+    return subprocess.run(
+        [launcher, *arguments], env=environment, cwd=folder, capture_output=True, text=True, timeout=60
+    )
 
 
 def set_up_already(checkout, environment):
@@ -93,7 +97,8 @@ def test_program_runs_in_the_callers_folder_by_a_link_and_from_this_checkout(che
 
 
 def test_hot_loops_are_compiled_after_each_change_of_their_sources(checkout, this_python, tmp_path):
-    """As the last step of the set-up, and before the next run where a file with compiled functions is newer; not after other changes, nor for help."""
+    """As the last step of the set-up, and before the next run where a file with compiled functions is newer; not after
+    other changes, nor for help."""
     package, done = checkout / "fenics_gears", tmp_path / "compiled"
     for folder in ("contact", "dynamics", "simulation"):
         (package / folder).mkdir()
@@ -146,7 +151,11 @@ def test_debian_without_root_or_sudo_is_told_the_command(checkout, machine):
     environment = machine(python3=BARE_PYTHON, apt_get=NO_PACKAGES, dpkg_query=NO_PACKAGES, id="echo 1000")
     done = call(checkout / "gears", "run", environment=environment)
     assert done.returncode == 1
-    assert "needs root or sudo" in done.stderr and "apt-get install" in done.stderr and "python3-dolfinx-real" in done.stderr
+    assert (
+        "needs root or sudo" in done.stderr
+        and "apt-get install" in done.stderr
+        and "python3-dolfinx-real" in done.stderr
+    )
     assert not ONLY_FOR_TESTS & set(done.stderr.split())
 
 
@@ -160,11 +169,14 @@ def test_packages_of_the_tests_are_asked_for_by_the_tests(checkout, machine, arg
 
 
 def test_what_a_relative_of_debian_lacks_for_some_tests_is_left_out(checkout, machine, tmp_path):
-    """Ubuntu has no chromium; that is told and left out, while a package of the program that is not offered is still asked for and fails."""
+    """Ubuntu has no chromium; that is told and left out, while a package of the program that is not offered is still
+    asked for and fails."""
     environment = machine(
-        python3=BARE_PYTHON, apt_get=f'echo "$*" >>{tmp_path}/asked; case "$*" in *install*) exit 100;; esac', dpkg=NO_PACKAGES,
+        python3=BARE_PYTHON, apt_get=f'echo "$*" >>{tmp_path}/asked; case "$*" in *install*) exit 100;; esac',
+        dpkg=NO_PACKAGES,
         dpkg_query=NO_PACKAGES, id="echo 0",
-        apt_cache='case $2 in chromium|python3-dolfinx-real) echo "  Candidate: (none)";; *) echo "  Candidate: 1.0-1";; esac',
+        apt_cache='case $2 in chromium|python3-dolfinx-real) echo "  Candidate: (none)";; *) echo "  Candidate: '
+            '1.0-1";; esac',
     )  # fmt: skip
     done = call(checkout / "gears", "test", environment=environment)
     assert done.returncode == 1 and "does not offer chromium" in done.stderr
@@ -173,7 +185,8 @@ def test_what_a_relative_of_debian_lacks_for_some_tests_is_left_out(checkout, ma
 
 
 def test_program_is_ready_without_what_the_tests_need(checkout, this_python):
-    """Where only a module of the tests is lacking the program runs; the tests say what is lacking and leave the program ready."""
+    """Where only a module of the tests is lacking the program runs; the tests say what is lacking and leave the program
+    ready."""
     check = checkout / "setup/check.py"
     check.write_text(check.read_text().replace("NEEDED_BY_TESTS = (", 'NEEDED_BY_TESTS = ("no_such_module", '))
     set_up_already(checkout, this_python)
@@ -204,7 +217,11 @@ def test_tests_that_are_ready_make_the_program_ready(checkout, this_python):
 def test_failure_of_apt_is_one_sentence_with_its_reason(checkout, machine, printed, sentence):
     """The last line says why it failed and where the details are; the next call starts over."""
     environment = machine(
-        python3=BARE_PYTHON, apt_get=f'echo "{printed}"; exit 100', dpkg=NO_PACKAGES, dpkg_query=NO_PACKAGES, id="echo 0"
+        python3=BARE_PYTHON,
+        apt_get=f'echo "{printed}"; exit 100',
+        dpkg=NO_PACKAGES,
+        dpkg_query=NO_PACKAGES,
+        id="echo 0",
     )
     done = call(checkout / "gears", "run", environment=environment)
     assert done.returncode == 1
@@ -227,8 +244,17 @@ def test_interrupted_set_up_leaves_nothing_that_looks_finished(checkout, machine
     """Ctrl-C while apt works: exit code 130 and no mark, so that the next call sets up."""
     # The stand-in of apt reaches all of the call's processes, as the terminal's Ctrl-C does.
     apt = "kill -INT 0; exec sleep 30"
-    environment = machine(python3=BARE_PYTHON, apt_get=apt, dpkg=NO_PACKAGES, dpkg_query=NO_PACKAGES, id="echo 0", sleep='exec /bin/sleep "$@"')
-    started = subprocess.Popen([checkout / "gears", "run"], env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True)
+    environment = machine(
+        python3=BARE_PYTHON,
+        apt_get=apt,
+        dpkg=NO_PACKAGES,
+        dpkg_query=NO_PACKAGES,
+        id="echo 0",
+        sleep='exec /bin/sleep "$@"',
+    )
+    started = subprocess.Popen(
+        [checkout / "gears", "run"], env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
     said = started.communicate(timeout=20)[1]
     assert "[1/" in said
     assert started.returncode == 130 and "interrupted" in said
@@ -243,7 +269,9 @@ def test_second_set_up_waits_for_the_first(checkout, this_python):
     ready.unlink()
     with open(checkout / ".setup/lock") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        second = subprocess.Popen([checkout / "gears", "run"], env=this_python, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        second = subprocess.Popen(
+            [checkout / "gears", "run"], env=this_python, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
         assert "another set-up" in second.stderr.readline()
         (checkout / "setup/check.py").unlink()  # trying the imports once more would fail
         ready.write_text(finished)

@@ -54,8 +54,13 @@ def run(code, *arguments, launcher=()):
 
 
 def test_files_for_paraview_and_results_are_written_beside_dolfinx(tmp_path):
-    """VTK, DOLFINx and h5py in one process, the last two each with its HDF5: grid and dataset read back are those written, exactly."""
-    run(GRID_FILE.replace("sys.argv[1]", "sys.argv[2]") + RESULT_FILE, str(tmp_path / "run.nc"), str(tmp_path / "grid.vtu"))
+    """VTK, DOLFINx and h5py in one process, the last two each with its HDF5: grid and dataset read back are those
+    written, exactly."""
+    run(
+        GRID_FILE.replace("sys.argv[1]", "sys.argv[2]") + RESULT_FILE,
+        str(tmp_path / "run.nc"),
+        str(tmp_path / "grid.vtu"),
+    )
 
 
 @pytest.mark.ranks

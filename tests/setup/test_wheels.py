@@ -1,4 +1,5 @@
-"""The wheels of setup/*.pip fit each other and what Debian has. They are installed without pip's own resolution, so nobody else looks."""
+"""The wheels of setup/*.pip fit each other and what Debian has. They are installed without pip's own resolution, so
+nobody else looks."""
 
 import platform
 from importlib import metadata
@@ -18,7 +19,8 @@ def wheels(suite):
 
 
 def here():
-    """The wheels of this system; skips the test where all comes from Debian, whose packages say themselves what fits."""
+    """The wheels of this system; skips the test where all comes from Debian, whose packages say themselves what
+    fits."""
     try:
         suite = platform.freedesktop_os_release().get("VERSION_CODENAME", "")
     except OSError:
@@ -40,7 +42,8 @@ def _installed(name):
 
 @pytest.mark.parametrize("suite", [path.stem for path in SETUP.glob("*.pip")])
 def test_no_wheel_brings_what_dolfinx_is_built_on(suite):
-    """Authority: DOLFINx, petsc4py and mpi4py are compiled against Debian's numpy and MPI; h5py's wheel carries an HDF5 of its own."""
+    """Authority: DOLFINx, petsc4py and mpi4py are compiled against Debian's numpy and MPI; h5py's wheel carries an HDF5
+    of its own."""
     assert not {"numpy", "scipy", "mpi4py", "petsc4py", "h5py", "numba", "fenics-dolfinx"} & wheels(suite).keys()
 
 

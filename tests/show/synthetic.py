@@ -19,7 +19,8 @@ BARE = ("centre_y", "friction_force")
 
 
 def made_up_run(*, steps=21, cycles=2.0, nodes=5, scene="", **attributes) -> xr.Dataset:
-    """Every variable that a picture shows, over `cycles` mesh cycles that begin with cycle 28; three tooth pairs a cycle wide
+    """Every variable that a picture shows, over `cycles` mesh cycles that begin with cycle 28; three tooth pairs a
+    cycle wide
     and more, in slots as those of any result."""
     phase = 28.0 + np.linspace(0.0, cycles, steps)
     wave = np.sin(2 * np.pi * phase)
@@ -28,7 +29,9 @@ def made_up_run(*, steps=21, cycles=2.0, nodes=5, scene="", **attributes) -> xr.
     force = np.where(carries, 4000.0 + 100.0 * wave[:, None], 0.0)
     centre = np.radians(7.0 + 22.5 * (phase[:, None] - pairs))
     place = centre[:, :, None] + np.radians(0.4) * (np.arange(nodes) - nodes // 2)
-    pressure = np.where(carries[:, :, None], [0.0, *np.full(nodes - 2, 1500.0), 0.0], 0.0) * (1.0 + 0.1 * wave[:, None, None])
+    pressure = np.where(carries[:, :, None], [0.0, *np.full(nodes - 2, 1500.0), 0.0], 0.0) * (
+        1.0 + 0.1 * wave[:, None, None]
+    )
     values = {
         "transmission_error": ("time", 3e-3 + 2e-4 * wave),
         "centre_y": (("time", "gear"), np.stack([-4e-3 * wave, 4e-3 * wave], axis=1)),
@@ -53,4 +56,8 @@ def words(axes) -> list[str]:
 
 def right_scale(axes) -> list[tuple[float, float]]:
     """Numbers of the second upright scale with the heights on the first at which they stand."""
-    return [(float(text.get_text().replace("−", "-")), text.get_position()[1]) for text in axes.texts if text.get_ha() == "left" and text.get_position()[0] > 1.0]
+    return [
+        (float(text.get_text().replace("−", "-")), text.get_position()[1])
+        for text in axes.texts
+        if text.get_ha() == "left" and text.get_position()[0] > 1.0
+    ]

@@ -36,7 +36,15 @@ def curve(axes, which=-1):
 
 
 @pytest.mark.parametrize(
-    ("unit", "wanted", "expected"), [("rad", "µrad", 1e6), ("mm", "µm", 1e3), ("N mm", "N m", 1e-3), ("MPa", "MPa", 1.0), ("rad", "deg", 180 / np.pi), ("kN", "N", 1e3)]
+    ("unit", "wanted", "expected"),
+    [
+        ("rad", "µrad", 1e6),
+        ("mm", "µm", 1e3),
+        ("N mm", "N m", 1e-3),
+        ("MPa", "MPa", 1.0),
+        ("rad", "deg", 180 / np.pi),
+        ("kN", "N", 1e3),
+    ],
 )
 def test_factors_are_those_of_the_si(unit, wanted, expected):
     """Authority: the SI's prefixes."""
@@ -57,7 +65,10 @@ def test_transmission_error_and_the_wheels_sideways_motion():
     """Authority: the dataset's values times exact prefixes; the length axis is rb2 T_E (model.md, section 4)."""
     run = made_up_run()
     above, below = transmission_error(run).get_axes()
-    for axes, name, values in [(above, "Transmission error (µm)", run["transmission_error"].values * 50e3), (below, "Displacement (µm)", run["centre_y"].values[:, 1] * 1e3)]:
+    for axes, name, values in [
+        (above, "Transmission error (µm)", run["transmission_error"].values * 50e3),
+        (below, "Displacement (µm)", run["centre_y"].values[:, 1] * 1e3),
+    ]:
         x, y = curve(axes)
         assert name in words(axes)
         np.testing.assert_array_equal(x, run["mesh_phase"].values)
@@ -71,12 +82,13 @@ def test_transmission_error_and_the_wheels_sideways_motion():
 
 def test_the_peak_to_peak_is_named():
     """Authority: 400 µrad by construction (amplitude 200 µrad, extremes on steps), 20 µm on a base radius of 50 mm."""
-    (above, _) = transmission_error(made_up_run(steps=41)).get_axes()
+    above, _ = transmission_error(made_up_run(steps=41)).get_axes()
     assert above.get_title(loc="left") == "Transmission error on the wheel's base circle: peak to peak 20.00 µm"
 
 
 def test_an_incomplete_run_names_the_peak_to_peak_of_what_is_stored():
-    """Authority: the stored values; the first quarter of the wave rises by its amplitude, 200 µrad, 10 µm on a base radius of 50 mm."""
+    """Authority: the stored values; the first quarter of the wave rises by its amplitude, 200 µrad, 10 µm on a base
+    radius of 50 mm."""
     run = made_up_run(steps=41, complete=0).isel(time=slice(0, 6))
     title = transmission_error(run).get_axes()[0].get_title(loc="left")
     assert title.endswith("peak to peak of what is stored 10.00 µm")
@@ -91,7 +103,8 @@ def test_a_motion_of_rounding_errors_is_shown_as_none():
 
 
 def test_without_friction_the_shaft_is_shown_along_the_line_of_action():
-    """Authority: without friction the motion off the line of action is exactly zero (model.md, claim 1): a line of nothing shows nothing."""
+    """Authority: without friction the motion off the line of action is exactly zero (model.md, claim 1): a line of
+    nothing shows nothing."""
     run = made_up_run()
     run["centre_x"] = (2.0 * run["centre_y"]).assign_attrs(units="mm")
     for friction, name, title in ((True, "centre_y", "off"), (False, "centre_x", "along")):
@@ -102,7 +115,8 @@ def test_without_friction_the_shaft_is_shown_along_the_line_of_action():
 
 
 def test_a_long_run_shows_its_last_cycles_and_all_of_them_cycle_by_cycle():
-    """Authority: the dataset: the last four mesh cycles; below, least and largest value of each of the twelve, where they are not alike."""
+    """Authority: the dataset: the last four mesh cycles; below, least and largest value of each of the twelve, where
+    they are not alike."""
     run = made_up_run(steps=241, cycles=12.0)
     assert [axes.get_xlim() for axes in transmission_error(run).get_axes()] == [(36.0, 40.0)] * 2
     growing = run["transmission_error"] * (1.0 + 0.1 * (run["mesh_phase"] - 28.0))
@@ -130,7 +144,9 @@ def test_mesh_forces():
     np.testing.assert_array_equal(curve(normal)[1], run["normal_force"].values)
     np.testing.assert_array_equal(curve(friction)[1], run["friction_force"].values)
     for which, gear in enumerate(("pinion", "wheel")):
-        np.testing.assert_allclose(curve(torques, which)[1], run["reaction_couple"].sel(gear=gear).values * 1e-3, rtol=1e-14)
+        np.testing.assert_allclose(
+            curve(torques, which)[1], run["reaction_couple"].sel(gear=gear).values * 1e-3, rtol=1e-14
+        )
     for axes, title in ((normal, "Normal force (N)"), (friction, "Friction force (N)"), (torques, "Torque (N m)")):
         assert title in words(axes)
     assert [text.get_text() for text in torques.get_legend().get_texts()] == ["pinion", "wheel"]
@@ -210,7 +226,10 @@ def test_legends_cover_no_curve_and_stay_in_the_picture(cycles):
 
 def test_a_heading_with_every_effect_stays_on_the_paper(paper_scene):
     """Authority: the edge of the figure. Conditions of a scene with all effects are longer than a line."""
-    sections = '[root_relief]\ndepth = "5 um"\nstart = "LPSTC"\n[flank_errors]\ntolerance_class = 6\n[eccentricity.pinion]\ndistance = "9 um"\n'
+    sections = (
+        '[root_relief]\ndepth = "5 um"\nstart = "LPSTC"\n[flank_errors]\ntolerance_class ='
+        ' 6\n[eccentricity.pinion]\ndistance = "9 um"\n'
+    )
     if "[tip_relief]" not in paper_scene.text:
         sections += '[tip_relief]\ndepth = "9 um"\nstart = "HPSTC"\n'
     figure = transmission_error(made_up_run(scene=paper_scene.text + "\n" + sections))
@@ -227,17 +246,21 @@ def test_a_heading_with_every_effect_stays_on_the_paper(paper_scene):
     ((20.0, 150.0), True, ["20", "50", "100"]),
 ])  # fmt: skip
 def test_ticks_are_round_numbers_written_with_the_decimals_they_need(ends, logarithmic, expected):
-    """Arithmetic: multiples of 1, 2, 2.5 or 5 times a power of ten within the ends; what is written is the place itself."""
+    """Arithmetic: multiples of 1, 2, 2.5 or 5 times a power of ten within the ends; what is written is the place
+    itself."""
     places = ticks(ends, 5.0, logarithmic)
     assert written(places, logarithmic) == expected
     np.testing.assert_allclose([float(each.replace("−", "-")) for each in expected], places, atol=1e-9 * np.ptp(ends))
 
 
 def test_gears_that_tilt_have_their_tilts_shown_and_all_motions_of_their_centres():
-    """Authority: model.md section 4; axial forces tilt the shafts off the plane of action and so move their centres off the line, without friction too."""
+    """Authority: model.md section 4; axial forces tilt the shafts off the plane of action and so move their centres off
+    the line, without friction too."""
     run = made_up_run().drop_vars("friction_force")
     run["centre_x"] = run["centre_y"]
-    assert not [chart.caption for chart in motion_charts(Run(run)) if "off the line" in chart.caption or "Tilt" in chart.caption]
+    assert not [
+        chart.caption for chart in motion_charts(Run(run)) if "off the line" in chart.caption or "Tilt" in chart.caption
+    ]
     for name, unit in (("axial_position", "mm"), ("tilt_x", "rad"), ("tilt_y", "rad")):
         run[name] = run["centre_y"].assign_attrs(units=unit)
     captions = [chart.caption for chart in motion_charts(Run(run))]

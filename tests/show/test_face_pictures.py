@@ -38,7 +38,8 @@ def test_pictures_of_the_face_are_written_beside_the_others(tmp_path):
 
 
 def test_pattern_shows_the_largest_pressure_where_it_is(run):
-    """Authority: the result's own fields. Cells hold the largest averaged pressure of their slice's nodes, at the diameter of the node that has it."""
+    """Authority: the result's own fields. Cells hold the largest averaged pressure of their slice's nodes, at the
+    diameter of the node that has it."""
     pressure, rolls = (run.dataset[f"contact_{name}"].values for name in ("pressure", "roll_angle"))
     pressure = read_off(pressure, rolls)
     field = contact_patterns(run)[0].field
@@ -51,37 +52,56 @@ def test_pattern_shows_the_largest_pressure_where_it_is(run):
 
 
 def test_between_steps_the_pattern_goes_on_as_the_peak_does():
-    """Exact: a pressure that travels along the flank with a peak rising linearly in diameter leaves that line, whatever the spacing of the steps; where two pairs follow each other
+    """Exact: a pressure that travels along the flank with a peak rising linearly in diameter leaves that line, whatever
+    the spacing of the steps; where two pairs follow each other
     nothing lies between them."""
     places = np.linspace(0.2, 0.6, 9)
     rolls = places[:, None, None, None] + np.linspace(-0.01, 0.01, 5)
     pressure = np.broadcast_to(1000.0 * places[:, None, None, None] * [0.0, 0.7, 1.0, 0.7, 0.0], rolls.shape)
-    field = pattern(pressure, rolls, np.ones((9, 1)), (0.0, 0.8), lambda roll: 30.0 * roll, np.array([-1.0, 1.0]), 1000.0)
+    field = pattern(
+        pressure, rolls, np.ones((9, 1)), (0.0, 0.8), lambda roll: 30.0 * roll, np.array([-1.0, 1.0]), 1000.0
+    )
     middles = 0.5 * (field.y[1:] + field.y[:-1])
     inside = (middles > 60.0 * 0.2) & (middles < 60.0 * 0.6)
     # To a row of the raster, 4 MPa here.
     assert field.values[inside, 0] == pytest.approx(1000.0 * middles[inside] / 60.0, abs=4.01)
-    apart = pattern(pressure, rolls, np.arange(9)[:, None] // 5 + 1, (0.0, 0.8), lambda roll: 30.0 * roll, np.array([-1.0, 1.0]), 1000.0)
+    apart = pattern(
+        pressure,
+        rolls,
+        np.arange(9)[:, None] // 5 + 1,
+        (0.0, 0.8),
+        lambda roll: 30.0 * roll,
+        np.array([-1.0, 1.0]),
+        1000.0,
+    )
     assert np.isnan(apart.values[np.searchsorted(field.y, 60.0 * 0.425) - 1, 0])
 
 
 def test_wheel_has_the_pressure_of_the_pinion(run):
-    """Newton's third law: both flanks have the same largest pressures in each slice, and the wheel's pattern ends where its active profile does."""
+    """Newton's third law: both flanks have the same largest pressures in each slice, and the wheel's pattern ends where
+    its active profile does."""
     pinion, wheel = (chart.field for chart in contact_patterns(run))
     assert np.nanmax(wheel.values, axis=0) == pytest.approx(np.nanmax(pinion.values, axis=0))
     touched = wheel.y[:-1][np.isfinite(wheel.values).any(axis=1)]
-    active = 2.0 * run.pair.wheel.radius((run.pair.line_of_action_length - run.pair.path_end) / run.pair.wheel.base_radius)
+    active = 2.0 * run.pair.wheel.radius(
+        (run.pair.line_of_action_length - run.pair.path_end) / run.pair.wheel.base_radius
+    )
     assert touched.min() == pytest.approx(active, abs=0.3 * run.pair.wheel.module)
 
 
 @pytest.mark.parametrize("side", ["", "coast_"])
 def test_line_loads_add_up_to_the_forces(run, side):
-    """Identity: the line load of the mesh over the face is its normal force, of a tooth pair that pair's; and contact ends where the lines are."""
+    """Identity: the line load of the mesh over the face is its normal force, of a tooth pair that pair's; and contact
+    ends where the lines are."""
     run = Run(root_stress_run(coast=True)[1], stress=False) if side else run
     mesh, pair, _ = line_loads(run)
     widths = np.diff(mesh.field.y)
-    assert np.nansum(mesh.field.values * widths[:, None], axis=0) == pytest.approx(run.dataset[f"{side}normal_force"].values, rel=1e-9)
-    assert np.nanmax(np.nansum(pair.field.values * widths[:, None], axis=0)) >= run.dataset[f"pair_{side}normal_force"].values.max() * (1 - 1e-9)
+    assert np.nansum(mesh.field.values * widths[:, None], axis=0) == pytest.approx(
+        run.dataset[f"{side}normal_force"].values, rel=1e-9
+    )
+    assert np.nanmax(np.nansum(pair.field.values * widths[:, None], axis=0)) >= run.dataset[
+        f"pair_{side}normal_force"
+    ].values.max() * (1 - 1e-9)
     start, _, end = pair.curves
     for number, loads in enumerate(np.nan_to_num(pair.field.values)):
         z = 0.5 * (pair.field.y[number] + pair.field.y[number + 1])
@@ -96,7 +116,12 @@ def test_report_has_the_face_and_the_middle_slice(run, tmp_path):
     save(run.dataset, file)
     page = rendered(run_page(Run(load(file), file, stress=False)))
     middle = float(in_middle_slice(run.dataset)["face_position"])
-    for words in ("Contact over the face", "Line load of the mesh", "Largest contact pressure on the wheel", f"slice at {middle:.2f} mm"):
+    for words in (
+        "Contact over the face",
+        "Line load of the mesh",
+        "Largest contact pressure on the wheel",
+        f"slice at {middle:.2f} mm",
+    ):
         assert words in page.replace("&#39;", "'")
 
 
@@ -108,18 +133,22 @@ import sys, tempfile
 from tests.show.synthetic import made_up_run
 from fenics_gears.show.plots import draw_run
 draw_run(made_up_run(), tempfile.mkdtemp())
-print([name for name in {names} if "fenics_gears.show." + name in sys.modules], "fenics_gears.results.load_factors" in sys.modules)
+loaded = [name for name in {names} if "fenics_gears.show." + name in sys.modules]
+print(loaded, "fenics_gears.results.load_factors" in sys.modules)
 """
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert found.stdout.split("\n")[0] == "[] False"
 
 
 def test_report_has_root_stress_over_the_face():
-    """Authority: the result's own values. The largest tension of either gear is in its curves over time, over the face and along the fillet."""
+    """Authority: the result's own values. The largest tension of either gear is in its curves over time, over the face
+    and along the fillet."""
     result = root_stress_run(coast=False)[1]
     charts = root_stress(Run(result, stress=False)).blocks
     for gear in ("pinion", "wheel"):
         own = [chart for chart in charts if gear in chart.caption]
         assert len(own) == 3
         for chart in own:
-            assert max(np.nanmax(curve.y) for curve in chart.curves) == pytest.approx(result.attrs[f"largest_root_stress_{gear}"])
+            assert max(np.nanmax(curve.y) for curve in chart.curves) == pytest.approx(
+                result.attrs[f"largest_root_stress_{gear}"]
+            )

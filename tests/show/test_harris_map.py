@@ -17,7 +17,13 @@ def errors(cycles=2.0, start=0.0, unit="um") -> xr.DataArray:
     """A made-up transmission error that grows with the load (N m)."""
     phase = start + np.linspace(0.0, cycles, round(40 * cycles) + 1)
     values = np.array([0.04 * load * (1.0 + 0.2 * np.cos(2.0 * np.pi * phase)) for load in LOADS])
-    return xr.DataArray(values, {"load": ("load", LOADS, {"units": "N m"}), "mesh_phase": phase}, ("load", "mesh_phase"), "transmission_error", {"units": unit})
+    return xr.DataArray(
+        values,
+        {"load": ("load", LOADS, {"units": "N m"}), "mesh_phase": phase},
+        ("load", "mesh_phase"),
+        "transmission_error",
+        {"units": unit},
+    )
 
 
 def drawn(chart) -> dict[str, tuple[np.ndarray, np.ndarray]]:
@@ -45,7 +51,9 @@ def test_an_angle_of_the_wheel_is_a_length_on_its_base_circle():
 def test_a_torque_in_another_unit_and_order_is_the_same_map():
     """Authority: a map does not depend on how its loads are written."""
     other = errors().assign_coords(load=("load", np.array(LOADS) * 1e3, {"units": "N mm"})).isel(load=[2, 0, 3, 1])
-    for (name, (_, values)), (same_name, (_, same)) in zip(drawn(harris_map(errors())).items(), drawn(harris_map(other)).items()):
+    for (name, (_, values)), (same_name, (_, same)) in zip(
+        drawn(harris_map(errors())).items(), drawn(harris_map(other)).items()
+    ):
         assert name == same_name
         np.testing.assert_array_equal(values, same)
 

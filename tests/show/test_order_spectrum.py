@@ -23,7 +23,8 @@ def error_of(lines, cycles):
 
 
 def test_whole_periods_have_each_line_by_itself():
-    """Exact: cosines of orders 2/3, 1, 16 and 37 give those lines with those amplitudes and nothing else, also where the record holds
+    """Exact: cosines of orders 2/3, 1, 16 and 37 give those lines with those amplitudes and nothing else, also where
+    the record holds
     more than a period."""
     lines = [(2.0 / 3.0, 3.0), (1.0, 2.0), (16.0, 4.0), (37.0, 0.5)]
     for cycles in (PERIOD, 2 * PERIOD, PERIOD + 7):
@@ -40,7 +41,8 @@ def test_whole_periods_have_each_line_by_itself():
 
 @pytest.mark.parametrize("cycles", [16, 20.5, 47])
 def test_a_shorter_record_shows_them_in_a_window(cycles):
-    """Known property of Hann's window: a line midway between two bins has 8/(3 pi) of its height (1.42 dB less), none has less; four bins away
+    """Known property of Hann's window: a line midway between two bins has 8/(3 pi) of its height (1.42 dB less), none
+    has less; four bins away
     less than 1 % is left."""
     found = order_lines(error_of([(16.0, 4.0)], cycles), cycles, TEETH)
     assert not found.exact
@@ -57,7 +59,16 @@ def test_less_than_a_turn_of_the_pinion_has_no_orders():
 
 def test_orders_are_told_by_what_they_come_back_with():
     """Arithmetic: 16 and 24 teeth; order k/3 is a whole number of turns of the pinion or, times 3/2, of the wheel."""
-    expected = {16.0: MESH, 32.0: MESH, 1.0: PINION, 37.0: PINION, 2.0 / 3.0: WHEEL, 16.0 + 2.0 / 3.0: WHEEL, 2.0: BOTH, 1.0 / 3.0: HUNTING}
+    expected = {
+        16.0: MESH,
+        32.0: MESH,
+        1.0: PINION,
+        37.0: PINION,
+        2.0 / 3.0: WHEEL,
+        16.0 + 2.0 / 3.0: WHEEL,
+        2.0: BOTH,
+        1.0 / 3.0: HUNTING,
+    }
     assert {order: origin(order, TEETH) for order in expected} == expected
 
 
@@ -74,17 +85,23 @@ def made_up_turns(scene, cycles=float(PERIOD)):
 
 
 def test_the_picture_names_mesh_orders_run_out_and_ghosts(paper_scene):
-    """Definition: amplitudes as lengths on the wheel's base circle; 90 waves on the wheel are order 60 of the pinion's shaft."""
+    """Definition: amplitudes as lengths on the wheel's base circle; 90 waves on the wheel are order 60 of the pinion's
+    shaft."""
     run = made_up_turns(paper_scene.text + ERRORS)
     axes = order_spectrum(run).axes[0]
     flags = {text.get_text().strip(): text.xy for text in axes.texts if isinstance(text, Annotation)}
     assert {"mesh", "2 × mesh", "run-out of the pinion", "ghost order: 90 waves on the wheel"} <= set(flags)
     assert axes.get_yscale() == "log"
     drawn = [each for each in axes.collections if isinstance(each, PolyCollection)]
-    bars = {each.get_label(): [(path.vertices[:4, 0].mean(), path.vertices[:, 1].max()) for path in each.get_paths()] for each in drawn}
+    bars = {
+        each.get_label(): [(path.vertices[:4, 0].mean(), path.vertices[:, 1].max()) for path in each.get_paths()]
+        for each in drawn
+    }
     # The base radius of the made-up result is 50 mm.
     assert bars["mesh"] == [pytest.approx((16.0, 3e-7 * 50e3), rel=1e-9)]
-    assert (1.0, 2e-7 * 50e3) in [pytest.approx(bar, rel=1e-9) for bar in bars["turn of either gear"] + bars["turn of the pinion"]]
+    assert (1.0, 2e-7 * 50e3) in [
+        pytest.approx(bar, rel=1e-9) for bar in bars["turn of either gear"] + bars["turn of the pinion"]
+    ]
     assert flags["ghost order: 90 waves on the wheel"] == pytest.approx((60.0, 1e-8 * 50e3), rel=1e-9)
 
 
@@ -92,7 +109,20 @@ def test_the_picture_names_mesh_orders_run_out_and_ghosts(paper_scene):
 def test_words_of_orders_lie_neither_on_each_other_nor_on_each_others_lines(beside):
     """Authority: the boxes of the words as they are drawn, and the lines down to the orders."""
     flags = [Flag(order, 1.0, f"words on the order {order:g}") for order in beside]
-    figure = picture("", [Chart("", [Curve("", np.array([0.0, 72.0]), np.array([1.0, 2.0]))], "", "", x_range=(0.0, 72.0), height=500, flags=flags)])
+    figure = picture(
+        "",
+        [
+            Chart(
+                "",
+                [Curve("", np.array([0.0, 72.0]), np.array([1.0, 2.0]))],
+                "",
+                "",
+                x_range=(0.0, 72.0),
+                height=500,
+                flags=flags,
+            )
+        ],
+    )
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     boxes = [Text.get_window_extent(text) for text in figure.axes[0].texts if isinstance(text, Annotation)]
@@ -105,7 +135,8 @@ def test_words_of_orders_lie_neither_on_each_other_nor_on_each_others_lines(besi
 
 
 def test_a_run_of_a_turn_has_the_picture_and_a_shorter_one_has_not(paper_scene):
-    """Definition: drawn with a run's other pictures from a turn of the pinion on, 16 mesh cycles; needs the scene for the teeth."""
+    """Definition: drawn with a run's other pictures from a turn of the pinion on, 16 mesh cycles; needs the scene for
+    the teeth."""
     for cycles, there in ((15.0, False), (16.0, True), (20.0, True)):
         assert ("order_spectrum.png" in run_figures(made_up_turns(paper_scene.text, cycles))) == there
     assert order_spectrum(made_up_turns("")) is None

@@ -1,4 +1,5 @@
-"""A turn for ParaView: what the files hold, read by other readers than the writers, and that their points are the same material points."""
+"""A turn for ParaView: what the files hold, read by other readers than the writers, and that their points are the same
+material points."""
 
 import base64
 import struct
@@ -26,7 +27,10 @@ def run(paper_scene, tmp_path_factory):
 
     directory = tmp_path_factory.mktemp("run")
     head = paper_scene.text[: paper_scene.text.index("[shafts]")].replace("mesh_cycles = 30", "mesh_cycles = 2")
-    coarse = '[accuracy]\nelement = "P1"\nflank_element_size = "0.3 mm"\nbody_element_size = "3 mm"\ncontact_length = "4 mm"\ncontact_nodes = 14\nsteps_per_mesh_cycle = 4\n'
+    coarse = (
+        '[accuracy]\nelement = "P1"\nflank_element_size = "0.3 mm"\nbody_element_size = "3 mm"\ncontact_length = "4'
+        ' mm"\ncontact_nodes = 14\nsteps_per_mesh_cycle = 4\n'
+    )
     scene = scene_from_text(head + coarse)
     results.save(simulate(scene), directory / "run.nc")
     return directory, scene
@@ -41,10 +45,17 @@ def series(run, tmp_path_factory):
 
 
 def array(file, name, section="PointData"):
-    """An array of a .vtu file by its published format (VTK file formats: inline binary, zlib blocks, 32-bit header), with no part of VTK."""
+    """An array of a .vtu file by its published format (VTK file formats: inline binary, zlib blocks, 32-bit header),
+    with no part of VTK."""
     root = ElementTree.parse(file).getroot()
-    assert root.attrib["header_type"] == "UInt32" and root.attrib["compressor"] == "vtkZLibDataCompressor" and root.attrib["byte_order"] == "LittleEndian"
-    found = next(each for each in root.find(f"UnstructuredGrid/Piece/{section}") if each.get("Name") == name or name is None)
+    assert (
+        root.attrib["header_type"] == "UInt32"
+        and root.attrib["compressor"] == "vtkZLibDataCompressor"
+        and root.attrib["byte_order"] == "LittleEndian"
+    )
+    found = next(
+        each for each in root.find(f"UnstructuredGrid/Piece/{section}") if each.get("Name") == name or name is None
+    )
     assert found.get("format") == "binary"
     text = "".join(found.text.split())
     count = struct.unpack("<I", base64.b64decode(text[:8])[:4])[0]
@@ -54,7 +65,9 @@ def array(file, name, section="PointData"):
     for size in sizes:
         blocks.append(zlib.decompress(packed[:size]))
         packed = packed[size:]
-    values = np.frombuffer(b"".join(blocks), dtype={"Float32": "<f4", "Int32": "<i4", "Int64": "<i8", "UInt8": "u1"}[found.get("type")])
+    values = np.frombuffer(
+        b"".join(blocks), dtype={"Float32": "<f4", "Int32": "<i4", "Int64": "<i8", "UInt8": "u1"}[found.get("type")]
+    )
     return values.reshape(-1, int(found.get("NumberOfComponents", 1)))
 
 
@@ -66,7 +79,10 @@ def test_collection_lists_the_steps_with_their_times(run, series):
     listed = root.findall("Collection/DataSet")
     steps = frame_steps(result)
     assert len(steps) == 8 and [float(each.get("timestep")) for each in listed] == list(result.time.values[steps])
-    assert sorted(path.name for path in series.parent.iterdir()) == ["turn.pvd", *(f"turn_{n:04d}.vtu" for n in range(8))]
+    assert sorted(path.name for path in series.parent.iterdir()) == [
+        "turn.pvd",
+        *(f"turn_{n:04d}.vtu" for n in range(8)),
+    ]
     assert [each.get("file") for each in listed] == [f"turn_{n:04d}.vtu" for n in range(8)]
     reader = pyvista.PVDReader(str(series))
     assert reader.time_values == [float(each.get("timestep")) for each in listed]
@@ -85,17 +101,25 @@ def test_fields_survive(run, series):
         "displacement": np.vstack([body.displacement for body in bodies]),
         "elastic_displacement": np.vstack([body.elastic for body in bodies]),
         "von_mises_stress": np.concatenate([body.von_mises for body in bodies])[:, None],
-        **{f"stress_{name}": np.vstack([body.stress for body in bodies])[:, [n]] for n, name in enumerate(("xx", "yy", "xy", "zz"))},
+        **{
+            f"stress_{name}": np.vstack([body.stress for body in bodies])[:, [n]]
+            for n, name in enumerate(("xx", "yy", "xy", "zz"))
+        },
     }
     for name, values in expected.items():
-        np.testing.assert_allclose(array(file, name)[:, : values.shape[1]], values, rtol=1e-6, atol=1e-7 * np.abs(values).max(), err_msg=name)
-    np.testing.assert_allclose(array(file, None, "Points")[:, :2], np.vstack([body.points for body in bodies]), atol=1e-4)
+        np.testing.assert_allclose(
+            array(file, name)[:, : values.shape[1]], values, rtol=1e-6, atol=1e-7 * np.abs(values).max(), err_msg=name
+        )
+    np.testing.assert_allclose(
+        array(file, None, "Points")[:, :2], np.vstack([body.points for body in bodies]), atol=1e-4
+    )
     connectivity = array(file, "connectivity", "Cells")[:, 0]
     assert connectivity.max() + 1 == len(expected["displacement"]) and len(connectivity) % 3 == 0
 
 
 def test_points_are_the_same_material_points_through_both_cycles(run, series):
-    """From step to step either gear turns by a quarter of its angular pitch, as a rigid body, through the change of the cycle as well."""
+    """From step to step either gear turns by a quarter of its angular pitch, as a rigid body, through the change of the
+    cycle as well."""
     points = [array(series.with_name(f"turn_{n:04d}.vtu"), None, "Points")[:, :2] for n in range(8)]
     gear = array(series.with_name("turn_0000.vtu"), "gear")[:, 0]
     centres = [points[0][gear == number].mean(axis=0) for number in (1, 2)]
@@ -106,14 +130,18 @@ def test_points_are_the_same_material_points_through_both_cycles(run, series):
 
 
 def test_tooth_is_the_pair_that_loads_it(run, series):
-    """Teeth have the numbers of their tooth pairs: the loaded pairs' teeth, and no others, have flanks under pressure."""
+    """Teeth have the numbers of their tooth pairs: the loaded pairs' teeth, and no others, have flanks under
+    pressure."""
     result = contact_times(results.load(run[0] / "run.nc"))
     first = result["contact_pair_number"].attrs["number_at_phase_0"]
     for place, step in enumerate(frame_steps(result)):
         file = series.with_name(f"turn_{place:04d}.vtu")
         gear, tooth, stress = (array(file, name)[:, 0] for name in ("gear", "tooth", "von_mises_stress"))
         force = result.pair_normal_force.isel(time=step)
-        loaded = {int(pair) - first for pair in force.pair_number.values[np.nan_to_num(force.values) > 0.15 * float(np.nansum(force))]}
+        loaded = {
+            int(pair) - first
+            for pair in force.pair_number.values[np.nan_to_num(force.values) > 0.15 * float(np.nansum(force))]
+        }
         for number, teeth in ((1, 16), (2, 24)):
             largest = [stress[(gear == number) & (tooth == each)].max() for each in range(teeth)]
             assert {int(each) for each in np.argsort(largest)[-len(loaded) :]} == {pair % teeth for pair in loaded}

@@ -95,14 +95,17 @@ def test_any_title_is_drawn_as_it_is(tmp_path):
 def test_a_users_matplotlib_settings_neither_matter_nor_change(tmp_path):
     """Authority: the same dataset gives the same pictures, byte for byte."""
     plain = [file.read_bytes() for file in draw_run(made_up_run(), tmp_path / "plain")]
-    with matplotlib.rc_context({"font.size": 40.0, "axes.facecolor": "black", "savefig.transparent": True, "lines.linewidth": 9.0}):
+    with matplotlib.rc_context(
+        {"font.size": 40.0, "axes.facecolor": "black", "savefig.transparent": True, "lines.linewidth": 9.0}
+    ):
         files = draw_run(made_up_run(), tmp_path / "own")
         assert matplotlib.rcParams["font.size"] == 40.0
     assert [file.read_bytes() for file in files] == plain
 
 
 def test_commands_import_matplotlib_without_its_lists_of_properties_and_leave_it_as_it_is():
-    """Authority: matplotlib itself: its function that makes these lists is in place again, a class imported meanwhile has none, and all else is there."""
+    """Authority: matplotlib itself: its function that makes these lists is in place again, a class imported meanwhile
+    has none, and all else is there."""
     code = (
         "from fenics_gears.commands.shared import plots; plots()\n"
         "from matplotlib import artist, lines\n"

@@ -29,7 +29,8 @@ def field_of(run):
 
 @pytest.mark.parametrize("steps", [21, 2000])
 def test_every_node_under_pressure_is_in_the_raster(steps):
-    """Authority: the dataset: the cell at a node's place has its pressure, or that of a higher one which falls into it; no cell has another."""
+    """Authority: the dataset: the cell at a node's place has its pressure, or that of a higher one which falls into it;
+    no cell has another."""
     field, pressure, place, phase = field_of(made_up_run(steps=steps))
     assert field.values.shape[1] <= MOST_COLUMNS and field.x[0] == phase[0] and field.x[-1] == phase[-1]
     step, slot, node = np.nonzero(pressure > 0.0)
@@ -50,7 +51,8 @@ def test_the_raster_covers_no_more_of_the_flank_than_the_nodes():
 
 @pytest.mark.parametrize("falling", [False, True])
 def test_cells_tile_uneven_nodes_without_gap_or_overlap(falling):
-    """Authority: half-way points. Edges of neighbouring nodes are shared, whichever way the nodes are counted; the ends mirror."""
+    """Authority: half-way points. Edges of neighbouring nodes are shared, whichever way the nodes are counted; the ends
+    mirror."""
     rolls, edges = np.array([1.0, 1.2, 1.6, 2.4, 4.0]), np.array([0.9, 1.1, 1.4, 2.0, 3.2, 4.8])
     low, high = node_edges(rolls[::-1] if falling else rolls)
     np.testing.assert_allclose(np.sort(low), edges[:-1], rtol=1e-13)
@@ -109,7 +111,8 @@ def test_without_a_readable_scene_the_map_is_there_without_the_pitch_point():
 
 
 def test_no_contact_at_all_and_no_pressure_variable():
-    """Authority: free flight has no pressure (hard_cases.md, 18): an empty flank, no failure; no variable, no picture."""
+    """Authority: free flight has no pressure (hard_cases.md, 18): an empty flank, no failure; no variable, no
+    picture."""
     run = made_up_run()
     run["contact_pressure"][:] = 0.0
     assert mesh(contact_pressure(run)).get_array().count() == 0
@@ -117,13 +120,19 @@ def test_no_contact_at_all_and_no_pressure_variable():
 
 
 def test_pressure_on_the_coast_flanks_has_a_panel_of_its_own():
-    """Authority: the dataset. A pair that the wheel drives presses on its coast flanks only, another one on both in turn."""
+    """Authority: the dataset. A pair that the wheel drives presses on its coast flanks only, another one on both in
+    turn."""
     run = made_up_run()
     zero = run["contact_pressure"] * 0.0
     run["coast_contact_roll_angle"] = run["contact_roll_angle"]
-    coasting = run.assign(coast_contact_pressure=run["contact_pressure"], contact_pressure=zero.assign_attrs(run["contact_pressure"].attrs))
+    coasting = run.assign(
+        coast_contact_pressure=run["contact_pressure"],
+        contact_pressure=zero.assign_attrs(run["contact_pressure"].attrs),
+    )
     figure = contact_pressure(coasting)
-    np.testing.assert_array_equal(mesh(figure).get_array().compressed(), mesh(contact_pressure(run)).get_array().compressed())
+    np.testing.assert_array_equal(
+        mesh(figure).get_array().compressed(), mesh(contact_pressure(run)).get_array().compressed()
+    )
     assert figure.get_axes()[0].get_title(loc="left") == "Contact pressure of single nodes on the coast flanks"
     both = contact_pressure(run.assign(coast_contact_pressure=run["contact_pressure"]))
     assert [axes.get_title(loc="left").split()[-2] for axes in both.get_axes()[:2]] == ["drive", "coast"]

@@ -24,8 +24,15 @@ def run(paper_scene, tmp_path_factory):
     from fenics_gears.simulation.simulate import simulate
 
     directory = tmp_path_factory.mktemp("run")
-    text = paper_scene.text[: paper_scene.text.index("[accuracy]")].replace("mesh_cycles = 30", "mesh_cycles = 1").replace("recorded_cycles = 2", "recorded_cycles = 1")
-    coarse = '[accuracy]\nelement = "P1"\nflank_element_size = "0.12 mm"\ncontact_length = "3 mm"\ncontact_nodes = 26\nsteps_per_mesh_cycle = 40\n'
+    text = (
+        paper_scene.text[: paper_scene.text.index("[accuracy]")]
+        .replace("mesh_cycles = 30", "mesh_cycles = 1")
+        .replace("recorded_cycles = 2", "recorded_cycles = 1")
+    )
+    coarse = (
+        '[accuracy]\nelement = "P1"\nflank_element_size = "0.12 mm"\ncontact_length = "3 mm"\ncontact_nodes ='
+        " 26\nsteps_per_mesh_cycle = 40\n"
+    )
     scene = scene_from_text(text + coarse)
     assert scene.accuracy == coarse_scene(paper_scene).accuracy
     results.save(simulate(scene), directory / "run.nc")
@@ -43,7 +50,10 @@ def part(picture, place):
     """The pixels of a panel given as left, bottom, width, height in parts of the figure."""
     height, width = picture.shape[:2]
     left, bottom, wide, high = place
-    return picture[round(height * (1 - bottom - high)) : round(height * (1 - bottom)), round(width * left) : round(width * (left + wide))]
+    return picture[
+        round(height * (1 - bottom - high)) : round(height * (1 - bottom)),
+        round(width * left) : round(width * (left + wide)),
+    ]
 
 
 def strongly_coloured(pixels):
@@ -52,7 +62,8 @@ def strongly_coloured(pixels):
 
 
 def test_picture_is_whole_and_colours_are_where_the_stress_is(picture):
-    """Known position: two tooth pairs touch at a quarter of the mesh cycle, both on the line of action; the enlarged contact is in its panel's
+    """Known position: two tooth pairs touch at a quarter of the mesh cycle, both on the line of action; the enlarged
+    contact is in its panel's
     middle; bores, rims and tips far from the mesh are pale."""
     assert picture.shape == (900, 1600, 3)
     enlarged = part(picture, (0.735, 0.36, 0.19, 0.49))
@@ -65,7 +76,10 @@ def test_picture_is_whole_and_colours_are_where_the_stress_is(picture):
     slope = np.polyfit(columns, rows, 1)[0]
     assert np.degrees(np.arctan(slope)) == pytest.approx(22.44, abs=4.0)
     whole = part(picture, (0.015, 0.06, 0.30, 0.79))
-    assert not strongly_coloured(whole)[: whole.shape[0] // 4].any() and not strongly_coloured(whole)[whole.shape[0] * 2 // 3 :].any()
+    assert (
+        not strongly_coloured(whole)[: whole.shape[0] // 4].any()
+        and not strongly_coloured(whole)[whole.shape[0] * 2 // 3 :].any()
+    )
 
 
 @pytest.fixture
@@ -73,7 +87,10 @@ def parted(run, tmp_path):
     """A run whose teeth carry nothing."""
     dataset = results.load(run / "run.nc")
     forces = [name for name in dataset if "force" in name or "pressure" in name or "traction" in name]
-    results.save(dataset.assign({name: dataset[name].copy(data=0.0 * dataset[name].values) for name in forces}), tmp_path / "run.nc")
+    results.save(
+        dataset.assign({name: dataset[name].copy(data=0.0 * dataset[name].values) for name in forces}),
+        tmp_path / "run.nc",
+    )
 
 
 def test_teeth_that_have_parted_are_drawn_without_stress(parted, tmp_path):
@@ -123,7 +140,8 @@ def test_no_tooth_is_missing(run):
     (10.0, (0.0, 16.0), ("center", "bottom")),
 ])  # fmt: skip
 def test_names_stand_in_the_bores_or_above_those_too_small(bore, place, alignment):
-    """A name in a bore of a few points would lie over its edge; a large body has room for it, beside a small gear there is some."""
+    """A name in a bore of a few points would lie over its edge; a large body has room for it, beside a small gear there
+    is some."""
     found, *aligned = _place_of_name(SimpleNamespace(bore_radius=bore, root_radius=100.0, tip_radius=120.0), point=1.0)
     assert tuple(found) == place and tuple(aligned) == alignment
 
@@ -205,6 +223,9 @@ def test_no_such_run_is_refused(tmp_path, capsys):
 
 def test_command_line_does_not_load_vtk():
     """Rule of the platform: neither the package nor its command line imports pyvista; only a file for ParaView does."""
-    code = "import sys, fenics_gears, fenics_gears.commands.cli; from fenics_gears.commands import picture; print('pyvista' in sys.modules, 'vtkmodules' in sys.modules)"
+    code = (
+        "import sys, fenics_gears, fenics_gears.commands.cli; from fenics_gears.commands import picture;"
+        " print('pyvista' in sys.modules, 'vtkmodules' in sys.modules)"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["False", "False"]

@@ -38,7 +38,8 @@ def relative_change(value, reference):
 @pytest.mark.nightly
 @pytest.mark.parametrize("name", ["bare_scene", "default_scene"])
 def test_halving_everything_moves_mean_and_peak_to_peak_by_less_than_half_a_per_cent(name, request):
-    """Asked for: flank elements, contact spacing and time step halved; also without the drivetrain's share of the mean."""
+    """Asked for: flank elements, contact spacing and time step halved; also without the drivetrain's share of the
+    mean."""
     scene = request.getfixturevalue(name)
     result, resolution = simulate(scene), model_of(scene).resolution
     finer = replace(
@@ -56,7 +57,8 @@ def test_halving_everything_moves_mean_and_peak_to_peak_by_less_than_half_a_per_
 
 
 def test_a_longer_window_changes_nothing_at_any_phase(bare_scene, bare):
-    """model.md section 1: lengthening the default window moves no phase by more than the 0.1 % ripple of the grid; 0.8 mm cuts hand-over off."""
+    """model.md section 1: lengthening the default window moves no phase by more than the 0.1 % ripple of the grid; 0.8
+    mm cuts hand-over off."""
     grid = model_of(bare_scene).resolution.contact_grid
     change = {}
     for nodes in (grid.nodes + 40, round(0.8 / grid.spacing) + 1):
@@ -68,7 +70,8 @@ def test_a_longer_window_changes_nothing_at_any_phase(bare_scene, bare):
 
 
 def test_result_does_not_depend_on_where_the_contact_grid_lies(bare_scene, bare):
-    """Shifting the nodes by half a spacing moves the transmission error by 0.1 %: the ripple that model.md section 2 gives for b/h = 4."""
+    """Shifting the nodes by half a spacing moves the transmission error by 0.1 %: the ripple that model.md section 2
+    gives for b/h = 4."""
     grid = model_of(bare_scene).resolution.contact_grid
     shifted = replace(
         bare_scene, accuracy=Accuracy(contact_length=grid.length + grid.spacing, contact_nodes=grid.nodes + 1, **STEPS)
@@ -79,7 +82,8 @@ def test_result_does_not_depend_on_where_the_contact_grid_lies(bare_scene, bare)
 
 @pytest.mark.nightly
 def test_hand_over_is_continuous(bare_scene):
-    """Row 22 at the default accuracy: with steps refined four times the largest change from step to step falls four times; a jump would stay."""
+    """Row 22 at the default accuracy: with steps refined four times the largest change from step to step falls four
+    times; a jump would stay."""
     largest = []
     for steps in (400, 1600):
         error = simulate(replace(bare_scene, accuracy=Accuracy(steps_per_mesh_cycle=steps))).transmission_error.values
@@ -88,7 +92,8 @@ def test_hand_over_is_continuous(bare_scene):
 
 
 def test_hertz_at_the_pitch_point(bare_scene, bare, paper_pair):
-    """Literature: Hertz line contact (Johnson 1985, ch. 4); a single pair carries at the pitch point. Peak pressure and half-width within 2 %."""
+    """Literature: Hertz line contact (Johnson 1985, ch. 4); a single pair carries at the pitch point. Peak pressure and
+    half-width within 2 %."""
     phase = (paper_pair.pitch_point - paper_pair.path_start) / paper_pair.base_pitch
     at = bare.isel(time=int(np.argmin(np.abs(bare.mesh_phase.values - phase))))
     xi = paper_pair.path_start + float(at.mesh_phase) * paper_pair.base_pitch

@@ -44,7 +44,8 @@ def test_defaults_are_the_limits_to_the_last_bit(paper_scene):
 
 
 def test_smaller_elements_in_the_body(error_of):
-    """Known: conforming elements are too stiff, and less so the smaller they are; 0.45 mm everywhere is the reference."""
+    """Known: conforming elements are too stiff, and less so the smaller they are; 0.45 mm everywhere is the
+    reference."""
     reference = error_of(element="P2", body_element_size=0.45).mean()
     errors = [error_of(element="P2", body_element_size=size).mean() / reference - 1.0 for size in (3.0, 1.5, 0.75)]
     assert errors[0] < errors[1] < errors[2] < 0.0
@@ -52,10 +53,13 @@ def test_smaller_elements_in_the_body(error_of):
 
 
 def test_teeth_that_feel_each_other(error_of, paper_scene):
-    """Limit: with as many teeth as are loaded together the result is the default's; with fewer the error falls from one to the next."""
+    """Limit: with as many teeth as are loaded together the result is the default's; with fewer the error falls from one
+    to the next."""
     scene = frictionless(teeth_alone(coarse_scene(paper_scene)))
     module, teeth = 4.5, (40, 60)
-    pinion, wheel = (GearData(z, 0.0, module * (z + 2.7), module * (z - 3.2), 0.7 * module * (z - 3.2), 0.2) for z in teeth)
+    pinion, wheel = (
+        GearData(z, 0.0, module * (z + 2.7), module * (z - 3.2), 0.7 * module * (z - 3.2), 0.2) for z in teeth
+    )
     gears = replace(scene.gears, centre_distance=0.5 * module * sum(teeth) + 0.1, pinion=pinion, wheel=wheel)
     high = replace(scene, gears=gears)
     assert model_of(high).pair.contact_ratio > 2.0
@@ -71,7 +75,8 @@ def test_collocation_approaches_averages(error_of):
     differences = []
     for size, nodes in ((0.24, 13), (0.12, 26), (0.06, 51)):
         averaged, collocated = (
-            error_of(flank_element_size=size, contact_nodes=nodes, interpolation=name) for name in (AVERAGED, COLLOCATED)
+            error_of(flank_element_size=size, contact_nodes=nodes, interpolation=name)
+            for name in (AVERAGED, COLLOCATED)
         )
         differences.append(np.sqrt(np.mean((collocated - averaged) ** 2)) / averaged.mean())
     assert differences[1] < 0.5 * differences[0]

@@ -33,7 +33,8 @@ def quasi_static(scene, **changes):
 
 @pytest.mark.parametrize("part", [0.1, 0.5, 0.9])
 def test_coast_flanks_stand_where_the_tooth_outlines_have_them(paper_pair, part):
-    """Exact: the outlines' coast points with the place's roll angles lie on the mirrored line of action, a backlash apart."""
+    """Exact: the outlines' coast points with the place's roll angles lie on the mirrored line of action, a backlash
+    apart."""
     xi = paper_pair.path_start + part * (paper_pair.path_end - paper_pair.path_start)
     place, drive = coast_place(paper_pair, 0, xi), drive_place(paper_pair, 0, xi)
     behind = drive_place(paper_pair, -1, xi - paper_pair.base_pitch)
@@ -45,16 +46,23 @@ def test_coast_flanks_stand_where_the_tooth_outlines_have_them(paper_pair, part)
     ):
         flank = tooth_outline(gear).coast(canonical_point(gear.base_radius, roll)[None])[0]
         points.append(rotation(turned) @ flank)
-    wheel_centre = np.array([paper_pair.line_of_action_length, -paper_pair.pinion.base_radius - paper_pair.wheel.base_radius])
+    wheel_centre = np.array(
+        [paper_pair.line_of_action_length, -paper_pair.pinion.base_radius - paper_pair.wheel.base_radius]
+    )
     tangent_points = (-across * paper_pair.pinion.base_radius, wheel_centre + across * paper_pair.wheel.base_radius)
     pinion, wheel = points[0], wheel_centre + points[1]
-    assert pinion == pytest.approx(tangent_points[0] + normal * paper_pair.pinion.base_radius * place.contact_rolls[0], abs=1e-9)
-    assert wheel == pytest.approx(tangent_points[1] - normal * paper_pair.wheel.base_radius * place.contact_rolls[1], abs=1e-9)
+    assert pinion == pytest.approx(
+        tangent_points[0] + normal * paper_pair.pinion.base_radius * place.contact_rolls[0], abs=1e-9
+    )
+    assert wheel == pytest.approx(
+        tangent_points[1] - normal * paper_pair.wheel.base_radius * place.contact_rolls[1], abs=1e-9
+    )
     assert wheel - pinion == pytest.approx(paper_pair.backlash * normal, abs=1e-9)
 
 
 def test_a_pair_that_stays_in_contact_does_not_feel_its_coast_flanks(both_flanks):
-    """Omitted equals not touched: the same transmission error but for the finer mesh along the coast flank; no coast force."""
+    """Omitted equals not touched: the same transmission error but for the finer mesh along the coast flank; no coast
+    force."""
     with_coast = simulate(quasi_static(both_flanks))
     without = simulate(quasi_static(both_flanks, coast_flanks=None))
     assert np.all(with_coast.coast_normal_force.values == 0.0)
@@ -63,9 +71,12 @@ def test_a_pair_that_stays_in_contact_does_not_feel_its_coast_flanks(both_flanks
 
 
 def test_numbers_of_a_run_are_those_of_the_flanks_that_carry(both_flanks):
-    """Authority: the mirror. Driven by the wheel, the pair presses as hard as driven by the pinion, and calls that no loss of contact."""
+    """Authority: the mirror. Driven by the wheel, the pair presses as hard as driven by the pinion, and calls that no
+    loss of contact."""
     forward = simulate(quasi_static(both_flanks))
-    backward = simulate(quasi_static(both_flanks, load=replace(both_flanks.load, wheel_torque=-both_flanks.load.wheel_torque)))
+    backward = simulate(
+        quasi_static(both_flanks, load=replace(both_flanks.load, wheel_torque=-both_flanks.load.wheel_torque))
+    )
     assert np.all(backward.normal_force.values == 0.0)
     assert largest_normal_force(backward) == pytest.approx(largest_normal_force(forward), rel=1e-9)
     # The steps of one do not mirror those of the other, and tips press with sharp edges.
@@ -74,26 +85,39 @@ def test_numbers_of_a_run_are_those_of_the_flanks_that_carry(both_flanks):
 
 
 def test_friction_takes_its_share_of_the_wheels_work_where_the_wheel_drives(both_flanks):
-    """Conservation of energy over a mesh cycle: the wheel's work is what the pinion's shaft takes and what friction takes."""
+    """Conservation of energy over a mesh cycle: the wheel's work is what the pinion's shaft takes and what friction
+    takes."""
     load = replace(both_flanks.load, wheel_torque=-both_flanks.load.wheel_torque)
     driven = simulate(quasi_static(both_flanks, load=load, friction=Friction(0.1)))
-    wheel, pinion, friction = (float(driven[name].values[-1]) for name in ("work_output", "work_input", "work_friction"))
+    wheel, pinion, friction = (
+        float(driven[name].values[-1]) for name in ("work_output", "work_input", "work_friction")
+    )
     assert wheel < pinion < 0.0 < friction
     assert driven.attrs["friction_loss"] == pytest.approx(friction / -wheel, rel=1e-12)
     assert driven.attrs["friction_loss"] == pytest.approx(1.0 - pinion / wheel, abs=1e-3)
 
 
 def test_a_pair_without_load_says_nothing_of_friction_and_pressure(both_flanks):
-    """Authority: zero. What rounding leaves on the closed node is neither a friction loss nor pressure on a sharp edge."""
-    idle = simulate(quasi_static(both_flanks, load=replace(both_flanks.load, wheel_torque=0.0), friction=Friction(0.1), coast_flanks=None))
+    """Authority: zero. What rounding leaves on the closed node is neither a friction loss nor pressure on a sharp
+    edge."""
+    idle = simulate(
+        quasi_static(
+            both_flanks, load=replace(both_flanks.load, wheel_torque=0.0), friction=Friction(0.1), coast_flanks=None
+        )
+    )
     assert "friction_loss" not in idle.attrs
     assert "sharp edge" not in idle.attrs["warnings"]
 
 
 def test_run_out_beyond_the_backlash_wedges_the_teeth_and_is_named(both_flanks, paper_pair):
-    """Authority: geometry. Run-out of the backlash and more closes it; with none both flanks press, along lines of action that the load holds apart."""
-    towards = Eccentricity(Offset(2.0 * paper_pair.backlash, radians(-90.0) + paper_pair.operating_pressure_angle), None)
-    wedged = simulate(quasi_static(both_flanks, shafts=None, bearings=None, eccentricity=towards, friction=Friction(0.05)))
+    """Authority: geometry. Run-out of the backlash and more closes it; with none both flanks press, along lines of
+    action that the load holds apart."""
+    towards = Eccentricity(
+        Offset(2.0 * paper_pair.backlash, radians(-90.0) + paper_pair.operating_pressure_angle), None
+    )
+    wedged = simulate(
+        quasi_static(both_flanks, shafts=None, bearings=None, eccentricity=towards, friction=Friction(0.05))
+    )
     assert wedged.coast_normal_force.max() > 0.0
     (said,) = [line for line in wedged.attrs["warnings"].splitlines() if "wedged" in line]
     assert f"by up to {float(wedged.coast_normal_force.max()):.4g} N" in said

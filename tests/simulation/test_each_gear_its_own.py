@@ -1,4 +1,5 @@
-"""Material and face width of each gear its own: identities of whole runs, Hertz for two moduli, and the standard's E of two materials."""
+"""Material and face width of each gear its own: identities of whole runs, Hertz for two moduli, and the standard's E of
+two materials."""
 
 from dataclasses import replace
 from math import pi, sqrt
@@ -25,13 +26,22 @@ STEEL, BRONZE = Material(206e3, 0.3), Material(103e3, 0.35)
 def of_gears(scene, pinion=None, wheel=None, **shared):
     """The scene with other values of pinion, wheel and pair."""
     gears = scene.gears
-    return replace(scene, gears=replace(gears, pinion=replace(gears.pinion, **pinion or {}), wheel=replace(gears.wheel, **wheel or {}), **shared))
+    return replace(
+        scene,
+        gears=replace(
+            gears, pinion=replace(gears.pinion, **pinion or {}), wheel=replace(gears.wheel, **wheel or {}), **shared
+        ),
+    )
 
 
 def test_sections_of_both_gears_say_what_the_short_form_says(paper_scene):
-    """Identity: [gears.pinion.material] and [gears.wheel.material] alike are [gears.material]; a gear takes from it what it leaves out."""
+    """Identity: [gears.pinion.material] and [gears.wheel.material] alike are [gears.material]; a gear takes from it
+    what it leaves out."""
     text = paper_scene.text
-    own = text.replace("[gears.material]", "[gears.pinion.material]") + '\n[gears.wheel.material]\nyoungs_modulus = "206 GPa"\npoissons_ratio = 0.3\n'
+    own = (
+        text.replace("[gears.material]", "[gears.pinion.material]")
+        + '\n[gears.wheel.material]\nyoungs_modulus = "206 GPa"\npoissons_ratio = 0.3\n'
+    )
     assert scene_from_text(own).gears.materials == paper_scene.gears.materials == (STEEL, STEEL)
     softer = scene_from_text(text + '\n[gears.wheel.material]\nyoungs_modulus = "103 GPa"\n').gears
     assert softer.materials == (STEEL, Material(103e3, 0.3))
@@ -85,12 +95,15 @@ def test_half_width_of_two_moduli_and_two_widths(quasi_static_scene, paper_pair)
     length, start, end = paper_pair.line_of_action_length, paper_pair.path_start, paper_pair.path_end
     radius = min(xi * (length - xi) / length for xi in (start, end))
     softness = (1.0 - 0.3**2) / 206e3 + (1.0 - 0.35**2) / 103e3
-    assert half_width(wheel={"material": BRONZE}) == pytest.approx(sqrt(4.0 * line_load * radius * softness / pi), rel=1e-12)
+    assert half_width(wheel={"material": BRONZE}) == pytest.approx(
+        sqrt(4.0 * line_load * radius * softness / pi), rel=1e-12
+    )
     assert half_width(pinion={"face_width": 30.0}, wheel={"face_width": 15.0}) == half_width()
 
 
 def test_the_standards_stiffness_of_two_materials(paper_scene):
-    """Authority: ISO 6336-1, tooth stiffness of other materials: times E/E_steel with E = 2 E1 E2/(E1 + E2); over the common width."""
+    """Authority: ISO 6336-1, tooth stiffness of other materials: times E/E_steel with E = 2 E1 E2/(E1 + E2); over the
+    common width."""
     steel = pair_stiffness(paper_scene.gears, 500.0)
     pair = of_gears(paper_scene, pinion={"face_width": 20.0}, wheel={"face_width": 15.0, "material": BRONZE}).gears
     assert pair_stiffness(pair, 500.0) == pytest.approx(steel * 2.0 * 103.0 / (206.0 + 103.0), rel=1e-12)

@@ -31,7 +31,8 @@ CITED = Path(__file__).parents[1] / "benchmarks" / "third_dimension" / "cited"
 
 @pytest.mark.parametrize("coast", [False, True])
 def test_rows_give_what_the_recovered_sectors_have(coast):
-    """Exact identity (Betti): along the profile, across the tooth's trace, in every slice, on both gears and all teeth in reach, to 1e-9 of the largest;
+    """Exact identity (Betti): along the profile, across the tooth's trace, in every slice, on both gears and all teeth
+    in reach, to 1e-9 of the largest;
     times the factors of the fine section, which have a test of their own."""
     scene, result = root_stress_run(coast)
     largest = np.nanmax(np.abs(result["root_stress"].values))
@@ -45,7 +46,12 @@ def test_rows_give_what_the_recovered_sectors_have(coast):
             teeth = sorted({pair.place.index for pair in stored.pairs})
             assert len(teeth) > 1
             sizes = face_discretisation(stresses.model, gear).in_modules_of(data).sizes
-            factors = fine_over_swept(data.of_module_one, sizes, scene.gears.material_of(("pinion", "wheel")[gear]).poissons_ratio, fillet_curve(data.of_module_one, POINTS_OVER_FACE))
+            factors = fine_over_swept(
+                data.of_module_one,
+                sizes,
+                scene.gears.material_of(("pinion", "wheel")[gear]).poissons_ratio,
+                fillet_curve(data.of_module_one, POINTS_OVER_FACE),
+            )
             factors = factors.reshape(2, -1)
             for tooth in teeth:
                 found = recovery.recovered(forces, [SENSE_OF_TEETH[gear] * tooth]).stress[0]
@@ -53,7 +59,12 @@ def test_rows_give_what_the_recovered_sectors_have(coast):
                 number = int(stresses.cycle.pair_number(step, tooth)) + result["pair_number"].attrs["number_at_phase_0"]
                 slot = int(np.flatnonzero(result["pair_number"].values[STEP] == number)[0])
                 here = result.isel(time=STEP, contact_time=STEP, gear=gear, slot=slot)
-                assert np.abs(here["root_stress"].values - expected[:, :, :-1].transpose(1, 2, 0).reshape(-1, face.slices)).max() < 1e-9 * largest
+                assert (
+                    np.abs(
+                        here["root_stress"].values - expected[:, :, :-1].transpose(1, 2, 0).reshape(-1, face.slices)
+                    ).max()
+                    < 1e-9 * largest
+                )
                 assert np.abs(here["root_stress_over_face"].values - expected[:, :, -1].T).max() < 1e-9 * largest
 
 
@@ -66,7 +77,8 @@ def _at_fillets(recovery, data, stress):
         nodes, weights, tangents = fillet_weights(curve, body.section, held, side)
         at_points = np.einsum("pk,skij->spij", weights, stress[:, nodes])
         x, y = (weights @ body.section.points[nodes]).T
-        # The surface's normal is across the tangent of the section and the trace; the profile's direction across that and the trace.
+        # The surface's normal is across the tangent of the section and the trace; the profile's direction across that
+        # and the trace.
         trace = np.column_stack([-body.sweep.twist * y, body.sweep.twist * x, np.ones(len(x))])
         normal = np.cross(np.pad(tangents, ((0, 0), (0, 1))), trace)
         across = np.cross(trace, normal)
@@ -76,9 +88,13 @@ def _at_fillets(recovery, data, stress):
 
 
 def test_largest_values_are_those_over_the_face():
-    """Definition: the curves of all steps hold the largest of the points and slices; a slot without a pair in reach has none."""
+    """Definition: the curves of all steps hold the largest of the points and slices; a slot without a pair in reach has
+    none."""
     for result in (root_stress_run(coast)[1] for coast in (False, True)):
-        along, over_face = result["root_stress"].max(("fillet_point", "face_position")), result["root_stress_over_face"].max("face_position")
+        along, over_face = (
+            result["root_stress"].max(("fillet_point", "face_position")),
+            result["root_stress_over_face"].max("face_position"),
+        )
         np.testing.assert_array_equal(result["root_stress_maximum"].values, along.values)
         np.testing.assert_array_equal(result["root_stress_at_30_degrees"].values, over_face.values)
         assert (np.isnan(along.values).all(axis=1) == (result["pair_number"].values == 0)).all()
@@ -94,7 +110,8 @@ def test_memory_is_as_it_was_counted():
 
 @pytest.mark.parametrize("gear", [PINION, standard_gear(40)])
 def test_even_load_on_a_spur_tooth_stresses_its_root_as_in_plane_strain(gear):
-    """Another route: under the same force on the tip all along the face, the largest tension of the mean over the face is that of plane strain, 15 mm wide, within 2 %."""
+    """Another route: under the same force on the tip all along the face, the largest tension of the mean over the face
+    is that of plane strain, 15 mm wide, within 2 %."""
     width, slices, force = 15.0, 5, np.array([-1.0, 0.2, 0.0])
     middles, widths = even_slices(width, slices)
     found = face_root_stress_rows(gear, STEEL, FaceDiscretisation(0.3 * gear.module, 3, width), (middles, widths), 1)
@@ -112,14 +129,18 @@ def test_even_load_on_a_spur_tooth_stresses_its_root_as_in_plane_strain(gear):
 
 @pytest.mark.parametrize("section_size", [0.3, 0.6])
 def test_every_fillet_point_of_a_wide_gear_has_plane_strain_s_stress(section_size):
-    """Another route: 25 modules wide, even load on the tip, middle of the face: plane strain on a fine section at all points within 1 %, whatever section is swept.
+    """Another route: 25 modules wide, even load on the tip, middle of the face: plane strain on a fine section at all
+    points within 1 %, whatever section is swept.
 
-    Without the factors of the fine section they are up to 5 % and 8 % off. A point over the face lies midway between two of the plane route's.
+    Without the factors of the fine section they are up to 5 % and 8 % off. A point over the face lies midway between
+    two of the plane route's.
     """
     gear, force = standard_gear(20), np.array([-1.0, 0.2, 0.0])
     width, slices = 25.0 * gear.module, 3
     middles, widths = even_slices(width, slices)
-    found = face_root_stress_rows(gear, STEEL, FaceDiscretisation(section_size * gear.module, 4, width), (middles, widths), 0).rows[0, slices // 2]
+    found = face_root_stress_rows(
+        gear, STEEL, FaceDiscretisation(section_size * gear.module, 4, width), (middles, widths), 0
+    ).rows[0, slices // 2]
     middle = found.reshape(2, -1, slices, found.shape[-1] // (3 * slices), 3)[0, :, :, -1] @ force @ widths
     plane = root_stress_rows(gear, STEEL, Discretisation("P2", 0.06 * gear.module), 0).rows[0]
     tip = plane.reshape(2, -1, plane.shape[-1] // 2, 2)[0, :, -1] @ force[:2]
@@ -128,7 +149,8 @@ def test_every_fillet_point_of_a_wide_gear_has_plane_strain_s_stress(section_siz
 
 
 def test_form_factors_of_the_benchmark_are_those_of_another_program():
-    """Another program: Y_F 1.479/1.490, Y_S 2.047/2.036, Y_beta 0.932 of the FZG gears H501 as GEARpie prints them (REPORT/H501.txt), one unit of the last digit."""
+    """Another program: Y_F 1.479/1.490, Y_S 2.047/2.036, Y_beta 0.932 of the FZG gears H501 as GEARpie prints them
+    (REPORT/H501.txt), one unit of the last digit."""
     pair = gear_pair(load_scene(CITED / "fzg_h501.toml").gears)
     for name, printed in (("pinion", (1.479, 2.047)), ("wheel", (1.490, 2.036))):
         assert helical_form_and_stress_correction(pair, name)[:2] == pytest.approx(printed, abs=1e-3)
@@ -136,6 +158,9 @@ def test_form_factors_of_the_benchmark_are_those_of_another_program():
 
 
 def test_critical_section_of_a_helical_gear_is_in_its_normal_section():
-    """Geometry: lengths across the tooth are longer in the transverse section by 1/cos(beta), those along its centreline are not."""
+    """Geometry: lengths across the tooth are longer in the transverse section by 1/cos(beta), those along its
+    centreline are not."""
     gear = gear_pair(load_scene(CITED / "fzg_h501.toml").gears).pinion
-    assert np.tan(fillet_curve(gear.of_module_one).tangent_angle[-1]) * np.cos(gear.helix_angle) == pytest.approx(np.tan(np.radians(30.0)), rel=1e-12)
+    assert np.tan(fillet_curve(gear.of_module_one).tangent_angle[-1]) * np.cos(gear.helix_angle) == pytest.approx(
+        np.tan(np.radians(30.0)), rel=1e-12
+    )

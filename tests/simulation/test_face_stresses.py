@@ -39,7 +39,8 @@ def mesh(stresses):
 
 
 def test_forces_on_the_teeth_are_those_of_the_mesh(stresses):
-    """Statics: turned into space, the forces on the flanks' nodes add up to the normal force of the run along the contact normal, and to its torque."""
+    """Statics: turned into space, the forces on the flanks' nodes add up to the normal force of the run along the
+    contact normal, and to its torque."""
     model = stresses.model
     pair, stored = model.pair, stored_forces(stresses.result, model, stresses.cycle, STEP)
     force = float(stresses.result["normal_force"].values[STEP])
@@ -55,14 +56,16 @@ def test_forces_on_the_teeth_are_those_of_the_mesh(stresses):
                 total += rotation(angles[tooth % data.teeth] + twist * height, 3) @ at_height.sum(axis=0)
                 x, y = recovery.points[flank].T
                 torque += (x * at_height[:, 1] - y * at_height[:, 0]).sum()
-        # A slice's force has one direction in frames that turn with the layers' nodes: of second order in the turn over 10 mm of face.
+        # A slice's force has one direction in frames that turn with the layers' nodes: of second order in the turn over
+        # 10 mm of face.
         assert total == pytest.approx(sense * force * normal, abs=3e-4 * force)
         # Lever arms are of the coarse flank's nodes, straight between vertices.
         assert abs(torque) == pytest.approx(data.base_radius * pair.cosine * force, rel=2e-3)
 
 
 def test_roots_of_the_loaded_teeth_carry(mesh):
-    """Bending: the largest tension in the roots is at a loaded tooth, below that of the unloaded teeth beside by far."""
+    """Bending: the largest tension in the roots is at a loaded tooth, below that of the unloaded teeth beside by
+    far."""
     for gear in mesh.gears:
         tension = gear.principal[..., gear.in_root].max(axis=(1, 2))
         assert 1 <= tension.argmax() <= len(tension) - 2
@@ -71,7 +74,8 @@ def test_roots_of_the_loaded_teeth_carry(mesh):
 
 
 def test_pressure_is_painted_where_the_flanks_touch(mesh):
-    """Newton's third law and the run's own force: tiles of both gears lie on each other, on their involutes, and their pressures add up to the mesh's force."""
+    """Newton's third law and the run's own force: tiles of both gears lie on each other, on their involutes, and their
+    pressures add up to the mesh's force."""
     tiles = [pressed_tiles(mesh, helical_run(), gear, 0.0) for gear in (0, 1)]
     off = STAND_OFF * mesh.pair.pinion.module
     pinion, wheel = (each.corners.mean(axis=1) for each in tiles)
@@ -86,7 +90,8 @@ def test_pressure_is_painted_where_the_flanks_touch(mesh):
 
 
 def test_tension_along_the_face_is_highest_where_the_load_is(mesh):
-    """Bending: of the chart of both gears' roots the largest value is that in the picture, and lies on the half of the face that carries more."""
+    """Bending: of the chart of both gears' roots the largest value is that in the picture, and lies on the half of the
+    face that carries more."""
     chart = root_tension(mesh)
     loads = helical_run()["line_load"].sum("slot")[STEP]
     heavy = float((loads * loads.face_position).sum())
@@ -96,7 +101,8 @@ def test_tension_along_the_face_is_highest_where_the_load_is(mesh):
 
 
 def test_surface_is_closed_but_for_the_cuts(mesh):
-    """Topology: each side of the surface's triangles belongs to two of them, but for those on the first and last sector's cuts."""
+    """Topology: each side of the surface's triangles belongs to two of them, but for those on the first and last
+    sector's cuts."""
     gear = mesh.gears[0]
     sides = np.sort(surface(gear.points[:1], gear)[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     _, count = np.unique(sides, axis=0, return_counts=True)
@@ -104,13 +110,18 @@ def test_surface_is_closed_but_for_the_cuts(mesh):
 
 
 def test_file_for_paraview(mesh, tmp_path):
-    """Another program: VTK reads wedges of positive volume, that of the sectors, and the stress that the picture has."""
+    """Another program: VTK reads wedges of positive volume, that of the sectors, and the stress that the picture
+    has."""
     pyvista = pytest.importorskip("pyvista")
     save_vtu(mesh, tmp_path / "teeth.vtu")
     grid = pyvista.read(tmp_path / "teeth.vtu")
     # VTK 9.3's own volumes of these wedges are a sixth of what they are.
     corners = np.asarray(grid.points)[grid.cells.reshape(grid.n_cells, -1)[:, 1:7]]
-    volumes = 0.5 * np.einsum("ij,ij->i", np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), (corners[:, 3:] - corners[:, :3]).mean(axis=1))
+    volumes = 0.5 * np.einsum(
+        "ij,ij->i",
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]),
+        (corners[:, 3:] - corners[:, :3]).mean(axis=1),
+    )
     assert volumes.min() > 0.0
     triangles = [gear.points[0, 0][gear.subcells][..., :2] for gear in mesh.gears]
     areas = [0.5 * np.abs(np.cross(each[:, 1] - each[:, 0], each[:, 2] - each[:, 0])).sum() for each in triangles]
@@ -137,7 +148,9 @@ def test_moving_picture_goes_through_the_cycle(stresses, tmp_path, monkeypatch):
     monkeypatch.setattr(stress_animation, "FRAMES_PER_CYCLE", 2)
     monkeypatch.setattr(stress_animation, "SAMPLED", 1)
     file = tmp_path / "turn.gif"
-    stress_animation.animate(stresses, helical_run(), file, partial(frames, helical_run(), None), lambda done, whole: None)
+    stress_animation.animate(
+        stresses, helical_run(), file, partial(frames, helical_run(), None), lambda done, whole: None
+    )
     with image.open(file) as moving:
         assert (moving.n_frames, moving.size) == (2, (960, 540))
         found = []
@@ -150,10 +163,21 @@ def test_moving_picture_goes_through_the_cycle(stresses, tmp_path, monkeypatch):
 
 @pytest.mark.nightly
 def test_roots_of_a_spur_pair_are_those_of_plane_strain(paper_scene):
-    """Another route: of an aligned pair the tension averaged over the face is that of plane strain; free ends have less, the middle more."""
+    """Another route: of an aligned pair the tension averaged over the face is that of plane strain; free ends have
+    less, the middle more."""
     alone = replace(frictionless(teeth_alone(paper_scene)), motion=Motion(200.0, 1, 1))
-    plane = simulate(replace(alone, accuracy=replace(COARSE, element="P2", steps_per_mesh_cycle=5), output=Output(root_stress=True)))
-    coarse = Accuracy(slices=5, layers=3, body_element_size=1.5, flank_element_size=0.3, contact_length=3.0, contact_nodes=27, steps_per_mesh_cycle=5)
+    plane = simulate(
+        replace(alone, accuracy=replace(COARSE, element="P2", steps_per_mesh_cycle=5), output=Output(root_stress=True))
+    )
+    coarse = Accuracy(
+        slices=5,
+        layers=3,
+        body_element_size=1.5,
+        flank_element_size=0.3,
+        contact_length=3.0,
+        contact_nodes=27,
+        steps_per_mesh_cycle=5,
+    )
     over_face = replace(alone, misalignment=Misalignment(), accuracy=coarse)
     with FaceStresses(simulate(over_face), over_face) as found:
         gears = found.at(3).gears

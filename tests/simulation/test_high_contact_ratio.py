@@ -16,11 +16,14 @@ def result(paper_scene):
     pinion, wheel = (
         GearData(z, 0.0, module * (z + 2.7), module * (z - 3.2), 0.7 * module * (z - 3.2), 0.2) for z in teeth
     )
-    gears = GearPairData(module, np.radians(20.0), 0.5 * module * sum(teeth) + 0.1, 15.0, pinion, wheel, Material(206e3, 0.3))
+    gears = GearPairData(
+        module, np.radians(20.0), 0.5 * module * sum(teeth) + 0.1, 15.0, pinion, wheel, Material(206e3, 0.3)
+    )
     pair = gear_pair(gears)
     assert 2.0 < pair.contact_ratio < 2.5
     scene = replace(
-        paper_scene, gears=gears, accuracy=Accuracy(), inertia=None, damping=None, friction=None, shafts=None, bearings=None,
+        paper_scene, gears=gears, accuracy=Accuracy(), inertia=None, damping=None, friction=None, shafts=None,
+        bearings=None,
         motion=replace(paper_scene.motion, mesh_cycles=1, recorded_cycles=1),
         load=replace(paper_scene.load, wheel_torque=300.0 * 15.0 * pair.wheel.base_radius),
     )  # fmt: skip

@@ -1,8 +1,9 @@
 """The stiffness of finite element teeth against ISO 6336-1 method B, as given in the standard's formulas.
 
-c'th is for ideal teeth, c' = 0.8 c'th is adjusted to measurements; finite element teeth lie between. The standard counts the
-teeth and the body close to them, not the twist of the body between rim and bore, which the transmission error contains: with
-bores of half the root diameter that twist takes 15 % off the mesh stiffness of a 24/72 pair. The bores of the standard pairs
+c'th is for ideal teeth, c' = 0.8 c'th is adjusted to measurements; finite element teeth lie between. The standard
+counts the teeth and the body close to them, not the twist of the body between rim and bore, which the transmission
+error contains: with bores of half the root diameter that twist takes 15 % off the mesh stiffness of a 24/72 pair. The
+    bores of the standard pairs
 are 0.7 of the root.
 """
 
@@ -39,7 +40,8 @@ def case(request, paper_scene):
 
 
 def test_single_pair_and_mesh_stiffness_lie_in_the_band(case, quasi_static_scene):
-    """Literature: c' to c'th for the stiffest position of one pair alone; c_gamma = c' (0.75 eps + 0.25) of either for the mesh."""
+    """Literature: c' to c'th for the stiffest position of one pair alone; c_gamma = c' (0.75 eps + 0.25) of either for
+    the mesh."""
     gears, line_load = case
     pair = gear_pair(gears)
     scene = replace(
@@ -65,7 +67,8 @@ def test_formula_gives_the_values_known_for_the_papers_pair(paper_scene):
 
 
 def test_teeth_of_a_helical_pair_are_those_of_virtual_spur_gears(paper_scene):
-    """Standard: z_n = z/(cos(beta_b)^2 cos(beta)) in the formula of c'th, with tan(beta_b) = tan(beta) cos(alpha_t); c' of the transverse plane has cos(beta)."""
+    """Standard: z_n = z/(cos(beta_b)^2 cos(beta)) in the formula of c'th, with tan(beta_b) = tan(beta) cos(alpha_t); c'
+    of the transverse plane has cos(beta)."""
     spur, beta = paper_scene.gears, np.radians(25.0)
     transverse = np.arctan(np.tan(spur.pressure_angle) / np.cos(beta))
     base = np.arctan(np.tan(beta) * np.cos(transverse))
@@ -74,7 +77,14 @@ def test_teeth_of_a_helical_pair_are_those_of_virtual_spur_gears(paper_scene):
         dedendum = 0.5 * (gear.teeth * spur.module - gear.root_diameter)
         return replace(gear, teeth=teeth, root_diameter=teeth * spur.module / diameters - 2.0 * dedendum)
 
-    helical = replace(spur, helix_angle=beta, **{name: with_teeth(getattr(spur, name), getattr(spur, name).teeth, np.cos(beta)) for name in ("pinion", "wheel")})
+    helical = replace(
+        spur,
+        helix_angle=beta,
+        **{
+            name: with_teeth(getattr(spur, name), getattr(spur, name).teeth, np.cos(beta))
+            for name in ("pinion", "wheel")
+        },
+    )
     virtual = {name: getattr(spur, name).teeth / (np.cos(base) ** 2 * np.cos(beta)) for name in ("pinion", "wheel")}
     like = replace(spur, **{name: with_teeth(getattr(spur, name), teeth, 1.0) for name, teeth in virtual.items()})
     theoretical, adjusted = single_stiffness(like)

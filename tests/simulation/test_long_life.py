@@ -38,7 +38,8 @@ BY_NIGHT = [pytest.param(kind, marks=pytest.mark.nightly) for kind in ("in time"
 
 @pytest.mark.parametrize("kind", ["quasi-static with friction", "over the face", *BY_NIGHT])
 def test_contact_operators_go_with_their_run(paper_scene, kind):
-    """Definition: nothing but the result is left of a run, without a search for garbage. Operators are most of its memory; a circle of references kept them."""
+    """Definition: nothing but the result is left of a run, without a search for garbage. Operators are most of its
+    memory; a circle of references kept them."""
     scene, prepare = kinds(coarse_scene(paper_scene, cycles=1))[kind]
     left = []
 

@@ -1,4 +1,5 @@
-"""Memory that a run may take: what does not fit is made again, with the same numbers, or refused before anything is computed."""
+"""Memory that a run may take: what does not fit is made again, with the same numbers, or refused before anything is
+computed."""
 
 import os
 import re
@@ -44,24 +45,41 @@ def test_operators_that_are_not_kept_change_no_number(paper_scene, monkeypatch, 
     assert len(made) > (3 if share == 0.0 else 1.5) * steps
     for name, variable in whole.data_vars.items():
         # Works are summed block by block, and blocks are shorter where memory is.
-        np.testing.assert_allclose(again.variables[name].values, variable.values, rtol=1e-12, atol=1e-9 if name == "energy_defect" else 0.0, err_msg=name)
+        np.testing.assert_allclose(
+            again.variables[name].values,
+            variable.values,
+            rtol=1e-12,
+            atol=1e-9 if name == "energy_defect" else 0.0,
+            err_msg=name,
+        )
 
 
 def test_a_run_that_does_not_fit_is_refused(paper_scene, monkeypatch):
     """Row 26: before anything is computed, with the size, what is allowed, and what to change."""
     monkeypatch.setenv(MEMORY_VARIABLE, "20 MB")
-    with pytest.raises(ComputationError, match=r"0\.3\d* GB of memory, contact operators apart, and 0\.02 GB are allowed. Nothing was computed"):
+    with pytest.raises(
+        ComputationError,
+        match=r"0\.3\d* GB of memory, contact operators apart, and 0\.02 GB are allowed. Nothing was computed",
+    ):
         simulate(coarse_scene(paper_scene), preparation=lambda *arguments: pytest.fail("computed"))
 
 
 def test_check_says_that_a_scene_cannot_fit(tmp_path, monkeypatch, capsys):
-    """Row 26: as a run of it, but with the description first; exit code 3, for the scene itself is right. With the memory of another machine it fits."""
+    """Row 26: as a run of it, but with the description first; exit code 3, for the scene itself is right. With the
+    memory of another machine it fits."""
     wide = tmp_path / "wide.toml"
-    wide.write_text((DEMO.parent / "misaligned_spur" / "misaligned.toml").read_text(encoding="utf-8").replace("slices = 12", "slices = 300"), encoding="utf-8")
+    wide.write_text(
+        (DEMO.parent / "misaligned_spur" / "misaligned.toml")
+        .read_text(encoding="utf-8")
+        .replace("slices = 12", "slices = 300"),
+        encoding="utf-8",
+    )
     monkeypatch.setenv(MEMORY_VARIABLE, "8 GB")
     assert main(["check", str(wide)]) == 3
     told = capsys.readouterr()
-    assert "Effects" in told.out and re.search(r"CANNOT FIT: The run would take [\d.]+ GB .* 8 GB are allowed.*slices.*here 300.*--memory", told.err)
+    assert "Effects" in told.out and re.search(
+        r"CANNOT FIT: The run would take [\d.]+ GB .* 8 GB are allowed.*slices.*here 300.*--memory", told.err
+    )
     assert main(["check", str(wide), "--memory", "1 TB"]) == 0
     assert "CANNOT" not in capsys.readouterr().err
 
@@ -71,15 +89,21 @@ def test_the_choice_of_a_solver_does_not_depend_on_what_is_free(monkeypatch):
     monkeypatch.delenv(MEMORY_VARIABLE, raising=False)
     usual = usual_memory()
     monkeypatch.setattr(memory, "free_memory", lambda: 1e6)
-    assert allowed_memory() < usual_memory() == usual <= SHARE * os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    assert (
+        allowed_memory() < usual_memory() == usual <= SHARE * os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    )
 
 
 def test_a_run_says_that_bodies_are_condensed_by_conjugate_gradients(monkeypatch):
-    """Promise of the page on clusters: they take a multiple of the time. The pinion's memory is between what the two ways need, the wheel's is enough for a factorisation."""
+    """Promise of the page on clusters: they take a multiple of the time. The pinion's memory is between what the two
+    ways need, the wheel's is enough for a factorisation."""
     model, said = model_of(helical_scene(teeth=(24, 18))), []
     monkeypatch.setattr(face_route, "gear_body", lambda *arguments: None)
     monkeypatch.setattr(SilentProgress, "stage", lambda self, name: said.append(name))
-    enough = [[expected_memory(*expected_size(gear, face_discretisation(model, number)), way) for way in (True, False)] for number, gear in enumerate((model.pair.pinion, model.pair.wheel))]
+    enough = [
+        [expected_memory(*expected_size(gear, face_discretisation(model, number)), way) for way in (True, False)]
+        for number, gear in enumerate((model.pair.pinion, model.pair.wheel))
+    ]
     monkeypatch.setenv(MEMORY_VARIABLE, f"{0.5 * (max(enough[1][1], enough[0][0]) + enough[0][1]) / 1e6:.6f} MB")
     face_route.gear_bodies(model, SilentProgress(), None)
     assert said == ["condense pinion's body by conjugate gradients", "condense wheel's body"], enough

@@ -42,12 +42,16 @@ def distance(found, expected) -> float:
 
 
 def test_table_is_the_full_model_at_its_own_load(static):
-    """Exact: quasi-static and frictionless, at the loads that the table was made at, the mesh gives way as the full contact does."""
+    """Exact: quasi-static and frictionless, at the loads that the table was made at, the mesh gives way as the full
+    contact does."""
     full, table = simulate(static), simulate(by(static, STIFFNESS_TABLE))
     assert distance(table, full) <= 1e-9
     assert table.normal_force.values == pytest.approx(full.normal_force.values, rel=1e-9)
-    # Where a pair comes in the other gives way for the body they share, which springs side by side do not: 7 % of the load.
-    shares = np.abs(table.pair_normal_force.values - full.pair_normal_force.values).max() / full.normal_force.values.max()
+    # Where a pair comes in the other gives way for the body they share, which springs side by side do not: 7 % of the
+    # load.
+    shares = (
+        np.abs(table.pair_normal_force.values - full.pair_normal_force.values).max() / full.normal_force.values.max()
+    )
     assert shares <= 0.08
 
 
@@ -74,7 +78,9 @@ def test_table_between_its_loads(static):
 def test_table_knows_relief_and_backlash(static, paper_scene):
     """Exact as above with removed material, and for a negative load on the coast flanks."""
     text = paper_scene.text + '\n[tip_relief]\ndepth = "31 um"\nstart = "HPSTC"\n\n[coast_flanks]\n'
-    scene = replace(scene_from_text(text), inertia=None, damping=None, friction=None, accuracy=static.accuracy, motion=static.motion)
+    scene = replace(
+        scene_from_text(text), inertia=None, damping=None, friction=None, accuracy=static.accuracy, motion=static.motion
+    )
     for torque in (437e3, -437e3):
         loaded = replace(scene, load=replace(scene.load, wheel_torque=torque))
         full, table = simulate(loaded), simulate(by(loaded, STIFFNESS_TABLE))
@@ -85,12 +91,16 @@ def test_table_knows_relief_and_backlash(static, paper_scene):
 def test_table_without_load(static):
     """Limit: a pair without load stands as its geometry says, by the table as by the full contact."""
     idle = replace(static, load=replace(static.load, wheel_torque=0.0))
-    full, table = simulate(idle).transmission_error.values, simulate(by(idle, STIFFNESS_TABLE)).transmission_error.values
+    full, table = (
+        simulate(idle).transmission_error.values,
+        simulate(by(idle, STIFFNESS_TABLE)).transmission_error.values,
+    )
     assert np.abs(table - full).max() <= 1e-9 * np.abs(full).max()
 
 
 def test_table_in_motion(paper_scene):
-    """Limit: teeth without mass and friction are a mesh spring at any speed; at 200 Hz only the table's own interpolation is between them."""
+    """Limit: teeth without mass and friction are a mesh spring at any speed; at 200 Hz only the table's own
+    interpolation is between them."""
     scene = frictionless(coarse_scene(paper_scene, cycles=4))
     table = simulate(by(scene, STIFFNESS_TABLE))
     assert distance(table, simulate(scene)) <= 1e-3
@@ -98,7 +108,8 @@ def test_table_in_motion(paper_scene):
 
 
 class WithoutBending:
-    """A mesh cycle whose friction forces do not bend the teeth: no coupling of normal and tangential directions in the compliance."""
+    """A mesh cycle whose friction forces do not bend the teeth: no coupling of normal and tangential directions in the
+    compliance."""
 
     def __init__(self, cycle):
         self._cycle, self.traits = cycle, replace(cycle.traits, divisible=False)
@@ -118,12 +129,15 @@ class WithoutBending:
 
 def unlike(found, expected) -> float:
     """Difference of the transmission error without its mean, in the L2 norm, in parts of the expected one's."""
-    first, second = (each.transmission_error.values - each.transmission_error.values.mean() for each in (found, expected))
+    first, second = (
+        each.transmission_error.values - each.transmission_error.values.mean() for each in (found, expected)
+    )
     return float(np.sqrt(np.mean((first - second) ** 2) / np.mean(second**2)))
 
 
 def test_friction_of_mesh_springs_does_not_bend_the_teeth(paper_scene):
-    """Limit: with friction the table is the full contact whose friction forces do not bend the teeth, but for where on the flank they act;
+    """Limit: with friction the table is the full contact whose friction forces do not bend the teeth, but for where on
+    the flank they act;
     what it lacks besides is that bending, a sixth of the transmission error's variation on this pair."""
     scene = quasi_static(coarse_scene(paper_scene))
 
@@ -131,7 +145,11 @@ def test_friction_of_mesh_springs_does_not_bend_the_teeth(paper_scene):
         gears = gear_compliances(model, progress, cache)
         return gears, WithoutBending(mesh_cycle(model, gears))
 
-    table, full, unbent = simulate(by(scene, STIFFNESS_TABLE)), simulate(scene), simulate(scene, preparation=without_bending)
+    table, full, unbent = (
+        simulate(by(scene, STIFFNESS_TABLE)),
+        simulate(scene),
+        simulate(scene, preparation=without_bending),
+    )
     assert unlike(table, unbent) <= 0.04
     assert unlike(table, full) == pytest.approx(unlike(unbent, full), rel=0.1)
     assert unlike(simulate(by(frictionless(scene), STIFFNESS_TABLE)), full) > 2.0 * unlike(table, full)
@@ -150,7 +168,8 @@ def test_friction_force_is_that_of_its_pairs(paper_scene):
 
 
 def test_iso_deflection(static):
-    """Exact: teeth alone give way by F/(c' b) where one pair is in mesh, and the mean stiffness is c_gamma = c' (0.75 eps + 0.25)."""
+    """Exact: teeth alone give way by F/(c' b) where one pair is in mesh, and the mean stiffness is c_gamma = c' (0.75
+    eps + 0.25)."""
     scene = by(replace(static, shafts=None, bearings=None), ISO_6336, steps_per_mesh_cycle=1000)
     model, result = model_of(scene), simulate(scene)
     force = scene.load.wheel_torque / model.pair.wheel.base_radius
@@ -163,7 +182,8 @@ def test_iso_deflection(static):
 
 
 def test_iso_below_full_line_load(static):
-    """From the standard: below 100 N/mm c' falls with the fourth root of the line load; in parts of steel's modulus for others."""
+    """From the standard: below 100 N/mm c' falls with the fourth root of the line load; in parts of steel's modulus for
+    others."""
     assert pair_stiffness(static.gears, 1.0) == pytest.approx(pair_stiffness(static.gears, 500.0) * 0.01**0.25)
     soft = replace(static.gears, material=replace(static.gears.material, youngs_modulus=103e3))
     assert pair_stiffness(soft, 500.0) == pytest.approx(0.5 * pair_stiffness(static.gears, 500.0))
@@ -171,14 +191,18 @@ def test_iso_below_full_line_load(static):
 
 def test_rigid_teeth_are_those_of_a_scene_without_material(static):
     """Exact: to the last bit."""
-    rigid, bare = simulate(by(static, RIGID_TEETH)), simulate(replace(static, gears=replace(static.gears, material=None)))
+    rigid, bare = (
+        simulate(by(static, RIGID_TEETH)),
+        simulate(replace(static, gears=replace(static.gears, material=None))),
+    )
     assert set(rigid.data_vars) == set(bare.data_vars)
     for name in bare.data_vars:
         assert np.array_equal(rigid[name], bare[name], equal_nan=True), name
 
 
 def test_friction_of_rigid_teeth(paper_scene):
-    """Exact statics: with the pair's force N at arm x2 of the wheel, N rb2 + mu s N x2 = T, s the sense of sliding, shares even."""
+    """Exact statics: with the pair's force N at arm x2 of the wheel, N rb2 + mu s N x2 = T, s the sense of sliding,
+    shares even."""
     scene = by(quasi_static(coarse_scene(paper_scene)), RIGID_TEETH)
     model, result = model_of(scene), simulate(scene)
     normal, friction = result.pair_normal_force.values, result.pair_friction_force.values
@@ -206,7 +230,9 @@ def test_friction_of_rigid_teeth_vanishes_with_its_coefficient(paper_scene):
 @pytest.mark.parametrize("name", MODELS)
 def test_every_effect_goes_with_every_model(name, paper_scene):
     """From the task: valid in every scene; backlash, errors of single teeth, run-out, ripple, a ramp, lost contact."""
-    text = paper_scene.text.replace('"437 N m"', '"40 N m"') + """
+    text = (
+        paper_scene.text.replace('"437 N m"', '"40 N m"')
+        + """
 [coast_flanks]
 [flank_errors]
 tolerance_class = 6
@@ -219,6 +245,7 @@ harmonics = [{ order = 8, amplitude = "400 N m" }]
 depth = "31 um"
 start = "HPSTC"
 """
+    )
     scene = replace(scene_from_text(text), motion=Motion(200.0, 3, 2))
     scene = replace(scene, accuracy=coarse_scene(paper_scene).accuracy)
     result = simulate(by(scene, name))
@@ -260,7 +287,8 @@ def test_what_a_model_lacks_is_refused(name, line, said, paper_scene):
 
 
 def test_a_study_condenses_what_its_models_need(static):
-    """From the task: a sweep over the models of the mesh meshes the gears once, for the full contact and the table alone."""
+    """From the task: a sweep over the models of the mesh meshes the gears once, for the full contact and the table
+    alone."""
     cases = [Case(i, {"accuracy.model": name}, by(static, name), str(i)) for i, name in enumerate(("elastic", *MODELS))]
     tasks = gear_tasks(cases)
     assert [task.name for task in tasks] == ["pinion", "wheel"]
@@ -274,4 +302,8 @@ def test_a_study_over_the_face_condenses_each_body_once():
     parts = [(task.name, task.part) for task in gear_tasks(cases)]
     assert parts == [("pinion", "body"), ("wheel", "body"), ("pinion", "section"), ("wheel", "section")]
     stressed = [replace(case, scene=replace(case.scene, output=Output(root_stress=True))) for case in cases]
-    assert [(task.name, task.part) for task in gear_tasks(stressed)] == [("pinion", "root stress"), ("wheel", "root stress"), *parts]
+    assert [(task.name, task.part) for task in gear_tasks(stressed)] == [
+        ("pinion", "root stress"),
+        ("wheel", "root stress"),
+        *parts,
+    ]

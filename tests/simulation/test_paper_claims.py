@@ -32,7 +32,8 @@ def test_claim_1_without_friction_nothing_moves_off_the_line_of_action(static):
 
 
 def test_claim_2_displacement_is_small_with_two_pairs_and_jumps_with_one(static, paper_scene):
-    """Figs. 2, 3: about zero at the beginning of a cycle; with one pair +-mu F/k_b, its sign changing at the pitch point."""
+    """Figs. 2, 3: about zero at the beginning of a cycle; with one pair +-mu F/k_b, its sign changing at the pitch
+    point."""
     result = static["friction"]
     wheel = result.centre_y.sel(gear="wheel").values
     full = paper_scene.friction.coefficient * result.normal_force.values / paper_scene.bearings.stiffness
@@ -57,7 +58,8 @@ def test_claim_3_friction_changes_the_static_error_suddenly_at_the_end_of_the_cy
 
 
 def test_claim_4_friction_makes_reactions_and_input_couple_vary_at_constant_output(static, paper_scene):
-    """Fig. 4: R_x1, R_y1 and C_z1 vary by several per cent with friction; without, all three are constant to round-off."""
+    """Fig. 4: R_x1, R_y1 and C_z1 vary by several per cent with friction; without, all three are constant to
+    round-off."""
     for name, varies in (("friction", True), ("plain", False)):
         result = static[name]
         pinion, wheel = result.sel(gear="pinion"), result.sel(gear="wheel")
@@ -76,7 +78,8 @@ def test_torque_ratio_without_friction_is_exact_at_every_angle(static):
 
 
 def test_forces_and_moments_of_the_pair_sum_to_zero(static, paper_pair):
-    """Row 3, action and reaction: the forces on both gears cancel, and so do their moments about the pinion's centre."""
+    """Row 3, action and reaction: the forces on both gears cancel, and so do their moments about the pinion's
+    centre."""
     result = static["friction"]
     pinion, wheel = result.sel(gear="pinion"), result.sel(gear="wheel")
     assert np.abs(result.reaction_x.sum("gear").values).max() <= 1e-12 * 9e3

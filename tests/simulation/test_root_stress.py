@@ -1,4 +1,5 @@
-"""[output] root_stress: stress in the fillets over time, against full recovery, the standards, finer meshes and the slow limit."""
+"""[output] root_stress: stress in the fillets over time, against full recovery, the standards, finer meshes and the
+slow limit."""
 
 from dataclasses import replace
 
@@ -56,7 +57,9 @@ def test_rows_give_what_the_full_recovery_gives(run):
                 moved = recovery.recovered(stored.on_flanks(stresses.model, gear)).displacement
                 rows = fillet_rows(fillet_curve(recovery.gear.of_module_one), recovery.interior, recovery.nodal_stress)
                 for tooth in {pair.place.index for pair in stored.pairs}:
-                    pair = int(stresses.cycle.pair_number(step, tooth)) + result["pair_number"].attrs["number_at_phase_0"]
+                    pair = (
+                        int(stresses.cycle.pair_number(step, tooth)) + result["pair_number"].attrs["number_at_phase_0"]
+                    )
                     at = moved[SENSE_OF_TEETH[gear] * tooth % len(moved)].ravel()
                     expected = (rows @ at * scene.gears.material.youngs_modulus / recovery.gear.module).reshape(2, -1)
                     slot = int(np.flatnonzero(result["pair_number"].values[index] == pair)[0])
@@ -84,7 +87,10 @@ def test_file_keeps_the_variables(run, tmp_path):
     """Round trip: NetCDF with labels, units and long names."""
     results.save(run[1], tmp_path / "run.nc")
     read = results.load(tmp_path / "run.nc")
-    assert read["root_stress"].dims == ("contact_time", "gear", "slot", "fillet_point") and read.sizes["fillet_point"] == 2 * POINTS
+    assert (
+        read["root_stress"].dims == ("contact_time", "gear", "slot", "fillet_point")
+        and read.sizes["fillet_point"] == 2 * POINTS
+    )
     for name in ("root_stress", "root_stress_maximum", "root_stress_at_30_degrees"):
         np.testing.assert_array_equal(read[name].values, run[1][name].values)
         assert read[name].attrs["units"] == "MPa" and read[name].attrs["long_name"]
@@ -106,20 +112,27 @@ def test_dynamic_factors_are_one_where_the_gears_turn_slowly(paper_scene):
 
 
 def test_dynamic_factors_are_ratios_to_the_quasi_static_run(run):
-    """Definition: the same scene simulated without inertia has the largest force and stress that the factors are of; it has no factors itself."""
+    """Definition: the same scene simulated without inertia has the largest force and stress that the factors are of; it
+    has no factors itself."""
     scene, result = run
     if scene.inertia is None:
         assert not [name for name in result.attrs if "dynamic_factor" in name]
         return
     still, counted = simulate(without_inertia(scene)), settled_steps(result)
-    assert result.attrs[FACTORS[0]] == pytest.approx(result.attrs["largest_pair_force"] / still.attrs["largest_pair_force"], rel=1e-9)
+    assert result.attrs[FACTORS[0]] == pytest.approx(
+        result.attrs["largest_pair_force"] / still.attrs["largest_pair_force"], rel=1e-9
+    )
     names = ["root_stress_maximum", "root_stress_at_30_degrees"]
-    largest, largest_still = (max(np.nanmax(run[name].values[steps]) for name in names) for run, steps in ((result, counted), (still, slice(None))))
+    largest, largest_still = (
+        max(np.nanmax(run[name].values[steps]) for name in names)
+        for run, steps in ((result, counted), (still, slice(None)))
+    )
     assert result.attrs[FACTORS[1]] == pytest.approx(largest / largest_still, rel=1e-9)
 
 
 def test_dynamic_factors_are_of_the_flanks_that_carry(paper_scene):
-    """Mirror: driven by the wheel the pair presses with its coast flanks as it does with its drive flanks, the mesh run through backwards in
+    """Mirror: driven by the wheel the pair presses with its coast flanks as it does with its drive flanks, the mesh run
+    through backwards in
     time, which damped vibrations tell from forwards by little. The factors are again ratios to the quasi-static run."""
     forward = replace(wanted(frictionless(coarse_scene(paper_scene, cycles=8))), coast_flanks=CoastFlanks())
     backward = replace(forward, load=Load(-forward.load.wheel_torque))
@@ -137,21 +150,31 @@ def highest_single_contact(gear) -> float:
 
 
 def stresses_of_a_narrow_load(gear, roll: float, element: str = "P2") -> np.ndarray:
-    """Stress (50,), MPa, in the fillets under 1 N/mm over a tenth of a module of the flank around a roll angle (rad)."""
+    """Stress (50,), MPa, in the fillets under 1 N/mm over a tenth of a module of the flank around a roll angle
+    (rad)."""
     discretisation = Discretisation(element, 0.04 * gear.module)
     with gear_recovery(gear, STEEL, discretisation) as recovery:
         middle, half = arc_length(gear.base_radius, roll), 0.05 * gear.module
-        forces = pressed(recovery, lambda arc: np.where(np.abs(arc - middle) < half, 1.0 + np.cos(np.pi * (arc - middle) / half), 0.0) / (2.0 * half))
+        forces = pressed(
+            recovery,
+            lambda arc: (
+                np.where(np.abs(arc - middle) < half, 1.0 + np.cos(np.pi * (arc - middle) / half), 0.0) / (2.0 * half)
+            ),
+        )
     rows = root_stress_rows(gear, STEEL, discretisation, reach=0)
     # The mesh resolves so narrow a load but in the mean.
     return rows.rows[0] @ forces / np.linalg.norm(forces.reshape(-1, 2).sum(axis=0))
 
 
-@pytest.mark.parametrize("gear", [PINION, *(standard_gear(teeth) for teeth in (20, 100))], ids=lambda gear: f"z={gear.teeth}")
+@pytest.mark.parametrize(
+    "gear", [PINION, *(standard_gear(teeth) for teeth in (20, 100))], ids=lambda gear: f"z={gear.teeth}"
+)
 def test_stress_is_near_that_of_the_standards(gear):
-    """Literature: F_t/(b m) Y_F Y_S of ISO 6336-3 method B and DIN 3990-3, load at the outer point of single tooth contact.
+    """Literature: F_t/(b m) Y_F Y_S of ISO 6336-3 method B and DIN 3990-3, load at the outer point of single tooth
+    contact.
 
-    The standard's 30 degree chord and Y_S were fitted to stress analyses and measurements that scatter by 20 to 25 % around it.
+    The standard's 30 degree chord and Y_S were fitted to stress analyses and measurements that scatter by 20 to 25 %
+    around it.
     """
     roll = highest_single_contact(gear)
     stress, nominal = stresses_of_a_narrow_load(gear, roll), nominal_root_stress(gear, roll, 1.0)
@@ -162,7 +185,8 @@ def test_stress_is_near_that_of_the_standards(gear):
 
 
 def test_form_factor_of_the_standard_is_right():
-    """Literature: charts of DIN 3990-3 for the 1.25/0.38 rack, load at the tip: Y_Fa 2.8 for 20 teeth, 2.2 for 100, without profile shift."""
+    """Literature: charts of DIN 3990-3 for the 1.25/0.38 rack, load at the tip: Y_Fa 2.8 for 20 teeth, 2.2 for 100,
+    without profile shift."""
     for teeth, form in ((20, 2.81), (100, 2.20)):
         gear = standard_gear(teeth)
         assert form_and_stress_correction(gear, gear.tip_roll_angle)[0] == pytest.approx(form, abs=0.06)
@@ -171,21 +195,32 @@ def test_form_factor_of_the_standard_is_right():
 def largest_with_fillet_elements(name: str, size: float) -> float:
     """Largest stress, MPa, with fillet elements of a size in modules, all else as it is."""
     default = DEFAULT_SIZES[ELEMENTS[name].order]
-    sizes = ElementSizes(flank=0.06, fillet=size, coast=max(size, default.coast), body=default.body, depth=default.depth, growth=default.growth)
+    sizes = ElementSizes(
+        flank=0.06,
+        fillet=size,
+        coast=max(size, default.coast),
+        body=default.body,
+        depth=default.depth,
+        growth=default.growth,
+    )
     gear = PINION.of_module_one
     with GearRecovery(gear, STEEL, sector_mesh(gear, sizes), ELEMENTS[name]) as recovery:
         rows = fillet_rows(fillet_curve(gear), recovery.interior, recovery.nodal_stress)
         middle = arc_length(gear.base_radius, highest_single_contact(gear))
-        forces = pressed(recovery, lambda arc: np.where(np.abs(arc - middle) < 0.2, 1.0 + np.cos(np.pi * (arc - middle) / 0.2), 0.0))
+        forces = pressed(
+            recovery, lambda arc: np.where(np.abs(arc - middle) < 0.2, 1.0 + np.cos(np.pi * (arc - middle) / 0.2), 0.0)
+        )
         moved = recovery.recovered({0: forces}).displacement[0].ravel() * STEEL.youngs_modulus
     return float((rows @ moved)[:POINTS].max())
 
 
 @pytest.mark.parametrize(("name", "within"), [("P2", 0.005), ("P1", 0.04)])
 def test_stress_converges_with_the_fillet_mesh(name, within):
-    """Known order: against second-order elements half as large as their default the error falls with the fillet's elements. Constant stresses
-    of first-order elements are those of a third of an element below the surface, where a fillet of radius rho has lost about 2 h / (3 rho):
-    1.3 % at h = 0.01, rho = 0.5 modules, and as much again by the irregularity of the mesh, which is another one in each version of gmsh."""
+    """Known order: against second-order elements half as large as their default the error falls with the fillet's
+    elements. Constant stresses of first-order elements are those of a third of an element below the surface, where a
+    fillet of radius rho has lost about 2 h / (3 rho):
+    1.3 % at h = 0.01, rho = 0.5 modules, and as much again by the irregularity of the mesh, which is another one in
+    each version of gmsh."""
     size = DEFAULT_SIZES[ELEMENTS[name].order].fillet
     exact = largest_with_fillet_elements("P2", 0.5 * DEFAULT_SIZES[2].fillet)
     coarse, default = (abs(largest_with_fillet_elements(name, part * size) - exact) for part in (8.0, 1.0))
@@ -194,7 +229,8 @@ def test_stress_converges_with_the_fillet_mesh(name, within):
 
 
 def test_rows_are_kept_and_similar_gears_share_them(tmp_path):
-    """Exact identity: stress goes with line force over module; the cache has one entry for all modules, which gives the same numbers."""
+    """Exact identity: stress goes with line force over module; the cache has one entry for all modules, which gives the
+    same numbers."""
     cache = Cache(tmp_path)
     settings = {"reach": 1, "cache": cache}
     first = root_stress_rows(standard_gear(20, module=2.0), STEEL, Discretisation("P1", 0.1), **settings)

@@ -49,8 +49,10 @@ either_way = pytest.mark.parametrize("of_run", ["driving", "driven"])
 
 @either_way
 def test_flanks_touch_where_the_pressure_is(of_run, request):
-    """Signorini: averaged over the hats of the contact nodes, the recovered displacement closes the gap at every node under pressure (N u = g),
-    and leaves none open that is negative elsewhere. Nothing of the run's own displacements is used, only its forces and hubs."""
+    """Signorini: averaged over the hats of the contact nodes, the recovered displacement closes the gap at every node
+    under pressure (N u = g),
+    and leaves none open that is negative elsewhere. Nothing of the run's own displacements is used, only its forces and
+    hubs."""
     scene, result, stresses = request.getfixturevalue(of_run)
     for index in (0, 13, 29):
         stored = stored_forces(result, stresses.model, stresses.cycle, index)
@@ -68,11 +70,17 @@ def test_flanks_touch_where_the_pressure_is(of_run, request):
             for gear, recovery in enumerate(stresses.recoveries):
                 body = recovery.recovered(stored.on_flanks(stresses.model, gear))
                 side = "coast" if touching.place.flank == COAST else "flank"
-                moved = body.displacement[sector_of(gear, touching) % len(body.displacement)][recovery.interior.flank_nodes(side)]
+                moved = body.displacement[sector_of(gear, touching) % len(body.displacement)][
+                    recovery.interior.flank_nodes(side)
+                ]
                 if side == "coast":
                     moved = unmirrored(recovery.gear, moved.ravel()).reshape(-1, 2)
                 # Outwards of either gear brings the flanks together.
-                approach[nodes] += touching.interpolation[gear].weights @ moved @ directions(touching.place.contact_rolls[gear], False)[0]
+                approach[nodes] += (
+                    touching.interpolation[gear].weights
+                    @ moved
+                    @ directions(touching.place.contact_rolls[gear], False)[0]
+                )
             opening = touching.gap - approach[nodes]
             closed = force[: len(touching.offsets)] > 0.0
             assert np.abs(opening[closed]).max(initial=0.0) < 1e-9
@@ -81,13 +89,18 @@ def test_flanks_touch_where_the_pressure_is(of_run, request):
 
 @either_way
 def test_gears_stand_on_their_centres_and_touch_at_the_most_loaded_contact(of_run, request):
-    """Geometry: distance of the centres; tips on their circles; the displaced outlines meet within the mesh where the largest force is."""
+    """Geometry: distance of the centres; tips on their circles; the displaced outlines meet within the mesh where the
+    largest force is."""
     scene, result, stresses = request.getfixturevalue(of_run)
     mesh = stresses.at(13)
-    assert np.linalg.norm(mesh.gears[1].centre - mesh.gears[0].centre) == pytest.approx(scene.gears.centre_distance, rel=1e-12)
+    assert np.linalg.norm(mesh.gears[1].centre - mesh.gears[0].centre) == pytest.approx(
+        scene.gears.centre_distance, rel=1e-12
+    )
     for body, gear in zip(mesh.gears, (mesh.pair.pinion, mesh.pair.wheel)):
         radius = np.linalg.norm(body.points - body.centre, axis=1)
-        assert radius.max() == pytest.approx(gear.tip_radius, rel=1e-9) and radius.min() == pytest.approx(gear.bore_radius, rel=1e-3)
+        assert radius.max() == pytest.approx(gear.tip_radius, rel=1e-9) and radius.min() == pytest.approx(
+            gear.bore_radius, rel=1e-3
+        )
     contact, frame = loaded_contact(mesh, result), partial(upright, mesh.pair)
     assert mesh.coast == ("coast_normal_force" in result)
     outlines = [frame(body.points + body.displacement)[np.unique(body.outline)] for body in mesh.gears]
@@ -109,7 +122,8 @@ def test_a_tooth_pair_later_is_the_same_position(driving):
 
 @either_way
 def test_displacements_that_fit_the_picture_are_drawn_apart(of_run, request):
-    """What the scale promises: of the scales 1, 2, 5, ... one at which no tooth is drawn into another by more than 0.02 modules."""
+    """What the scale promises: of the scales 1, 2, 5, ... one at which no tooth is drawn into another by more than 0.02
+    modules."""
     scene, result, stresses = request.getfixturevalue(of_run)
     mesh = stresses.at(13)
     scale = automatic_scale([mesh])
@@ -151,7 +165,9 @@ def test_what_has_no_stress_is_refused(driving, paper_scene):
     rigid = replace(frictionless(scene), gears=replace(scene.gears, material=None))
     with pytest.raises(SceneError, match="rigid"):
         RunStresses(result, rigid)
-    remeshed = replace(scene, coast_flanks=None, load=paper_scene.load, accuracy=replace(scene.accuracy, condensation="every step"))
+    remeshed = replace(
+        scene, coast_flanks=None, load=paper_scene.load, accuracy=replace(scene.accuracy, condensation="every step")
+    )
     with pytest.raises(SceneError, match="once"):
         RunStresses(result, remeshed)
     with pytest.raises(SceneError, match="stored mesh cycles 0 to 1"):

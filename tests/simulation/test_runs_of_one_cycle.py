@@ -15,14 +15,21 @@ from fenics_gears.studies.gear_store import GearStore
 def variants(paper_scene) -> list:
     """A scene, the same at another speed and under another torque; those on one cycle have the same operators."""
     scene = replace(coarse_scene(paper_scene), motion=Motion(200.0, 2, 1))
-    return [scene, replace(scene, motion=Motion(310.0, 2, 1)), replace(scene, load=replace(scene.load, wheel_torque=0.5 * scene.load.wheel_torque))]
+    return [
+        scene,
+        replace(scene, motion=Motion(310.0, 2, 1)),
+        replace(scene, load=replace(scene.load, wheel_torque=0.5 * scene.load.wheel_torque)),
+    ]
 
 
 def test_runs_that_share_a_cycle_are_those_that_do_not(paper_scene, monkeypatch):
-    """Brute force: each run with a cycle of its own, to the last bit. The quasi-static run is made again for another torque only."""
+    """Brute force: each run with a cycle of its own, to the last bit. The quasi-static run is made again for another
+    torque only."""
     scenes, store, recorders = variants(paper_scene), GearStore(), []
     alone = [simulate(scene) for scene in scenes]
-    monkeypatch.setattr(dynamic_factor, "Recorder", lambda *given, **named: recorders.append(given) or Recorder(*given, **named))
+    monkeypatch.setattr(
+        dynamic_factor, "Recorder", lambda *given, **named: recorders.append(given) or Recorder(*given, **named)
+    )
     for scene, expected in zip(scenes, alone):
         found = simulate(scene, preparation=store.prepared)
         assert list(found.variables) == list(expected.variables)

@@ -29,7 +29,8 @@ def folder(tmp_path, monkeypatch):
 
 @pytest.fixture
 def undrawn(monkeypatch):
-    """Studies in this process are not drawn, which takes longer than their runs; the first test of test_run_study.py draws one."""
+    """Studies in this process are not drawn, which takes longer than their runs; the first test of test_run_study.py
+    draws one."""
     monkeypatch.setattr("fenics_gears.show.plots.draw_study", lambda file: [])
 
 
@@ -42,7 +43,11 @@ def write_study(folder, text, name="study.toml"):
 
 def environment():
     """This process's environment for the command line, without what an MPI in this process has left in it."""
-    kept = {name: value for name, value in os.environ.items() if not name.startswith(("OMPI_", "PMIX_", "PRTE_", "PMI_", "SLURM_"))}
+    kept = {
+        name: value
+        for name, value in os.environ.items()
+        if not name.startswith(("OMPI_", "PMIX_", "PRTE_", "PMI_", "SLURM_"))
+    }
     root = {f"{prefix}_ALLOW_RUN_AS_ROOT{suffix}": "1" for prefix in ("OMPI", "PRTE") for suffix in ("", "_CONFIRM")}
     return {**kept, **root, "PYTHONPATH": str(CHECKOUT)}
 
@@ -58,7 +63,12 @@ def mpirun(ranks):
     if not shutil.which("mpirun"):
         pytest.skip("no mpirun")
     version = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, env=environment()).stdout
-    return ["mpirun", *(["--oversubscribe"] if "Open MPI" in version or "open-mpi" in version else []), "-n", str(ranks)]
+    return [
+        "mpirun",
+        *(["--oversubscribe"] if "Open MPI" in version or "open-mpi" in version else []),
+        "-n",
+        str(ranks),
+    ]
 
 
 def gears(folder, *arguments, ranks=0):

@@ -1,6 +1,8 @@
-"""`gears optimize` that is killed in its middle: python -m tests.studies.stopped_optimization RUNS ARGUMENTS OF THE COMMAND.
+"""`gears optimize` that is killed in its middle: python -m tests.studies.stopped_optimization RUNS ARGUMENTS OF THE
+COMMAND.
 
-The process kills itself by SIGKILL when it has computed so many runs, in the middle of the line of the last one; alone, so that it has no mpi4py.
+The process kills itself by SIGKILL when it has computed so many runs, in the middle of the line of the last one; alone,
+so that it has no mpi4py.
 """
 
 import os

@@ -1,8 +1,9 @@
-"""`gears study` that a signal reaches in its middle: python -m tests.studies.stopped_study SIGNAL CASES RANK ARGUMENTS OF THE COMMAND.
+"""`gears study` that a signal reaches in its middle: python -m tests.studies.stopped_study SIGNAL CASES RANK ARGUMENTS
+OF THE COMMAND.
 
-The process sends itself the signal when it has done so many cases, which is the same moment every time; one from outside is not. Under
-mpirun only the rank of that number does, and every other one that has done as many waits for mpirun to end it.
-Alone the process has no mpi4py, for a study alone must run where MPI is absent or broken.
+The process sends itself the signal when it has done so many cases, which is the same moment every time; one from
+outside is not. Under mpirun only the rank of that number does, and every other one that has done as many waits for
+mpirun to end it. Alone the process has no mpi4py, for a study alone must run where MPI is absent or broken.
 """
 
 import os

@@ -1,4 +1,5 @@
-"""`gears accuracy`: the settings of a small scene refined, told, written and drawn; times of this machine, errors of the method."""
+"""`gears accuracy`: the settings of a small scene refined, told, written and drawn; times of this machine, errors of
+the method."""
 
 import csv
 from dataclasses import replace
@@ -58,9 +59,14 @@ def report(scene, tiny, tmp_path_factory):
 
 @pytest.mark.nightly
 def test_a_scene_with_friction_is_measured_too(scene, tiny):
-    """Authority: definition; the scene's own error is charged at least its distance from the reference, and all cheaper models run."""
+    """Authority: definition; the scene's own error is charged at least its distance from the reference, and all cheaper
+    models run."""
     found = reports.measure(replace(scene, friction=scene_of(TEETH, "friction").friction), quick=True)
-    assert found.own.total_error >= judged(found.own.errors) > 0.0 and not found.failures and len(found.models) == len(reports.MODELS)
+    assert (
+        found.own.total_error >= judged(found.own.errors) > 0.0
+        and not found.failures
+        and len(found.models) == len(reports.MODELS)
+    )
 
 
 def refined(report, name):
@@ -81,18 +87,23 @@ def test_the_scenes_own_setting_is_the_scenes_own_run(report, scene):
 def test_every_setting_of_the_issue_is_refined_with_the_others_fine(report):
     """Authority: issue 6; each level differs from its base in its own fields alone, and that is the fine setting."""
     assert {each.refinement.name for each in report.refinements} == {
-        "flank elements and contact nodes", "flank element size", "contact node spacing", "body element size", "steps per mesh cycle", "contact length", "element",
+        "flank elements and contact nodes", "flank element size", "contact node spacing", "body element size",
+        "steps per mesh cycle", "contact length", "element",
         "interpolation", "elastic teeth",
     }  # fmt: skip
     for result in report.refinements:
         base = result.refinement.base
         assert base == report.fine
         for each in result.levels:
-            assert replace(each.level.setting, **{field: getattr(base, field) for field in result.refinement.fields}) == base
+            assert (
+                replace(each.level.setting, **{field: getattr(base, field) for field in result.refinement.fields})
+                == base
+            )
 
 
 def test_the_scenes_own_values_are_levels(report):
-    """Definition: else an error of the scene's own or of the default settings would leave a setting out; elements and nodes count together."""
+    """Definition: else an error of the scene's own or of the default settings would leave a setting out; elements and
+    nodes count together."""
     for settings in (report.own, report.defaults):
         assert set(settings.parts) == {each.refinement.name for each in report.refinements} - set(OF_FAMILY)
     assert [each.level.own for each in refined(report, FLANK).levels if each.level.own] == ["scene", "default"]
@@ -100,7 +111,8 @@ def test_the_scenes_own_values_are_levels(report):
 
 
 def test_the_curve_of_a_quasi_static_run_does_not_depend_on_the_steps(report):
-    """Identity: without friction a position knows nothing of the one before, so that values at common steps are the same to round-off."""
+    """Identity: without friction a position knows nothing of the one before, so that values at common steps are the
+    same to round-off."""
     assert max(each.errors[CURVE] for each in refined(report, STEPS).levels) < 1e-9
     assert any("T_E at the steps does not depend on it" in remark for remark in table.remarks(report))
 
@@ -112,7 +124,8 @@ def test_a_setting_is_charged_at_least_its_parts_and_its_distance(report):
 
 
 def test_cheaper_models_stand_beside_them(report):
-    """Authority: rigid teeth without errors of form have no transmission error: all of it is lost, and there is no pressure."""
+    """Authority: rigid teeth without errors of form have no transmission error: all of it is lost, and there is no
+    pressure."""
     models = {each.name: each for each in report.models}
     assert set(models) == set(reports.MODELS)
     rigid = models[RIGID_TEETH]
@@ -145,11 +158,14 @@ def test_times_are_of_every_round(scene, monkeypatch):
 
 @pytest.mark.parametrize("sections", [(TEETH,), (TEETH, "friction", "inertia")])
 def test_the_root_stress_is_that_of_the_runs_own_output(sections):
-    """Authority: `[output] root_stress` of the same run, its variable at 30 degrees; the pinion's largest over the last cycle."""
+    """Authority: `[output] root_stress` of the same run, its variable at 30 degrees; the pinion's largest over the last
+    cycle."""
     scene = replace(scene_of(*sections), motion=Motion(200.0, 2, 2), output=Output(root_stress=True))
     run, cycle = run_sharing(scene, shared_gears())
     last = run.isel(time=slice(len(run.mesh_phase) - cycle.steps, None), gear=0)
-    assert peak_root_stress(run, scene, cycle) == pytest.approx(float(last["root_stress_at_30_degrees"].max()), rel=1e-9)
+    assert peak_root_stress(run, scene, cycle) == pytest.approx(
+        float(last["root_stress_at_30_degrees"].max()), rel=1e-9
+    )
 
 
 def test_a_fillet_without_that_tangent_is_judged_at_its_middle():
@@ -161,9 +177,12 @@ def test_a_fillet_without_that_tangent_is_judged_at_its_middle():
 
 
 def test_root_stress_has_errors_and_orders(report):
-    """Authority: issue 6; every level and whole setting has one, cheaper models without flanks in contact have none, and it costs no time."""
+    """Authority: issue 6; every level and whole setting has one, cheaper models without flanks in contact have none,
+    and it costs no time."""
     assert all(np.isfinite(each.errors[ROOT]) for result in report.refinements for each in result.levels)
-    assert all(np.isfinite(each.errors[ROOT]) for each in report.settings) and all(np.isnan(each.errors[ROOT]) for each in report.models)
+    assert all(np.isfinite(each.errors[ROOT]) for each in report.settings) and all(
+        np.isnan(each.errors[ROOT]) for each in report.models
+    )
     body = refined(report, "body element size").levels
     assert max(each.errors[ROOT] for each in body) < 0.1
     assert "root stress" in table.headings(report)[0]
@@ -181,11 +200,14 @@ def test_what_was_timed_less_often_is_told(report):
     """Authority: house rule; a number says how it was measured."""
     assert table.timed(report).endswith("single settings as often.")
     fewer = replace(report, rounds=5)
-    assert f"0 of {sum(len(each.levels) for each in report.refinements)} single settings" in table.timed(fewer) and "time limit of 60 s" in table.timed(fewer)
+    assert f"0 of {sum(len(each.levels) for each in report.refinements)} single settings" in table.timed(
+        fewer
+    ) and "time limit of 60 s" in table.timed(fewer)
 
 
 def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, monkeypatch):
-    """Authority: issue 6 names it; it is a model of its own, compared in one setting that both routes have, and limits no setting."""
+    """Authority: issue 6 names it; it is a model of its own, compared in one setting that both routes have, and limits
+    no setting."""
     coarse = {FLANK: 0.7, NODES: 0.7, BODY: 4.0, STEPS: 4}
     monkeypatch.setattr(refinement, "REMESHED_FINE", coarse)
     assert [each.name for each in refinement.refinements(scene)][-1] == "condensation"
@@ -195,7 +217,9 @@ def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, m
     anew, once = result.levels
     assert once.errors[CURVE] == once.errors[ROOT] == 0.0 and 0.0 < anew.errors[CURVE] < 0.2
     assert np.isnan(anew.errors[ROOT])
-    assert all((value == study._known[study.base][0][name]).all() for name, value in study.reference((result,))[0].items())
+    assert all(
+        (value == study._known[study.base][0][name]).all() for name, value in study.reference((result,))[0].items()
+    )
 
 
 @pytest.mark.parametrize("section", ["coast_flanks", "corner_contact"])
@@ -242,6 +266,7 @@ def test_without_load_there_is_nothing_to_measure(scene):
 
 def test_a_level_that_fails_is_told_and_the_others_are_measured(scene, monkeypatch):
     """Authority: house style, a failed case is a record among the results."""
+
     def fails(scene, gears):
         if scene.accuracy.interpolation == "collocated":
             raise ComputationError("no solution at step 3\nand a history")
@@ -256,7 +281,8 @@ def test_a_level_that_fails_is_told_and_the_others_are_measured(scene, monkeypat
 
 
 def test_the_picture_names_every_setting_that_pays(report):
-    """Authority: identity; each point of the front has its number and its line, and all errors and times are inside the axes."""
+    """Authority: identity; each point of the front has its number and its line, and all errors and times are inside the
+    axes."""
     from fenics_gears.show.work_precision import MARKS, work_precision
 
     figure = work_precision(report)
@@ -287,7 +313,9 @@ def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monke
     assert {line["kind"] for line in lines} == {"single setting", "setting", "model", "reference"}
     own = next(line for line in lines if line["name"] == reports.OWN)
     assert float(own["total_error"]) >= float(own["judged_error"]) > 0.0
-    assert float(own["time_s"]) == pytest.approx(sum(float(own[f"time_{stage}_s"]) for stage in ("mesh", "condense", "march")))
+    assert float(own["time_s"]) == pytest.approx(
+        sum(float(own[f"time_{stage}_s"]) for stage in ("mesh", "condense", "march"))
+    )
     assert all(None not in line and None not in line.values() for line in lines)
 
 
@@ -305,7 +333,8 @@ def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
 
 @pytest.mark.parametrize("frequency, order", [(200.0, 2.0), (0.02, 1.0)])
 def test_the_order_expected_of_steps_is_that_of_the_time_stepping(frequency, order):
-    """Authority: Newmark, average acceleration h^2; backward Euler, which long steps take, h; friction by the exact slip over a step keeps them."""
+    """Authority: Newmark, average acceleration h^2; backward Euler, which long steps take, h; friction by the exact
+    slip over a step keeps them."""
     scene = replace(scene_of(TEETH, "inertia", "friction"), motion=Motion(frequency, 2, 1))
     steps = next(each for each in refinement.refinements(scene, quick=True) if each.name == STEPS)
     assert steps.expected == order

@@ -31,7 +31,8 @@ def test_the_order_of_an_exact_power_is_found(sizes, order):
 
 
 def test_the_limit_of_an_exact_power_is_its_constant():
-    """Authority: Richardson 1911; one power is removed exactly, and the uncertainty is 1.25 times what was extrapolated (Roache)."""
+    """Authority: Richardson 1911; one power is removed exactly, and the uncertainty is 1.25 times what was extrapolated
+    (Roache)."""
     sizes = (0.8, 0.4, 0.2)
     limit = richardson(sequence(sizes, 2.0), sizes, expected=2.0)
     assert np.allclose(limit.value, SHAPE, atol=1e-12)
@@ -40,7 +41,8 @@ def test_the_limit_of_an_exact_power_is_its_constant():
 
 
 def test_richardson_on_archimedes_polygons():
-    """Authority: n sin(pi/n) goes to pi as 1/n^2; three polygons give an order near 2, and the limit lies within its uncertainty."""
+    """Authority: n sin(pi/n) goes to pi as 1/n^2; three polygons give an order near 2, and the limit lies within its
+    uncertainty."""
     counts = (24, 48, 96)
     values = [np.array([n * np.sin(np.pi / n)]) for n in counts]
     limit = richardson(values, [1.0 / n for n in counts], expected=2.0)
@@ -51,7 +53,8 @@ def test_richardson_on_archimedes_polygons():
 
 @pytest.mark.parametrize("values", [(1.0, 0.9, 0.95), (1.0, 0.9, 0.7), (1.0, 1.0, 1.0)])
 def test_without_an_order_nothing_is_extrapolated(values):
-    """Authority: Roache; where a sequence turns back, diverges or stands still, three times its last difference is uncertain."""
+    """Authority: Roache; where a sequence turns back, diverges or stands still, three times its last difference is
+    uncertain."""
     terms = [np.array([value]) for value in values]
     limit = richardson(terms, (0.4, 0.2, 0.1), expected=2.0)
     assert limit.order is None
@@ -61,7 +64,8 @@ def test_without_an_order_nothing_is_extrapolated(values):
 
 
 def test_an_order_far_above_the_expected_is_not_trusted():
-    """Authority: a leading power that happens to vanish says nothing of the next level; the safe side is the last difference."""
+    """Authority: a leading power that happens to vanish says nothing of the next level; the safe side is the last
+    difference."""
     sizes = (0.8, 0.4, 0.2)
     limit = richardson(sequence(sizes, 6.0), sizes, expected=2.0)
     assert limit.order == pytest.approx(6.0)
@@ -69,7 +73,8 @@ def test_an_order_far_above_the_expected_is_not_trusted():
 
 
 def test_differences_that_point_anywhere_have_an_order_and_are_not_extrapolated():
-    """Authority: errors of size h in directions at right angles; their norms fall with the first power, their sum has no one direction."""
+    """Authority: errors of size h in directions at right angles; their norms fall with the first power, their sum has
+    no one direction."""
     directions, sizes = np.eye(3), (4.0, 2.0, 1.0)
     steps = [directions[0] * 2.0, directions[1] * 1.0]
     values = [np.full(3, 9.0) - steps[0] - steps[1], np.full(3, 9.0) - steps[1], np.full(3, 9.0)]
@@ -81,6 +86,7 @@ def test_differences_that_point_anywhere_have_an_order_and_are_not_extrapolated(
 
 def test_limits_of_several_settings_add_and_so_do_their_uncertainties():
     """Authority: u = c + a h^2 + b k; both extrapolated from one base give c."""
+
     def u(h, k):
         return np.array([5.0 + 0.7 * h**2 - 0.4 * k])
 
@@ -93,10 +99,14 @@ def test_limits_of_several_settings_add_and_so_do_their_uncertainties():
 
 
 def test_settings_refined_beside_other_values_change_the_base_by_as_much():
-    """Authority: u = c + a h^2 + b k; the limit of h found beside another k, with curves of other numbers of steps, gives c again."""
+    """Authority: u = c + a h^2 + b k; the limit of h found beside another k, with curves of other numbers of steps,
+    gives c again."""
+
     def u(h, k, steps):
         phases = np.arange(1, steps + 1) / steps
-        return np.cos(2 * np.pi * phases) + 0.3 * h**2 * np.sin(2 * np.pi * phases) - 0.4 * k * np.sin(4 * np.pi * phases)
+        return (
+            np.cos(2 * np.pi * phases) + 0.3 * h**2 * np.sin(2 * np.pi * phases) - 0.4 * k * np.sin(4 * np.pi * phases)
+        )
 
     sizes = (0.4, 0.2, 0.1)
     of_h = richardson([u(h, 0.8, 40) for h in sizes], sizes, 2.0), u(0.4, 0.8, 40)
@@ -107,6 +117,7 @@ def test_settings_refined_beside_other_values_change_the_base_by_as_much():
 
 def brute_front(points):
     """All points that no other one beats, by comparing each with each."""
+
     def beaten(mine, other):
         return other[0] <= mine[0] and other[1] <= mine[1] and other != mine
 
@@ -126,15 +137,21 @@ def test_the_front_is_that_of_comparing_each_with_each(seed):
 
 def test_errors_that_cancel_are_no_accuracy():
     """Authority: issue 6; +5 % of one setting and -5 % of another give the right answer and are charged 10 %."""
+
     def span(h, k):
         return np.array([10.0 * (1.0 + 0.05 * h**2 - 0.05 * k**2)])
 
     exact = {SPAN: span(0.0, 0.0)}
     direct = measures.distance({SPAN: span(1.0, 1.0)}, exact, SPAN)
-    parts = {"h": measures.distance({SPAN: span(1.0, 0.0)}, exact, SPAN), "k": measures.distance({SPAN: span(0.0, 1.0)}, exact, SPAN)}
+    parts = {
+        "h": measures.distance({SPAN: span(1.0, 0.0)}, exact, SPAN),
+        "k": measures.distance({SPAN: span(0.0, 1.0)}, exact, SPAN),
+    }
     assert direct == 0.0
     assert whole.total_error(direct, parts) == pytest.approx(0.10)
-    honest = whole.total_error(measures.distance({SPAN: span(0.5, 0.5)}, exact, SPAN), {name: 0.25 * part for name, part in parts.items()})
+    honest = whole.total_error(
+        measures.distance({SPAN: span(0.5, 0.5)}, exact, SPAN), {name: 0.25 * part for name, part in parts.items()}
+    )
     assert honest == pytest.approx(0.025)
     assert whole.pareto_front([(1.0, whole.total_error(direct, parts)), (1.5, honest)]) == [0, 1]
 
@@ -157,7 +174,8 @@ ERRORS |= {("steps", place): error for place, error in enumerate((0.2, 0.05, 0.0
 
 
 def test_the_path_refines_what_limits_it():
-    """Authority: by hand; 0.28, 0.13, 0.07, 0.032, 0.017 by turns of the larger error, kept where the sum falls to 0.7 or below."""
+    """Authority: by hand; 0.28, 0.13, 0.07, 0.032, 0.017 by turns of the larger error, kept where the sum falls to 0.7
+    or below."""
     found = [(setting.flank, setting.steps) for setting in whole.path(BASE, [FLANK, STEPS], ERRORS)]
     assert found == [(0.16, 20), (0.16, 40), (0.08, 40), (0.08, 80), (0.04, 80), (0.04, 160)]
 
@@ -199,20 +217,31 @@ def run(steps, amplitude=1.0, nodes=41, first_pair=0):
     pressure = amplitude * 100.0 * (1.0 - offsets**2)
     error = amplitude * 1e-3 * np.sin(2 * np.pi * phase) + 7.0
     data = {
-        "transmission_error": ("time", error), "mesh_phase": ("time", phase), "normal_force": ("time", np.full(len(phase), 100.0)),
-        "energy_teeth": ("time", np.full(len(phase), 2.0)), "work_input": ("time", 50.0 * phase), "energy_defect": ("time", 0.1 * phase),
-        "contact_pressure": (("contact_time", "slot", "contact_node"), pressure), "contact_offset": (("contact_time", "slot", "contact_node"), offsets),
+        "transmission_error": ("time", error),
+        "mesh_phase": ("time", phase),
+        "normal_force": ("time", np.full(len(phase), 100.0)),
+        "energy_teeth": ("time", np.full(len(phase), 2.0)),
+        "work_input": ("time", 50.0 * phase),
+        "energy_defect": ("time", 0.1 * phase),
+        "contact_pressure": (("contact_time", "slot", "contact_node"), pressure),
+        "contact_offset": (("contact_time", "slot", "contact_node"), offsets),
         "contact_mesh_phase": ("contact_time", phase),
-        "contact_pair_number": (("contact_time", "slot"), np.tile([first_pair + 1, first_pair + 2], (len(phase), 1)), {"number_at_phase_0": 1}),
-    }  # fmt: skip
+        "contact_pair_number": (
+            ("contact_time", "slot"),
+            np.tile([first_pair + 1, first_pair + 2], (len(phase), 1)),
+            {"number_at_phase_0": 1},
+        ),
+    }
     attributes = {
-        "peak_to_peak_transmission_error": float(np.ptp(error)), "base_radius_wheel": 50.0, "peak_contact_pressure": 100.0 * amplitude,
+        "peak_to_peak_transmission_error": float(np.ptp(error)), "base_radius_wheel": 50.0,
+        "peak_contact_pressure": 100.0 * amplitude,
     }  # fmt: skip
     return xr.Dataset(data, attrs=attributes)
 
 
 def test_measures_of_a_sine_and_a_parabola():
-    """Authority: exact: 2 a rb peak to peak, rms a rb/sqrt 2 without the mean of 7 rad, F^2/(2U) = 2500, defect 0.2/100."""
+    """Authority: exact: 2 a rb peak to peak, rms a rb/sqrt 2 without the mean of 7 rad, F^2/(2U) = 2500, defect
+    0.2/100."""
     found = measures.answer(run(640), window=2.0)
     assert found[SPAN][0] == pytest.approx(0.1, rel=1e-4)
     assert np.sqrt(np.mean(found[CURVE] ** 2)) == pytest.approx(0.05 / np.sqrt(2.0), rel=1e-4)
@@ -222,7 +251,8 @@ def test_measures_of_a_sine_and_a_parabola():
 
 
 def test_distances_are_relative_and_do_not_see_the_grid():
-    """Authority: linearity; 10 % more is 0.1 in every measure; the same parabola on other nodes and steps is the same but for h^2."""
+    """Authority: linearity; 10 % more is 0.1 in every measure; the same parabola on other nodes and steps is the same
+    but for h^2."""
     one, more = measures.answer(run(640), 2.0), measures.answer(run(640, 1.1), 2.0)
     for name in (CURVE, SPAN, PRESSURE, PEAK):
         assert measures.distance(more, one, name) == pytest.approx(0.1, rel=1e-6)
@@ -233,14 +263,18 @@ def test_distances_are_relative_and_do_not_see_the_grid():
 
 
 def test_pressure_of_pairs_that_differ_is_not_the_same():
-    """Authority: identity; pairs are counted through the run, and the same pressure on the next pair is another field."""
+    """Authority: identity; pairs are counted through the run, and the same pressure on the next pair is another
+    field."""
     one, next_pair = measures.answer(run(40), 2.0), measures.answer(run(40, first_pair=1), 2.0)
     assert measures.distance(next_pair, one, PRESSURE) == pytest.approx(1.0, rel=1e-6)
 
 
-@pytest.mark.parametrize("counts, common", [((40, 80, 160), 40), ((100, 80), 20), ((200, 1280), 40), ((30, 40), 30), ((10, 20), 10)])
+@pytest.mark.parametrize(
+    "counts, common", [((40, 80, 160), 40), ((100, 80), 20), ((200, 1280), 40), ((30, 40), 30), ((10, 20), 10)]
+)
 def test_curves_of_other_steps_are_compared_at_phases_that_both_have(counts, common):
-    """Authority: by hand; their greatest common divisor from 20 on, else those of the fewest steps. Values are those of the curve there, without their mean."""
+    """Authority: by hand; their greatest common divisor from 20 on, else those of the fewest steps. Values are those of
+    the curve there, without their mean."""
     curves = [np.arange(1, count + 1) / count for count in counts]
     phases = np.arange(1, common + 1) / common
     for found in measures.comparable(curves, CURVE):
@@ -248,7 +282,9 @@ def test_curves_of_other_steps_are_compared_at_phases_that_both_have(counts, com
 
 
 def test_a_kink_between_steps_adds_no_error_to_exact_values():
-    """Identity: runs with exact values at their steps differ by nothing, however few the steps; straight lines between them lost 1.5 per cent here."""
+    """Identity: runs with exact values at their steps differ by nothing, however few the steps; straight lines between
+    them lost 1.5 per cent here."""
+
     def exact(count):
         return {CURVE: np.abs(np.arange(1, count + 1) / count - 0.51)}
 

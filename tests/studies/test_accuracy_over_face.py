@@ -1,4 +1,5 @@
-"""`gears accuracy` and `[accuracy] target` of scenes whose flanks are resolved over the face: what is refined and chosen, without running it."""
+"""`gears accuracy` and `[accuracy] target` of scenes whose flanks are resolved over the face: what is refined and
+chosen, without running it."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -39,7 +40,8 @@ def scene():
 
 
 def test_a_setting_gives_the_face_that_it_says(scene):
-    """Identity: the scene's own setting is that of its model, and a scene with a setting has its slices, layers and body elements."""
+    """Identity: the scene's own setting is that of its model, and a scene with a setting has its slices, layers and
+    body elements."""
     own, model = own_setting(scene), model_of(scene)
     assert (own.slices, own.layers, own.body) == (model.face.slices, face_discretisation(model, 0).layers, 1.0)
     again = model_of(own.of(scene))
@@ -51,7 +53,8 @@ def test_a_setting_gives_the_face_that_it_says(scene):
 
 @pytest.mark.parametrize("quick", [True, False])
 def test_slices_layers_and_body_elements_are_refined_one_at_a_time(scene, quick):
-    """Definition: levels differ from the base in their own field alone and run from coarse to fine; choices of the plane are left out."""
+    """Definition: levels differ from the base in their own field alone and run from coarse to fine; choices of the
+    plane are left out."""
     found = {each.name: each for each in refinements(scene, quick)}
     assert set(found) == {SLICES, LAYERS, BODY, FAMILY, STEPS, LENGTH}
     for name, field in ((SLICES, "slices"), (LAYERS, "layers"), (BODY, "body")):
@@ -64,18 +67,26 @@ def test_slices_layers_and_body_elements_are_refined_one_at_a_time(scene, quick)
 
 
 def test_the_plane_rung_is_the_transverse_section_in_plane_strain(scene):
-    """Authority: ISO 21771; the transverse section of a helical pair has its base circles and transverse contact ratio, and nothing over the face is left."""
+    """Authority: ISO 21771; the transverse section of a helical pair has its base circles and transverse contact ratio,
+    and nothing over the face is left."""
     plane = in_the_plane(scene)
-    assert not plane.three_dimensional and model_of(plane).face is None and reports.scene_of(scene, PLANE, None) == plane
+    assert (
+        not plane.three_dimensional and model_of(plane).face is None and reports.scene_of(scene, PLANE, None) == plane
+    )
     section, whole = model_of(plane).pair, model_of(scene).pair
     assert section.pinion.base_radius == pytest.approx(whole.pinion.base_radius, rel=1e-12)
     assert section.wheel.base_radius == pytest.approx(whole.wheel.base_radius, rel=1e-12)
     assert section.contact_ratio == pytest.approx(whole.contact_ratio, rel=1e-9)
-    assert plane.bearings.places is None and plane.bearings.axial("wheel") is None and plane.bearings.stiffness == scene.bearings.stiffness
+    assert (
+        plane.bearings.places is None
+        and plane.bearings.axial("wheel") is None
+        and plane.bearings.stiffness == scene.bearings.stiffness
+    )
 
 
 def test_errors_of_a_target_are_measured_beside_fewer_slices(scene, monkeypatch):
-    """Exact: with runs that err by the square of the mesh's size and of that of a slice the estimates are those errors times their factors of safety."""
+    """Exact: with runs that err by the square of the mesh's size and of that of a slice the estimates are those errors
+    times their factors of safety."""
     mesh_error, slice_error, seen = 1e-3, 0.5, []
 
     def answer(self, sizes):
@@ -100,16 +111,35 @@ def test_errors_of_a_target_are_measured_beside_fewer_slices(scene, monkeypatch)
 def test_errors_over_the_face_are_judged_and_the_plane_is_not_charged_for_them():
     """Definition: the worst of all that a target promises counts; a run in the plane has no line load along the
     face."""
-    one = {CURVE: np.ones(4), SPAN: np.ones(1), DEFECT: np.zeros(1), LINE_LOAD: np.full(3, 100.0), FACE_LOAD: np.array([1.2]), LARGEST_LOAD: np.array([1.5])}
-    other = one | {LINE_LOAD: np.array([100.0, 100.0, 103.0]), FACE_LOAD: np.array([1.206]), LARGEST_LOAD: np.array([1.53])}
+    one = {
+        CURVE: np.ones(4),
+        SPAN: np.ones(1),
+        DEFECT: np.zeros(1),
+        LINE_LOAD: np.full(3, 100.0),
+        FACE_LOAD: np.array([1.2]),
+        LARGEST_LOAD: np.array([1.5]),
+    }
+    other = one | {
+        LINE_LOAD: np.array([100.0, 100.0, 103.0]),
+        FACE_LOAD: np.array([1.206]),
+        LARGEST_LOAD: np.array([1.53]),
+    }
     errors = distances(other, one)
-    assert errors[FACE_LOAD] == pytest.approx(0.005) and errors[LINE_LOAD] == pytest.approx(0.03 / np.sqrt(3.0)) and judged(errors) == pytest.approx(0.02)
-    assert judged(distances({CURVE: one[CURVE], SPAN: np.array([1.001]), DEFECT: np.zeros(1)}, one)) == pytest.approx(0.001)
+    assert (
+        errors[FACE_LOAD] == pytest.approx(0.005)
+        and errors[LINE_LOAD] == pytest.approx(0.03 / np.sqrt(3.0))
+        and judged(errors) == pytest.approx(0.02)
+    )
+    assert judged(distances({CURVE: one[CURVE], SPAN: np.array([1.001]), DEFECT: np.zeros(1)}, one)) == pytest.approx(
+        0.001
+    )
 
 
 def test_tables_list_the_measures_over_the_face():
     """Interface: columns for what a run over the face is judged by besides, with units; none in the plane."""
-    over_face, plane = (SimpleNamespace(uncertainty=dict.fromkeys(names)) for names in ((*MEASURES, *OVER_FACE), MEASURES))
+    over_face, plane = (
+        SimpleNamespace(uncertainty=dict.fromkeys(names)) for names in ((*MEASURES, *OVER_FACE), MEASURES)
+    )
     for made in (table.headings, table.whole_headings):
         words, units = made(over_face)
         assert len(words) == len(units) and {units[words.index(name)] for name in OVER_FACE} == {"%"}

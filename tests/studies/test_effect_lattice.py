@@ -27,7 +27,8 @@ def subsets(scene):
 
 
 def test_the_papers_scene_is_run_bare_with_each_effect_and_without_each():
-    """Authority: issue 5, each effect alone, all, all but one; damping is inertia's, friction is the elastic teeth's."""
+    """Authority: issue 5, each effect alone, all, all but one; damping is inertia's, friction is the elastic
+    teeth's."""
     found = subsets(scene_of(*PAPER))
     assert {name: subset.sections for name, subset in found.items()} == {
         "rigid flanks, no effect": set(),
@@ -56,7 +57,8 @@ def test_a_subset_has_its_sections_and_no_others():
 
 
 def test_the_scenes_own_rules_decide_what_a_subset_may_be():
-    """Authority: the rule of [damping]; damping by stiffness alone damps nothing without a spring, so the first spring comes too."""
+    """Authority: the rule of [damping]; damping by stiffness alone damps nothing without a spring, so the first spring
+    comes too."""
     text = text_of(*PAPER).replace('mass_proportional = "0.5e-3 1/s"', 'mass_proportional = "0 1/s"')
     found = subsets(scene_from_text(text))
     assert found["+ damping, shafts, inertia"].sections == {TEETH, "shafts", "inertia", "damping"}
@@ -74,7 +76,13 @@ def test_a_subset_that_no_neighbour_makes_valid_is_skipped_with_the_rules_reason
 
 def test_no_set_of_effects_is_run_twice():
     """Authority: identity; every pair of effects' lattice, and that of all effects that may stand together."""
-    for sections in [(), (TEETH,), (TEETH, "shafts"), with_needs("damping"), tuple(each.section for each in EFFECTS if not each.excludes)]:
+    for sections in [
+        (),
+        (TEETH,),
+        (TEETH, "shafts"),
+        with_needs("damping"),
+        tuple(each.section for each in EFFECTS if not each.excludes),
+    ]:
         sets = [subset.sections for subset in lattice(scene_of(*sections))[0]]
         assert len(set(sets)) == len(sets)
         assert frozenset(sections) in sets
@@ -83,7 +91,12 @@ def test_no_set_of_effects_is_run_twice():
 def test_the_kinds_of_a_small_scene():
     """Authority: identity; a scene of one effect besides elastic teeth has no more than four different subsets."""
     kinds = {subset.sections: subset.kind for subset in lattice(scene_of(TEETH, "shafts"))[0]}
-    assert kinds == {frozenset(): NOTHING, frozenset({TEETH}): BARE, frozenset({"shafts"}): LEFT_OUT, frozenset({TEETH, "shafts"}): ALL}
+    assert kinds == {
+        frozenset(): NOTHING,
+        frozenset({TEETH}): BARE,
+        frozenset({"shafts"}): LEFT_OUT,
+        frozenset({TEETH, "shafts"}): ALL,
+    }
 
 
 @pytest.fixture(scope="module")
@@ -106,9 +119,17 @@ def test_every_row_answers_as_the_scene_itself_does(report):
 
 
 def test_the_unknowns_are_those_that_the_sections_free(report):
-    """Authority: model.md, section 4: one rotation; two more with shafts, four with bearings; friction doubles the contact rows."""
+    """Authority: model.md, section 4: one rotation; two more with shafts, four with bearings; friction doubles the
+    contact rows."""
     counted = {row.subset.name: row.coordinates for row in report.rows}
-    assert [counted[name] for name in ("bare", "+ shafts", "+ bearings", "+ inertia", "+ friction", "all")] == [1, 3, 5, 1, 1, 7]
+    assert [counted[name] for name in ("bare", "+ shafts", "+ bearings", "+ inertia", "+ friction", "all")] == [
+        1,
+        3,
+        5,
+        1,
+        1,
+        7,
+    ]
     bare, frictional = report.row(BARE), report.row(ALONE, "friction")
     assert frictional.contact_rows == 2 * bare.contact_rows
     assert 26 <= bare.contact_rows <= 52
@@ -124,18 +145,27 @@ def test_times_are_medians_of_rounds_and_gears_are_condensed_for_elastic_teeth_o
 
 
 def test_operations_are_those_of_a_dense_solve_and_a_product(report):
-    """Authority: Golub and Van Loan, Matrix Computations: 2/3 N^3 + 2 N^2 for elimination and substitution, 2 m l for a product."""
+    """Authority: Golub and Van Loan, Matrix Computations: 2/3 N^3 + 2 N^2 for elimination and substitution, 2 m l for a
+    product."""
     n, m, c, k = 10.0, 30.0, 7.0, 3
     sizes = {"coordinates": k, "contact_rows": m, "closed_nodes": c, "iterations": 2.0}
     bare, frictional = (replace(row, **sizes) for row in (report.row(BARE), report.row(ALONE, "friction")))
     assert bare.operations == pytest.approx(2 * (2 / 3 * n**3 + 2 * n**2 + n**2 + 2 * m * (c + k)))
-    assert frictional.operations == pytest.approx(2 * (2 / 3 * n**3 + 2 * n**2 + n**2 + 2 * c**2 + 2 * m * (2 * c + k)) + m * (m + k))
-    assert replace(bare, closed_nodes=2000.0).operations / replace(bare, closed_nodes=1000.0).operations == pytest.approx(8.0, rel=0.01)
+    assert frictional.operations == pytest.approx(
+        2 * (2 / 3 * n**3 + 2 * n**2 + n**2 + 2 * c**2 + 2 * m * (2 * c + k)) + m * (m + k)
+    )
+    assert replace(bare, closed_nodes=2000.0).operations / replace(
+        bare, closed_nodes=1000.0
+    ).operations == pytest.approx(8.0, rel=0.01)
 
 
 def test_the_report_names_where_it_was_measured(report):
     """Authority: the task; processor, threads and versions stand in it."""
-    assert "cores" in report.machine["processor"] and "fenics_gears" in report.machine["versions"] and report.machine["threads"]
+    assert (
+        "cores" in report.machine["processor"]
+        and "fenics_gears" in report.machine["versions"]
+        and report.machine["threads"]
+    )
 
 
 def test_all_accuracy_is_that_of_the_whole_scene():
@@ -189,8 +219,12 @@ def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monke
     assert sorted(file.name for file in (tmp_path / "there").iterdir()) == ["effects.csv", "effects.png"]
     assert (tmp_path / "there" / "effects.png").read_bytes().startswith(b"\x89PNG")
     lines = [line.split() for line in output.splitlines()]
-    assert any(line[:3] == ["bare", "1", "+"] for line in lines) and any(line[:3] == ["all", "7", "+"] for line in lines)
-    assert any(line[:2] == ["ratio", "measured"] for line in lines) and any(line[:2] == ["ratio", "expected"] for line in lines)
+    assert any(line[:3] == ["bare", "1", "+"] for line in lines) and any(
+        line[:3] == ["all", "7", "+"] for line in lines
+    )
+    assert any(line[:2] == ["ratio", "measured"] for line in lines) and any(
+        line[:2] == ["ratio", "expected"] for line in lines
+    )
 
 
 def test_a_subset_that_fails_is_a_line_with_its_reason(monkeypatch):
@@ -211,10 +245,14 @@ def test_a_subset_that_fails_is_a_line_with_its_reason(monkeypatch):
 def test_remarks_that_differ_in_numbers_only_are_said_once(report):
     """Authority: identity; a reader is told once of the same thing, and every mark in the table leads to a remark."""
     rows = tuple(
-        replace(row, remarks=(f"contact is lost in {place} of 20 steps", "undamped")[: place % 2 + 1]) for place, row in enumerate(report.rows)
+        replace(row, remarks=(f"contact is lost in {place} of 20 steps", "undamped")[: place % 2 + 1])
+        for place, row in enumerate(report.rows)
     )
     marked = replace(report, rows=rows)
-    assert table.remarks(marked) == ["contact is lost in 0 of 20 steps (numbers of the first row that says so)", "undamped"]
+    assert table.remarks(marked) == [
+        "contact is lost in 0 of 20 steps (numbers of the first row that says so)",
+        "undamped",
+    ]
     assert [cells[-1] for cells in table.table_rows(marked)][:3] == ["[1]", "[1] [2]", "[1]"]
     assert [len(table.own_remarks(marked, row)) for row in rows[:2]] == [0, 0 if len(rows[-1].remarks) == 2 else 1]
 
@@ -247,7 +285,8 @@ places = { pinion = ["-40 mm", "60 mm"] }
 
 
 def test_parts_of_effects_over_the_face_are_left_out_one_at_a_time():
-    """Authority: definition; each lead modification, tilting and axial motion, the rest of the scene as it is; without all of them it is a plane scene."""
+    """Authority: definition; each lead modification, tilting and axial motion, the rest of the scene as it is; without
+    all of them it is a plane scene."""
     whole = scene_from_text(text_of(TEETH).replace("[accuracy]", "[accuracy]\nslices = 7") + OVER_FACE)
     assert whole.three_dimensional
     found = subsets(whole)
@@ -255,18 +294,31 @@ def test_parts_of_effects_over_the_face_are_left_out_one_at_a_time():
     assert not bare.three_dimensional and model_of(bare).face is None
     assert crowned.lead_modifications.pinion == replace(whole.lead_modifications.pinion, crowning=0.0)
     assert replace(crowned, lead_modifications=whole.lead_modifications) == whole
-    assert found["all - end_relief"].scene.lead_modifications.pinion.end_relief is None and "all - helix_slope" not in found
+    assert (
+        found["all - end_relief"].scene.lead_modifications.pinion.end_relief is None
+        and "all - helix_slope" not in found
+    )
     assert found["all - tilting and axial motion"].scene.bearings.places is None
     held = found["all - axial motion"].scene.bearings
     assert held.places == whole.bearings.places and held.axial("pinion") is None
-    assert all(each.kind == LEFT_OUT for name, each in found.items() if each.sections == found["all"].sections and name != "all")
+    assert all(
+        each.kind == LEFT_OUT
+        for name, each in found.items()
+        if each.sections == found["all"].sections and name != "all"
+    )
 
 
 def test_scenes_over_the_face_share_operators_only_where_these_are_the_same():
-    """Definition: slices, layers, lead modifications and misalignment are in the gaps and compliances; the speed is not."""
+    """Definition: slices, layers, lead modifications and misalignment are in the gaps and compliances; the speed is
+    not."""
     scene = scene_from_text(text_of(TEETH) + OVER_FACE)
     key = operators_key(model_of(scene))
-    assert operators_key(model_of(replace(scene, motion=replace(scene.motion, mesh_frequency=2.0 * scene.motion.mesh_frequency)))) == key
+    assert (
+        operators_key(
+            model_of(replace(scene, motion=replace(scene.motion, mesh_frequency=2.0 * scene.motion.mesh_frequency)))
+        )
+        == key
+    )
     flatter = replace(scene.lead_modifications.pinion, crowning=1e-3)
     changed = [
         replace(scene, lead_modifications=replace(scene.lead_modifications, pinion=flatter)),

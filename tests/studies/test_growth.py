@@ -73,7 +73,12 @@ def test_the_peak_is_of_what_was_held_since_it_was_forgotten():
     if not memory.RESET.exists():
         pytest.skip("no /proc/self/clear_refs")
     root = Path(__file__).parents[2]
-    held, after = map(int, subprocess.run([sys.executable, "-c", HELD], cwd=root, capture_output=True, text=True, check=True).stdout.split())
+    held, after = map(
+        int,
+        subprocess.run(
+            [sys.executable, "-c", HELD], cwd=root, capture_output=True, text=True, check=True
+        ).stdout.split(),
+    )
     assert 60 * MEBI < held < 80 * MEBI and after < 10 * MEBI
 
 
@@ -84,7 +89,8 @@ def test_every_axis_spans_two_decades_of_scenes_that_can_be_run(axis):
     for value in (min(axis.values), max(axis.values)):
         model = model_of(axis.scene(value))
         counted = {
-            "contact_nodes": model.resolution.contact_grid.nodes, "teeth": model.pair.wheel.teeth, "steps": model.resolution.steps_per_mesh_cycle,
+            "contact_nodes": model.resolution.contact_grid.nodes, "teeth": model.pair.wheel.teeth,
+            "steps": model.resolution.steps_per_mesh_cycle,
             "cycles": model.scene.motion.mesh_cycles,
         }  # fmt: skip
         if axis.counted in counted:
@@ -92,9 +98,12 @@ def test_every_axis_spans_two_decades_of_scenes_that_can_be_run(axis):
 
 
 def test_a_point_has_all_that_theory_speaks_of():
-    """Authority: identity; every quantity of every axis is measured and positive, and both routes through the ring are timed where asked for."""
+    """Authority: identity; every quantity of every axis is measured and positive, and both routes through the ring are
+    timed where asked for."""
     scene = paper()
-    scene = replace(scene, accuracy=replace(scene.accuracy, flank_element_size=0.5, contact_nodes=9, steps_per_mesh_cycle=4))
+    scene = replace(
+        scene, accuracy=replace(scene.accuracy, flank_element_size=0.5, contact_nodes=9, steps_per_mesh_cycle=4)
+    )
     point = Point(model_of(scene), set(), compares_rings=True).measured()
     for axis in AXES:
         assert point[axis.counted] > 0.0
@@ -112,7 +121,8 @@ def test_every_axis_over_the_face_has_scenes_that_can_be_run(axis):
 
 
 def test_a_point_over_the_face_has_all_that_theory_speaks_of(tmp_path):
-    """Authority: identity; every quantity of every axis is measured and positive. MUMPS's analysis has the size of what is condensed, and more bytes than its dense front."""
+    """Authority: identity; every quantity of every axis is measured and positive. MUMPS's analysis has the size of what
+    is condensed, and more bytes than its dense front."""
     model = model_of(helical(layers=1, slices=2, steps_per_mesh_cycle=2))
     point = FacePoint(model, set()).body()
     contact = FacePoint(model, set()).contact(Cache(tmp_path))
@@ -130,7 +140,14 @@ def points_of(axis):
     """Made-up points that grow just as theory says."""
     found = []
     for value in axis.values:
-        point = dict.fromkeys((f"{stage}_{what}" for stage in ("mesh", "condense", "operators", "solving") for what in ("peak_bytes", "array_bytes", "rounds")), 5.0)
+        point = dict.fromkeys(
+            (
+                f"{stage}_{what}"
+                for stage in ("mesh", "condense", "operators", "solving")
+                for what in ("peak_bytes", "array_bytes", "rounds")
+            ),
+            5.0,
+        )
         point |= dict.fromkeys(("flank_nodes", "contact_nodes", "teeth", "steps", "cycles", "unknowns"), 1.0)
         point |= {column(quantity): 3.0 * value**theory.exponent for quantity, theory in axis.theory.items()}
         found.append(point | {axis.counted: value})
@@ -138,10 +155,14 @@ def points_of(axis):
 
 
 def test_table_picture_and_numbers_have_every_exponent(tmp_path):
-    """Authority: identity; what was made to grow as theory says is told so, in the page, the CSV and the picture's legends."""
+    """Authority: identity; what was made to grow as theory says is told so, in the page, the CSV and the picture's
+    legends."""
     axis = axis_named("contact nodes")
     found = {axis.name: points_of(axis)}
-    assert all(fit.value == pytest.approx(axis.theory[name].exponent, abs=1e-9) for name, fit in exponents(axis, found[axis.name]).items())
+    assert all(
+        fit.value == pytest.approx(axis.theory[name].exponent, abs=1e-9)
+        for name, fit in exponents(axis, found[axis.name]).items()
+    )
     words = section(found, MACHINE)
     assert "## Contact nodes" in words and "|marching: operators|2.00 ± 0.00|2.00|2|" in words
     write_csv(found, MACHINE, tmp_path / "growth.csv")

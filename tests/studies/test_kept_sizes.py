@@ -17,16 +17,35 @@ def axis(dotted):
 @pytest.mark.parametrize(
     ("swept", "kept"),
     [
-        (["gears.pinion.profile_shift"], ["gears.pinion.tip_diameter, gears.pinion.root_diameter and gears.centre_distance are kept"]),
-        (["gears.wheel.profile_shift", "gears.wheel.tip_diameter", "gears.wheel.root_diameter"], ["gears.centre_distance is kept"]),
-        (["gears.wheel.teeth", "gears.wheel.tip_diameter", "gears.wheel.root_diameter", "gears.centre_distance"], ["gears.pinion.profile_shift, gears.wheel.profile_shift and gears.pinion.tip_diameter are"]),
-        (["gears.helix_angle", "gears.centre_distance"], ["gears.pinion.profile_shift", "gears.pinion.tip_diameter, gears.wheel.tip_diameter, gears.pinion.root_diameter and gears.wheel.root_diameter are"]),
+        (
+            ["gears.pinion.profile_shift"],
+            ["gears.pinion.tip_diameter, gears.pinion.root_diameter and gears.centre_distance are kept"],
+        ),
+        (
+            ["gears.wheel.profile_shift", "gears.wheel.tip_diameter", "gears.wheel.root_diameter"],
+            ["gears.centre_distance is kept"],
+        ),
+        (
+            ["gears.wheel.teeth", "gears.wheel.tip_diameter", "gears.wheel.root_diameter", "gears.centre_distance"],
+            ["gears.pinion.profile_shift, gears.wheel.profile_shift and gears.pinion.tip_diameter are"],
+        ),
+        (
+            ["gears.helix_angle", "gears.centre_distance"],
+            [
+                "gears.pinion.profile_shift",
+                (
+                    "gears.pinion.tip_diameter, gears.wheel.tip_diameter, gears.pinion.root_diameter and"
+                    " gears.wheel.root_diameter are"
+                ),
+            ],
+        ),
         (["gears.pressure_angle"], ["gears.centre_distance is kept"]),
         (["gears.face_width", "gears.pinion.bore_diameter", "motion.mesh_frequency", "friction.coefficient"], []),
     ],
 )
 def test_what_is_kept_is_named(swept, kept):
-    """ISO 21771: tip and root diameter follow from module, teeth and profile shift, the centre distance without backlash from both shifts;
+    """ISO 21771: tip and root diameter follow from module, teeth and profile shift, the centre distance without
+    backlash from both shifts;
     what is swept along is not kept, and what no other size follows from needs no word."""
     said = kept_sizes([axis(each) for each in swept])
     assert len(said) == len(kept)
@@ -38,7 +57,10 @@ def test_what_the_scenes_derive_is_not_kept():
     left_out = [Derived(name, 1.0, "mm", "") for name in ("pinion tip diameter", "centre distance")]
     (said,) = kept_sizes([axis("gears.pinion.profile_shift")], left_out)
     assert "gears.pinion.root_diameter is kept" in said
-    assert kept_sizes([axis("gears.pinion.profile_shift")], [*left_out, Derived("pinion root diameter", 1.0, "mm", "")]) == []
+    assert (
+        kept_sizes([axis("gears.pinion.profile_shift")], [*left_out, Derived("pinion root diameter", 1.0, "mm", "")])
+        == []
+    )
 
 
 def test_a_study_says_it_in_summary_and_dataset_and_gives_transmission_errors_as_lengths_first(folder, undrawn, capsys):
@@ -49,7 +71,10 @@ def test_a_study_says_it_in_summary_and_dataset_and_gives_transmission_errors_as
     study = write_study(folder, 'combine = "zip"\n' + sweep)
     assert main(["study", str(study), "--output", "here"]) == 0
     printed = capsys.readouterr().out
-    words = "gears.pinion.profile_shift is swept and gears.pinion.tip_diameter, gears.pinion.root_diameter and gears.centre_distance are kept"
+    words = (
+        "gears.pinion.profile_shift is swept and gears.pinion.tip_diameter, gears.pinion.root_diameter and"
+        " gears.centre_distance are kept"
+    )
     assert words in printed
     (line,) = [each for each in printed.splitlines() if "transmission error, peak to peak" in each]
     said = line.partition("peak to peak")[2].split()

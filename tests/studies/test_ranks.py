@@ -1,4 +1,5 @@
-"""Studies under mpirun: the same numbers as alone, for any number of ranks. Failing and killed ranks are hard case 28."""
+"""Studies under mpirun: the same numbers as alone, for any number of ranks. Failing and killed ranks are hard case
+28."""
 
 import subprocess
 import sys
@@ -17,7 +18,8 @@ pytestmark = pytest.mark.ranks
 
 @pytest.mark.nightly
 def test_a_study_of_more_ranks_than_cases_gives_what_it_gives_alone(folder, undrawn):
-    """Authority: exact identity; a case's run does not depend on where it runs. Two ranks are compared in hard case 28."""
+    """Authority: exact identity; a case's run does not depend on where it runs. Two ranks are compared in hard case
+    28."""
     study = write_study(folder, '[sweep]\nfriction = ["absent", "present"]\n')
     assert main(["study", str(study), "--output", "alone", "--quiet"]) == 0
     together = gears(folder, "study", study, "--output", "here", ranks=3)
@@ -27,7 +29,8 @@ def test_a_study_of_more_ranks_than_cases_gives_what_it_gives_alone(folder, undr
 
 
 def test_both_of_two_ranks_compute_and_a_wrong_study_ends_both(folder):
-    """Authority: issue 3; rank 0 does not merely hand out: a task ends when one of the other rank's has begun. docs/promises.md: a wrong study
+    """Authority: issue 3; rank 0 does not merely hand out: a task ends when one of the other rank's has begun.
+    docs/promises.md: a wrong study
     ends with exit code 2, nothing written, and no rank is left waiting."""
     program = (
         "import os, sys, time\n"
@@ -49,7 +52,14 @@ def test_both_of_two_ranks_compute_and_a_wrong_study_ends_both(folder):
     )
     Path("program.py").write_text(program)
     write_study(folder, '[sweep]\nmotion.mesh_frequency = ["1 mm"]\n', "wrong.toml")
-    ended = subprocess.run([*mpirun(2), sys.executable, "program.py"], cwd=folder, env=environment(), capture_output=True, text=True, timeout=60)
+    ended = subprocess.run(
+        [*mpirun(2), sys.executable, "program.py"],
+        cwd=folder,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
     computed_by = ended.stdout.split()
     assert len(computed_by) == 4, ended.stderr
     # Rank 0 begins with the last, the worker with the first.
@@ -76,7 +86,14 @@ def test_ranks_of_a_study_condense_each_body_over_the_face_once(folder):
     Path("pair.toml").write_text(FACE, encoding="utf-8")
     write_study(folder, '[sweep]\nmisalignment.in_plane = ["0 um", "10 um", "20 um"]\n')
     own_cache = {**environment(), "FENICS_GEARS_CACHE": str(folder / "cache")}
-    ended = subprocess.run([*mpirun(3), sys.executable, "program.py"], cwd=folder, env=own_cache, capture_output=True, text=True, timeout=240)
+    ended = subprocess.run(
+        [*mpirun(3), sys.executable, "program.py"],
+        cwd=folder,
+        env=own_cache,
+        capture_output=True,
+        text=True,
+        timeout=240,
+    )
     assert ended.returncode == 0, ended.stderr
     assert Path("computed").read_text().splitlines() == ["a body"] * 2
 

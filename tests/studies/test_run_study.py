@@ -40,7 +40,9 @@ def test_every_case_is_what_a_run_of_its_scene_gives(folder):
     assert main(["study", str(study), "--quiet"]) == 0
     combined = load("results/study")
     assert combined.sizes["mesh_frequency"] == combined.sizes["friction"] == 2
-    assert list(combined["mesh_frequency"].values) == [100.0, 200.0] and combined["mesh_frequency"].attrs["units"] == "Hz"
+    assert (
+        list(combined["mesh_frequency"].values) == [100.0, 200.0] and combined["mesh_frequency"].attrs["units"] == "Hz"
+    )
     assert list(combined["friction"].values) == ["absent", "present"]
     for case in load_study(study).cases:
         alone, row = simulate(case.scene), combined.isel(mesh_frequency=case.index // 2, friction=case.index % 2)
@@ -48,7 +50,10 @@ def test_every_case_is_what_a_run_of_its_scene_gives(folder):
             assert float(row[name]) == alone.attrs[name]
         for name in ("transmission_error", "centre_y", "normal_force"):
             assert np.array_equal(row[name].values, alone[name].values)
-        assert np.array_equal(results.load(Path("results/study", str(row["case_file"].values)))["contact_pressure"], alone["contact_pressure"])
+        assert np.array_equal(
+            results.load(Path("results/study", str(row["case_file"].values)))["contact_pressure"],
+            alone["contact_pressure"],
+        )
     assert np.isnan(combined["friction_force"].sel(friction="absent")).all()
     assert np.isfinite(combined["friction_force"].sel(friction="present")).all()
     assert combined.attrs["complete"] == 1 and combined.attrs["study"] == study.read_text(encoding="utf-8")
@@ -57,8 +62,13 @@ def test_every_case_is_what_a_run_of_its_scene_gives(folder):
 
 @pytest.mark.usefixtures("undrawn")
 def test_cases_that_differ_in_relief_are_what_runs_of_their_scenes_give(folder):
-    """Authority: exact identity; they share contact operators, and each has gaps of its own. The run of each scene alone is the reference."""
-    study = write_study(folder, '[set]\ntip_relief.start = "HPSTC"\n[sweep]\ntip_relief.depth = ["1e-6 um", "31 um"]\nfriction = ["absent", "present"]\n')
+    """Authority: exact identity; they share contact operators, and each has gaps of its own. The run of each scene
+    alone is the reference."""
+    study = write_study(
+        folder,
+        '[set]\ntip_relief.start = "HPSTC"\n[sweep]\ntip_relief.depth = ["1e-6 um", "31 um"]\nfriction = ["absent",'
+        ' "present"]\n',
+    )
     assert main(["study", str(study), "--quiet"]) == 0
     combined = load("results/study")
     for case in load_study(study).cases:
@@ -70,7 +80,11 @@ def test_cases_that_differ_in_relief_are_what_runs_of_their_scenes_give(folder):
 
 def test_zip_has_one_dimension_with_the_fields_along_it(folder):
     """Authority: the definition of zip; the dataset before any case has run."""
-    study = write_study(folder, 'combine = "zip"\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\nload.wheel_torque = ["100 N m", "0.2 kNm"]')
+    study = write_study(
+        folder,
+        'combine = "zip"\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\nload.wheel_torque = ["100 N m", "0.2'
+        ' kNm"]',
+    )
     empty = combined(load_study(study), {}, {})
     assert empty["peak_to_peak_transmission_error"].dims == ("case",)
     assert list(empty["wheel_torque"].values) == [100.0, 200.0] and empty["wheel_torque"].attrs["units"] == "N m"
@@ -102,12 +116,15 @@ def test_a_study_run_again_computes_only_what_is_new(folder, capsys):
     assert "2 kept, 1 to be computed" in capsys.readouterr().err
     after = stamps("here")
     assert set(before.values()) < set(after.values()) and len(after) == 3
-    assert load("here").sel(mesh_frequency=[100.0, 200.0]).drop_vars("case_file").equals(combined.drop_vars("case_file"))
+    assert (
+        load("here").sel(mesh_frequency=[100.0, 200.0]).drop_vars("case_file").equals(combined.drop_vars("case_file"))
+    )
 
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_changed_base_scene_is_noticed_and_so_are_other_numbers(folder, capsys, monkeypatch):
-    """Authority: hash of what the scene says; a comment is no change, another face width is one, and so is another version of the numbers."""
+    """Authority: hash of what the scene says; a comment is no change, another face width is one, and so is another
+    version of the numbers."""
     study = write_study(folder, TWO)
     main(["study", str(study), "--quiet", "--output", "here"])
     before, old = stamps("here"), load("here")
@@ -125,7 +142,10 @@ def test_a_changed_base_scene_is_noticed_and_so_are_other_numbers(folder, capsys
         for module in ("study", "case_files"):
             updated.setattr(f"fenics_gears.studies.{module}.NUMBERS_VERSION", 10**6)
         assert main(["study", str(study), "--output", "here"]) == 0
-        assert "2 to be computed. Results that are here of a version of the program with other numbers are not used." in capsys.readouterr().err
+        assert (
+            "2 to be computed. Results that are here of a version of the program with other numbers are not used."
+            in capsys.readouterr().err
+        )
         assert main(["study", str(study), "--output", "here"]) == 0
         assert "2 kept, 0 to be computed.\n" in capsys.readouterr().err
     new = load("here")
@@ -186,7 +206,8 @@ FIVE = '[sweep]\nmotion.mesh_frequency = { start = "100 Hz", stop = "400 Hz", co
 
 
 def stopped_in_the_middle(folder, study, how, ranks=0):
-    """A study that a signal stops once a process, under mpirun rank 1, has done three cases, there two; the ended process."""
+    """A study that a signal stops once a process, under mpirun rank 1, has done three cases, there two; the ended
+    process."""
     # Alone it has no mpi4py, which DOLFINx needs: its gears come from the cache.
     gear_compliances(model_of(load_scene(folder / "pair.toml")), SilentProgress(), user_cache())
     call = command("study", study, "--output", "here", ranks=ranks)
@@ -196,10 +217,15 @@ def stopped_in_the_middle(folder, study, how, ranks=0):
 
 
 def test_ctrl_c_keeps_what_is_done(folder):
-    """Authority: docs/promises.md; exit code 130, what was done is kept, marked incomplete. Alone MPI is never touched: this process has no mpi4py."""
+    """Authority: docs/promises.md; exit code 130, what was done is kept, marked incomplete. Alone MPI is never touched:
+    this process has no mpi4py."""
     study = write_study(folder, FIVE)
     ended = stopped_in_the_middle(folder, study, signal.SIGINT)
-    assert ended.returncode == 130 and "Interrupted. What was done is kept" in ended.stderr and "Traceback" not in ended.stderr
+    assert (
+        ended.returncode == 130
+        and "Interrupted. What was done is kept" in ended.stderr
+        and "Traceback" not in ended.stderr
+    )
     combined = load("here")
     done = len(stamps("here"))
     assert done == 3 and combined.attrs["complete"] == 0

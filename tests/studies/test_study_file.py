@@ -28,9 +28,14 @@ def test_a_product_has_every_combination_the_last_field_turning_fastest(folder):
 
 def test_zip_varies_all_fields_together(folder):
     """Authority: zip."""
-    study = load_study(write_study(folder, 'combine = "zip"\n[sweep]\n' + FREQUENCIES + 'load.wheel_torque = ["1 N m", "2 N m"]'))
+    study = load_study(
+        write_study(folder, 'combine = "zip"\n[sweep]\n' + FREQUENCIES + 'load.wheel_torque = ["1 N m", "2 N m"]')
+    )
     assert study.shape == (2,) and study.dimensions == ("case",)
-    assert [(c.scene.motion.mesh_frequency, c.scene.load.wheel_torque) for c in study.cases] == [(100.0, 1000.0), (200.0, 2000.0)]
+    assert [(c.scene.motion.mesh_frequency, c.scene.load.wheel_torque) for c in study.cases] == [
+        (100.0, 1000.0),
+        (200.0, 2000.0),
+    ]
 
 
 @pytest.mark.parametrize(
@@ -56,7 +61,12 @@ def test_a_range_of_whole_numbers_stays_whole(folder):
 
 
 @pytest.mark.parametrize(
-    "spelling", ['motion.mesh_frequency = ["100 Hz"]', '"motion.mesh_frequency" = ["100 Hz"]', 'motion = { mesh_frequency = ["100 Hz"] }']
+    "spelling",
+    [
+        'motion.mesh_frequency = ["100 Hz"]',
+        '"motion.mesh_frequency" = ["100 Hz"]',
+        'motion = { mesh_frequency = ["100 Hz"] }',
+    ],
 )
 def test_dotted_names_may_be_bare_quoted_or_tables(folder, spelling):
     """Authority: TOML, where the first and the last are the same."""
@@ -66,7 +76,10 @@ def test_dotted_names_may_be_bare_quoted_or_tables(folder, spelling):
 def test_a_field_called_start_is_no_range(folder):
     """Authority: docs/promises.md, where tip relief has a field of that name."""
     study = swept(folder, 'tip_relief.depth = ["10 um"]\ntip_relief.start = ["HPSTC", "29.61 deg"]')
-    assert [case.scene.tip_relief.pinion.start_roll_angle for case in study.cases] == [None, pytest.approx(np.radians(29.61))]
+    assert [case.scene.tip_relief.pinion.start_roll_angle for case in study.cases] == [
+        None,
+        pytest.approx(np.radians(29.61)),
+    ]
 
 
 def test_sections_can_be_absent_present_or_written_out(folder):
@@ -119,7 +132,9 @@ def test_a_scene_written_again_says_the_same():
     assert tomllib.loads(as_toml(tree)) == tree
 
 
-@pytest.mark.parametrize("value, spelt", [(np.float64(0.1), "0.1"), (np.int64(3), "3"), (np.bool_(True), "true"), (np.str_("a"), '"a"')])
+@pytest.mark.parametrize(
+    "value, spelt", [(np.float64(0.1), "0.1"), (np.int64(3), "3"), (np.bool_(True), "true"), (np.str_("a"), '"a"')]
+)
 def test_numpys_values_are_spelt_as_pythons(value, spelt):
     """Authority: TOML; numpy 2 spells its own np.float64(0.1)."""
     assert toml_value(value) == spelt
@@ -130,7 +145,10 @@ WRONG = {
     "empty sweep": ("[sweep]\n", ["sweep", "is missing"]),
     "unknown key": ("swep = 1\n[sweep]\n" + FREQUENCIES, ["swep = 1", 'Did you mean "sweep"?']),
     "scene's section": ('[load]\nwheel_torque = "1 N m"\n[sweep]\n' + FREQUENCIES, ["[load]", "[set]"]),
-    "unknown field": ('[sweep]\nmotion.mesh_frequenzy = ["1 Hz"]', ["mesh_frequenzy", 'Did you mean "motion.mesh_frequency"?', ":3:"]),
+    "unknown field": (
+        '[sweep]\nmotion.mesh_frequenzy = ["1 Hz"]',
+        ["mesh_frequenzy", 'Did you mean "motion.mesh_frequency"?', ":3:"],
+    ),
     "field without section": ('[sweep]\nmesh_frequency = ["1 Hz"]', ["mesh_frequency", "motion.mesh_frequency"]),
     "unknown in set": ('[set]\nload.torque = "1 N m"\n[sweep]\n' + FREQUENCIES, ["load.torque", "load.wheel_torque"]),
     "unknown in without": ('without = ["inertea"]\n[sweep]\n' + FREQUENCIES, ["inertea", 'Did you mean "inertia"?']),
@@ -138,23 +156,59 @@ WRONG = {
     "empty list": ("[sweep]\nmotion.mesh_frequency = []", ["is an empty list"]),
     "wrong unit": ('[sweep]\nmotion.mesh_frequency = ["1 Hz", "3 mm"]', ['"3 mm"', "is a length", "Allowed"]),
     "no unit": ("[sweep]\nmotion.mesh_frequency = [200]", ["without its unit", '"200 Hz"']),
-    "out of range": ("[sweep]\nfriction.coefficient = [0.1, 0]", ["friction.coefficient = 0", "leave the section [friction] out"]),
+    "out of range": (
+        "[sweep]\nfriction.coefficient = [0.1, 0]",
+        ["friction.coefficient = 0", "leave the section [friction] out"],
+    ),
     "section as number": ("[sweep]\nfriction = [0.1]", ["friction", "is a section", '"absent"']),
     "misspelt absent": ('[sweep]\nfriction = ["absnt"]', ['Did you mean "absent"?']),
-    "present but absent": ('without = ["tip_relief"]\n[sweep]\ntip_relief.pinion = ["present"]', ["present", "pair.toml"]),
-    "zip of different lengths": ('combine = "zip"\n[sweep]\n' + FREQUENCIES + "friction.coefficient = [0.1]", ["mesh_frequency has 2", "coefficient has 1"]),
+    "present but absent": (
+        'without = ["tip_relief"]\n[sweep]\ntip_relief.pinion = ["present"]',
+        ["present", "pair.toml"],
+    ),
+    "zip of different lengths": (
+        'combine = "zip"\n[sweep]\n' + FREQUENCIES + "friction.coefficient = [0.1]",
+        ["mesh_frequency has 2", "coefficient has 1"],
+    ),
     "unknown combination": ('combine = "prodct"\n[sweep]\n' + FREQUENCIES, ["prodct", 'Did you mean "product"?']),
     "range without stop": ('[sweep]\nmotion.mesh_frequency = { start = "1 Hz", count = 3 }', ["has no stop"]),
-    "range with count and step": ('[sweep]\nmotion.mesh_frequency = { start = "1 Hz", stop = "3 Hz", count = 3, step = "1 Hz" }', ["one of count and step"]),
-    "range of two kinds": ('[sweep]\nmotion.mesh_frequency = { start = "1 Hz", stop = "3 mm", count = 3 }', ["mixes a frequency (1/time) and a length"]),
-    "range backwards": ('[sweep]\nmotion.mesh_frequency = { start = "1 Hz", stop = "3 Hz", step = "-1 Hz" }', ["does not lead from start to stop"]),
-    "logarithm of zero": ('[sweep]\nload.wheel_torque = { start = "0 N m", stop = "3 N m", count = 3, spacing = "logarithmic" }', ["must be above zero"]),
-    "misspelt range": ('[sweep]\nmotion.mesh_frequency = { begin = "1 Hz", stop = "3 Hz", count = 3 }', ["begin", "start, stop"]),
-    "endless range": ('[sweep]\nmotion.mesh_frequency = { start = "1 Hz", stop = "1e6 Hz", step = "1e-6 Hz" }', ["up to 100000"]),
-    "too many cases": ("[sweep]\naccuracy.contact_nodes = { start = 1, stop = 1000, count = 1000 }\nfriction.coefficient = { start = 0.1, stop = 1, count = 1000 }", ["makes 1000000 cases"]),
+    "range with count and step": (
+        '[sweep]\nmotion.mesh_frequency = { start = "1 Hz", stop = "3 Hz", count = 3, step = "1 Hz" }',
+        ["one of count and step"],
+    ),
+    "range of two kinds": (
+        '[sweep]\nmotion.mesh_frequency = { start = "1 Hz", stop = "3 mm", count = 3 }',
+        ["mixes a frequency (1/time) and a length"],
+    ),
+    "range backwards": (
+        '[sweep]\nmotion.mesh_frequency = { start = "1 Hz", stop = "3 Hz", step = "-1 Hz" }',
+        ["does not lead from start to stop"],
+    ),
+    "logarithm of zero": (
+        '[sweep]\nload.wheel_torque = { start = "0 N m", stop = "3 N m", count = 3, spacing = "logarithmic" }',
+        ["must be above zero"],
+    ),
+    "misspelt range": (
+        '[sweep]\nmotion.mesh_frequency = { begin = "1 Hz", stop = "3 Hz", count = 3 }',
+        ["begin", "start, stop"],
+    ),
+    "endless range": (
+        '[sweep]\nmotion.mesh_frequency = { start = "1 Hz", stop = "1e6 Hz", step = "1e-6 Hz" }',
+        ["up to 100000"],
+    ),
+    "too many cases": (
+        (
+            "[sweep]\naccuracy.contact_nodes = { start = 1, stop = 1000, count = 1000 }\nfriction.coefficient = { start"
+            " = 0.1, stop = 1, count = 1000 }"
+        ),
+        ["makes 1000000 cases"],
+    ),
     "section and its field": ('[sweep]\nfriction = ["absent", "present"]\nfriction.coefficient = [0.1]', None),
     "set and swept": ('[set]\nmotion.mesh_frequency = "1 Hz"\n[sweep]\n' + FREQUENCIES, ["is swept too"]),
-    "same case twice": ('[sweep]\nmotion.mesh_frequency = ["200 Hz", "0.2 kHz"]', ["case 0", "case 1", "the same scene"]),
+    "same case twice": (
+        '[sweep]\nmotion.mesh_frequency = ["200 Hz", "0.2 kHz"]',
+        ["case 0", "case 1", "the same scene"],
+    ),
     "effects that do not fit": ('[sweep]\ninertia = ["present", "absent"]', ["damping", "inertia", "needs"]),
     "impossible gears": ('[sweep]\ngears.centre_distance = ["91.5 mm", "95.5 mm"]', ["contact ratio", "95.5 mm"]),
     "half a relief": ('[sweep]\ntip_relief.depth = ["10 um"]', ["tip_relief.start", "is missing"]),
@@ -187,7 +241,11 @@ def test_a_wrong_base_scene_is_told_as_the_scenes_own_mistake(folder, capsys):
 
 def test_a_mistake_of_many_cases_is_said_once(folder, capsys):
     """Authority: one cause, one message."""
-    study = write_study(folder, "[set]\nmotion.recorded_cycles = 9\n[sweep]\nload.wheel_torque = { start = \"1 N m\", stop = \"9 N m\", count = 50 }")
+    study = write_study(
+        folder,
+        '[set]\nmotion.recorded_cycles = 9\n[sweep]\nload.wheel_torque = { start = "1 N m", stop = "9 N m", count ='
+        " 50 }",
+    )
     assert main(["study", str(study)]) == 2
     error = capsys.readouterr().err
     assert error.count("recorded_cycles") == 1 and "1 mistake" in error

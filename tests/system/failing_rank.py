@@ -1,4 +1,5 @@
-"""`gears` under mpirun, of which one rank fails at a stage: python -m tests.system.failing_rank STAGE RANK HOW VICTIM ARGUMENTS OF THE COMMAND.
+"""`gears` under mpirun, of which one rank fails at a stage: python -m tests.system.failing_rank STAGE RANK HOW VICTIM
+ARGUMENTS OF THE COMMAND.
 
 RANK is the one that comes to the stage; it fails there itself, or kills the VICTIM and waits for its own end.
 """
@@ -35,7 +36,12 @@ STAGES = {
     "keeping a run": "studies.optimization.run_lines:append",
     "choosing": "studies.optimization.optimize:chosen",
 }
-ERRORS = {"refuses": SceneError(WORDS), "fails": ComputationError(WORDS), "breaks": MemoryError(WORDS), "interrupted": KeyboardInterrupt()}
+ERRORS = {
+    "refuses": SceneError(WORDS),
+    "fails": ComputationError(WORDS),
+    "breaks": MemoryError(WORDS),
+    "interrupted": KeyboardInterrupt(),
+}
 
 
 def main(stage: str, rank: str, how: str, victim: str, *arguments: str) -> int:

@@ -63,9 +63,12 @@ def test_each_task_is_done_once_by_two_processes_or_one(tmp_path):
     no_process_is_left()
 
 
-@pytest.mark.parametrize("end", [lambda: 1 / 0, lambda: os.kill(os.getpid(), signal.SIGKILL), lambda: os.kill(os.getpid(), signal.SIGINT)])
+@pytest.mark.parametrize(
+    "end", [lambda: 1 / 0, lambda: os.kill(os.getpid(), signal.SIGKILL), lambda: os.kill(os.getpid(), signal.SIGINT)]
+)
 def test_what_the_copy_leaves_is_done_here(tmp_path, end):
-    """Authority: hard_cases.md: no failure of a part that only saves time reaches the user; the copy fails, is killed, is interrupted."""
+    """Authority: hard_cases.md: no failure of a part that only saves time reaches the user; the copy fails, is killed,
+    is interrupted."""
     do_all([lambda: (elsewhere(end), note(tmp_path, 0)), partial(note, tmp_path, 1)], shared=True)
     assert done(tmp_path) == [[str(HERE)]] * 2
     no_process_is_left()
@@ -79,7 +82,8 @@ def test_a_task_that_fails_in_both_processes_fails_here():
 
 
 def test_a_failure_or_ctrl_c_here_ends_the_copy():
-    """Authority: files of a copy that goes on would appear after the call has failed; this one would go on for a minute."""
+    """Authority: files of a copy that goes on would appear after the call has failed; this one would go on for a
+    minute."""
 
     def interrupted():
         raise KeyboardInterrupt

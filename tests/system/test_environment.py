@@ -1,4 +1,5 @@
-"""The settings given to MPI and BLAS: authority is each library's documented variable, and that a user's own setting wins."""
+"""The settings given to MPI and BLAS: authority is each library's documented variable, and that a user's own setting
+wins."""
 
 import os
 
@@ -44,12 +45,22 @@ def test_tcp_is_left_out_on_one_machine_and_kept_across_machines():
         ({"PMI_SIZE": "8", "MPI_LOCALNRANKS": "4"}, 8, 4),
         ({"SLURM_STEP_NUM_TASKS": "11", "SLURM_STEP_TASKS_PER_NODE": "4(x2),3"}, 11, 4),
         # mpirun under Slurm: one daemon on each machine is a step's task.
-        ({"SLURM_STEP_NUM_TASKS": "2", "SLURM_STEP_TASKS_PER_NODE": "1(x2)", "OMPI_COMM_WORLD_SIZE": "8", "OMPI_COMM_WORLD_LOCAL_SIZE": "4"}, 8, 4),
+        (
+            {
+                "SLURM_STEP_NUM_TASKS": "2",
+                "SLURM_STEP_TASKS_PER_NODE": "1(x2)",
+                "OMPI_COMM_WORLD_SIZE": "8",
+                "OMPI_COMM_WORLD_LOCAL_SIZE": "4",
+            },
+            8,
+            4,
+        ),
         ({"OMPI_COMM_WORLD_LOCAL_SIZE": "0", "PMI_SIZE": "two"}, 1, 1),
     ],
 )
 def test_ranks_are_counted(given, together, here):
-    """Documented variables of Open MPI, of MPICH's Hydra and of Slurm's srun; what is no number above 0 counts as one process."""
+    """Documented variables of Open MPI, of MPICH's Hydra and of Slurm's srun; what is no number above 0 counts as one
+    process."""
     assert (environment.started_ranks(given), environment.local_ranks(given)) == (together, here)
 
 

@@ -1,4 +1,5 @@
-"""One rank of a job fails: each stage of each command that ranks share, each rank of two. `python -m tests.system.test_failing_ranks` prints the table."""
+"""One rank of a job fails: each stage of each command that ranks share, each rank of two. `python -m
+tests.system.test_failing_ranks` prints the table."""
 
 import signal
 import subprocess
@@ -17,10 +18,15 @@ from fenics_gears.results import load
 
 pytestmark = pytest.mark.ranks
 
-PLANE = DEMO.read_text(encoding="utf-8").replace("mesh_cycles = 30 ", "mesh_cycles = 2 ").partition("[accuracy]")[0] + ACCURACY
+PLANE = (
+    DEMO.read_text(encoding="utf-8").replace("mesh_cycles = 30 ", "mesh_cycles = 2 ").partition("[accuracy]")[0]
+    + ACCURACY
+)
 EVERY_STEP = PLANE.replace("steps_per_mesh_cycle = 20", 'steps_per_mesh_cycle = 2\ncondensation = "every step"')
-FACE = (DEMO.parent / "misaligned_spur" / "misaligned.toml").read_text(encoding="utf-8").partition("[accuracy]")[0] + (
-    '[accuracy]\nflank_element_size = "0.6 mm"\nbody_element_size = "9 mm"\nlayers = 1\nslices = 2\ncontact_length = "3 mm"\ncontact_nodes = 9\nsteps_per_mesh_cycle = 4\n'
+FACE = (
+    (DEMO.parent / "misaligned_spur" / "misaligned.toml").read_text(encoding="utf-8").partition("[accuracy]")[0]
+    + '[accuracy]\nflank_element_size = "0.6 mm"\nbody_element_size = "9 mm"\nlayers = 1\nslices = 2\ncontact_length '
+    '= "3 mm"\ncontact_nodes = 9\nsteps_per_mesh_cycle = 4\n'
 )
 STUDY = 'scene = "pair.toml"\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz", "300 Hz"]\n'
 COMMANDS = {
@@ -31,7 +37,17 @@ COMMANDS = {
     "optimize": (["optimize", "design.toml"], PLANE),
 }
 # Stages that every rank comes to; to the others comes rank 0 alone.
-SHARED = {"section mesh", "condensing", "ring", "remeshing", "condensing for a study", "a case", "writing a case", "a design's run", "keeping a run"}
+SHARED = {
+    "section mesh",
+    "condensing",
+    "ring",
+    "remeshing",
+    "condensing for a study",
+    "a case",
+    "writing a case",
+    "a design's run",
+    "keeping a run",
+}
 OF_A_RUN = ("reading", "model", "positions", "march", "writing")
 STAGES_OF = {
     "plane": ("plane sections", "march"),
@@ -50,12 +66,19 @@ MATRIX = [
     for rank in (0, 1)
     for how in ("fails", "killed")
     if not (how == "fails" and (stage in GOES_ON or rank == 1 and stage not in SHARED))
-] + [("face", "condensing", 1, "breaks"), ("face", "reading", 0, "refuses"), ("face", "ring", 0, "interrupted"), ("face", "march", 0, "interrupted"), ("every step", "remeshing", 1, "breaks")]
+] + [
+    ("face", "condensing", 1, "breaks"),
+    ("face", "reading", 0, "refuses"),
+    ("face", "ring", 0, "interrupted"),
+    ("face", "march", 0, "interrupted"),
+    ("every step", "remeshing", 1, "breaks"),
+]
 
 
 @dataclass(frozen=True)
 class End:
-    """How a job ended: exit code, what it wrote to the standard error, seconds after the failure, processes that are still there."""
+    """How a job ended: exit code, what it wrote to the standard error, seconds after the failure, processes that are
+    still there."""
 
     code: int
     told: str
@@ -69,20 +92,46 @@ def ended(folder: Path, command: str, stage: str, rank: int, how: str, *more: st
     for name, text in (("pair.toml", scene), ("study.toml", STUDY), ("design.toml", RIGID + VARIABLES + GOAL + FEWER)):
         (folder / name).write_text(text, encoding="utf-8")
     comes = rank if stage in SHARED else 0
-    call = [*mpirun(2), sys.executable, "-m", "tests.system.failing_rank", stage, str(comes), how, str(rank), *arguments, *more, "--output", "here"]
-    done = subprocess.run(call, cwd=folder, env={**environment(), "FENICS_GEARS_CACHE": str(folder)}, capture_output=True, text=True, timeout=240)
+    call = [
+        *mpirun(2),
+        sys.executable,
+        "-m",
+        "tests.system.failing_rank",
+        stage,
+        str(comes),
+        how,
+        str(rank),
+        *arguments,
+        *more,
+        "--output",
+        "here",
+    ]
+    done = subprocess.run(
+        call,
+        cwd=folder,
+        env={**environment(), "FENICS_GEARS_CACHE": str(folder)},
+        capture_output=True,
+        text=True,
+        timeout=240,
+    )
     over = time.time()
     processes = [Path("/proc", file.read_text()) for file in folder.glob("process.*")]
     assert len(processes) == 2 and (folder / "failed").exists(), done.stderr
     while any(each.exists() for each in processes) and time.time() < over + 20.0:
         time.sleep(0.1)
-    return End(done.returncode, done.stderr, over - (folder / "failed").stat().st_mtime, [int(each.name) for each in processes if each.exists()])
+    return End(
+        done.returncode,
+        done.stderr,
+        over - (folder / "failed").stat().st_mtime,
+        [int(each.name) for each in processes if each.exists()],
+    )
 
 
 @pytest.mark.nightly
 @pytest.mark.parametrize(("command", "stage", "rank", "how"), MATRIX)
 def test_an_error_of_a_rank_ends_all(tmp_path, command, stage, rank, how):
-    """Hard case 28 and the exit codes of the command line: no rank waits for ever, none is left behind, and the error is said once with its exit code."""
+    """Hard case 28 and the exit codes of the command line: no rank waits for ever, none is left behind, and the error
+    is said once with its exit code."""
     end = ended(tmp_path, command, stage, rank, how)
     assert end.code == CODES[how], end.told
     assert not end.left
@@ -99,7 +148,9 @@ def test_a_run_that_does_not_fit_ends_all_ranks(tmp_path):
 @pytest.mark.nightly
 def test_ranks_share_a_run_whose_settings_are_chosen_by_a_target(tmp_path):
     """Definition: the ranks condense the bodies of the chosen settings, which rank 0 alone knows."""
-    (tmp_path / "pair.toml").write_text(FACE.partition("[accuracy]")[0] + '[accuracy]\ntarget = "20 %"\n', encoding="utf-8")
+    (tmp_path / "pair.toml").write_text(
+        FACE.partition("[accuracy]")[0] + '[accuracy]\ntarget = "20 %"\n', encoding="utf-8"
+    )
     done = gears(tmp_path, "run", "pair.toml", "--no-pictures", "--output", "here", ranks=2)
     assert done.returncode == 0, done.stderr
     assert load(tmp_path / "here" / "run.nc").attrs["target"] == pytest.approx(0.2)
@@ -109,4 +160,12 @@ if __name__ == "__main__":
     for each in MATRIX:
         with tempfile.TemporaryDirectory() as place:
             end = ended(Path(place), *each)
-        print(*each, end.code, f"{end.seconds:.1f} s", end.left, "says it" if WORDS in end.told else "", sep=" | ", flush=True)
+        print(
+            *each,
+            end.code,
+            f"{end.seconds:.1f} s",
+            end.left,
+            "says it" if WORDS in end.told else "",
+            sep=" | ",
+            flush=True,
+        )

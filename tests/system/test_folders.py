@@ -20,7 +20,9 @@ def temporary(tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.mark.parametrize("given", [{"HOME": "/dev/null/a"}, {"HOME": "relative"}, {"HOME": "/", "XDG_CACHE_HOME": "/dev/null"}])
+@pytest.mark.parametrize(
+    "given", [{"HOME": "/dev/null/a"}, {"HOME": "relative"}, {"HOME": "/", "XDG_CACHE_HOME": "/dev/null"}]
+)
 def test_a_user_without_a_folder_for_caches_has_one_and_is_told_once(temporary, capsys, given):
     """One sentence that names the variable; the second process finds the same folder and says nothing."""
     for sentences in (1, 0):

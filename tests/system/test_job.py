@@ -37,9 +37,17 @@ sys.exit(job.led(lead))
 
 
 def test_an_error_of_one_rank_is_an_error_of_all(tmp_path):
-    """Definitions: each rank's value, rank 0 alone gets what is its own; a SceneError of rank 1 is rank 0's, and the work goes on. Where rank 0 waits for it inside
+    """Definitions: each rank's value, rank 0 alone gets what is its own; a SceneError of rank 1 is rank 0's, and the
+    work goes on. Where rank 0 waits for it inside
     MPI for ever, MPI's Abort ends both with the error's words and exit code. Both ranks are on this machine."""
     (tmp_path / "program.py").write_text(PROGRAM, encoding="utf-8")
-    done = subprocess.run([*mpirun(2), sys.executable, "program.py"], cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=60)
+    done = subprocess.run(
+        [*mpirun(2), sys.executable, "program.py"],
+        cwd=tmp_path,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
     assert done.stdout.splitlines() == ["[19, 10] 2", "rank 1: no more chalk exit code 2"], done.stderr
     assert done.returncode == 2 and "rank 1: no more chalk" in done.stderr

@@ -23,8 +23,17 @@ def dead_process():
 def test_what_a_killed_process_left_is_removed_and_nothing_else(tmp_path):
     """Of this machine and of a process that has ended. Not of a live one, of another machine, or in a folder within."""
     here, dead = f"{output.UNFINISHED}{output._machine()}-", dead_process()
-    left, alive, elsewhere = f"{here}{dead}-abc", f"{here}{os.getppid()}-abc", f"{output.UNFINISHED}elsewhere-1-{dead}-abc"
-    others = {tmp_path / alive, tmp_path / elsewhere, tmp_path / "neighbour" / left, tmp_path / f"{output.UNFINISHED}abc"}
+    left, alive, elsewhere = (
+        f"{here}{dead}-abc",
+        f"{here}{os.getppid()}-abc",
+        f"{output.UNFINISHED}elsewhere-1-{dead}-abc",
+    )
+    others = {
+        tmp_path / alive,
+        tmp_path / elsewhere,
+        tmp_path / "neighbour" / left,
+        tmp_path / f"{output.UNFINISHED}abc",
+    }
     for each in (tmp_path / left, *others):
         each.mkdir(parents=True)
         (each / "run.nc").touch()
@@ -50,7 +59,18 @@ def places(folder):
     (folder / "dangling").symlink_to("/nowhere/at/all")
     (folder / "own" / "run.nc").mkdir(parents=True)
     (folder / "loop").symlink_to("loop")
-    return dict(zip(WHY, (folder / "file" / "out", folder / "dangling" / "out", folder / "own", folder / "loop", folder / ("x" * 300))))
+    return dict(
+        zip(
+            WHY,
+            (
+                folder / "file" / "out",
+                folder / "dangling" / "out",
+                folder / "own",
+                folder / "loop",
+                folder / ("x" * 300),
+            ),
+        )
+    )
 
 
 WHY = ("is a file", "is a link to /nowhere/at/all", "is no file", "levels of symbolic links", "name too long")

@@ -39,7 +39,8 @@ WORDS = {
 
 @pytest.mark.parametrize("kind", WORDS)
 def test_what_is_no_text_is_refused_in_words(tmp_path, kind):
-    """A pipe without a writer would be waited for, a device or gigabytes would fill the memory: the test would not end."""
+    """A pipe without a writer would be waited for, a device or gigabytes would fill the memory: the test would not
+    end."""
     with pytest.raises(user_file.Unreadable, match=WORDS[kind]):
         user_file.text_of(kinds(tmp_path)[kind], user_file.LARGEST_SCENE)
 
@@ -55,4 +56,6 @@ def test_a_file_that_grows_while_it_is_read_is_refused(tmp_path, monkeypatch):
 def test_text_is_as_python_reads_it(tmp_path):
     """The same as `Path.read_text`: without byte order mark, all lines ended by new lines."""
     (tmp_path / "text").write_bytes("\ufeffa\r\nb\rc\nµ".encode())
-    assert user_file.text_of(tmp_path / "text", 100) == (tmp_path / "text").read_text(encoding="utf-8-sig") == "a\nb\nc\nµ"
+    assert (
+        user_file.text_of(tmp_path / "text", 100) == (tmp_path / "text").read_text(encoding="utf-8-sig") == "a\nb\nc\nµ"
+    )

@@ -1,4 +1,5 @@
-"""Flank compliance of a gear over its face: sweep one tooth sector, condense it, join the ring; or read it from the cache."""
+"""Flank compliance of a gear over its face: sweep one tooth sector, condense it, join the ring; or read it from the
+cache."""
 
 from __future__ import annotations
 
@@ -24,12 +25,20 @@ ORDER = 2
 
 
 def face_compliance(
-    gear: Gear, material: Material, discretisation: FaceDiscretisation, reach: Reach, cache: Cache | None = None, job: Job | None = None
+    gear: Gear,
+    material: Material,
+    discretisation: FaceDiscretisation,
+    reach: Reach,
+    cache: Cache | None = None,
+    job: Job | None = None,
 ) -> FaceCompliance:
-    """Flank compliance of a gear over its face, from the cache or by condensing one swept tooth sector, hub held, end faces free.
+    """Flank compliance of a gear over its face, from the cache or by condensing one swept tooth sector, hub held, end
+    faces free.
 
-    gear: its transverse section. Similar gears share an entry of the cache. With `reach.across` the coast flank's dofs follow the drive
-    flank's, in the tooth's frame mirrored at its centreline at that height: x and y as of the mirrored section, heights and z as they are.
+    gear: its transverse section. Similar gears share an entry of the cache. With `reach.across` the coast flank's dofs
+        follow the drive
+    flank's, in the tooth's frame mirrored at its centreline at that height: x and y as of the mirrored section, heights
+    and z as they are.
     job: whose ranks share the work. Raises SceneError for an impossible size, ComputationError when a stage fails.
     """
     check_inputs(gear, material, reach)
@@ -70,8 +79,11 @@ def face_compliance(
     )
 
 
-def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, iterative: bool, comm) -> tuple[dict, dict] | None:
-    """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took; None on all ranks of a communicator but 0, which share the work."""
+def _computed(
+    gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, iterative: bool, comm
+) -> tuple[dict, dict] | None:
+    """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took; None on all ranks of a
+    communicator but 0, which share the work."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.condensation import by_radius
     from fenics_gears.elasticity.element_nodes import node_roll_angles
@@ -84,7 +96,9 @@ def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farth
     clock = perf_counter()
     mesh = sector_mesh(gear, face.sizes)
     meshed = perf_counter()
-    sector = condensed_swept_sector(mesh, face.sweep, poissons_ratio, centreline_angle(gear), gear.teeth, both, comm, iterative)
+    sector = condensed_swept_sector(
+        mesh, face.sweep, poissons_ratio, centreline_angle(gear), gear.teeth, both, comm, iterative
+    )
     condensed = perf_counter()
     basis = half_turn_basis(sector.lower, len(face.sweep.heights))
     joint = half_turn_response(sector.link, gear.teeth, farthest + 1, basis, comm)
@@ -96,7 +110,9 @@ def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farth
         return None
     blocks = _in_mirrored_frame(blocks, gear, both)
     joined = perf_counter()
-    flank = np.vstack([by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in (("flank", "coast") if both else ("flank",))])
+    flank = np.vstack(
+        [by_radius(mesh.edge_nodes(side, ELEMENT.order)) for side in (("flank", "coast") if both else ("flank",))]
+    )
     section = condensed_sector(mesh, ELEMENT, poissons_ratio, flank)
     plane = _in_mirrored_frame(ring_compliance(section, gear.teeth, farthest), gear, both, components=2)
     rolls = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), ELEMENT.order)
@@ -112,7 +128,8 @@ def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farth
 
 
 def _in_mirrored_frame(blocks: np.ndarray, gear: Gear, both: bool, components: int = 3) -> np.ndarray:
-    """Blocks (k, d, d) with the coast flank's dofs, the second half of them, in the tooth's frame mirrored at its centreline."""
+    """Blocks (k, d, d) with the coast flank's dofs, the second half of them, in the tooth's frame mirrored at its
+    centreline."""
     if not both:
         return blocks
     angle = centreline_angle(gear)

@@ -1,6 +1,8 @@
-"""Half a swept sector by conjugate gradients with algebraic multigrid (PETSc): for bodies whose Cholesky factor memory does not hold.
+"""Half a swept sector by conjugate gradients with algebraic multigrid (PETSc): for bodies whose Cholesky factor memory
+does not hold.
 
-Every force on the flank and every motion of the cut takes a solution of its own. A neighbour's solution as a first guess saves nothing (measured).
+Every force on the flank and every motion of the cut takes a solution of its own. A neighbour's solution as a first
+guess saves nothing (measured).
 """
 
 from __future__ import annotations
@@ -14,10 +16,12 @@ from fenics_gears.elasticity.mumps import distributed
 from fenics_gears.elasticity.petsc import PETSc
 from fenics_gears.errors import ComputationError
 
-# Of the error's energy norm, as the preconditioner sees it; compliances then agree with those of a factorisation to some 1e-10 (measured).
+# Of the error's energy norm, as the preconditioner sees it; compliances then agree with those of a factorisation to
+# some 1e-10 (measured).
 TOLERANCE, MOST_ITERATIONS = 1e-11, 400
 PREFIX = "gears_body_"
-# Incomplete Cholesky factors smooth within the part of a rank: half the time of Jacobi's smoothing, and of hypre's BoomerAMG.
+# Incomplete Cholesky factors smooth within the part of a rank: half the time of Jacobi's smoothing, and of hypre's
+# BoomerAMG.
 OPTIONS = {
     "ksp_type": "cg",
     "ksp_norm_type": "natural",
@@ -30,10 +34,13 @@ OPTIONS = {
 }
 
 
-def flank_free_by_gradients(rows: sparse.csr_matrix, fold: Fold, own: range, motions: np.ndarray, group=None) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+def flank_free_by_gradients(
+    rows: sparse.csr_matrix, fold: Fold, own: range, motions: np.ndarray, group=None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
     """As `mirrored_ring.flank_free` of half a sector's Schur complement; on the group's rank 0.
 
-    rows: this rank's rows, of `own` heights. motions: (3 m, 6), rigid ones of all kept nodes, which multigrid must know.
+    rows: this rank's rows, of `own` heights. motions: (3 m, 6), rigid ones of all kept nodes, which multigrid must
+        know.
     Raises ComputationError where the iteration does not converge.
     """
     inner = np.ones(fold.unknowns, dtype=bool)
@@ -45,7 +52,9 @@ def flank_free_by_gradients(rows: sparse.csr_matrix, fold: Fold, own: range, mot
     # This rank's rows of flank and cut.
     flank, cut = ((dofs >= here.start) & (dofs < here.stop) for dofs in (fold.flank, fold.cut))
     on_flank = np.searchsorted(free, fold.flank[flank] - here.start)
-    forces = sparse.csc_matrix((np.ones(len(on_flank)), (on_flank, np.flatnonzero(flank))), shape=(len(free), len(fold.flank)))
+    forces = sparse.csc_matrix(
+        (np.ones(len(on_flank)), (on_flank, np.flatnonzero(flank))), shape=(len(free), len(fold.flank))
+    )
     held, to_cut = (np.zeros((len(fold.flank), count)) for count in (len(fold.flank), len(fold.cut)))
     stiffness = np.zeros((len(fold.cut), len(fold.cut)))
     stiffness[cut] = rows[fold.cut[cut] - here.start][:, fold.cut].toarray()
@@ -75,7 +84,8 @@ def rigid_motions(points: np.ndarray, twist: float) -> np.ndarray:
 
 
 class _Solver:
-    """Solves a symmetric positive definite system of which every rank has rows (k, n), three for each node; `motions` (k, 6) are those rows'."""
+    """Solves a symmetric positive definite system of which every rank has rows (k, n), three for each node; `motions`
+    (k, 6) are those rows'."""
 
     def __init__(self, rows: sparse.csr_matrix, motions: np.ndarray, group):
         comm = PETSc.COMM_SELF if group is None else group
@@ -100,9 +110,10 @@ class _Solver:
         self._solver.solve(self._load, self._found)
         if self._solver.getConvergedReason() < 0:
             raise ComputationError(
-                f"conjugate gradients: a gear's body did not converge to {TOLERANCE:g} in {self._solver.getIterationNumber()} iterations (PETSc's reason "
-                f"{self._solver.getConvergedReason()}); take elements less slender (accuracy.layers, accuracy.body_element_size), or allow the memory for a "
-                "factorisation by FENICS_GEARS_MEMORY"
+                f"conjugate gradients: a gear's body did not converge to {TOLERANCE:g} in"
+                f" {self._solver.getIterationNumber()} iterations (PETSc's reason {self._solver.getConvergedReason()});"
+                " take elements less slender (accuracy.layers, accuracy.body_element_size), or allow the memory for a"
+                " factorisation by FENICS_GEARS_MEMORY"
             )
         return self._found.getArray()
 

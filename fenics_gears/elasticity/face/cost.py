@@ -1,4 +1,5 @@
-"""Expected size of a gear's body in three dimensions, and the memory that its condensation takes: nothing is meshed for it."""
+"""Expected size of a gear's body in three dimensions, and the memory that its condensation takes: nothing is meshed for
+it."""
 
 from __future__ import annotations
 
@@ -9,7 +10,8 @@ from fenics_gears.system.memory import usual_memory
 
 # Nodes of a section by those of its outline, within 15 % for 16 to 80 teeth and sections of 0.15 to 0.4 modules.
 NODES, POWER = 0.37, 1.7
-# Bytes, measured on the paper's wheel with 6 and 12 layers: libraries, for each unknown by MUMPS and by conjugate gradients, for each entry of the condensed stiffness.
+# Bytes, measured on the paper's wheel with 6 and 12 layers: libraries, for each unknown by MUMPS and by conjugate
+# gradients, for each entry of the condensed stiffness.
 LIBRARIES, PER_UNKNOWN, PER_UNKNOWN_ITERATIVE, PER_ENTRY = 0.2e9, 6.3e3, 4e3, 19.0
 
 
@@ -23,13 +25,15 @@ def expected_size(gear: Gear, face: FaceDiscretisation, both_flanks: bool = Fals
 
 
 def expected_memory(unknowns: int, condensed_unknowns: int, iterative: bool = False, ranks: int = 1) -> float:
-    """Bytes that a process takes at most while it condenses a sector, by MUMPS or by conjugate gradients, and joins the ring."""
+    """Bytes that a process takes at most while it condenses a sector, by MUMPS or by conjugate gradients, and joins the
+    ring."""
     # Two ranks have a half each, which is what one has at a time; more share out its heights.
     sparse = (PER_UNKNOWN_ITERATIVE if iterative else PER_UNKNOWN) * unknowns / max(ranks / 2, 1.0)
     return LIBRARIES + sparse + PER_ENTRY * condensed_unknowns**2
 
 
 def is_iterative(unknowns: int, condensed_unknowns: int, ranks: int = 1) -> bool:
-    """Whether conjugate gradients condense a sector: where the memory that the user names, or else the machine's, holds them, and not MUMPS's factor."""
+    """Whether conjugate gradients condense a sector: where the memory that the user names, or else the machine's, holds
+    them, and not MUMPS's factor."""
     gradients, factor = (expected_memory(unknowns, condensed_unknowns, iterative, ranks) for iterative in (True, False))
     return gradients <= usual_memory() < factor

@@ -19,9 +19,12 @@ LARGEST_TURN = 0.5
 class FaceDiscretisation:
     """A section of elements, second order, that is swept along the face in layers.
 
-    section_size: mm, of the elements along the flanks; those of fillet and body follow from it. layers: over the face. face_width: mm.
-    twist: rad/mm, of the section along z, counter-clockwise positive. overhang: mm, at either end of the face, beyond that on which the mate touches;
-    it has overhang_layers of the layers at either end, and layers are of one thickness in it and beside it. The outermost at a free end is cut in two.
+    section_size: mm, of the elements along the flanks; those of fillet and body follow from it. layers: over the face.
+        face_width: mm.
+    twist: rad/mm, of the section along z, counter-clockwise positive. overhang: mm, at either end of the face, beyond
+        that on which the mate touches;
+    it has overhang_layers of the layers at either end, and layers are of one thickness in it and beside it. The
+    outermost at a free end is cut in two.
     """
 
     section_size: float
@@ -33,9 +36,10 @@ class FaceDiscretisation:
 
     @property
     def sizes(self) -> ElementSizes:
-        """Element sizes (mm) of the section; it is symmetric about the tooth's centreline, which the ring makes use of."""
-        # What the section misses without variation along the face, a fine section adds: elements half as large in fillet, rim and hub change the
-        # sum by less than 0.05 %.
+        """Element sizes (mm) of the section; it is symmetric about the tooth's centreline, which the ring makes use
+        of."""
+        # What the section misses without variation along the face, a fine section adds: elements half as large in
+        # fillet, rim and hub change the sum by less than 0.05 %.
         size = self.section_size
         return ElementSizes(
             flank=size, fillet=size, coast=size, body=3.0 * size, depth=1.0, growth=1.0, both_flanks=True, hub_angle=0.2
@@ -68,5 +72,6 @@ class FaceDiscretisation:
         if not self.largest_turn <= LARGEST_TURN:
             least = int(np.ceil(self.layers * self.largest_turn / LARGEST_TURN - 1e-9))
             raise SceneError(
-                f"accuracy.layers = {self.layers}: a layer would turn by {self.largest_turn:.3g} rad, at most {LARGEST_TURN} is accurate; take {least} or more"
+                f"accuracy.layers = {self.layers}: a layer would turn by {self.largest_turn:.3g} rad, at most"
+                f" {LARGEST_TURN} is accurate; take {least} or more"
             )

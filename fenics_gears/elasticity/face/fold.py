@@ -1,8 +1,11 @@
-"""A swept tooth sector folded along its tooth's centreline: two bodies of half its size that have nothing to do with each other.
+"""A swept tooth sector folded along its tooth's centreline: two bodies of half its size that have nothing to do with
+each other.
 
-Half a turn about the centreline at mid-width maps a sector on itself whose section is symmetric and whose layers are alike towards both end faces:
-it exchanges the flanks, and the cuts, and takes z to -z. Every motion is the sum of an even one, which half a turn leaves as it is, and of an odd one,
-which it reverses. The two are uncoupled, and either is given by the drive flank's half: with u of that half, the other moves as ``s P u``, s = 1 or -1.
+Half a turn about the centreline at mid-width maps a sector on itself whose section is symmetric and whose layers are
+alike towards both end faces:
+it exchanges the flanks, and the cuts, and takes z to -z. Every motion is the sum of an even one, which half a turn
+leaves as it is, and of an odd one, which it reverses. The two are uncoupled, and either is given by the drive flank's
+half: with u of that half, the other moves as ``s P u``, s = 1 or -1.
 """
 
 from __future__ import annotations
@@ -23,14 +26,19 @@ EVEN, ODD = 1.0, -1.0
 class Fold:
     """Which nodes of a swept sector stand for all of them, hub held, and how the others follow.
 
-    nodes: (n, 2), of the section; height by height they are the sector's. kept: (m,), numbers of those kept: of the drive flank's side, and at the
-    section's centreline from mid-width on; standing: (k,), the section's nodes some of which are kept. Half the unknowns are their dofs, 3 each; at mid-width on the centreline some of them are dead.
-    flank, cut: dofs (f,), (c,) of the drive flank's and the upper cut's nodes in the half, by height, then radius. cut_turned, flank_turned: sparse
-    (c, c), (f, f), from motions of the upper cut and the drive flank to those of the lower cut and the coast flank, their images.
+    nodes: (n, 2), of the section; height by height they are the sector's. kept: (m,), numbers of those kept: of the
+        drive flank's side, and at the
+    section's centreline from mid-width on; standing: (k,), the section's nodes some of which are kept. Half the
+    unknowns are their dofs, 3 each; at mid-width on the centreline some of them are dead.
+    flank, cut: dofs (f,), (c,) of the drive flank's and the upper cut's nodes in the half, by height, then radius.
+        cut_turned, flank_turned: sparse
+    (c, c), (f, f), from motions of the upper cut and the drive flank to those of the lower cut and the coast flank,
+    their images.
     """
 
     def __init__(self, mesh: BodyMesh, nodes: np.ndarray, heights: int, centreline: float):
-        """centreline: polar angle (rad) of the tooth's centreline. Raises ComputationError for a section that is not symmetric about it."""
+        """centreline: polar angle (rad) of the tooth's centreline. Raises ComputationError for a section that is not
+        symmetric about it."""
         self.nodes, self.heights = nodes, heights
         along = np.array([np.cos(centreline), np.sin(centreline)])
         # Along the centreline a displacement keeps its sign, across it and along z it changes.
@@ -42,7 +50,9 @@ class Fold:
             raise ComputationError("swept sector: its section is not symmetric about the tooth's centreline")
         flank, cut, hub = (mesh.edge_nodes(name, ELEMENT.order) for name in ("flank", "upper cut", "hub"))
         lines = [by_radius(flank), by_radius(without(cut, hub))]
-        side = nodes @ [-along[1], along[0]] * (1.0 if flank @ [-along[1], along[0]] @ np.ones(len(flank)) > 0.0 else -1.0)
+        side = (
+            nodes @ [-along[1], along[0]] * (1.0 if flank @ [-along[1], along[0]] @ np.ones(len(flank)) > 0.0 else -1.0)
+        )
         own = np.arange(len(nodes))
         held = np.isin(own, swept_nodes(nodes, hub, 1))
         self.standing = np.flatnonzero(((image == own) | (side > 0.0)) & ~held)
@@ -64,15 +74,19 @@ class Fold:
         return range(int(first), int(last))
 
     def folded(self, rows: sparse.csr_matrix, own: range, sign: float) -> sparse.csr_matrix:
-        """Rows of the half's stiffness for EVEN or ODD motions, of the sector's rows of consecutive heights and of the standing nodes."""
+        """Rows of the half's stiffness for EVEN or ODD motions, of the sector's rows of consecutive heights and of the
+        standing nodes."""
         places = self.places(own)
         onto, dead = self._unfolding(sign, range(len(self.kept)))
         # By symmetry what half a turn brings back to the rows of the kept nodes is as much again.
-        kept = self._unfolding(sign, places, half=True)[0][dofs_of((len(self.nodes) * np.array(own)[:, None] + self.standing).ravel(), 3)]
+        kept = self._unfolding(sign, places, half=True)[0][
+            dofs_of((len(self.nodes) * np.array(own)[:, None] + self.standing).ravel(), 3)
+        ]
         return (kept.T @ (rows @ onto) + dead[3 * places.start : 3 * places.stop]).tocsr()
 
     def _unfolding(self, sign: float, places: range, half: bool = False) -> tuple[sparse.csr_matrix, sparse.csr_matrix]:
-        """Orthonormal motions (3 n h, 3 k) of the sector for the dofs of some kept nodes; a diagonal (3 m, 3 m), 1 where a dof is dead.
+        """Orthonormal motions (3 n h, 3 k) of the sector for the dofs of some kept nodes; a diagonal (3 m, 3 m), 1
+        where a dof is dead.
 
         half: what they are on the kept nodes alone, times two where there is an image.
         """
@@ -82,7 +96,13 @@ class Fold:
         own = np.where(alone[:, None, None], self._axes * alive, (2.0 if half else 1.0) * 0.5**0.5 * np.eye(3))
         parts = [_blocks(kept, dofs, own)]
         if not half:
-            parts.append(_blocks(image[~alone], dofs[~alone], np.broadcast_to(sign * 0.5**0.5 * self._mirror, (int((~alone).sum()), 3, 3))))
+            parts.append(
+                _blocks(
+                    image[~alone],
+                    dofs[~alone],
+                    np.broadcast_to(sign * 0.5**0.5 * self._mirror, (int((~alone).sum()), 3, 3)),
+                )
+            )
         values, row, column = (np.concatenate(each) for each in zip(*parts))
         motions = sparse.csr_matrix((values, (row, column)), shape=(3 * len(self.nodes) * self.heights, dofs.size))
         return motions, sparse.diags(np.where(alone[:, None], 1.0 - alive, 0.0).ravel(), format="csr")

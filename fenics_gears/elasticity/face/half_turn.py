@@ -1,8 +1,10 @@
-"""Ring of swept sectors whose section is symmetric about the tooth's centreline: half a turn about that line maps a sector on itself.
+"""Ring of swept sectors whose section is symmetric about the tooth's centreline: half a turn about that line maps a
+sector on itself.
 
-It exchanges the cuts and takes z to -z. With P what it does to a cut's dofs (an involution), the harmonics D of the ring (`elasticity.ring`) have
-``P D P = conj(D)``: over P's eigenvectors the blocks of D for equal eigenvalues are real and those for opposite ones imaginary. Multiplied by i, the
-eigenvectors of one sign make D real and symmetric, which takes a quarter of the operations of a complex matrix.
+It exchanges the cuts and takes z to -z. With P what it does to a cut's dofs (an involution), the harmonics D of the
+ring (`elasticity.ring`) have ``P D P = conj(D)``: over P's eigenvectors the blocks of D for equal eigenvalues are real
+and those for opposite ones imaginary. Multiplied by i, the eigenvectors of one sign make D real and symmetric, which
+takes a quarter of the operations of a complex matrix.
 """
 
 from __future__ import annotations
@@ -19,9 +21,11 @@ ROUND_OFF = 1e-9
 
 
 def half_turn_basis(lower: np.ndarray, heights: int) -> tuple[sparse.csr_matrix, int]:
-    """Orthonormal eigenvectors (3k, 3k) of half a turn about a radial cut's middle line, and how many have the eigenvalue 1; they come first.
+    """Orthonormal eigenvectors (3k, 3k) of half a turn about a radial cut's middle line, and how many have the
+    eigenvalue 1; they come first.
 
-    lower: (k, 3), X, Y, z of the cut's nodes, by height and then along the cut; every height has the same section nodes.
+    lower: (k, 3), X, Y, z of the cut's nodes, by height and then along the cut; every height has the same section
+        nodes.
     """
     along, nodes = len(lower) // heights, np.arange(len(lower))
     partner = along * (heights - 1 - nodes // along) + nodes % along
@@ -44,17 +48,25 @@ def half_turn_basis(lower: np.ndarray, heights: int) -> tuple[sparse.csr_matrix,
     return frame @ sparse.csr_matrix((values, (rows, columns)), shape=frame.shape), len(even)
 
 
-def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sparse.csr_matrix, int], comm=None) -> CutResponse:
-    """As `ring.cut_response`, of a sector that half a turn maps on itself; `basis` of its lower cut. Raises ComputationError where it does not.
+def half_turn_response(
+    link: np.ndarray, teeth: int, reach: int, basis: tuple[sparse.csr_matrix, int], comm=None
+) -> CutResponse:
+    """As `ring.cut_response`, of a sector that half a turn maps on itself; `basis` of its lower cut. Raises
+    ComputationError where it does not.
 
     comm: communicator over whose ranks the harmonics are shared out; every rank calls this and gets the result.
     """
     vectors, even = basis
     same, ahead = (vectors.T @ (vectors.T @ part.T).T for part in cyclic(link))
     real, imaginary = ahead + ahead.T, ahead - ahead.T
-    off = max(abs(part[:even, even:]).max() for part in (same, real)), max(abs(imaginary[:even, :even]).max(), abs(imaginary[even:, even:]).max())
+    off = (
+        max(abs(part[:even, even:]).max() for part in (same, real)),
+        max(abs(imaginary[:even, :even]).max(), abs(imaginary[even:, even:]).max()),
+    )
     if max(off) > ROUND_OFF * abs(same).max():
-        raise ComputationError("ring of sectors: half a turn about the tooth's centreline does not map the sector on itself")
+        raise ComputationError(
+            "ring of sectors: half a turn about the tooth's centreline does not map the sector on itself"
+        )
     responses = np.zeros((reach + 1, *same.shape))
     for harmonic in range(teeth // 2 + 1) if comm is None else range(comm.rank, teeth // 2 + 1, comm.size):
         angle = 2.0 * np.pi * harmonic / teeth
@@ -79,15 +91,20 @@ def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sp
     return lambda offset: responses[offset] if offset >= 0 else responses[-offset].T
 
 
-def ring_blocks(held: np.ndarray, to_cuts: np.ndarray, joint: CutResponse, offsets: int, comm=None) -> np.ndarray | None:
-    """Flank compliance blocks (offsets + 1, f, f) of a ring, as `ring.ring_compliance`, from a `condensed.SweptSector` and the response of its cuts.
+def ring_blocks(
+    held: np.ndarray, to_cuts: np.ndarray, joint: CutResponse, offsets: int, comm=None
+) -> np.ndarray | None:
+    """Flank compliance blocks (offsets + 1, f, f) of a ring, as `ring.ring_compliance`, from a `condensed.SweptSector`
+    and the response of its cuts.
 
-    comm: communicator over whose ranks the products are shared out; every rank calls this, rank 0 gets the result, the others None.
+    comm: communicator over whose ranks the products are shared out; every rank calls this, rank 0 gets the result, the
+        others None.
     """
     rows = to_cuts if comm is None else np.array_split(to_cuts, comm.size)[comm.rank]
     (own_lower, own_upper), (lower, upper) = np.hsplit(rows, 2), np.hsplit(to_cuts, 2)
     own = np.empty((offsets + 1, len(rows), len(to_cuts)))
-    # Response of the flanks to forces on the cuts m and m - 1 pitches behind; the latter is the former of the pitch before.
+    # Response of the flanks to forces on the cuts m and m - 1 pitches behind; the latter is the former of the pitch
+    # before.
     behind = own_lower @ joint(-1) + own_upper @ joint(0)
     for offset, block in enumerate(own):
         ahead = own_lower @ joint(offset) + own_upper @ joint(offset + 1)

@@ -17,7 +17,8 @@ WEIGHTS = (5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0)
 
 @dataclass(frozen=True)
 class Sweep:
-    """How a section becomes a body: boundaries of the layers (layers + 1,), mm, increasing, and the twist, rad/mm, counter-clockwise along z."""
+    """How a section becomes a body: boundaries of the layers (layers + 1,), mm, increasing, and the twist, rad/mm,
+    counter-clockwise along z."""
 
     boundaries: np.ndarray
     twist: float = 0.0
@@ -37,13 +38,15 @@ class Sweep:
         return np.round(thick / thick.max(), 12) * thick.max()
 
 
-# From so many layers on, the outermost at a free end is cut in two. A layer has two slices; in the last one the line load falls so steeply that the slice at
-# the end was 8 % too low, and the next one 10 % too high (misaligned, 28 degrees, against layers of half the thickness). Cut, they are 7 and 4 % off.
+# From so many layers on, the outermost at a free end is cut in two. A layer has two slices; in the last one the line
+# load falls so steeply that the slice at the end was 8 % too low, and the next one 10 % too high (misaligned, 28
+# degrees, against layers of half the thickness). Cut, they are 7 and 4 % off.
 FEWEST_WITH_FINER_ENDS = 4
 
 
 def layers_of_face(layers: int, width: float, overhang_layers: int = 0, overhang: float = 0.0) -> np.ndarray:
-    """Boundaries, mm from mid-width, each the exact opposite of another, of layers of one thickness over a width (mm), the outermost cut in two, or of
+    """Boundaries, mm from mid-width, each the exact opposite of another, of layers of one thickness over a width (mm),
+    the outermost cut in two, or of
     `overhang_layers` over an `overhang` (mm) beyond it at either end."""
     inner = 0.5 * width * (np.arange(-layers, layers + 1, 2) / layers)
     if layers >= FEWEST_WITH_FINER_ENDS and not overhang_layers:
@@ -54,7 +57,8 @@ def layers_of_face(layers: int, width: float, overhang_layers: int = 0, overhang
 
 
 def shapes(place: float) -> tuple[np.ndarray, np.ndarray]:
-    """Second-order shape functions (3,) of a layer's lower, middle and upper node at a place in (-1, 1), and their derivatives."""
+    """Second-order shape functions (3,) of a layer's lower, middle and upper node at a place in (-1, 1), and their
+    derivatives."""
     values = np.array([0.5 * place * (place - 1.0), 1.0 - place**2, 0.5 * place * (place + 1.0)])
     return values, np.array([place - 0.5, -2.0 * place, place + 0.5])
 

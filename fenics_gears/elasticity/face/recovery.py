@@ -1,4 +1,5 @@
-"""Displacement and stress of swept sectors from the forces on a gear's flanks: as `elasticity.recovery` has them in the plane."""
+"""Displacement and stress of swept sectors from the forces on a gear's flanks: as `elasticity.recovery` has them in the
+plane."""
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ from fenics_gears.geometry.gear_data import Material
 class RecoveredSectors:
     """Some sectors of a gear under load, the hub held, each in its own tooth's frame at each height.
 
-    sectors: numbers, pitches counter-clockwise of the first. displacement: (sectors, h, n, 3), mm. stress: (sectors, h, n, 3, 3), MPa, averaged
+    sectors: numbers, pitches counter-clockwise of the first. displacement: (sectors, h, n, 3), mm. stress: (sectors, h,
+        n, 3, 3), MPa, averaged
     over the elements that meet at a node.
     """
 
@@ -32,7 +34,8 @@ class RecoveredSectors:
 
 
 class FaceRecovery:
-    """A gear, given by its transverse section, on the swept mesh of its face compliance. Use it in a `with`, or `close` it."""
+    """A gear, given by its transverse section, on the swept mesh of its face compliance. Use it in a `with`, or `close`
+    it."""
 
     def __init__(self, gear: Gear, material: Material, discretisation: FaceDiscretisation, coast_flank: bool = False):
         self.gear, self.material, scaled = gear, material, discretisation.in_modules_of(gear)
@@ -69,7 +72,8 @@ class FaceRecovery:
         return self.gear.module * self.body.heights
 
     def recovered(self, forces: dict[int, np.ndarray], sectors: Sequence[int]) -> RecoveredSectors:
-        """Some sectors under forces (sides, h, f, 3), N, on the flank nodes of some teeth, in each tooth's own frame at that height."""
+        """Some sectors under forces (sides, h, f, 3), N, on the flank nodes of some teeth, in each tooth's own frame at
+        that height."""
         teeth = self.gear.teeth
         loads = {}
         for tooth, force in forces.items():
@@ -89,13 +93,17 @@ class FaceRecovery:
         return RecoveredSectors(tuple(sectors), unit / (modulus * module), stress)
 
     def between_teeth(self, responding: np.ndarray, loaded: np.ndarray, reach: int) -> np.ndarray:
-        """Reciprocal work (2 reach + 1, k, j) that the ring adds to that within a sector with free cuts, Young's modulus 1 MPa, lengths in modules.
+        """Reciprocal work (2 reach + 1, k, j) that the ring adds to that within a sector with free cuts, Young's
+        modulus 1 MPa, lengths in modules.
 
-        Of loads on the tooth m pitches ahead, m from -reach to reach, and on the loaded one; given by what they move the free cuts, (2 c, k) and (2 c, j).
+        Of loads on the tooth m pitches ahead, m from -reach to reach, and on the loaded one; given by what they move
+        the free cuts, (2 c, k) and (2 c, j).
         """
         basis = half_turn_basis(self.body.place(self.body.lower), len(self.heights))
         joint = half_turn_response(self._link, self.gear.teeth, reach + 1, basis)
-        responding, loaded = (np.vstack([each[: self._half], self._pitch.T @ each[self._half :]]) for each in (responding, loaded))
+        responding, loaded = (
+            np.vstack([each[: self._half], self._pitch.T @ each[self._half :]]) for each in (responding, loaded)
+        )
         held, forces, half = self._link @ responding, self._link @ loaded, self._half
         # Of the lower cut of each sector, which is the upper one of the sector before.
         motion = [joint(ahead) @ forces[:half] + joint(ahead - 1) @ forces[half:] for ahead in range(-reach, reach + 2)]

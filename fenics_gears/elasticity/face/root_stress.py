@@ -1,7 +1,9 @@
-"""Stress in a tooth's fillets over its face per force on the slices of the flanks: what `elasticity.root_stress` is in the plane.
+"""Stress in a tooth's fillets over its face per force on the slices of the flanks: what `elasticity.root_stress` is in
+the plane.
 
-By reciprocity (Betti) one solve serves a fillet point in a slice, and one a dof of a flank in a slice; ring and neighbours follow by dense products.
-The swept section has few elements along a fillet. What it errs by at a point hardly depends on the load, so that a finer section in plane strain corrects it.
+By reciprocity (Betti) one solve serves a fillet point in a slice, and one a dof of a flank in a slice; ring and
+neighbours follow by dense products. The swept section has few elements along a fillet. What it errs by at a point
+hardly depends on the load, so that a finer section in plane strain corrects it.
 """
 
 from __future__ import annotations
@@ -32,10 +34,13 @@ def face_root_stress_rows(
     coast_flank: bool = False,
     cache: Cache | None = None,
 ) -> RootStressRows:
-    """The rows (2 reach + 1, S, 2 p, d) of a gear, MPa/N, from the cache or by solving, on the mesh of its face compliance.
+    """The rows (2 reach + 1, S, 2 p, d) of a gear, MPa/N, from the cache or by solving, on the mesh of its face
+    compliance.
 
-    gear: its transverse section. slices: middles from the gear's mid-width and widths (S,), mm; stress is averaged over a slice, and its force spreads
-    over it. d: dofs of the loaded tooth by flank, slice, node and component (x, y, z) in its own frame at that height, not mirrored.
+    gear: its transverse section. slices: middles from the gear's mid-width and widths (S,), mm; stress is averaged over
+        a slice, and its force spreads
+    over it. d: dofs of the loaded tooth by flank, slice, node and component (x, y, z) in its own frame at that height,
+    not mirrored.
     """
     scaled, similar = discretisation.in_modules_of(gear), gear.of_module_one
     averages = slice_averages(gear.module * scaled.sweep.heights, 2, *slices)
@@ -52,12 +57,16 @@ def face_root_stress_rows(
         "reach": reach,
         "both flanks": coast_flank,
     }
-    arrays, _ = kept(cache, inputs, lambda: (_computed(similar, scaled, material.poissons_ratio, averages, reach, coast_flank), {}))
+    arrays, _ = kept(
+        cache, inputs, lambda: (_computed(similar, scaled, material.poissons_ratio, averages, reach, coast_flank), {})
+    )
     # A stress is a force over an area, which is in modules there.
     return RootStressRows(arrays["unit_rows"] / gear.module**2, arrays["tangent_angle"])
 
 
-def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, averages: np.ndarray, reach: int, coast_flank: bool) -> dict[str, np.ndarray]:
+def _computed(
+    gear: Gear, face: FaceDiscretisation, poissons_ratio: float, averages: np.ndarray, reach: int, coast_flank: bool
+) -> dict[str, np.ndarray]:
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.face.fine_fillet import fine_over_swept
     from fenics_gears.elasticity.face.recovery import FaceRecovery
@@ -78,9 +87,11 @@ def _computed(gear: Gear, face: FaceDiscretisation, poissons_ratio: float, avera
 
 
 def _fillet_rows(recovery, curve, averages: np.ndarray) -> sparse.csr_matrix:
-    """Stress (S 2 p, 3 n h) per displacement: at the points of the drive side's fillet, then the coast side's, slice by slice.
+    """Stress (S 2 p, 3 n h) per displacement: at the points of the drive side's fillet, then the coast side's, slice by
+    slice.
 
-    Along the fillet's profile and across the tooth's trace, which is the direction that a section normal to the tooth has.
+    Along the fillet's profile and across the tooth's trace, which is the direction that a section normal to the tooth
+    has.
     """
     from fenics_gears.elasticity.fillet_points import fillet_weights
 
@@ -107,12 +118,16 @@ def _slice_loads(recovery, averages: np.ndarray) -> sparse.csr_matrix:
         at = body.flank_nodes(side).reshape(averages.shape[1], -1)
         spread = sparse.kron(averages.T, sparse.eye(3 * at.shape[1]), format="csr")
         dofs = (3 * at[:, :, None] + np.arange(3)).ravel()
-        parts.append(sparse.csr_matrix((np.ones(len(dofs)), (dofs, np.arange(len(dofs)))), shape=(3 * body.nodes, len(dofs))) @ spread)
+        parts.append(
+            sparse.csr_matrix((np.ones(len(dofs)), (dofs, np.arange(len(dofs)))), shape=(3 * body.nodes, len(dofs)))
+            @ spread
+        )
     return sparse.hstack(parts, format="csr")
 
 
 def _moved(recovery, loads: sparse.csc_matrix, seen: sparse.csr_matrix) -> tuple[np.ndarray, np.ndarray]:
-    """Of loads (3 n h, k) on a sector with free cuts: the displacement (d, k) that `seen` (3 n h, d) averages, and that of the cuts (2 c, k)."""
+    """Of loads (3 n h, k) on a sector with free cuts: the displacement (d, k) that `seen` (3 n h, d) averages, and that
+    of the cuts (2 c, k)."""
     averaged, at_cuts, columns = np.empty((seen.shape[1], loads.shape[1])), [], seen.T.tocsr()
     for first in range(0, loads.shape[1], COLUMNS):
         part = slice(first, first + COLUMNS)

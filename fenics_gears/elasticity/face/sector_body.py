@@ -1,4 +1,5 @@
-"""A swept tooth sector factored once, its hub held: its stiffness between the cuts, and its displacement under any load."""
+"""A swept tooth sector factored once, its hub held: its stiffness between the cuts, and its displacement under any
+load."""
 
 from __future__ import annotations
 
@@ -12,9 +13,11 @@ from fenics_gears.elasticity.mumps import Factor
 
 
 class SectorBody:
-    """A swept sector, Young's modulus 1 MPa; nodes by height, then the section's; dofs interleaved x, y, z in the section's frame turned with it.
+    """A swept sector, Young's modulus 1 MPa; nodes by height, then the section's; dofs interleaved x, y, z in the
+    section's frame turned with it.
 
-    `section`: nodes (ElementNodes) of the plane mesh. lower, upper: (c,) nodes of the cuts by height and radius, without those on the `hub`.
+    `section`: nodes (ElementNodes) of the plane mesh. lower, upper: (c,) nodes of the cuts by height and radius,
+        without those on the `hub`.
     between_cuts: (6 c, 6 c), stiffness of the sector between its cuts. Release the factor by `close`.
     """
 
@@ -24,7 +27,10 @@ class SectorBody:
         self.section, self.heights = forms.nodes, sweep.heights
         hub = mesh.edge_nodes("hub", ELEMENT.order)
         self.hub = self.swept(hub)
-        self.lower, self.upper = (self.swept(by_radius(without(mesh.edge_nodes(f"{cut} cut", ELEMENT.order), hub))) for cut in ("lower", "upper"))
+        self.lower, self.upper = (
+            self.swept(by_radius(without(mesh.edge_nodes(f"{cut} cut", ELEMENT.order), hub)))
+            for cut in ("lower", "upper")
+        )
         free = np.ones(3 * self.nodes, dtype=bool)
         free[dofs_of(self.hub, 3)] = False
         self._free, number = np.flatnonzero(free), np.cumsum(free) - 1
@@ -53,7 +59,8 @@ class SectorBody:
         return np.column_stack([self.section.points[nodes % count], self.heights[nodes // count]])
 
     def flank_nodes(self, side: str) -> np.ndarray:
-        """Nodes (heights f,) of the "flank" or the "coast" flank by height and radius, as the face compliance has them."""
+        """Nodes (heights f,) of the "flank" or the "coast" flank by height and radius, as the face compliance has
+        them."""
         return self.swept(by_radius(self.mesh.edge_nodes(side, ELEMENT.order)))
 
     def free_motion(self, loads: np.ndarray) -> np.ndarray:

@@ -1,9 +1,11 @@
-"""Stiffness of a section swept along a gear's face: wedges, products of the section's triangles and of layers, second order in both.
+"""Stiffness of a section swept along a gear's face: wedges, products of the section's triangles and of layers, second
+order in both.
 
-A section's point X (a complex number X + iY) stands at ``x = w(z) X`` at height z, where ``w`` interpolates ``exp(i twist z_k)`` between the
-three heights z_k of a layer's nodes: the element is isoparametric, so that rigid motions and uniform strains are exact. The displacement is
-``sum_k N_k(z) u_k(X)``. Its gradient has the columns ``grad_X(u) W^-1`` and ``sum_k N_k'(z) u_k - grad_X(u) V X``, where W and V multiply by ``w`` and
-``w'/w``: at a height, forms over the plane section, whose products with N and N' give the layer. Layers of one thickness are alike but for a rotation.
+A section's point X (a complex number X + iY) stands at ``x = w(z) X`` at height z, where ``w`` interpolates ``exp(i
+twist z_k)`` between the three heights z_k of a layer's nodes: the element is isoparametric, so that rigid motions and
+uniform strains are exact. The displacement is ``sum_k N_k(z) u_k(X)``. Its gradient has the columns ``grad_X(u) W^-1``
+and ``sum_k N_k'(z) u_k - grad_X(u) V X``, where W and V multiply by ``w`` and ``w'/w``: at a height, forms over the
+plane section, whose products with N and N' give the layer. Layers of one thickness are alike but for a rotation.
 """
 
 from __future__ import annotations
@@ -40,7 +42,8 @@ class SectionForms:
             self._forms = adapter.with_compiled(lambda: _forms(space, *(self._numbers[i] for i in range(5))))
 
     def at(self, turn: complex, sweep: complex) -> tuple[sparse.csr_matrix, ...]:
-        """Forms (3n, 3n) where w = `turn` and w'/w = `sweep`: of u and v, of u and dv/dz (rows: v), of du/dz and dv/dz."""
+        """Forms (3n, 3n) where w = `turn` and w'/w = `sweep`: of u and v, of u and dv/dz (rows: v), of du/dz and
+        dv/dz."""
         inverse = 1.0 / turn
         self._numbers.value[1:] = inverse.real, inverse.imag, sweep.real, sweep.imag
         return tuple(self._assembled(form) for form in self._forms)
@@ -59,7 +62,10 @@ def _forms(space, poisson, a, b, c, d):
     inverse, sweep = ufl.as_matrix([[a, -b], [b, a]]), ufl.as_matrix([[c, -d], [d, c]])
 
     def along_section(u):
-        plane, axial = ufl.dot(ufl.grad(u), inverse), -ufl.dot(ufl.grad(u), ufl.dot(sweep, ufl.SpatialCoordinate(space.mesh)))
+        plane, axial = (
+            ufl.dot(ufl.grad(u), inverse),
+            -ufl.dot(ufl.grad(u), ufl.dot(sweep, ufl.SpatialCoordinate(space.mesh))),
+        )
         return ufl.sym(ufl.as_matrix([[plane[i, 0], plane[i, 1], axial[i]] for i in range(3)]))
 
     def along_height(u):
@@ -67,11 +73,17 @@ def _forms(space, poisson, a, b, c, d):
 
     section = ufl.dx(metadata={"quadrature_degree": QUADRATURE_DEGREE})
     pairs = ((along_section, along_section), (along_section, along_height), (along_height, along_height))
-    return [adapter.compile_form(ufl.inner(stress_of_strain(of_trial(trial), poisson), of_test(test)) * section) for of_trial, of_test in pairs]
+    return [
+        adapter.compile_form(ufl.inner(stress_of_strain(of_trial(trial), poisson), of_test(test)) * section)
+        for of_trial, of_test in pairs
+    ]
 
 
-def swept_stiffness(section: SectionForms, sweep: Sweep, own: range | None = None, standing: np.ndarray | None = None) -> sparse.csr_matrix:
-    """Stiffness (3 n h, 3 n h), N/mm, of the swept body: dofs by height, then the section's node, then x, y, z in the section's frame turned with it.
+def swept_stiffness(
+    section: SectionForms, sweep: Sweep, own: range | None = None, standing: np.ndarray | None = None
+) -> sparse.csr_matrix:
+    """Stiffness (3 n h, 3 n h), N/mm, of the swept body: dofs by height, then the section's node, then x, y, z in the
+    section's frame turned with it.
 
     own: consecutive heights whose rows are wanted, standing: (k,) nodes of the section whose rows are; all when None.
     """
@@ -96,8 +108,11 @@ def _layers(section: SectionForms, sweep: Sweep, dofs: np.ndarray) -> Iterator[d
         yield known[thickness]
 
 
-def layer_stiffness(section: SectionForms, thickness: float, twist: float, dofs: np.ndarray) -> dict[tuple[int, int], sparse.csr_matrix]:
-    """Blocks (k, 3n) between the lower, middle and upper nodes of a layer, each in the section's frame at its own height; rows of dofs (k,)."""
+def layer_stiffness(
+    section: SectionForms, thickness: float, twist: float, dofs: np.ndarray
+) -> dict[tuple[int, int], sparse.csr_matrix]:
+    """Blocks (k, 3n) between the lower, middle and upper nodes of a layer, each in the section's frame at its own
+    height; rows of dofs (k,)."""
     angles = 0.5 * twist * thickness * np.array([-1.0, 0.0, 1.0])
     found: dict = {}
     for place, weight in zip(POINTS, WEIGHTS):
@@ -112,7 +127,10 @@ def layer_stiffness(section: SectionForms, thickness: float, twist: float, dofs:
         for i in range(3):
             for j in range(3):
                 part = volume * (
-                    values[i] * values[j] * own + slopes[i] * values[j] * mixed + values[i] * slopes[j] * mixed_turned + slopes[i] * slopes[j] * axial
+                    values[i] * values[j] * own
+                    + slopes[i] * values[j] * mixed
+                    + values[i] * slopes[j] * mixed_turned
+                    + slopes[i] * slopes[j] * axial
                 )
                 found[i, j] = found[i, j] + part if (i, j) in found else part
     nodes = len(section.nodes.points)

@@ -1,4 +1,5 @@
-"""Stress at the nodes of a swept body from its displacement; the geometry of its elements is that of `swept_stiffness`."""
+"""Stress at the nodes of a swept body from its displacement; the geometry of its elements is that of
+`swept_stiffness`."""
 
 from __future__ import annotations
 
@@ -14,7 +15,8 @@ from fenics_gears.elasticity.ring import rotation
 
 
 class SweptStress:
-    """Stress of a section's nodes swept along a face, Young's modulus 1 MPa, displacements in the mesh's unit of length."""
+    """Stress of a section's nodes swept along a face, Young's modulus 1 MPa, displacements in the mesh's unit of
+    length."""
 
     def __init__(self, nodes: ElementNodes, sweep: Sweep, poissons_ratio: float):
         self.points, self.sweep = nodes.points, sweep
@@ -23,7 +25,8 @@ class SweptStress:
         self._lame = poissons_ratio / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))
 
     def at_nodes(self, displacement: np.ndarray) -> np.ndarray:
-        """Stress (h, n, 3, 3) from displacement (h, n, 3), both in the section's frame at each height; between layers the mean of both."""
+        """Stress (h, n, 3, 3) from displacement (h, n, 3), both in the section's frame at each height; between layers
+        the mean of both."""
         total, count = np.zeros((*displacement.shape, 3)), np.zeros(len(displacement))
         for layer, thickness in enumerate(self.sweep.thicknesses.tolist()):
             heights = slice(2 * layer, 2 * layer + 3)
@@ -31,10 +34,14 @@ class SweptStress:
             count[heights] += 1.0
         return total / count[:, None, None, None]
 
-    def rows(self, nodes: np.ndarray, weights: np.ndarray, directions: np.ndarray, averages: np.ndarray) -> sparse.csr_matrix:
-        """Normal stress (S p, 3 n h) along `directions` (p, 3) at points between `nodes` (k,) by `weights` (p, k), averaged over the heights by `averages` (S, h).
+    def rows(
+        self, nodes: np.ndarray, weights: np.ndarray, directions: np.ndarray, averages: np.ndarray
+    ) -> sparse.csr_matrix:
+        """Normal stress (S p, 3 n h) along `directions` (p, 3) at points between `nodes` (k,) by `weights` (p, k),
+        averaged over the heights by `averages` (S, h).
 
-        As of `at_nodes`, per displacement: dofs by height, node, component; directions in the section's frame at each height; rows by average, then point.
+        As of `at_nodes`, per displacement: dofs by height, node, component; directions in the section's frame at each
+            height; rows by average, then point.
         """
         size, heights = 3 * len(self.points), averages.shape[1]
         layers_at = np.full(heights, 1.0)
@@ -48,12 +55,20 @@ class SweptStress:
                 found = found + sparse.kron(share, sparse.hstack([ends[0], own, ends[1]]), format="csr")
         return found
 
-    def _rows_of_layer(self, thickness: float, nodes: np.ndarray, weights: np.ndarray, directions: np.ndarray) -> Iterator[sparse.csr_matrix]:
+    def _rows_of_layer(
+        self, thickness: float, nodes: np.ndarray, weights: np.ndarray, directions: np.ndarray
+    ) -> Iterator[sparse.csr_matrix]:
         """Of the three heights of a layer (p, 9 n), as `_of_layer`."""
         angles = 0.5 * self.sweep.twist * thickness * np.array([-1.0, 0.0, 1.0])
         frames, count, three = [rotation(angle, 3) for angle in angles], len(self.points), sparse.eye(3)
-        common = [sparse.kron(np.eye(3)[place : place + 1], sparse.kron(sparse.eye(count), frame), format="csr") for place, frame in enumerate(frames)]
-        slopes_of, own = [sparse.kron(slope[nodes], three, format="csr") for slope in self._slopes], sparse.kron(sparse.eye(count, format="csr")[nodes], three)
+        common = [
+            sparse.kron(np.eye(3)[place : place + 1], sparse.kron(sparse.eye(count), frame), format="csr")
+            for place, frame in enumerate(frames)
+        ]
+        slopes_of, own = (
+            [sparse.kron(slope[nodes], three, format="csr") for slope in self._slopes],
+            sparse.kron(sparse.eye(count, format="csr")[nodes], three),
+        )
         for place, frame in enumerate(frames):
             slopes = shapes(place - 1.0)[1] / (0.5 * thickness)
             turn, change = np.exp(1j * angles[place]), slopes @ np.exp(1j * angles)
@@ -66,7 +81,10 @@ class SweptStress:
             found = sparse.csr_matrix((len(weights), 3 * 3 * count))
             for axis, gradient in enumerate(whole):
                 factors = 2.0 * self._shear * turned * turned[:, axis : axis + 1] + self._lame * np.eye(3)[axis]
-                found = found + sparse.csr_matrix((weights[:, :, None] * factors[:, None]).reshape(len(weights), -1)) @ gradient
+                found = (
+                    found
+                    + sparse.csr_matrix((weights[:, :, None] * factors[:, None]).reshape(len(weights), -1)) @ gradient
+                )
             yield found
 
     def _of_layer(self, displacement: np.ndarray, thickness: float) -> np.ndarray:
@@ -89,7 +107,9 @@ class SweptStress:
 
     def _stress(self, gradient: np.ndarray) -> np.ndarray:
         strain = 0.5 * (gradient + gradient.swapaxes(-1, -2))
-        return 2.0 * self._shear * strain + self._lame * np.trace(strain, axis1=-2, axis2=-1)[..., None, None] * np.eye(3)
+        return 2.0 * self._shear * strain + self._lame * np.trace(strain, axis1=-2, axis2=-1)[..., None, None] * np.eye(
+            3
+        )
 
 
 def _as_matrix(number: complex) -> np.ndarray:
@@ -98,7 +118,8 @@ def _as_matrix(number: complex) -> np.ndarray:
 
 
 def _averaged_slopes(nodes: ElementNodes) -> tuple[sparse.csr_matrix, sparse.csr_matrix]:
-    """Operators (n, n) from values at the nodes to their derivatives by x and y there, averaged by area over the elements that meet."""
+    """Operators (n, n) from values at the nodes to their derivatives by x and y there, averaged by area over the
+    elements that meet."""
     gradients, areas = gradients_at_nodes(nodes)
     cells, count = nodes.cells, len(nodes.points)
     weight = np.bincount(cells.ravel(), np.repeat(areas, cells.shape[1]), count)
@@ -107,5 +128,9 @@ def _averaged_slopes(nodes: ElementNodes) -> tuple[sparse.csr_matrix, sparse.csr
     found = []
     for axis in (0, 1):
         values = gradients[..., axis] * areas[:, None, None]
-        found.append(sparse.coo_matrix((values.ravel() / weight[rows.ravel()], (rows.ravel(), columns.ravel())), shape=(count, count)).tocsr())
+        found.append(
+            sparse.coo_matrix(
+                (values.ravel() / weight[rows.ravel()], (rows.ravel(), columns.ravel())), shape=(count, count)
+            ).tocsr()
+        )
     return found[0], found[1]

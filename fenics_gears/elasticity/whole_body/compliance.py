@@ -14,10 +14,13 @@ from fenics_gears.errors import ComputationError
 class WholeBodyCompliance:
     """Displacement of drive-flank nodes per unit line force on drive-flank nodes of every tooth, hub ring held.
 
-    Teeth are counted counter-clockwise. roll_angles: of each tooth's flank nodes (n,), rad, strictly increasing. element_order: 1 or 2.
-    blocks: blocks[t][m] (2n', 2n), mm per N/mm (plane strain, unit thickness), is the displacement of the flank m pitches ahead of tooth t
-    under forces on tooth t; dofs and components as in `FlankCompliance`. openings: of a body with cracks, by the loaded tooth, (k, 2n), mm per
-    N/mm: how far the faces are moved apart at k places; of teeth within `offsets` of a crack. timings: as there.
+    Teeth are counted counter-clockwise. roll_angles: of each tooth's flank nodes (n,), rad, strictly increasing.
+    element_order: 1 or 2.
+    blocks: blocks[t][m] (2n', 2n), mm per N/mm (plane strain, unit thickness), is the displacement of the flank m
+        pitches ahead of tooth t
+    under forces on tooth t; dofs and components as in `FlankCompliance`. openings: of a body with cracks, by the loaded
+    tooth, (k, 2n), mm per N/mm: how far the faces are moved apart at k places; of teeth within `offsets` of a crack.
+    timings: as there.
     """
 
     roll_angles: tuple[np.ndarray, ...]
@@ -39,20 +42,24 @@ class WholeBodyCompliance:
         return len(self.blocks[0]) - 1
 
     def between(self, responding: int, loaded: int, sides: tuple[int, int] = (0, 0)) -> np.ndarray:
-        """Compliance (2n', 2n) of the flank of one tooth under forces on another; any whole numbers, teeth repeat after a turn.
+        """Compliance (2n', 2n) of the flank of one tooth under forces on another; any whole numbers, teeth repeat after
+        a turn.
 
-        sides: as of `FlankCompliance`. Raises ComputationError for coast flanks, and for teeth further apart than `offsets`.
+        sides: as of `FlankCompliance`. Raises ComputationError for coast flanks, and for teeth further apart than
+            `offsets`.
         """
         if any(sides):
-            raise ComputationError("flank compliance: of a gear that is meshed as a whole only the drive flanks are known")
+            raise ComputationError(
+                "flank compliance: of a gear that is meshed as a whole only the drive flanks are known"
+            )
         ahead = (responding - loaded) % self.teeth
         if ahead <= self.offsets:
             return self.blocks[loaded % self.teeth][ahead]
         if self.teeth - ahead <= self.offsets:
             return self.blocks[responding % self.teeth][self.teeth - ahead].T
         raise ComputationError(
-            f"flank compliance: teeth {responding % self.teeth} and {loaded % self.teeth} are further apart than the {self.offsets} pitches "
-            "that were computed; ask whole_body_compliance for more tooth_offsets"
+            f"flank compliance: teeth {responding % self.teeth} and {loaded % self.teeth} are further apart than the"
+            f" {self.offsets} pitches that were computed; ask whole_body_compliance for more tooth_offsets"
         )
 
     def rolls_of(self, tooth: int) -> np.ndarray:

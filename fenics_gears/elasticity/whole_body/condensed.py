@@ -1,8 +1,9 @@
 """Flank compliance of a gear meshed as a whole: each tooth's part is condensed by PETSc, the parts are joined exactly.
 
-With F the flank dofs of part t and I the interface dofs of all parts, block inversion gives the compliance between flanks as
-``A[s, t] = d_st S_FF[t]^-1 + X_s J^-1 X_t^T``, where ``X_t = S_FF^-1 S_FI`` of part t and ``J = sum_t (S_II - S_IF S_FF^-1 S_FI)``
-is the interfaces' own stiffness. For a gear of equal sectors that is `elasticity.ring` without its Fourier transform.
+With F the flank dofs of part t and I the interface dofs of all parts, block inversion gives the compliance between
+flanks as ``A[s, t] = d_st S_FF[t]^-1 + X_s J^-1 X_t^T``, where ``X_t = S_FF^-1 S_FI`` of part t and ``J = sum_t (S_II -
+S_IF S_FF^-1 S_FI)`` is the interfaces' own stiffness. For a gear of equal sectors that is `elasticity.ring` without its
+Fourier transform.
 """
 
 from __future__ import annotations
@@ -30,11 +31,18 @@ from fenics_gears.numbers_version import NUMBERS_VERSION
 
 
 def whole_body_compliance(
-    mesh: BodyMesh, gear: Gear, material: Material, *, element: str = "P2", tooth_offsets: int, cache: Cache | None = None
+    mesh: BodyMesh,
+    gear: Gear,
+    material: Material,
+    *,
+    element: str = "P2",
+    tooth_offsets: int,
+    cache: Cache | None = None,
 ) -> WholeBodyCompliance:
     """Flank compliance of every tooth of a meshed gear (`whole_body.outline`), from the cache or computed.
 
-    tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. Raises ComputationError when a stage fails.
+    tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. Raises ComputationError when a
+        stage fails.
     """
     chosen = element_named(element)
     tooth_offsets = min(tooth_offsets, gear.teeth - 1)
@@ -55,7 +63,9 @@ def whole_body_compliance(
             for tooth in range(gear.teeth)
         ),
         openings={
-            tooth: arrays[f"opening_{tooth}"] / material.youngs_modulus for tooth in range(gear.teeth) if f"opening_{tooth}" in arrays
+            tooth: arrays[f"opening_{tooth}"] / material.youngs_modulus
+            for tooth in range(gear.teeth)
+            if f"opening_{tooth}" in arrays
         },
         timings={**timings, **{name: int(arrays[name]) for name in COUNTS}},
     )
@@ -74,7 +84,8 @@ def _block_name(tooth: int, ahead: int) -> str:
 class _CondensedPart:
     """A part of the body, Young's modulus 1 MPa, by its surface F and its interface I.
 
-    The surface is the flank (`flank` dofs), then the faces of cracks, all in the tooth's frame. own: (F, F), S_FF^-1. to_interface: (F, I), X.
+    The surface is the flank (`flank` dofs), then the faces of cracks, all in the tooth's frame. own: (F, F), S_FF^-1.
+    to_interface: (F, I), X.
     link: (I, I), stiffness of the interface, the surface free. dofs: (I,), the interface's among those of all parts.
     """
 
@@ -88,7 +99,10 @@ class _CondensedPart:
 
 def _computed(mesh: BodyMesh, gear: Gear, poissons_ratio: float, element: Element, tooth_offsets: int):
     clock, body = perf_counter(), divided_body(mesh, gear, element)
-    parts = [_condensed(part, body, element, poissons_ratio, tooth * gear.angular_pitch) for tooth, part in enumerate(body.parts)]
+    parts = [
+        _condensed(part, body, element, poissons_ratio, tooth * gear.angular_pitch)
+        for tooth, part in enumerate(body.parts)
+    ]
     arrays = _blocks(gear, body, parts, tooth_offsets)
     for tooth in range(gear.teeth):
         corners = by_radius(mesh.points[mesh.edge_points(f"flank {tooth}")])
@@ -110,7 +124,9 @@ def _condensed(part: Part, body: DividedBody, element: Element, poissons_ratio: 
     to_interface = own @ coupling
     link = found.between("interface", "interface") - coupling.T @ to_interface
     dofs = dofs_of(np.searchsorted(body.interface, part.interface))
-    return _CondensedPart(own, to_interface, 0.5 * (link + link.T), dofs, 2 * len(part.flank), found.timings["time_compile"])
+    return _CondensedPart(
+        own, to_interface, 0.5 * (link + link.T), dofs, 2 * len(part.flank), found.timings["time_compile"]
+    )
 
 
 def _in_frame(rows: np.ndarray, angle: float) -> np.ndarray:
@@ -119,14 +135,16 @@ def _in_frame(rows: np.ndarray, angle: float) -> np.ndarray:
 
 
 def _blocks(gear: Gear, body: DividedBody, parts: list[_CondensedPart], tooth_offsets: int) -> dict[str, np.ndarray]:
-    """Compliance blocks in the teeth's own frames, and how flank forces open the cracks; Young's modulus 1 MPa, by name."""
+    """Compliance blocks in the teeth's own frames, and how flank forces open the cracks; Young's modulus 1 MPa, by
+    name."""
     size = 2 * len(body.interface)
     places = np.hstack([[np.repeat(part.dofs, len(part.dofs)), np.tile(part.dofs, len(part.dofs))] for part in parts])
     joined = sparse.coo_matrix((np.concatenate([part.link.ravel() for part in parts]), places), shape=(size, size))
     factor, found = Factor(joined.tocsr(), "the interfaces of a gear's teeth"), {}
 
     def opened(by: int, at: int, motion: np.ndarray) -> None:
-        """Add how far apart a force on the flank of a tooth moves the faces of cracks in the part at a tooth, from their motion (2 c, 2 f)."""
+        """Add how far apart a force on the flank of a tooth moves the faces of cracks in the part at a tooth, from
+        their motion (2 c, 2 f)."""
         if len(motion):
             rows = found.setdefault(f"opening_{by}", np.zeros((len(body.cracks.one), motion.shape[1])))
             _add_openings(rows, body, at, motion, rotation(at * gear.angular_pitch))
@@ -153,7 +171,8 @@ def _blocks(gear: Gear, body: DividedBody, parts: list[_CondensedPart], tooth_of
 
 
 def _add_openings(rows: np.ndarray, body: DividedBody, part: int, motion: np.ndarray, frame: np.ndarray) -> None:
-    """Add to the openings (k, 2 f) what a part's faces contribute: their motion (2 c, 2 f) in a turned frame, its axes in the columns of `frame`."""
+    """Add to the openings (k, 2 f) what a part's faces contribute: their motion (2 c, 2 f) in a turned frame, its axes
+    in the columns of `frame`."""
     faces, cracks = body.parts[part].faces, body.cracks
     motion = motion.reshape(len(faces), 2, -1)
     for nodes, sense in ((cracks.one, -1.0), (cracks.other, 1.0)):

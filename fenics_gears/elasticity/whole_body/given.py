@@ -15,7 +15,8 @@ from fenics_gears.system import user_file
 
 @lru_cache(maxsize=8)
 def given_body(path: str, digest: str, gear: Gear, element: str, field: str) -> WholeBody:
-    """The body of a gear in a file; `digest`: of the file's content, empty where it cannot be read; `field`: what messages call it.
+    """The body of a gear in a file; `digest`: of the file's content, empty where it cannot be read; `field`: what
+    messages call it.
 
     Raises SceneError where the file is not there, is no mesh, not of this gear, or of other cells than the element has.
     """
@@ -44,7 +45,9 @@ def _why_not_read(path: Path) -> str:
 def _check_cells(corners: int, element: str) -> None:
     chosen = element_named(element)
     if corners != chosen.corners:
-        kind, fitting = {3: ("triangles", '"P1" or "P2"'), 4: ("quadrilaterals", '"Q1", "Q1 incompatible" or "Q2"')}[corners]
+        kind, fitting = {3: ("triangles", '"P1" or "P2"'), 4: ("quadrilaterals", '"Q1", "Q1 incompatible" or "Q2"')}[
+            corners
+        ]
         raise SceneError(f"the mesh has {kind}, accuracy.element is {chosen.name}. Take {fitting}, for both gears")
 
 

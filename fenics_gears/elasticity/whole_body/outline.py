@@ -1,8 +1,8 @@
 """Bore, tips and drive flanks on the boundary of a meshed gear, found by their position: the mesh needs no names.
 
-The gear's centre is the origin; the mesh may stand at any angle about it. It is turned so that the tooth whose drive flank stands nearest
-to the body frame of a tooth (`geometry.involute`: the tooth points downwards) is tooth 0. Drive flanks are the counter-clockwise sides
-of the teeth.
+The gear's centre is the origin; the mesh may stand at any angle about it. It is turned so that the tooth whose drive
+flank stands nearest to the body frame of a tooth (`geometry.involute`: the tooth points downwards) is tooth 0. Drive
+flanks are the counter-clockwise sides of the teeth.
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ from fenics_gears.geometry.outline import centreline_angle
 
 # How far points of bore, tips and flanks may lie off the gear data, in modules; gaps are computed from true involutes.
 OUTLINE_TOLERANCE = 2e-3
-# How far above the form circle a flank's first element may begin, in parts of its length; below it the displacement is continued.
+# How far above the form circle a flank's first element may begin, in parts of its length; below it the displacement is
+# continued.
 UNCOVERED = 0.5
 # Boundary points this near to an involute, in modules, were meant to lie on it: messages give their distance.
 NEARLY = 0.1
@@ -33,7 +34,8 @@ UNITS = {1e-3: "metres", 1.0 / 25.4: "inches", 1e3: "micrometres"}
 
 @dataclass(frozen=True)
 class WholeBody:
-    """A meshed gear, mm, whose edges are "hub" and "flank 0", "flank 1", ... counted counter-clockwise, tooth 0 in its body frame.
+    """A meshed gear, mm, whose edges are "hub" and "flank 0", "flank 1", ... counted counter-clockwise, tooth 0 in its
+    body frame.
 
     coarsest_flank: the longest element along a flank, mm.
     """
@@ -65,7 +67,8 @@ def whole_body(mesh: BodyMesh, gear: Gear, name: str) -> WholeBody:
 
 
 def drive_flank_angle(gear: Gear, radius: np.ndarray) -> np.ndarray:
-    """Polar angle (rad) of a drive flank at radii (mm) in its tooth's body frame; below the base circle that of its start."""
+    """Polar angle (rad) of a drive flank at radii (mm) in its tooth's body frame; below the base circle that of its
+    start."""
     return -0.5 * np.pi - involute_function(gear.roll_angle(np.maximum(radius, gear.base_radius)))
 
 
@@ -76,9 +79,9 @@ def _check_connected(mesh: BodyMesh, name: str) -> None:
         smallest = np.flatnonzero(piece == np.argmin(counts))
         where = mesh.points[mesh.cells[smallest]].mean(axis=(0, 1))
         raise SceneError(
-            f"{name}: the mesh has {len(counts)} parts that do not hold together; the smallest, of {len(smallest)} cells, lies about "
-            f"x = {where[0]:.4g} mm, y = {where[1]:.4g} mm. A tooth that a crack has cut off carries nothing; parts that should be one need "
-            "their common points to be the same points"
+            f"{name}: the mesh has {len(counts)} parts that do not hold together; the smallest, of {len(smallest)}"
+            f" cells, lies about x = {where[0]:.4g} mm, y = {where[1]:.4g} mm. A tooth that a crack has cut off carries"
+            " nothing; parts that should be one need their common points to be the same points"
         )
 
 
@@ -87,10 +90,17 @@ def _check_size(largest: float, gear: Gear, tolerance: float, name: str) -> None
         return
     ratio = largest / gear.tip_radius
     units = {**UNITS, 1.0 / gear.module: "modules"}
-    unit = next((f" Is it in {words}? Lengths of a mesh are in mm." for factor, words in units.items() if abs(ratio / factor - 1.0) < 0.01), "")
+    unit = next(
+        (
+            f" Is it in {words}? Lengths of a mesh are in mm."
+            for factor, words in units.items()
+            if abs(ratio / factor - 1.0) < 0.01
+        ),
+        "",
+    )
     raise SceneError(
-        f"{name}: the farthest point of the mesh is {largest:.6g} mm from the origin, the gear's tip radius is {gear.tip_radius:.6g} mm.{unit} "
-        f"Allowed: {tolerance:.2g} mm of difference, the gear's centre at the origin"
+        f"{name}: the farthest point of the mesh is {largest:.6g} mm from the origin, the gear's tip radius is"
+        f" {gear.tip_radius:.6g} mm.{unit} Allowed: {tolerance:.2g} mm of difference, the gear's centre at the origin"
     )
 
 
@@ -100,7 +110,10 @@ def _check_teeth(tips: np.ndarray, gear: Gear, name: str) -> None:
     links = coo_matrix((np.ones(len(tips)), (ends[:, 0], ends[:, 1])), shape=(len(points), len(points)))
     teeth = connected_components(links, directed=False)[0] if len(points) else 0
     if teeth != gear.teeth:
-        raise SceneError(f"{name}: the mesh has {teeth} tooth tips on its tip circle, the gear of the scene has {gear.teeth} teeth; each must have its tip")
+        raise SceneError(
+            f"{name}: the mesh has {teeth} tooth tips on its tip circle, the gear of the scene has {gear.teeth} teeth;"
+            " each must have its tip"
+        )
 
 
 def _check_bore(points: np.ndarray, hub: np.ndarray, radii: np.ndarray, gear: Gear, name: str) -> None:
@@ -109,8 +122,9 @@ def _check_bore(points: np.ndarray, hub: np.ndarray, radii: np.ndarray, gear: Ge
     covered = np.abs(turns).sum() / (2.0 * np.pi)
     if abs(covered - 1.0) > 1e-6:
         raise SceneError(
-            f"{name}: no bore of radius {gear.bore_radius:.6g} mm (the scene's bore_diameter is {2.0 * gear.bore_radius:.6g} mm): its circle is "
-            f"covered to {covered:.0%}; the innermost point of the boundary is {radii.min():.6g} mm from the origin"
+            f"{name}: no bore of radius {gear.bore_radius:.6g} mm (the scene's bore_diameter is"
+            f" {2.0 * gear.bore_radius:.6g} mm): its circle is covered to {covered:.0%}; the innermost point of the"
+            f" boundary is {radii.min():.6g} mm from the origin"
         )
 
 
@@ -120,16 +134,22 @@ def _check_whole(points: np.ndarray, bore: np.ndarray, name: str) -> None:
     twice = bore[distance[:, 1] <= 1e-9 * np.abs(points).max()]
     if len(twice):
         x, y = points[twice[0]]
-        raise SceneError(f"{name}: a crack opens on the bore near x = {x:.4g} mm, y = {y:.4g} mm; the bore is held as a whole and has each point once")
+        raise SceneError(
+            f"{name}: a crack opens on the bore near x = {x:.4g} mm, y = {y:.4g} mm; the bore is held as a whole and"
+            " has each point once"
+        )
 
 
 def _standing_angle(points: np.ndarray, gear: Gear, name: str) -> float:
-    """Angle (rad) by which the mesh stands turned: boundary points (k, 2) of all drive flanks agree on it, up to whole pitches."""
+    """Angle (rad) by which the mesh stands turned: boundary points (k, 2) of all drive flanks agree on it, up to whole
+    pitches."""
     radius = np.linalg.norm(points, axis=1)
     tolerance = OUTLINE_TOLERANCE * gear.module
     between = (radius > gear.form_radius) & (radius < gear.tip_form_radius - tolerance)
     if not between.any():
-        raise SceneError(f"{name}: the boundary of the mesh has no points on the flanks, between form circle and tip circle")
+        raise SceneError(
+            f"{name}: the boundary of the mesh has no points on the flanks, between form circle and tip circle"
+        )
     pitch, window = gear.angular_pitch, 2.0 * tolerance / gear.base_radius
     angle = np.arctan2(points[between, 1], points[between, 0]) - drive_flank_angle(gear, radius[between])
     angle = np.sort(np.mod(angle, pitch))
@@ -153,15 +173,20 @@ def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float,
         if problem:
             on_flank = own & (radius > gear.form_radius + tolerance) & (radius < gear.tip_form_radius - tolerance)
             worst = float(np.max(off[on_flank & (off <= NEARLY * gear.module)], initial=0.0))
-            raise SceneError(f"{name}: the drive flank of tooth {each}, counted counter-clockwise, {problem}{_deviation(worst, tolerance)}")
+            raise SceneError(
+                f"{name}: the drive flank of tooth {each}, counted counter-clockwise,"
+                f" {problem}{_deviation(worst, tolerance)}"
+            )
         found.append(chain)
     return found
 
 
 def _off_involute(points: np.ndarray, gear: Gear) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of points (k, 2): the tooth they belong to, whether they are on its counter-clockwise side, and how far off its drive flank, mm.
+    """Of points (k, 2): the tooth they belong to, whether they are on its counter-clockwise side, and how far off its
+    drive flank, mm.
 
-    The distance is counter-clockwise along the involute's normal: an involute turned by an angle stands off by that of its base circle.
+    The distance is counter-clockwise along the involute's normal: an involute turned by an angle stands off by that of
+    its base circle.
     """
     angle = np.arctan2(points[:, 1], points[:, 0])
     ahead = np.mod(angle - centreline_angle(gear), 2.0 * np.pi) / gear.angular_pitch
@@ -171,7 +196,8 @@ def _off_involute(points: np.ndarray, gear: Gear) -> tuple[np.ndarray, np.ndarra
 
 
 def _check_thickness(points: np.ndarray, gear: Gear, tolerance: float, name: str) -> None:
-    """Raise SceneError where the coast flanks are out of place: the drive flanks alone do not give the thickness of the teeth."""
+    """Raise SceneError where the coast flanks are out of place: the drive flanks alone do not give the thickness of the
+    teeth."""
     radius = np.linalg.norm(points, axis=1)
     between = points[(radius > gear.form_radius + tolerance) & (radius < gear.tip_form_radius - tolerance)]
     axis = 2.0 * centreline_angle(gear)
@@ -180,8 +206,9 @@ def _check_thickness(points: np.ndarray, gear: Gear, tolerance: float, name: str
     stands_off = float(np.median(off[on_drive_side])) if on_drive_side.any() else 0.0
     if abs(stands_off) > tolerance:
         raise SceneError(
-            f"{name}: the teeth are {'thicker' if stands_off > 0.0 else 'thinner'} than those of the scene (profile_shift): the flanks opposite the "
-            f"drive flanks stand {1e3 * abs(stands_off):.4g} um off their involutes; allowed are {1e3 * tolerance:.3g} um"
+            f"{name}: the teeth are {'thicker' if stands_off > 0.0 else 'thinner'} than those of the scene"
+            f" (profile_shift): the flanks opposite the drive flanks stand {1e3 * abs(stands_off):.4g} um off their"
+            f" involutes; allowed are {1e3 * tolerance:.3g} um"
         )
 
 
@@ -189,12 +216,15 @@ def _deviation(worst: float, tolerance: float) -> str:
     if worst <= tolerance:
         return ""
     return (
-        f". Points of the boundary there lie up to {1e3 * worst:.4g} um off the gear's involute; allowed are {1e3 * tolerance:.3g} um. Contact goes "
-        "by the gear data: wear and other deviations of a flank belong into [flank_errors], chamfers of tips into tip_chamfer of the gear"
+        f". Points of the boundary there lie up to {1e3 * worst:.4g} um off the gear's involute; allowed are"
+        f" {1e3 * tolerance:.3g} um. Contact goes by the gear data: wear and other deviations of a flank belong into"
+        " [flank_errors], chamfers of tips into tip_chamfer of the gear"
     )
 
 
-def _chain(points: np.ndarray, known: set, candidates: np.ndarray, gear: Gear, tolerance: float) -> tuple[np.ndarray, str]:
+def _chain(
+    points: np.ndarray, known: set, candidates: np.ndarray, gear: Gear, tolerance: float
+) -> tuple[np.ndarray, str]:
     """Sides of one flank from points that lie on its involute, and what is wrong with them, empty where nothing is."""
     radius = np.linalg.norm(points[candidates], axis=1)
     order = np.argsort(radius)
@@ -209,8 +239,11 @@ def _chain(points: np.ndarray, known: set, candidates: np.ndarray, gear: Gear, t
     length = arc_length(gear.base_radius, gear.roll_angle(np.maximum(radius[first:], gear.base_radius)))
     form, tip = arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle]))
     if length[0] - form > UNCOVERED * (length[1] - length[0]) + tolerance or tip - length[-1] > 2.0 * tolerance:
-        return chain, (
-            f"has points on the involute from radius {radius[first]:.5g} mm to {radius[-1]:.5g} mm only; it goes from the form circle, radius "
-            f"{gear.form_radius:.5g} mm, to the tip, radius {gear.tip_radius:.5g} mm"
+        return (
+            chain,
+            (
+                f"has points on the involute from radius {radius[first]:.5g} mm to {radius[-1]:.5g} mm only; it goes"
+                f" from the form circle, radius {gear.form_radius:.5g} mm, to the tip, radius {gear.tip_radius:.5g} mm"
+            ),
         )
     return chain, ""

@@ -1,7 +1,8 @@
-"""A meshed gear divided into its teeth: cells by the tooth sector they lie in, so that each part is condensed by itself; and its cracks.
+"""A meshed gear divided into its teeth: cells by the tooth sector they lie in, so that each part is condensed by
+itself; and its cracks.
 
-Any division gives the same result; by teeth the parts are small and meet in short lines of nodes. Cracks are sides of the boundary that lie
-on each other.
+Any division gives the same result; by teeth the parts are small and meet in short lines of nodes. Cracks are sides of
+the boundary that lie on each other.
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ from fenics_gears.geometry.outline import centreline_angle
 class Part:
     """One part of a body: its mesh, and nodes of the whole body that are kept of it.
 
-    flank: (f,), by radius; interface: (i,), those shared with other parts, not on the hub; hub: (h,); faces: (c,), those on the faces of
+    flank: (f,), by radius; interface: (i,), those shared with other parts, not on the hub; hub: (h,); faces: (c,),
+        those on the faces of
     cracks, with the centres (c, 2) of a cell of each.
     """
 
@@ -38,7 +40,8 @@ class Part:
 
 @dataclass(frozen=True)
 class CrackNodes:
-    """Nodes (k,) on one face of a body's cracks, those that face them (k,), and the normals (k, 2) out of the first face.
+    """Nodes (k,) on one face of a body's cracks, those that face them (k,), and the normals (k, 2) out of the first
+    face.
 
     The faces stand apart by (u[other] - u[one]) . normal, negative where they would pass through each other.
     """
@@ -96,9 +99,11 @@ def _centres_of(nodes: ElementNodes, chosen: np.ndarray) -> np.ndarray:
 
 
 def part_of_cells(mesh: BodyMesh, gear: Gear) -> np.ndarray:
-    """Number of the part (cells,): that of the tooth; all cells on one face of a crack together, and those on a flank with its tooth.
+    """Number of the part (cells,): that of the tooth; all cells on one face of a crack together, and those on a flank
+    with its tooth.
 
-    The two faces of a crack have nodes in the same places. If two parts shared such a node, it could not be distinguished from its twin.
+    The two faces of a crack have nodes in the same places. If two parts shared such a node, it could not be
+    distinguished from its twin.
     """
     centre = mesh.points[mesh.cells].mean(axis=1)
     ahead = np.arctan2(centre[:, 1], centre[:, 0]) - centreline_angle(gear)
@@ -112,7 +117,8 @@ def part_of_cells(mesh: BodyMesh, gear: Gear) -> np.ndarray:
 
 
 def crack_faces(mesh: BodyMesh) -> list[np.ndarray]:
-    """Cells at each face of each crack: those that touch points which have a twin in the same place, joined by such points."""
+    """Cells at each face of each crack: those that touch points which have a twin in the same place, joined by such
+    points."""
     twins = np.unique(cKDTree(mesh.points).query_pairs(1e-9 * np.abs(mesh.points).max(), output_type="ndarray"))
     touching = np.isin(mesh.cells, twins)
     cells = np.flatnonzero(touching.any(axis=1))

@@ -32,7 +32,10 @@ def pressure(run: Run) -> Section:
     section = _section("pressure", "Contact pressure", run, lambda run: [*largest_pressures(run), *pressure_maps(run)])
     if has_pressure(run) or not run.has_curves:
         return section
-    none = "There is none: this run's flanks are rigid or its mesh is one of springs, so that contact is not spread over the flank."
+    none = (
+        "There is none: this run's flanks are rigid or its mesh is one of springs, so that contact is not spread over"
+        " the flank."
+    )
     if run.scene is not None and run.scene.resolves_contact:
         none = "There is no map over the flank: the run has stored no contact fields (`[output] contact_fields`)."
     return replace(section, blocks=[*section.blocks, Words(none)])
@@ -48,9 +51,13 @@ def _cycles_shown(run: Run) -> list[Block]:
     """Which cycles are seen in this section and the next ones; nothing where it is all that is stored."""
     first, last = run.window
     part = (
-        f"Charts over time show the mesh cycles {first:g} to {last:g} of {run.phase[0]:g} to {last:g}; on screen, a double click shows all of them, but not of single tooth pairs."
+        f"Charts over time show the mesh cycles {first:g} to {last:g} of {run.phase[0]:g} to {last:g}; on screen, a"
+        " double click shows all of them, but not of single tooth pairs."
     )
-    fewer = f"Of the {run.steps:,} steps beyond, the smallest and the largest of each of {MOST_POINTS // 2:,} slices are drawn: every peak is there."
+    fewer = (
+        f"Of the {run.steps:,} steps beyond, the smallest and the largest of each of {MOST_POINTS // 2:,} slices are"
+        " drawn: every peak is there."
+    )
     return [] if run.shows_all else [Words(part + (f" {fewer}" if run.steps > MOST_POINTS else ""))]
 
 
@@ -66,14 +73,25 @@ def spectra(run: Run) -> Section:
     followed = orders_by_cycle(run, signals)
     blocks: list[Block] = []
     if run.scene is not None and run.scene.speed_ramp is not None:
-        where = "See the orders cycle by cycle." if followed else "Records of 8 mesh cycles and more have the orders cycle by cycle."
-        blocks.append(Words(f"The mesh frequency changes through the record: orders stay in place, resonances pass through them. {where}"))
+        where = (
+            "See the orders cycle by cycle."
+            if followed
+            else "Records of 8 mesh cycles and more have the orders cycle by cycle."
+        )
+        blocks.append(
+            Words(
+                "The mesh frequency changes through the record: orders stay in place, resonances pass through them."
+                f" {where}"
+            )
+        )
     blocks += [mesh_order_chart(run, name, unit, found[name]) for name, (_, unit) in signals.items()]
     if FORCE not in signals:
         blocks.append(Words("The force of the mesh does not vary: nothing but a constant torque acts on it."))
     by_turns = order_spectrum(run)
     blocks += [by_turns] if by_turns is not None else []
-    return Section("spectra", heading, [*blocks, _table(signals, {name: each.lines for name, each in found.items()}), *followed])
+    return Section(
+        "spectra", heading, [*blocks, _table(signals, {name: each.lines for name, each in found.items()}), *followed]
+    )
 
 
 def _table(signals: dict, lines: dict[str, OrderLines]) -> Table:

@@ -39,18 +39,38 @@ def _measured(run: Run) -> list[Block]:
     """What `gears effects` wrote into the run's directory, where it is of this scene."""
     file = run.file.parent / MEASURED_TABLE
     if not file.is_file():
-        return [Words("What each effect costs and changes was not measured; the report's option `--effects` does it (it runs the scene with and without each).")]
+        return [
+            Words(
+                "What each effect costs and changes was not measured; the report's option `--effects` does it (it runs"
+                " the scene with and without each)."
+            )
+        ]
     lines = _lines(file)
     if lines is None:
-        return [Words(f"{MEASURED_TABLE} beside the run is no table of this version's `gears effects`, and is left out.", warns=True)]
+        return [
+            Words(
+                f"{MEASURED_TABLE} beside the run is no table of this version's `gears effects`, and is left out.",
+                warns=True,
+            )
+        ]
     if not _same_scene(run, lines):
-        return [Words(f"{MEASURED_TABLE} beside the run was measured on another scene, and is left out; the report's option `--effects` measures anew.", warns=True)]
+        return [
+            Words(
+                f"{MEASURED_TABLE} beside the run was measured on another scene, and is left out; the report's option"
+                " `--effects` measures anew.",
+                warns=True,
+            )
+        ]
     blocks: list[Block] = [*_tables(lines)]
     picture = file.with_name(MEASURED_PICTURE)
     if picture.is_file():
         blocks.append(Picture("Cost and change of the effects", picture.read_bytes()))
     first = lines[0]
-    blocks.append(Words(f"Measured on {first['processor']}, load {first['load']}; threads: {first['threads']}; {first['versions']}."))
+    blocks.append(
+        Words(
+            f"Measured on {first['processor']}, load {first['load']}; threads: {first['threads']}; {first['versions']}."
+        )
+    )
     return blocks
 
 
@@ -73,7 +93,14 @@ def _lines(file: Path) -> list[dict[str, str]] | None:
 def _same_scene(run: Run, lines: list[dict[str, str]]) -> bool:
     """Whether the scene as a whole is there, with this run's transmission error."""
     whole = {each.section for each in effects_on(run.scene)}
-    found = next((line for line in lines if line["step_time_s"] and line["effects"] == ALL and set(line["sections"].split()) == whole), None)
+    found = next(
+        (
+            line
+            for line in lines
+            if line["step_time_s"] and line["effects"] == ALL and set(line["sections"].split()) == whole
+        ),
+        None,
+    )
     if found is None:
         return False
     answer = run.dataset.attrs.get("peak_to_peak_transmission_error", math.nan) * run.micrometres
@@ -82,7 +109,15 @@ def _same_scene(run: Run, lines: list[dict[str, str]]) -> bool:
 
 
 def _tables(lines: list[dict[str, str]]) -> list[Block]:
-    headings = ("Effects", "Unknowns", "Newton iterations per step", "Time per step (µs)", "Condensing (s)", "T_EPP (µm)", "Peak force (N)")
+    headings = (
+        "Effects",
+        "Unknowns",
+        "Newton iterations per step",
+        "Time per step (µs)",
+        "Condensing (s)",
+        "T_EPP (µm)",
+        "Peak force (N)",
+    )
     rows, skipped = [], []
     for line in lines:
         if not line["step_time_s"]:
@@ -92,10 +127,14 @@ def _tables(lines: list[dict[str, str]]) -> list[Block]:
         changes = [f" ({in_percent(float(line[name]))})" if line[name] else "" for name in CHANGES]
         rows.append((
             line["effects"], f"{number['centre_coordinates']:.0f} + {number['contact_rows']:.1f}",
-            f"{number['newton_iterations_per_step']:.2f}", f"{number['step_time_s'] * MICRO:.3g}", f"{number['condensing_s']:.2f}",
+            f"{number['newton_iterations_per_step']:.2f}", f"{number['step_time_s'] * MICRO:.3g}",
+            f"{number['condensing_s']:.2f}",
             f"{number['transmission_error_peak_to_peak_mm'] * MILLI:.3f}{changes[0]}",
             f"{number['peak_force_N']:,.0f}{changes[1]}",
         ))  # fmt: skip
-    caption = "What each effect costs and changes: one more (changes are from the bare scene), one less (changes are from all)"
+    caption = (
+        "What each effect costs and changes: one more (changes are from the bare scene), one less (changes are from"
+        " all)"
+    )
     tables = [Table(headings, rows, caption)]
     return tables + [Table(("Not run", "Why"), skipped, numbers=9)] if skipped else tables

@@ -11,7 +11,12 @@ from fenics_gears.show.report.page import Facts, Section, Words
 from fenics_gears.show.run import TOO_FEW, Run
 from fenics_gears.show.units import digits, factor, in_unit
 
-PARTS = {"energy_teeth": "teeth", "energy_shafts": "shafts", "energy_bearings": "bearings", "energy_kinetic": "motion (kinetic)"}
+PARTS = {
+    "energy_teeth": "teeth",
+    "energy_shafts": "shafts",
+    "energy_bearings": "bearings",
+    "energy_kinetic": "motion (kinetic)",
+}
 TAKEN = {"work_friction": "friction", "work_damping": "damping"}
 HEADING = "Energy account"
 # N m and J are the same; the results' unit is N mm.
@@ -22,7 +27,11 @@ def energy(run: Run) -> Section:
     """The account over the settled cycles as numbers and curves."""
     run = run.settled
     if "energy" not in run.dataset or not run.has_curves:
-        return Section("energy", HEADING, [Words(TOO_FEW if "energy" in run.dataset else "The result has no energies.", warns=True)])
+        return Section(
+            "energy",
+            HEADING,
+            [Words(TOO_FEW if "energy" in run.dataset else "The result has no energies.", warns=True)],
+        )
     return Section("energy", HEADING, [Facts(_rows(run), "Over the settled mesh cycles (1 N m = 1 J)"), *_curves(run)])
 
 
@@ -41,13 +50,23 @@ def _rows(run: Run) -> list[tuple[str, str, str]]:
         share = f" ({100.0 * shown / drive:.4g} % of the drive's work)" if drive else ""
         return label, digits(shown), UNIT + share
 
-    sides = ("the wheel's shaft", "the pinion's shaft") if work.wheel_drives else ("the pinion's shaft", "the wheel's shaft")
+    sides = (
+        ("the wheel's shaft", "the pinion's shaft")
+        if work.wheel_drives
+        else ("the pinion's shaft", "the wheel's shaft")
+    )
     rows = [(f"work of the drive, {sides[0]}", digits(work.drive * to_unit), UNIT)]
     rows.append(row(f"work done on the load, {sides[1]}", work.load * to_unit))
     rows += [row(f"lost to {words}", last[name]) for name, words in TAKEN.items() if name in last]
     rows.append(row("put in by the time stepping where contact changes", last["work_contact_changes"]))
     rows.append(row("more energy held at the end than at the beginning", float(held[-1] - held[0])))
-    rows.append(("not explained by any of these", f"{float(np.abs(_since_first(run.dataset['energy_defect'])).max()):.2g}", f"{UNIT} at most, at any of their steps"))
+    rows.append(
+        (
+            "not explained by any of these",
+            f"{float(np.abs(_since_first(run.dataset['energy_defect'])).max()):.2g}",
+            f"{UNIT} at most, at any of their steps",
+        )
+    )
     return rows
 
 
@@ -59,9 +78,17 @@ def _since_first(work) -> np.ndarray:
 
 def _curves(run: Run) -> list:
     dataset = run.dataset
-    held = [(words, in_unit(dataset[name], UNIT), colour) for (name, words), colour in zip(PARTS.items(), PALETTE) if name in dataset]
+    held = [
+        (words, in_unit(dataset[name], UNIT), colour)
+        for (name, words), colour in zip(PARTS.items(), PALETTE)
+        if name in dataset
+    ]
     held.append(("all", in_unit(dataset["energy"], UNIT), DARK))
-    taken = [(words, _since_first(dataset[name]), colour) for (name, words), colour in zip(TAKEN.items(), PALETTE) if name in dataset]
+    taken = [
+        (words, _since_first(dataset[name]), colour)
+        for (name, words), colour in zip(TAKEN.items(), PALETTE)
+        if name in dataset
+    ]
     taken.append(("contact changes, by the time stepping", -_since_first(dataset["work_contact_changes"]), PALETTE[3]))
     defect = _since_first(dataset["energy_defect"])
     # A plot of one curve has no legend.
@@ -69,5 +96,7 @@ def _curves(run: Run) -> list:
     return [
         over_time(run, "Energy held", "Energy (N m)", held, least=1e-6 * span(held)),
         over_time(run, f"Work lost since the first settled step{alone}", "Work (N m)", taken, least=1e-6 * span(taken)),
-        over_time(run, "What the account does not explain: round-off", "Energy (N m)", [("defect", defect, DARK)], least=1e-15),
+        over_time(
+            run, "What the account does not explain: round-off", "Energy (N m)", [("defect", defect, DARK)], least=1e-15
+        ),
     ]

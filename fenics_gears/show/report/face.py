@@ -10,11 +10,18 @@ from fenics_gears.show.run import TOO_FEW, Run
 HEADING = "Contact over the face"
 # The load factors along the face, by their attributes.
 FACTORS = {
-    "face_load_factor": "Face load factor {:.3f}: averaged over the mesh cycle, the most loaded place of the face, away from its ends, carries so many times the mean. This stands beside ISO's K_Hβ.",
-    "largest_line_load_factor": "Largest line load {:.3f}: at the worst moment, away from edges, a tooth carries so many times what the mesh force makes if it spreads evenly along the lines of contact of rigid gears when "
-    "these are shortest.",
-    "edge_line_load_factor": "At edges {:.3f}: the same at the ends of the face, and where a line of contact ends at a tip or form circle. It depends on the slices, and is a reason for chamfers, crowning or relief, not for a "
-    "rating.",
+    "face_load_factor": (
+        "Face load factor {:.3f}: averaged over the mesh cycle, the most loaded place of the face, away from its ends,"
+        " carries so many times the mean. This stands beside ISO's K_Hβ."
+    ),
+    "largest_line_load_factor": (
+        "Largest line load {:.3f}: at the worst moment, away from edges, a tooth carries so many times what the mesh"
+        " force makes if it spreads evenly along the lines of contact of rigid gears when these are shortest."
+    ),
+    "edge_line_load_factor": (
+        "At edges {:.3f}: the same at the ends of the face, and where a line of contact ends at a tip or form circle."
+        " It depends on the slices, and is a reason for chamfers, crowning or relief, not for a rating."
+    ),
 }
 
 
@@ -34,7 +41,8 @@ def face(run: Run) -> Section:
         [*charts, *said]
         or [
             Words(
-                "There are none: the run has stored no contact fields (`[output] contact_fields`), or no flank is loaded."
+                "There are none: the run has stored no contact fields (`[output] contact_fields`), or no flank is"
+                " loaded."
             )
         ],
     )

@@ -25,14 +25,27 @@ def geometry(run: Run) -> Section:
         (f"{normal}module", given.module, "mm"), (f"{normal}pressure angle", degrees(given.pressure_angle), "deg"),
         ("centre distance", given.centre_distance, "mm"), ("face width in common", given.face_width, "mm"),
     ]  # fmt: skip
-    of_pair = [(label, _figure(label, value, unit), unit) for label, value, unit in (*of_pair, *(row for row in rows if not row[0].startswith(GEARS)))]
-    return Section("geometry", "Geometry of the pair", [*drawings(run.pair, run.on_coast_flanks), Beside([_both(run, rows), Facts(of_pair, "Both gears together")])])
+    of_pair = [
+        (label, _figure(label, value, unit), unit)
+        for label, value, unit in (*of_pair, *(row for row in rows if not row[0].startswith(GEARS)))
+    ]
+    return Section(
+        "geometry",
+        "Geometry of the pair",
+        [*drawings(run.pair, run.on_coast_flanks), Beside([_both(run, rows), Facts(of_pair, "Both gears together")])],
+    )
 
 
 def _both(run: Run, rows: list[tuple[str, float, str]]) -> Table:
     """A row for each number that either gear has, one column a gear."""
     given = run.scene.gears
-    names = {"teeth": "", "tip_diameter": "mm", "root_diameter": "mm", "bore_diameter": "mm", "rack_tip_radius": "modules"}
+    names = {
+        "teeth": "",
+        "tip_diameter": "mm",
+        "root_diameter": "mm",
+        "bore_diameter": "mm",
+        "rack_tip_radius": "modules",
+    }
     found: dict[tuple[str, str], dict[str, float]] = {}
     for name, unit in names.items():
         found[name.replace("_", " "), unit] = {gear: getattr(getattr(given, gear), name) for gear in GEARS}
@@ -42,14 +55,22 @@ def _both(run: Run, rows: list[tuple[str, float, str]]) -> Table:
         gear, _, what = label.partition(" ")
         if gear in GEARS:
             found.setdefault((what, unit), {})[gear] = value
-    cells = [(f"{what} ({unit})" if unit else what, *(_figure(what, values[gear], unit) if gear in values else "" for gear in GEARS)) for (what, unit), values in found.items()]
+    cells = [
+        (
+            f"{what} ({unit})" if unit else what,
+            *(_figure(what, values[gear], unit) if gear in values else "" for gear in GEARS),
+        )
+        for (what, unit), values in found.items()
+    ]
     return Table(("", "Pinion", "Wheel"), cells, "Either gear")
 
 
 def _profile_shifts(given: GearPairData) -> dict[tuple[str, str], dict[str, float]]:
     """x of the drawing, and x_E of the tooth thickness where that is another: of thinner teeth, or of measured ones."""
     cut = {gear: getattr(given, gear).profile_shift for gear in GEARS}
-    nominal = {gear: cut[gear] if (own := getattr(given, gear).nominal_profile_shift) is None else own for gear in GEARS}
+    nominal = {
+        gear: cut[gear] if (own := getattr(given, gear).nominal_profile_shift) is None else own for gear in GEARS
+    }
     generating = {("generating profile shift x_E, of the tooth thickness", "modules"): cut} if cut != nominal else {}
     return {("profile shift x", "modules"): nominal} | generating
 

@@ -1,4 +1,5 @@
-"""Charts drawn by plotly, to be zoomed in a browser: light ground, units on both axes, colours that any eye tells apart.
+"""Charts drawn by plotly, to be zoomed in a browser: light ground, units on both axes, colours that any eye tells
+apart.
 
 Only its browser library is used: plotly's Python objects take longer to make than everything else of a page.
 """
@@ -43,11 +44,25 @@ def figure(chart: Chart) -> dict:
         lowest = min(0.0, float(np.nanmin(field.values, initial=0.0)))
         bar = {"title": {"text": escaped(field.title), "side": "right"}, "thickness": 14}
         cells = {"x": numbers(field.x), "y": numbers(field.y), "z": [numbers(row, 4) for row in field.values]}
-        traces.insert(0, {"type": "heatmap", "colorscale": scale, "zmin": lowest, "zmax": field.limit, "colorbar": bar, "hoverongaps": False, "name": ""} | cells)
+        traces.insert(
+            0,
+            {
+                "type": "heatmap",
+                "colorscale": scale,
+                "zmin": lowest,
+                "zmax": field.limit,
+                "colorbar": bar,
+                "hoverongaps": False,
+                "name": "",
+            }
+            | cells,
+        )
     layout = _layout(chart)
     if chart.flags:
         _flag(layout, chart)
-    layout["annotations"] = layout.get("annotations", []) + [each for curve in chart.curves if len(curve.words) for each in _words(curve)]
+    layout["annotations"] = layout.get("annotations", []) + [
+        each for curve in chart.curves if len(curve.words) for each in _words(curve)
+    ]
     return {"data": traces, "layout": layout}
 
 
@@ -57,7 +72,10 @@ def _layout(chart: Chart) -> dict:
         "zerolinecolor": "#C4C9CE", "zerolinewidth": 1, "exponentformat": "none", "separatethousands": True,
     }  # fmt: skip
     x = axis | {"title": {"text": escaped(chart.x_title), "font": {"size": 13.5}, "standoff": 8}, "hoverformat": ".5~g"}
-    y = axis | {"title": {"text": escaped(chart.y_title), "font": {"size": 13.5}, "standoff": 6}, "hoverformat": ",.5~g"}
+    y = axis | {
+        "title": {"text": escaped(chart.y_title), "font": {"size": 13.5}, "standoff": 6},
+        "hoverformat": ",.5~g",
+    }
     if chart.x_range is not None:
         x["range"] = list(chart.x_range)
     bars = any(curve.mode == BARS for curve in chart.curves)
@@ -81,28 +99,44 @@ def _layout(chart: Chart) -> dict:
     return {
         "template": "none",
         "font": {"family": FONT, "size": 13, "color": DARK},
-        # One left margin for all charts, so that the time axes of charts below each other match; above, room for plotly's buttons and the
-        # legend below them.
+        # One left margin for all charts, so that the time axes of charts below each other match; above, room for
+        # plotly's buttons and the legend below them.
         "margin": {"l": 80, "r": 16, "t": max(48 if bars else 26, 21 + LEGEND_ROW * legend_rows(chart)), "b": 46},
         "showlegend": chart.has_legend,
-        "legend": {"orientation": "h", "x": 0, "xanchor": "left", "y": 1.02, "yanchor": "bottom", "font": {"size": 12.5}},
+        "legend": {
+            "orientation": "h",
+            "x": 0,
+            "xanchor": "left",
+            "y": 1.02,
+            "yanchor": "bottom",
+            "font": {"size": 12.5},
+        },
         "hovermode": "closest" if chart.field is not None or chart.equal else "x",
-        "paper_bgcolor": "white", "plot_bgcolor": "white", "xaxis": x, "yaxis": y,
-    } | extra  # fmt: skip
+        "paper_bgcolor": "white",
+        "plot_bgcolor": "white",
+        "xaxis": x,
+        "yaxis": y,
+    } | extra
 
 
 def _scales(chart: Chart) -> dict:
     """Buttons for a linear and a logarithmic scale."""
     choices = {"linear": "linear", "logarithmic": "log"}
-    buttons = [{"label": label, "method": "relayout", "args": [{"yaxis.type": kind, "yaxis.autorange": True}]} for label, kind in choices.items()]
+    buttons = [
+        {"label": label, "method": "relayout", "args": [{"yaxis.type": kind, "yaxis.autorange": True}]}
+        for label, kind in choices.items()
+    ]
     return {
-        "type": "buttons", "direction": "right", "buttons": buttons, "x": 1.0, "xanchor": "right", "y": 1.03, "yanchor": "bottom",
-        "active": int("y" in chart.logarithmic), "pad": {"r": 0, "t": 0, "b": 0}, "font": {"size": 12}, "bgcolor": "white", "bordercolor": "#C4C9CE",
+        "type": "buttons", "direction": "right", "buttons": buttons, "x": 1.0, "xanchor": "right", "y": 1.03,
+        "yanchor": "bottom",
+        "active": int("y" in chart.logarithmic), "pad": {"r": 0, "t": 0, "b": 0}, "font": {"size": 12},
+        "bgcolor": "white", "bordercolor": "#C4C9CE",
     }  # fmt: skip
 
 
 def _flag(layout: dict, chart: Chart) -> None:
-    """Words in rows above the curves, each right of the line that leads down to its place; the curves end below them."""
+    """Words in rows above the curves, each right of the line that leads down to its place; the curves end below
+    them."""
     rows = chart.flag_rows
     inside = height(chart) - layout["margin"]["t"] - layout["margin"]["b"]
     end = 1.0 - FLAG_ROW * (max(rows) + 1) / inside
@@ -110,18 +144,39 @@ def _flag(layout: dict, chart: Chart) -> None:
     tops = [1.0 - FLAG_ROW * (max(rows) - row + 1) / inside for row in rows]
     place = {"xref": "x", "yref": "paper"}
     layout["shapes"] = [
-        {"type": "line", "x0": flag.x, "x1": flag.x, "y0": end - 0.06, "y1": top, "line": {"color": flag.colour, "width": 0.8}} | place for flag, top in zip(chart.flags, tops)
+        {
+            "type": "line",
+            "x0": flag.x,
+            "x1": flag.x,
+            "y0": end - 0.06,
+            "y1": top,
+            "line": {"color": flag.colour, "width": 0.8},
+        }
+        | place
+        for flag, top in zip(chart.flags, tops)
     ]
     at = {"showarrow": False, "xanchor": "left", "yanchor": "bottom"} | place
-    layout["annotations"] = [{"x": flag.x, "y": top, "text": escaped(flag.words), "font": {"color": flag.colour, "size": 12}} | at for flag, top in zip(chart.flags, tops)]
+    layout["annotations"] = [
+        {"x": flag.x, "y": top, "text": escaped(flag.words), "font": {"color": flag.colour, "size": 12}} | at
+        for flag, top in zip(chart.flags, tops)
+    ]
 
 
 def _words(curve: Curve) -> list[dict]:
     """Words beside the points of a curve, on paper, so that lines below do not cross them."""
     up, right = ("top" in curve.beside) - ("bottom" in curve.beside), 1 if "right" in curve.beside else -1
-    at = {"xanchor": "left" if right > 0 else "right", "yanchor": ("middle", "bottom", "top")[up], "xshift": 7 * right, "yshift": 5 * up, "showarrow": False}
+    at = {
+        "xanchor": "left" if right > 0 else "right",
+        "yanchor": ("middle", "bottom", "top")[up],
+        "xshift": 7 * right,
+        "yshift": 5 * up,
+        "showarrow": False,
+    }
     look = {"font": {"size": 12, "color": DARK}, "bgcolor": "rgba(255, 255, 255, 0.8)", "borderpad": 1}
-    return [{"x": x, "y": y, "text": escaped(words)} | at | look for words, x, y in zip(curve.words, numbers(curve.x), numbers(curve.y))]
+    return [
+        {"x": x, "y": y, "text": escaped(words)} | at | look
+        for words, x, y in zip(curve.words, numbers(curve.x), numbers(curve.y))
+    ]
 
 
 def escaped(text: str) -> str:
@@ -146,7 +201,10 @@ def _traces(curve: Curve, chart: Chart) -> list[dict]:
         bars = {"marker": {"color": curve.colour, "line": {"width": 0}}, "width": curve.width}
         return [{"type": "bar", "x": numbers(curve.x), "y": numbers(curve.y)} | bars | named]
     if curve.mode == BAND:
-        edges = [{"type": "scatter", "x": numbers(curve.x), "y": numbers(edge), "mode": "lines", "line": line} | named for edge in curve.y]
+        edges = [
+            {"type": "scatter", "x": numbers(curve.x), "y": numbers(edge), "mode": "lines", "line": line} | named
+            for edge in curve.y
+        ]
         return [edges[0] | {"showlegend": False}, edges[1] | {"fill": "tonexty"}]
     places = _places(curve, chart)
     x, y = (numbers(np.asarray(values)[places]) for values in (curve.x, curve.y))
@@ -155,7 +213,12 @@ def _traces(curve: Curve, chart: Chart) -> list[dict]:
         marker = {"size": 9, "color": "white", "line": {"color": curve.colour, "width": 1.6}}
     filled = {"fill": "toself", "fillcolor": curve.fill} if curve.fill else {}
     hover = {"hoverinfo": "skip"} if chart.equal else {}
-    return [{"type": "scatter", "x": x, "y": y, "mode": curve.mode, "line": line, "marker": marker, "connectgaps": False} | filled | hover | named]
+    return [
+        {"type": "scatter", "x": x, "y": y, "mode": curve.mode, "line": line, "marker": marker, "connectgaps": False}
+        | filled
+        | hover
+        | named
+    ]
 
 
 def _places(curve: Curve, chart: Chart) -> np.ndarray:

@@ -17,15 +17,24 @@ NUMBERS = {
     "quasi_static_pair_normal_force": ("largest force of a tooth pair without inertia", "N"),
     "peak_edge_pressure": ("largest pressure at a tip edge, which does not converge with the mesh", "MPa"),
     "quasi_static_root_stress": ("largest root stress without inertia", "MPa"),
-    "transverse_load_factor": ("transverse load factor: largest share of a tooth pair in the mesh force over that of an even line load", ""),
+    "transverse_load_factor": (
+        "transverse load factor: largest share of a tooth pair in the mesh force over that of an even line load",
+        "",
+    ),
 }
 
 
 def numbers(run: Run) -> Section:
     """Two tables side by side; the second is there where the result has the path of contact."""
     attributes = run.dataset.attrs
-    rows = [(words, digits(attributes[name]), unit) for name, (words, unit) in NUMBERS.items() if name in attributes and not _round_off(name, attributes)]
-    rows += [("dynamic factor", attributes["dynamic_factor_unknown"], "")] if "dynamic_factor_unknown" in attributes else []
+    rows = [
+        (words, digits(attributes[name]), unit)
+        for name, (words, unit) in NUMBERS.items()
+        if name in attributes and not _round_off(name, attributes)
+    ]
+    rows += (
+        [("dynamic factor", attributes["dynamic_factor_unknown"], "")] if "dynamic_factor_unknown" in attributes else []
+    )
     blocks = [Facts(rows, "Of the settled mesh cycles")] if rows else []
     if "specific_sliding" in run.dataset:
         blocks.append(_contact_points(run))
@@ -39,7 +48,15 @@ def _round_off(name: str, attributes) -> bool:
 
 def _contact_points(run: Run) -> Table:
     dataset, timed = run.dataset, "sliding_speed" in run.dataset
-    headings = ("Point", "Pinion (mm)", "Wheel (mm)", *(("Sliding speed (m/s)",) if timed else ()), "Specific sliding, pinion", "Specific sliding, wheel", "Share in the mesh force")
+    headings = (
+        "Point",
+        "Pinion (mm)",
+        "Wheel (mm)",
+        *(("Sliding speed (m/s)",) if timed else ()),
+        "Specific sliding, pinion",
+        "Specific sliding, wheel",
+        "Share in the mesh force",
+    )
     words = dict(zip("ABCDE", ("start of contact", "LPSTC", "pitch point", "HPSTC", "end of contact")))
     rows = []
     for point in dataset["path_point"].values.tolist():

@@ -16,7 +16,11 @@ GEARS = ("pinion", "wheel")
 def summary(run: Run) -> Section:
     """The key numbers as tiles, the others below."""
     if not run.steps:
-        return Section("summary", "Summary", [Words("No step is stored: the run ended before its recorded mesh cycles began.", warns=True)])
+        return Section(
+            "summary",
+            "Summary",
+            [Words("No step is stored: the run ended before its recorded mesh cycles began.", warns=True)],
+        )
     return Section("summary", "Summary", [Tiles([*_tiles(run), *_conditions(run)])])
 
 
@@ -34,14 +38,24 @@ def _sentence(words: str) -> str:
 def _tiles(run: Run) -> Iterator[Tile]:
     attributes, dataset = run.dataset.attrs, run.dataset
     part = "" if run.complete else " of what is stored"
-    for name, label in (("peak_to_peak_transmission_error", "Transmission error, peak to peak"), ("mean_transmission_error", "Transmission error, mean")):
+    for name, label in (
+        ("peak_to_peak_transmission_error", "Transmission error, peak to peak"),
+        ("mean_transmission_error", "Transmission error, mean"),
+    ):
         angle = attributes.get(name, math.nan)
         if math.isfinite(angle) and math.isfinite(run.micrometres):
-            yield Tile(label + part, digits(angle * run.micrometres), "µm", f"{digits(angle * factor('rad', 'µrad'))} µrad of the wheel")
+            yield Tile(
+                label + part,
+                digits(angle * run.micrometres),
+                "µm",
+                f"{digits(angle * factor('rad', 'µrad'))} µrad of the wheel",
+            )
     if "normal_force" in dataset:
         largest, note = largest_normal_force(dataset), ""
         # Both along the contact normal, which leans by the base helix angle from the transverse line of action.
-        nominal = 0.0 if run.pair is None else abs(run.scene.load.wheel_torque) / run.pair.wheel.base_radius / run.pair.cosine
+        nominal = (
+            0.0 if run.pair is None else abs(run.scene.load.wheel_torque) / run.pair.wheel.base_radius / run.pair.cosine
+        )
         if nominal:
             note = f"{largest / nominal:.3f} × {digits(nominal)} N, the normal force of the torque without friction"
         yield Tile("Largest mesh force", digits(largest), "N", note)
@@ -49,40 +63,62 @@ def _tiles(run: Run) -> Iterator[Tile]:
         yield Tile("Peak contact pressure", digits(attributes["peak_contact_pressure"]), "MPa", _where(attributes))
     if "root_stress_maximum" in dataset:
         largest = dataset["root_stress_maximum"].max(["time", "slot"]).values
-        yield Tile("Largest root stress", digits(float(largest.max())), "MPa", f"pinion {digits(largest[0])}, wheel {digits(largest[1])}")
-    if "dynamic_factor_by_force" in attributes:
         yield Tile(
-            "Dynamic factor",
-            f"{attributes['dynamic_factor_by_force']:.3f}",
-            "",
-            _dynamic_factors(attributes),
+            "Largest root stress",
+            digits(float(largest.max())),
+            "MPa",
+            f"pinion {digits(largest[0])}, wheel {digits(largest[1])}",
         )
+    if "dynamic_factor_by_force" in attributes:
+        yield Tile("Dynamic factor", f"{attributes['dynamic_factor_by_force']:.3f}", "", _dynamic_factors(attributes))
     if "friction_loss" in attributes:
-        lost = f"{digits(attributes['friction_power'])} W of {digits(1e-3 * attributes['input_power'])} kW" if "friction_power" in attributes else ""
+        lost = (
+            f"{digits(attributes['friction_power'])} W of {digits(1e-3 * attributes['input_power'])} kW"
+            if "friction_power" in attributes
+            else ""
+        )
         words = lost if "mesh_efficiency" in attributes else "of wedged or locked teeth, which have no efficiency"
         yield Tile("Friction loss", f"{100.0 * attributes['friction_loss']:.3g}", "%", words)
     if "mean_mesh_stiffness_tangent" in attributes:
         secant = f"tangent, for dynamics; force over deflection {digits(attributes['mean_mesh_stiffness'])}"
         yield Tile("Mesh stiffness, mean", digits(attributes["mean_mesh_stiffness_tangent"]), "N/(mm µm)", secant)
     if run.pair is not None:
-        overlap = f"{run.pair.total_contact_ratio:.3f} with overlap ratio {run.pair.overlap_ratio:.3f}" if run.pair.overlap_ratio else ""
+        overlap = (
+            f"{run.pair.total_contact_ratio:.3f} with overlap ratio {run.pair.overlap_ratio:.3f}"
+            if run.pair.overlap_ratio
+            else ""
+        )
         yield Tile("Contact ratio", f"{run.pair.contact_ratio:.3f}", "", overlap)
     if "face_load_factor" in attributes:
-        yield Tile("Face load factor", f"{attributes['face_load_factor']:.3f}", "", "of the line load averaged over the mesh cycle")
+        yield Tile(
+            "Face load factor",
+            f"{attributes['face_load_factor']:.3f}",
+            "",
+            "of the line load averaged over the mesh cycle",
+        )
     if attributes.get("contact_loss_count"):
         share = 100.0 * attributes["contact_loss_share"]
         wheel_drives = run.scene is not None and run.scene.load.wheel_torque < 0.0
         yield Tile(
             "Contact of the drive flanks lost" if "coast_normal_force" in dataset else "Contact lost",
             *counted(attributes["contact_loss_count"], "time").split(),
-            f"{share:.3g} % of the time{_longest(run)}, by up to {1e3 * attributes['contact_loss_opening']:.3g} µm" + ("; the wheel drives, on the coast flanks" if wheel_drives else ""),
+            f"{share:.3g} % of the time{_longest(run)}, by up to {1e3 * attributes['contact_loss_opening']:.3g} µm"
+            + ("; the wheel drives, on the coast flanks" if wheel_drives else ""),
         )
 
 
 def _dynamic_factors(attributes) -> str:
     """What they compare: the same force or stress with inertia and without."""
-    forces = [digits(attributes[name]) for name in ("largest_pair_force", "quasi_static_pair_normal_force") if name in attributes]
-    stress = f"; {attributes['dynamic_factor_by_stress']:.3f} by root stress" if "dynamic_factor_by_stress" in attributes else ""
+    forces = [
+        digits(attributes[name])
+        for name in ("largest_pair_force", "quasi_static_pair_normal_force")
+        if name in attributes
+    ]
+    stress = (
+        f"; {attributes['dynamic_factor_by_stress']:.3f} by root stress"
+        if "dynamic_factor_by_stress" in attributes
+        else ""
+    )
     return f"largest force of a tooth pair: {' N over '.join(forces)} N without inertia{stress}"
 
 
@@ -98,7 +134,11 @@ def _where(attributes) -> str:
         return "over five contact nodes"
     at = f"at diameter {attributes['peak_contact_pressure_diameter']:.4g} mm of the pinion"
     largest = attributes["peak_contact_pressure"]
-    more = [words for name, words in (("edge", "edges"), ("kink", "kinks of relief")) if attributes.get(f"peak_{name}_pressure", 0.0) > largest]
+    more = [
+        words
+        for name, words in (("edge", "edges"), ("kink", "kinks of relief"))
+        if attributes.get(f"peak_{name}_pressure", 0.0) > largest
+    ]
     return at + (f"; more at {' and '.join(more)}, see the warnings" if more else "")
 
 
@@ -106,15 +146,23 @@ def _conditions(run: Run) -> Iterator[Tile]:
     """Torques, and speeds where the scene has one."""
     if run.scene is None:
         return
-    teeth, motion, ramp = [getattr(run.scene.gears, gear).teeth for gear in GEARS], run.scene.motion, run.scene.speed_ramp
+    teeth, motion, ramp = (
+        [getattr(run.scene.gears, gear).teeth for gear in GEARS],
+        run.scene.motion,
+        run.scene.speed_ramp,
+    )
     torque = run.scene.load.wheel_torque * factor("N mm", "N m")
     power = f", {load_in_words(run.scene)}" if run.scene.load.given == "power" else ""
-    yield Tile("Torque on the wheel", digits(torque), "N m", f"{digits(torque * teeth[0] / teeth[1])} N m on the pinion{power}")
+    yield Tile(
+        "Torque on the wheel", digits(torque), "N m", f"{digits(torque * teeth[0] / teeth[1])} N m on the pinion{power}"
+    )
     if ramp is not None:
         yield Tile("Mesh frequency", f"{digits(motion.mesh_frequency)} to {digits(ramp.end_frequency)}", "Hz")
     elif motion.speed_given:
         turns = [digits(motion.mesh_frequency / count * factor("1/s", "1/min")) for count in teeth]
-        yield Tile("Mesh frequency", digits(motion.mesh_frequency), "Hz", f"pinion {turns[0]} rpm, wheel {turns[1]} rpm")
+        yield Tile(
+            "Mesh frequency", digits(motion.mesh_frequency), "Hz", f"pinion {turns[0]} rpm, wheel {turns[1]} rpm"
+        )
 
 
 def counted(number: int, thing: str) -> str:

@@ -36,7 +36,8 @@ class Tiles:
 
 @dataclass(frozen=True)
 class Cell:
-    """A table's cell: its text, a number to sort by, a page beside this one that it leads to, and whether it is a word of warning."""
+    """A table's cell: its text, a number to sort by, a page beside this one that it leads to, and whether it is a word
+    of warning."""
 
     text: str
     value: float | None = None
@@ -62,7 +63,11 @@ class Table:
 
     def _cell(self, each: Cell | str, column: int) -> Cell:
         number = column >= self.numbers
-        return Cell(each, number=number) if isinstance(each, str) else Cell(each.text, each.value, each.link, each.warns, number)
+        return (
+            Cell(each, number=number)
+            if isinstance(each, str)
+            else Cell(each.text, each.value, each.link, each.warns, number)
+        )
 
 
 @dataclass(frozen=True)
@@ -118,7 +123,8 @@ class Section:
 
 @dataclass(frozen=True)
 class Page:
-    """A whole report; `subject`: of what ("Run", "Study"); `subtitle`: its conditions; `alarm`: what must be known before anything."""
+    """A whole report; `subject`: of what ("Run", "Study"); `subtitle`: its conditions; `alarm`: what must be known
+    before anything."""
 
     subject: str
     title: str

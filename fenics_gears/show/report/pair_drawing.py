@@ -20,7 +20,8 @@ FILLS = ("#DCE9F3", "#F3E6DA")
 
 
 def drawings(pair: GearPair, coast: bool = False) -> list[Chart]:
-    """The whole pair, and the teeth along the path of contact, a tooth pair touching at the pitch point with its drive or coast flanks."""
+    """The whole pair, and the teeth along the path of contact, a tooth pair touching at the pitch point with its drive
+    or coast flanks."""
     phase = (pair.pitch_point - pair.path_start) / pair.base_pitch
     teeth = [gear_outline(pair, gear, phase, coast) for gear in (0, 1)]
     drawn = "Line of centres upright, the pinion above; flanks without relief and errors, which are micrometres."
@@ -28,20 +29,26 @@ def drawings(pair: GearPair, coast: bool = False) -> list[Chart]:
     caption = "Teeth along the path of contact" + (" of the coast flanks, which carry" if coast else "")
     return [
         _drawing("The pair", note, 620, _curves(pair, teeth, coast, labels=False), *_whole(pair)),
-        _drawing(caption, _points_in_words(pair, coast), 560, _curves(pair, teeth, coast, labels=True), *_teeth(pair, coast)),
+        _drawing(
+            caption, _points_in_words(pair, coast), 560, _curves(pair, teeth, coast, labels=True), *_teeth(pair, coast)
+        ),
     ]
 
 
 def _drawing(caption: str, note: str, height: int, curves: list[Curve], middle: np.ndarray, half: float) -> Chart:
     """A square view around a point (mm), or more of it to the sides."""
     (left, bottom), (right, top) = middle - half, middle + half
-    return Chart(caption, curves, "x (mm)", "y (mm)", note, height, x_range=(left, right), y_range=(bottom, top), equal=True)
+    return Chart(
+        caption, curves, "x (mm)", "y (mm)", note, height, x_range=(left, right), y_range=(bottom, top), equal=True
+    )
 
 
 def gear_outline(pair: GearPair, gear: int, phase: float, coast: bool = False) -> np.ndarray:
-    """Outline (n, 2), mm, of a gear where it stands at a phase of the mesh cycle, tooth after tooth, closed; line of centres upright.
+    """Outline (n, 2), mm, of a gear where it stands at a phase of the mesh cycle, tooth after tooth, closed; line of
+    centres upright.
 
-    coast: with the coast flanks where the drive flanks are at that phase, which is the mirror image at the line of centres.
+    coast: with the coast flanks where the drive flanks are at that phase, which is the mirror image at the line of
+        centres.
     """
     centre, angles = standing(pair, gear, phase)
     tooth = _tooth((pair.pinion, pair.wheel)[gear])
@@ -55,7 +62,11 @@ def _tooth(gear: Gear) -> np.ndarray:
     outline = tooth_outline(gear, FILLET_POINTS)
     involute = outline.involute(np.linspace(gear.form_roll_angle, gear.tip_roll_angle, INVOLUTE_POINTS))[1:]
     foot = np.arctan2(outline.fillet[0, 1], outline.fillet[0, 0])
-    space = outline.centreline_angle + np.remainder(outline.space_angle - outline.centreline_angle + np.pi, 2 * np.pi) - np.pi
+    space = (
+        outline.centreline_angle
+        + np.remainder(outline.space_angle - outline.centreline_angle + np.pi, 2 * np.pi)
+        - np.pi
+    )
     land = _arc(gear.root_radius, space, space + np.remainder(foot - space + np.pi, 2 * np.pi) - np.pi)
     chamfer = [outline.tip_corner] if gear.tip_chamfer else []
     half = np.vstack([land[:-1], outline.fillet, involute, *chamfer])
@@ -86,9 +97,21 @@ def _curves(pair: GearPair, teeth: list[np.ndarray], coast: bool, labels: bool) 
     at, names = _on_line(pair, list(places.values()), coast), list(places)
     # The pitch point lies close to its neighbours, and the path's end has room below alone.
     below = np.array([name in ("pitch point", names[-1]) for name in names])
-    for own, side in ((~below, "top left" if coast else "top right"), (below, "bottom right" if coast else "bottom left")):
+    for own, side in (
+        (~below, "top left" if coast else "top right"),
+        (below, "bottom right" if coast else "bottom left"),
+    ):
         if own.any():
-            line("points", at[own], DARK, 1.6, mode=MARKERS, listed=False, words=np.array(names)[own].tolist(), beside=side)
+            line(
+                "points",
+                at[own],
+                DARK,
+                1.6,
+                mode=MARKERS,
+                listed=False,
+                words=np.array(names)[own].tolist(),
+                beside=side,
+            )
     return curves
 
 
@@ -118,9 +141,15 @@ def _points(pair: GearPair, coast: bool) -> dict[str, float]:
 
 
 def _points_in_words(pair: GearPair, coast: bool) -> str:
-    words = "; ".join(f"{name} {place:.2f} mm ({degrees(pair.pinion_roll_angle(place)):.2f}°)" for name, place in _points(pair, coast).items())
+    words = "; ".join(
+        f"{name} {place:.2f} mm ({degrees(pair.pinion_roll_angle(place)):.2f}°)"
+        for name, place in _points(pair, coast).items()
+    )
     meaning = "LPSTC and HPSTC: lowest and highest point of single tooth contact, of the pinion."
-    return f"From T1 on the line of action, with the pinion's roll angle: {words}. {meaning if pair.fewest_pairs == 1 else ''}".strip()
+    return (
+        f"From T1 on the line of action, with the pinion's roll angle: {words}."
+        f" {meaning if pair.fewest_pairs == 1 else ''}".strip()
+    )
 
 
 def _whole(pair: GearPair) -> tuple[np.ndarray, float]:

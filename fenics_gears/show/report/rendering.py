@@ -1,4 +1,5 @@
-"""A page as HTML: the template filled, plotly's library and all pictures inside, nothing to be fetched from anywhere."""
+"""A page as HTML: the template filled, plotly's library and all pictures inside, nothing to be fetched from
+anywhere."""
 
 from __future__ import annotations
 
@@ -24,17 +25,27 @@ def rendered(page: Page) -> str:
     from markupsafe import Markup
 
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {"figure": _figure, "still": _still, "height": height, "base64": _base64, "number": _number, "micro": _micro, "code": _with_code}
+    environment.filters |= {
+        "figure": _figure,
+        "still": _still,
+        "height": height,
+        "base64": _base64,
+        "number": _number,
+        "micro": _micro,
+        "code": _with_code,
+    }
     environment.filters["kind"] = lambda block: type(block).__name__
     drawn = any(_has_chart(block) for section in page.sections for block in section.blocks)
     return environment.from_string(_own_file(TEMPLATE)).render(
-        page=page, style=Markup(_own_file(STYLE)), script=Markup(_own_file(SCRIPT)), library=Markup(plotly_library()) if drawn else "",
+        page=page, style=Markup(_own_file(STYLE)), script=Markup(_own_file(SCRIPT)),
+        library=Markup(plotly_library()) if drawn else "",
     )  # fmt: skip
 
 
 @cache
 def plotly_library() -> str:
-    """Plotly's browser library, gzip in base64: Debian ships it without white space removed, 9 MB, which a page should not have."""
+    """Plotly's browser library, gzip in base64: Debian ships it without white space removed, 9 MB, which a page should
+    not have."""
     from plotly.offline import get_plotlyjs
 
     # No time stamp, so that the same run gives the same page.
@@ -57,7 +68,8 @@ def _figure(chart: Chart):
 
 
 def _still(chart: Chart) -> str:
-    """The same chart as an image, for paper, for browsers without scripts and for whoever photographs the page at once."""
+    """The same chart as an image, for paper, for browsers without scripts and for whoever photographs the page at
+    once."""
     return _base64(still(chart))
 
 

@@ -17,7 +17,11 @@ HEADING = "Root stress"
 def root_stress(run: Run) -> Section:
     """Curves and numbers of the fillets' stress; a line on how to have it where it is not there."""
     if "root_stress_maximum" not in run.dataset:
-        return Section("root-stress", HEADING, [Words("It was not recorded; `[output] root_stress = true` in the scene records it.")])
+        return Section(
+            "root-stress",
+            HEADING,
+            [Words("It was not recorded; `[output] root_stress = true` in the scene records it.")],
+        )
     if not run.has_curves:
         return Section("root-stress", HEADING, [Words(TOO_FEW, warns=True)])
     return Section("root-stress", HEADING, [*_over_time(run), *_along_fillets(run)])
@@ -30,8 +34,19 @@ def _over_time(run: Run) -> list[Chart]:
     least = span(envelope)
     plots = [over_time(run, "Largest tension in the fillets of either gear", "Stress (MPa)", envelope, least=least)]
     for gear in gears:
-        curves = [(words, each, PALETTE[number % len(PALETTE)]) for words, each, number in run.of_pairs("root_stress_maximum", "MPa", gear=gear)]
-        plots.append(over_time(run, f"Largest tension in the fillets of the {gear}, tooth by tooth", "Stress (MPa)", curves, least=least))
+        curves = [
+            (words, each, PALETTE[number % len(PALETTE)])
+            for words, each, number in run.of_pairs("root_stress_maximum", "MPa", gear=gear)
+        ]
+        plots.append(
+            over_time(
+                run,
+                f"Largest tension in the fillets of the {gear}, tooth by tooth",
+                "Stress (MPa)",
+                curves,
+                least=least,
+            )
+        )
     section = run.dataset["root_stress_at_30_degrees"].transpose("time", "gear", "fillet", "slot")
     at_section = in_unit(section, "MPa")
     curves = [
@@ -40,7 +55,10 @@ def _over_time(run: Run) -> list[Chart]:
         if np.isfinite(at_section[:, i, j]).any()
     ]  # fmt: skip
     if curves:
-        note = "The largest of the loaded teeth, where the fillet's tangent stands at 30° to the tooth's centreline; tension positive."
+        note = (
+            "The largest of the loaded teeth, where the fillet's tangent stands at 30° to the tooth's centreline;"
+            " tension positive."
+        )
         plots.append(over_time(run, "Stress at the 30° tangent", "Stress (MPa)", curves, least=least, note=note))
     return plots
 
@@ -63,13 +81,30 @@ def _along_fillets(run: Run) -> list[Chart]:
             plots.append(_over_face(run, gear, largest))
             along = along[:, largest.argmax()]
         angle, side = own["fillet_tangent_angle"].values * factor("rad", "deg"), own["fillet_side"].values
-        curves = [Curve(f"{name} side", angle[side == name], along[side == name], colour, mode=MARKED_LINES) for name, colour in zip(dict.fromkeys(side.tolist()), PALETTE)]
+        curves = [
+            Curve(f"{name} side", angle[side == name], along[side == name], colour, mode=MARKED_LINES)
+            for name, colour in zip(dict.fromkeys(side.tolist()), PALETTE)
+        ]
         phase = float(own["mesh_phase"].values[time])
-        caption = f"Along the fillets of the {gear}, where its tension is largest: pair {int(own['pair_number'].values[time, slot])}, mesh cycle {phase:.3f}"
+        caption = (
+            f"Along the fillets of the {gear}, where its tension is largest: pair"
+            f" {int(own['pair_number'].values[time, slot])}, mesh cycle {phase:.3f}"
+        )
         if run.is_over_face:
             caption += f", {run.dataset['face_position'].values[largest.argmax()]:.2f} mm from the middle of the face"
-        note = "From the form circle, left, to the root circle, right, where the tangent lies across the tooth; tension positive."
-        plots.append(Chart(caption, curves, "Angle between the fillet's tangent and the tooth's centreline (°)", "Stress (MPa)", note=note))
+        note = (
+            "From the form circle, left, to the root circle, right, where the tangent lies across the tooth; tension"
+            " positive."
+        )
+        plots.append(
+            Chart(
+                caption,
+                curves,
+                "Angle between the fillet's tangent and the tooth's centreline (°)",
+                "Stress (MPa)",
+                note=note,
+            )
+        )
     return plots
 
 
@@ -78,4 +113,10 @@ def _over_face(run: Run, gear: str, largest: np.ndarray) -> Chart:
     z = run.dataset["face_position"].values
     curve = Curve(gear, z, largest, PALETTE[0], mode=MARKED_LINES)
     caption = f"Over the face of the {gear}, of the tooth and at the time of its largest tension"
-    return Chart(caption, [curve], "Place along the face, from its middle (mm)", "Tension (MPa)", note="Of each slice of the face the largest in both fillets.")
+    return Chart(
+        caption,
+        [curve],
+        "Place along the face, from its middle (mm)",
+        "Tension (MPa)",
+        note="Of each slice of the face the largest in both fillets.",
+    )

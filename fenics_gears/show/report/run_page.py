@@ -21,7 +21,21 @@ from fenics_gears.show.run import Run, conditions
 from fenics_gears.system.progress import Progress, SilentProgress
 
 # Pictures before tables: who reads the page looks first.
-SECTIONS = (summary, warnings, motion, forces, pressure, stress, root_stress, spectra, geometry, numbers, effects, energy, solver)
+SECTIONS = (
+    summary,
+    warnings,
+    motion,
+    forces,
+    pressure,
+    stress,
+    root_stress,
+    spectra,
+    geometry,
+    numbers,
+    effects,
+    energy,
+    solver,
+)
 
 
 def run_page(run: Run, progress: Progress | None = None) -> Page:
@@ -34,7 +48,10 @@ def run_page(run: Run, progress: Progress | None = None) -> Page:
         sections.append(make(run))
     attributes = run.dataset.attrs
     remarks = [] if run.scene is None else changed_files(run.dataset, run.scene)
-    sections += [version_section(attributes, run.file), scene_section(str(attributes.get("scene", "")), remarks=remarks)]
+    sections += [
+        version_section(attributes, run.file),
+        scene_section(str(attributes.get("scene", "")), remarks=remarks),
+    ]
     progress.update(len(makers), len(makers))
     title = " ".join(str(attributes.get("title", "")).split()) or run.file.stem
     subtitle = conditions(run.scene) if run.scene is not None else ""
@@ -61,7 +78,11 @@ def _alarm(run: Run) -> str:
 def _incomplete(run: Run) -> list[str]:
     if run.complete:
         return []
-    why = {"interrupted": " It was interrupted.", "failed": " It failed.", "not ended": " Its process was killed, or still runs."}.get(run.dataset.attrs.get("stopped"), "")
+    why = {
+        "interrupted": " It was interrupted.",
+        "failed": " It failed.",
+        "not ended": " Its process was killed, or still runs.",
+    }.get(run.dataset.attrs.get("stopped"), "")
     if not run.steps:
         return [f"INCOMPLETE RUN.{why} No step is stored."]
     stopped = f"It stopped at mesh cycle {run.dataset['mesh_phase'].values[-1]:.2f}"

@@ -21,7 +21,11 @@ def solver(run: Run) -> Section:
     attributes = run.dataset.attrs
     methods = [(name.removeprefix(RUNG), int(count)) for name, count in attributes.items() if name.startswith(RUNG)]
     of_run = {"steps": "steps of the whole run", "newton_iterations_total": "Newton iterations of the whole run"}
-    rows = _extent(run) + solver_rows(run.dataset) + [(words, f"{attributes[name]:,}", "") for name, words in of_run.items() if name in attributes]
+    rows = (
+        _extent(run)
+        + solver_rows(run.dataset)
+        + [(words, f"{attributes[name]:,}", "") for name, words in of_run.items() if name in attributes]
+    )
     statistics: list[Block] = [Facts(rows, "The run"), Facts(stage_rows(run.dataset), "Wall time by stage")]
     if methods:
         every = sum(count for _, count in methods)
@@ -29,9 +33,21 @@ def solver(run: Run) -> Section:
         statistics.append(Table(("Method", "Steps", "Share (%)"), cells, "Steps by the method that solved them"))
     blocks.append(Beside(statistics))
     if run.has_curves:
-        counts = {"newton_iterations": ("Newton iterations of each step", "Iterations"), "closed_nodes": ("Closed contact nodes", "Nodes")}
+        counts = {
+            "newton_iterations": ("Newton iterations of each step", "Iterations"),
+            "closed_nodes": ("Closed contact nodes", "Nodes"),
+        }
         for (name, (caption, y_title)), colour in zip(counts.items(), (PALETTE[0], PALETTE[2])):
-            blocks.append(over_time(run, caption, y_title, [(y_title, run.dataset[name].values.astype(float), colour)], least=2.0, height=240))
+            blocks.append(
+                over_time(
+                    run,
+                    caption,
+                    y_title,
+                    [(y_title, run.dataset[name].values.astype(float), colour)],
+                    least=2.0,
+                    height=240,
+                )
+            )
     return Section("solver", "Model and solver", blocks)
 
 
@@ -45,9 +61,13 @@ def _extent(run: Run) -> list[tuple[str, str, str]]:
 
 
 def _described(run: Run) -> Block:
-    """Model, accuracy and natural frequencies; why not, where the scene needs what is not here, such as files of meshes."""
+    """Model, accuracy and natural frequencies; why not, where the scene needs what is not here, such as files of
+    meshes."""
     try:
         sections = () if run.scene is None else describe(run.scene)
     except GearsError as error:
-        return Words(f"Model and accuracy cannot be described without the files that the scene was run with: {str(error).splitlines()[0]}")
+        return Words(
+            "Model and accuracy cannot be described without the files that the scene was run with:"
+            f" {str(error).splitlines()[0]}"
+        )
     return Beside([Facts(rows, heading) for heading, rows in sections if heading.startswith(DESCRIBED)])

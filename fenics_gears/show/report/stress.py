@@ -24,11 +24,26 @@ def stress(run: Run) -> Section:
     if run.scene is None or not run.steps:
         return Section("stress", HEADING, [Words(NO_SCENE if run.steps else "No step is stored.", warns=True)])
     if not run.scene.resolves_contact:
-        return Section("stress", HEADING, [Words("There is none: this run's flanks are rigid or its mesh is one of springs.")])
+        return Section(
+            "stress", HEADING, [Words("There is none: this run's flanks are rigid or its mesh is one of springs.")]
+        )
     if run.scene.body_meshes is not None:
-        return Section("stress", HEADING, [Words("There is none: stresses are recovered from gears of equal sectors, and these are meshed as a whole.")])
+        return Section(
+            "stress",
+            HEADING,
+            [
+                Words(
+                    "There is none: stresses are recovered from gears of equal sectors, and these are meshed as a"
+                    " whole."
+                )
+            ],
+        )
     if not run.dataset.sizes.get("contact_time"):
-        return Section("stress", HEADING, [Words("There is none: the run has stored no contact fields (`[output] contact_fields`).")])
+        return Section(
+            "stress",
+            HEADING,
+            [Words("There is none: the run has stored no contact fields (`[output] contact_fields`).")],
+        )
     dataset = contact_times(run.dataset)
     index = _most_loaded(dataset) if run.at is None else stored_index(dataset, run.at)
     try:

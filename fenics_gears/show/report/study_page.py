@@ -36,26 +36,49 @@ def study_page(dataset: xr.Dataset, file: Path, output: Path, progress: Progress
         scene_section(str(attributes.get("scene", "")), "Base scene"),
     ]  # fmt: skip
     title = " ".join(str(attributes.get("title", "")).split()) or file.parent.name
-    swept = ", ".join(f"{field.called} ({counted(len(set(map(str, field.values.tolist()))), 'value')})" for field in cases.fields)
-    return Page("Gear pair: report on a study", title, f"{counted(cases.count, 'case')} over {swept}", sections, made_by(), _alarm(cases))
+    swept = ", ".join(
+        f"{field.called} ({counted(len(set(map(str, field.values.tolist()))), 'value')})" for field in cases.fields
+    )
+    return Page(
+        "Gear pair: report on a study",
+        title,
+        f"{counted(cases.count, 'case')} over {swept}",
+        sections,
+        made_by(),
+        _alarm(cases),
+    )
 
 
 def _alarm(cases: Cases) -> str:
     counts = Counter(cases.states)
     parts = [f"{counts[state]} {STATE_WORDS[state]}" for state in STATES[2:] if counts[state]]
-    return f"INCOMPLETE STUDY: of {cases.count} cases {', '.join(parts)}. Run the study again for these." if parts else ""
+    return (
+        f"INCOMPLETE STUDY: of {cases.count} cases {', '.join(parts)}. Run the study again for these." if parts else ""
+    )
 
 
 def _summary(cases: Cases) -> Section:
     counts = Counter(cases.states)
-    tiles = [Tile("Cases", f"{cases.count:,}", "", ", ".join(f"{counts[state]:,} {words}" for state, words in STATE_WORDS.items() if counts[state]))]
+    tiles = [
+        Tile(
+            "Cases",
+            f"{cases.count:,}",
+            "",
+            ", ".join(f"{counts[state]:,} {words}" for state, words in STATE_WORDS.items() if counts[state]),
+        )
+    ]
     for values, unit, name in cases.measures.values():
         far_off = cases.far_off(values)
         known = values[np.isfinite(values) & ~far_off]
         if len(known):
             least, largest = digits(known.min()), digits(known.max())
             median = f"median {digits(np.median(known))} {unit}" if least != largest else ""
-            note = ", ".join(filter(None, [median, f"without {counted(int(far_off.sum()), 'case')} of no meaning" if far_off.any() else ""]))
+            note = ", ".join(
+                filter(
+                    None,
+                    [median, f"without {counted(int(far_off.sum()), 'case')} of no meaning" if far_off.any() else ""],
+                )
+            )
             tiles.append(Tile(name, f"{least} – {largest}" if median else least, unit, note))
     rows = []
     for field in cases.fields:
@@ -74,7 +97,9 @@ def _failures(cases: Cases) -> Section:
     rows = [(str(case), cases.words(case), Cell(reasons[case], warns=True)) for case in failed[:MOST_FAILURES]]
     blocks: list[Block] = [Table(("Case", "Values", "Why"), rows, numbers=9)]
     more = f" The first {MOST_FAILURES} of {len(failed)} are listed." if len(failed) > MOST_FAILURES else ""
-    blocks.append(Words(f"The files `cases/*.failed.txt` have the scenes of these cases; `gears study` tries them again.{more}"))
+    blocks.append(
+        Words(f"The files `cases/*.failed.txt` have the scenes of these cases; `gears study` tries them again.{more}")
+    )
     return Section("failures", "Failures", blocks)
 
 
@@ -83,36 +108,71 @@ def _warnings(cases: Cases) -> Section:
     said: dict[str, list[tuple[int, str]]] = {}
     for case, text in enumerate(cases.texts("warnings")):
         for line in text.splitlines():
-            said.setdefault("".join(each for each in line if not each.isdigit() and each not in ".+-e"), []).append((case, line))
+            said.setdefault("".join(each for each in line if not each.isdigit() and each not in ".+-e"), []).append(
+                (case, line)
+            )
     blocks = []
     for found in sorted(said.values(), key=len, reverse=True):
-        listed = ", ".join([str(case) for case, _ in found[:LISTED_CASES]] + (["…"] if len(found) > LISTED_CASES else []))
-        of = f"In all {cases.count} cases" if len(found) == cases.count else f"In {len(found)} of {cases.count} cases ({listed})"
+        listed = ", ".join(
+            [str(case) for case, _ in found[:LISTED_CASES]] + (["…"] if len(found) > LISTED_CASES else [])
+        )
+        of = (
+            f"In all {cases.count} cases"
+            if len(found) == cases.count
+            else f"In {len(found)} of {cases.count} cases ({listed})"
+        )
         others = " (numbers of the first)" if len({line for _, line in found}) > 1 else ""
         blocks.append(Words(f"{of}: {found[0][1]}{others}", warns=True))
     return Section("warnings", "Warnings", blocks or [Words("None: every run stayed within what the model assumes.")])
 
 
 def _results(cases: Cases) -> Section:
-    return Section("results", "Results over the parameters", list(result_charts(cases).values()) or [Words("No case has a result yet.", warns=True)])
+    return Section(
+        "results",
+        "Results over the parameters",
+        list(result_charts(cases).values()) or [Words("No case has a result yet.", warns=True)],
+    )
 
 
 def _standing_out(cases: Cases) -> Section:
     """Transmission error of the cases with the least, the middle and the largest values, and the summary of each."""
     heading, scale, unit = "Cases that stand out", *cases.error_scale
-    chosen = [(case, why, run) for case, why in standing_out(cases).items() if (run := cases.run(case)) is not None and run.sizes.get("time", 0)]
+    chosen = [
+        (case, why, run)
+        for case, why in standing_out(cases).items()
+        if (run := cases.run(case)) is not None and run.sizes.get("time", 0)
+    ]
     if not chosen:
         return Section("outstanding", heading, [Words("There is no file of a case to show one from.")])
     curves, folds = [], []
     for (case, why, run), colour in zip(chosen, PALETTE):
         phase = run["mesh_phase"].values
-        curves.append(Curve(f"case {case}", phase - np.floor(phase[0]), run["transmission_error"].values * scale, colour))
+        curves.append(
+            Curve(f"case {case}", phase - np.floor(phase[0]), run["transmission_error"].values * scale, colour)
+        )
         file, link = cases.texts("case_file")[case], cases.link(case)
         rows = Facts([(label.replace("WARNING", "warning"), value, each) for label, value, each in summary_rows(run)])
-        folds.append(Fold(f"Case {case}: {cases.words(case)} ({' and '.join(why)})", [rows, Table(("File",), [(Cell(file, link=link),)])]))
-    drawn = Chart("Transmission error", curves, "Time (mesh cycles since the first recorded one)", f"Transmission error ({unit})", height=360)
-    said = Table(("Case", "Values", "Has the"), [(str(case), cases.words(case), ", ".join(why)) for case, why, _ in chosen], numbers=9)
-    command = Words("`gears report DIR/cases/FILE.nc` makes a whole report on a case; the table of cases then leads to it.")
+        folds.append(
+            Fold(
+                f"Case {case}: {cases.words(case)} ({' and '.join(why)})",
+                [rows, Table(("File",), [(Cell(file, link=link),)])],
+            )
+        )
+    drawn = Chart(
+        "Transmission error",
+        curves,
+        "Time (mesh cycles since the first recorded one)",
+        f"Transmission error ({unit})",
+        height=360,
+    )
+    said = Table(
+        ("Case", "Values", "Has the"),
+        [(str(case), cases.words(case), ", ".join(why)) for case, why, _ in chosen],
+        numbers=9,
+    )
+    command = Words(
+        "`gears report DIR/cases/FILE.nc` makes a whole report on a case; the table of cases then leads to it."
+    )
     return Section("outstanding", heading, [said, drawn, *folds, command])
 
 
@@ -135,25 +195,43 @@ def standing_out(cases: Cases) -> dict[int, list[str]]:
 
 
 def _table(cases: Cases) -> Section:
-    measures = {name: (values, unit) for name, (values, unit, _) in cases.measures.items()} | {"wall_time": (cases.numbers("wall_time"), "s")}
+    measures = {name: (values, unit) for name, (values, unit, _) in cases.measures.items()} | {
+        "wall_time": (cases.numbers("wall_time"), "s")
+    }
     names = ("T_EPP", "Mean error", "Largest force", "Wall time")
-    headings = ["Case", *(field.title for field in cases.fields), "State", *(f"{name} ({unit})" for name, (_, unit) in zip(names, measures.values())), "Newton iterations"]
+    headings = [
+        "Case",
+        *(field.title for field in cases.fields),
+        "State",
+        *(f"{name} ({unit})" for name, (_, unit) in zip(names, measures.values())),
+        "Newton iterations",
+    ]
     rows, states, iterations = [], cases.states, cases.numbers("newton_iterations")
     for case in range(min(cases.count, MOST_ROWS)):
-        swept = [Cell(field.words(case), float(field.values[case]) if field.numeric else None) for field in cases.fields]
+        swept = [
+            Cell(field.words(case), float(field.values[case]) if field.numeric else None) for field in cases.fields
+        ]
         state = Cell(states[case], warns=states[case] in STATES[1:3])
-        numbers = [Cell(f"{values[case]:#.4g}".rstrip(".") if np.isfinite(values[case]) else "", float(values[case])) for values, _ in measures.values()]
+        numbers = [
+            Cell(f"{values[case]:#.4g}".rstrip(".") if np.isfinite(values[case]) else "", float(values[case]))
+            for values, _ in measures.values()
+        ]
         count = Cell(f"{iterations[case]:.0f}" if np.isfinite(iterations[case]) else "", float(iterations[case]))
         rows.append([Cell(str(case), float(case), cases.link(case)), *swept, state, *numbers, count])
     blocks: list[Block] = [
         Words(
-            "A click on a heading sorts by it. T_EPP: transmission error, peak to peak. Case numbers lead to the case's report where there "
-            "is one, else to its file, in the study's directory: sent alone, this page has all numbers, and these links lead nowhere."
+            "A click on a heading sorts by it. T_EPP: transmission error, peak to peak. Case numbers lead to the case's"
+            " report where there is one, else to its file, in the study's directory: sent alone, this page has all"
+            " numbers, and these links lead nowhere."
         )
     ]
     if cases.count > MOST_ROWS:
-        blocks.append(Words(f"The first {MOST_ROWS:,} of {cases.count:,} cases; the file {cases.file.name} has all.", warns=True))
-    return Section("cases", "Table of cases", [*blocks, Table(headings, rows, sortable=True, numbers=len(cases.fields) + 2)])
+        blocks.append(
+            Words(f"The first {MOST_ROWS:,} of {cases.count:,} cases; the file {cases.file.name} has all.", warns=True)
+        )
+    return Section(
+        "cases", "Table of cases", [*blocks, Table(headings, rows, sortable=True, numbers=len(cases.fields) + 2)]
+    )
 
 
 def _effort(cases: Cases) -> Section:

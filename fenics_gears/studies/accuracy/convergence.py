@@ -1,7 +1,8 @@
 """Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy`.
 
-Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5: the error of the finest run is the last change
-over r^p - 1, with r the ratio of sizes and p the order, times a safety factor of 1.25. Without an observed order it is three times the last
+Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5: the error of the finest
+run is the last change over r^p - 1, with r the ratio of sizes and p the order, times a safety factor of 1.25. Without
+an observed order it is three times the last
 change: 1.25 times the 2.4 that h^0.5 leaves where sizes halve.
 """
 
@@ -18,21 +19,25 @@ from fenics_gears.studies.accuracy.measures import comparable
 SAFETY = 1.25
 LEFT_WITHOUT_ORDER = 2.4
 LEAST_ORDER, MOST_ORDER = 0.1, 10.0
-# An order is used to extrapolate only above this, for else the limit lies far off, and not further above the expected order than this.
+# An order is used to extrapolate only above this, for else the limit lies far off, and not further above the expected
+# order than this.
 LEAST_TRUSTED, MOST_ABOVE_EXPECTED = 0.5, 1.0
 # A limit and its order are found from so many of the finest terms.
 LAST_TERMS = 3
 ROUND_OFF = 1e-10
-# Cosine of the angle between the last two changes: above the first the limit is extrapolated; kinks that move between steps give changes in
-# any direction whose length still falls with an order; below the second, where changes turn back, there is no order.
+# Cosine of the angle between the last two changes: above the first the limit is extrapolated; kinks that move between
+# steps give changes in any direction whose length still falls with an order; below the second, where changes turn back,
+# there is no order.
 LEAST_COSINE, TURNED_BACK = 0.5, -0.5
 
 
 @dataclass(frozen=True)
 class Limit:
-    """The limit of a sequence: `value`, shaped as its terms; observed `order`, None without one; `uncertainty`, L2 norm of its error.
+    """The limit of a sequence: `value`, shaped as its terms; observed `order`, None without one; `uncertainty`, L2 norm
+    of its error.
 
-    `least_error`: error of the last term where that is taken as the limit: by its order, or the last difference without one.
+    `least_error`: error of the last term where that is taken as the limit: by its order, or the last difference without
+        one.
     """
 
     value: np.ndarray
@@ -42,7 +47,8 @@ class Limit:
 
 
 def observed_order(values: Sequence[np.ndarray], sizes: Sequence[float]) -> float | None:
-    """Order p of u(h) = u(0) + C h^p through the last three terms of a sequence, by their distances in L2; None where no p fits.
+    """Order p of u(h) = u(0) + C h^p through the last three terms of a sequence, by their distances in L2; None where
+    no p fits.
 
     `sizes` fall and need not halve. None where differences are round-off, do not fall, or turn back.
     """
@@ -94,7 +100,8 @@ def last_of(values: Sequence[np.ndarray]) -> Limit:
 
 
 def together(base: np.ndarray, changes: Sequence[tuple[Limit, np.ndarray]], name: str) -> Limit:
-    """All settings at their limits at once: `base`, a measure of a whole setting, and the change from a setting's own base to its limit, for each.
+    """All settings at their limits at once: `base`, a measure of a whole setting, and the change from a setting's own
+    base to its limit, for each.
 
     Uncertainties, relative to their limits, add, for their signs are unknown.
     """

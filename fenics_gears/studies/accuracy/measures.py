@@ -1,7 +1,9 @@
 """The measures by which two runs of a scene are compared, and their relative distance.
 
-All are arrays of the same shape in all runs but the curve of T_E, which has a value for each step of the last mesh cycle. Curves of different steps are
-compared at phases that both have: the value at a step is what a run computes, while straight lines between steps would add an error of
+All are arrays of the same shape in all runs but the curve of T_E, which has a value for each step of the last mesh
+cycle. Curves of different steps are
+compared at phases that both have: the value at a step is what a run computes, while straight lines between steps would
+    add an error of
 their own at the kinks where tooth pairs enter or leave contact. T_EPP is located between steps (`results.extrema`).
 The `energy defect` is an error in itself, given in parts of the drive's work.
 """
@@ -56,12 +58,16 @@ def judged_answer(run: xr.Dataset, every: int = 1) -> Answer:
     """The measures that settings are judged by; `every`: take every n-th step only, as in a quasi-static run of
     longer steps.
 
-    The curve (n,), mm at the wheel's base circle, is T_E at the steps of the last mesh cycle, of which the last has phase 1, its mean removed.
+    The curve (n,), mm at the wheel's base circle, is T_E at the steps of the last mesh cycle, of which the last has
+    phase 1, its mean removed.
     T_EPP does not depend on `every`: its extremes are located between steps.
     """
     last_cycle = run["transmission_error"].values[_last_cycle(run)]
     if len(last_cycle) % every:
-        raise ValueError(f"every {every}-th of {len(last_cycle)} steps in a mesh cycle: these are no steps of equal length; take a divisor")
+        raise ValueError(
+            f"every {every}-th of {len(last_cycle)} steps in a mesh cycle: these are no steps of equal length; take a"
+            " divisor"
+        )
     curve, height = last_cycle[every - 1 :: every], run.attrs["peak_to_peak_transmission_error"]
     radius = run.attrs["base_radius_wheel"]
     found = {CURVE: (curve - curve.mean()) * radius, SPAN: np.array([height * radius])}
@@ -85,10 +91,11 @@ def _over_face(run: xr.Dataset) -> Answer:
 
 
 def comparable(values: Sequence[np.ndarray], name: str) -> list[np.ndarray]:
-    """The same measure of several runs as arrays of one shape: curves at their common phases, their means over these removed.
+    """The same measure of several runs as arrays of one shape: curves at their common phases, their means over these
+    removed.
 
-    Curves (n_i,) have the phases k/n_i of the greatest common divisor of all n_i in common; where it is below FEWEST_PHASES, all are taken at the phases
-    of the one with fewest steps, straight between the steps of the others.
+    Curves (n_i,) have the phases k/n_i of the greatest common divisor of all n_i in common; where it is below
+    FEWEST_PHASES, all are taken at the phases of the one with fewest steps, straight between the steps of the others.
     """
     counts = [len(value) for value in values]
     if name != CURVE or len(set(counts)) == 1:
@@ -98,14 +105,17 @@ def comparable(values: Sequence[np.ndarray], name: str) -> list[np.ndarray]:
         common = min(counts)
     phases = np.arange(1, common + 1) / common
     found = [
-        value[count // common - 1 :: count // common] if count % common == 0 else np.interp(phases, np.arange(1, count + 1) / count, value)
+        value[count // common - 1 :: count // common]
+        if count % common == 0
+        else np.interp(phases, np.arange(1, count + 1) / count, value)
         for value, count in zip(values, counts)
-    ]  # fmt: skip
+    ]
     return [value - value.mean() for value in found]
 
 
 def stiffness_by_energy(run: xr.Dataset) -> float:
-    """Mean over the last mesh cycle (N/mm) of the spring that holds the teeth's energy U under the mesh's force F: F^2 / (2 U)."""
+    """Mean over the last mesh cycle (N/mm) of the spring that holds the teeth's energy U under the mesh's force F: F^2
+    / (2 U)."""
     force, energy = (run[name].values[_last_cycle(run)] for name in ("normal_force", "energy_teeth"))
     loaded = energy > 0.0
     return float(np.mean(force[loaded] ** 2 / (2.0 * energy[loaded]))) if loaded.any() else np.nan
@@ -145,7 +155,8 @@ def _last_cycle(run: xr.Dataset) -> np.ndarray:
 
 
 def _pressure(run: xr.Dataset, window: float) -> np.ndarray:
-    """Pressure (phases, pairs, points), MPa, at common phases and offsets, in the middle of the face; zero beyond a run's contact nodes.
+    """Pressure (phases, pairs, points), MPa, at common phases and offsets, in the middle of the face; zero beyond a
+    run's contact nodes.
 
     Phases are those of the nearest steps: pressures between two steps are no average of both, for they move.
     """
@@ -160,7 +171,9 @@ def _pressure(run: xr.Dataset, window: float) -> np.ndarray:
         for j, number in enumerate(numbers.values[step]):
             row, there = int(number) - first - round(last) + PAIRS_BACK, np.isfinite(places[step, j])
             if 0 <= row < PAIRS and there.any():
-                field[i, row] = np.interp(offsets, places[step, j][there], pressure[step, j][there], left=0.0, right=0.0)
+                field[i, row] = np.interp(
+                    offsets, places[step, j][there], pressure[step, j][there], left=0.0, right=0.0
+                )
     return field.ravel()
 
 

@@ -1,4 +1,5 @@
-"""What `gears accuracy` refines of flanks that are resolved over the face, where a run takes ten times as long as in the plane; and the plane beside it."""
+"""What `gears accuracy` refines of flanks that are resolved over the face, where a run takes ten times as long as in
+the plane; and the plane beside it."""
 
 from __future__ import annotations
 
@@ -9,11 +10,25 @@ from fenics_gears.scene.data import Scene
 
 SLICES, LAYERS = "slices", "layers"
 # Settings as `refinement.FULL` and `refinement.FINE` have them; slices and layers in parts of their defaults.
-FAMILY, BODY, STEPS, LENGTH, FLANK = "flank elements and contact nodes", "body element size", "steps per mesh cycle", "contact length", "flank element size"
+FAMILY, BODY, STEPS, LENGTH, FLANK = (
+    "flank elements and contact nodes",
+    "body element size",
+    "steps per mesh cycle",
+    "contact length",
+    "flank element size",
+)
 FULL: dict[str, tuple[float, ...]] = {
-    SLICES: (0.25, 0.5, 1.0, 2.0), LAYERS: (0.5, 1.0, 2.0), BODY: (2.0, 1.4, 1.0), FAMILY: (0.7, 1.4, 2.8), STEPS: (10, 20, 40), LENGTH: (0.75, 1.0),
+    SLICES: (0.25, 0.5, 1.0, 2.0), LAYERS: (0.5, 1.0, 2.0), BODY: (2.0, 1.4, 1.0), FAMILY: (0.7, 1.4, 2.8),
+    STEPS: (10, 20, 40), LENGTH: (0.75, 1.0),
 }  # fmt: skip
-QUICK: dict[str, tuple[float, ...]] = {SLICES: (0.25, 0.5, 1.0), LAYERS: (0.5, 1.0), BODY: (2.0, 1.4), FAMILY: (0.7, 1.4), STEPS: (10, 20), LENGTH: (1.0,)}
+QUICK: dict[str, tuple[float, ...]] = {
+    SLICES: (0.25, 0.5, 1.0),
+    LAYERS: (0.5, 1.0),
+    BODY: (2.0, 1.4),
+    FAMILY: (0.7, 1.4),
+    STEPS: (10, 20),
+    LENGTH: (1.0,),
+}
 FINE = {FLANK: 1.4, BODY: 1.4, LENGTH: 1.0, STEPS: 20, SLICES: 1.0, LAYERS: 1.0}
 QUICK_FINE = {**FINE, FLANK: 0.7, SLICES: 0.5, LAYERS: 0.5}
 # Order of their errors, and why.
@@ -26,15 +41,26 @@ PLANE = "plane"
 
 
 def in_the_plane(scene: Scene) -> Scene:
-    """The scene without what makes it three-dimensional, in plane strain; of a helical pair the transverse section, as a spur pair."""
+    """The scene without what makes it three-dimensional, in plane strain; of a helical pair the transverse section, as
+    a spur pair."""
     gears, bearings = scene.gears, scene.bearings
     lean = cos(gears.helix_angle)
-    pinion, wheel = (replace(gear, profile_shift=gear.profile_shift * lean, rack_tip_radius=gear.rack_tip_radius * lean) for gear in (gears.pinion, gears.wheel))
+    pinion, wheel = (
+        replace(gear, profile_shift=gear.profile_shift * lean, rack_tip_radius=gear.rack_tip_radius * lean)
+        for gear in (gears.pinion, gears.wheel)
+    )
     section = replace(
-        gears, module=gears.module / lean, pressure_angle=atan(tan(gears.pressure_angle) / lean), pinion=pinion, wheel=wheel, helix_angle=0.0, pinion_hand="right",
+        gears, module=gears.module / lean, pressure_angle=atan(tan(gears.pressure_angle) / lean), pinion=pinion,
+        wheel=wheel, helix_angle=0.0, pinion_hand="right",
     )  # fmt: skip
     accuracy = replace(scene.accuracy, slices=None, layers=None)
     if bearings is not None:
-        own = {name: replace(each, axial_stiffness=None) for name in ("pinion", "wheel") if (each := getattr(bearings, name)) is not None}
+        own = {
+            name: replace(each, axial_stiffness=None)
+            for name in ("pinion", "wheel")
+            if (each := getattr(bearings, name)) is not None
+        }
         bearings = replace(bearings, places=None, axial_stiffness=None, **own)
-    return replace(scene, gears=section, bearings=bearings, lead_modifications=None, misalignment=None, accuracy=accuracy)
+    return replace(
+        scene, gears=section, bearings=bearings, lead_modifications=None, misalignment=None, accuracy=accuracy
+    )

@@ -15,28 +15,41 @@ from fenics_gears.studies.accuracy import over_face
 from fenics_gears.studies.accuracy.over_face import LAYERS, SLICES
 from fenics_gears.studies.accuracy.setting import Setting, half_width, own_setting, without_settings
 
-FLANK, NODES, BODY, STEPS, LENGTH = "flank element size", "contact node spacing", "body element size", "steps per mesh cycle", "contact length"
-# Flank elements and contact nodes, which stand at NODE_SPACING elements. Their errors interact: nodes refined alone converge to what fixed elements
-# give. So whole settings and the reference take both together.
+FLANK, NODES, BODY, STEPS, LENGTH = (
+    "flank element size",
+    "contact node spacing",
+    "body element size",
+    "steps per mesh cycle",
+    "contact length",
+)
+# Flank elements and contact nodes, which stand at NODE_SPACING elements. Their errors interact: nodes refined alone
+# converge to what fixed elements give. So whole settings and the reference take both together.
 FAMILY, CONDENSATION = "flank elements and contact nodes", "condensation"
 OF_FAMILY = (FLANK, NODES)
-# Elements and contact nodes in a half-width, body elements in parts of their default, the window in parts of the default, steps in a cycle.
+# Elements and contact nodes in a half-width, body elements in parts of their default, the window in parts of the
+# default, steps in a cycle.
 FULL = {
-    FAMILY: (0.7, 1.0, 2.0, 4.0, 8.0, 16.0), FLANK: (1.0, 2.0, 4.0, 8.0), NODES: (1.0, 2.0, 4.0, 8.0), BODY: (4.0, 2.0, 1.0, 0.5, 0.25),
+    FAMILY: (0.7, 1.0, 2.0, 4.0, 8.0, 16.0), FLANK: (1.0, 2.0, 4.0, 8.0), NODES: (1.0, 2.0, 4.0, 8.0),
+    BODY: (4.0, 2.0, 1.0, 0.5, 0.25),
     LENGTH: (0.25, 0.5, 0.75, 1.0, 1.25), STEPS: (20, 40, 80, 160, 320, 640, 1280),
 }  # fmt: skip
 QUICK = {
-    FAMILY: (0.7, 1.4, 2.8), FLANK: (0.7, 1.4, 2.8), NODES: (0.7, 1.4, 2.8), BODY: (4.0, 2.0, 1.0), LENGTH: (0.5, 1.0), STEPS: (10, 20, 40),
+    FAMILY: (0.7, 1.4, 2.8), FLANK: (0.7, 1.4, 2.8), NODES: (0.7, 1.4, 2.8), BODY: (4.0, 2.0, 1.0), LENGTH: (0.5, 1.0),
+    STEPS: (10, 20, 40),
 }  # fmt: skip
 # Values of the settings while another one is refined; flank elements in a half-width.
 FINE = {FLANK: 4.0, BODY: 1.0, LENGTH: 1.0, STEPS: 80}
 QUICK_FINE = {FLANK: 1.4, BODY: 1.0, LENGTH: 1.0, STEPS: 20}
-# Where one is refined beside other values than these: its changes depend on the others only in second order. A longer window moves the contact
-# nodes a little where an edge enters it, which matters less the closer they are.
+# Where one is refined beside other values than these: its changes depend on the others only in second order. A longer
+# window moves the contact nodes a little where an edge enters it, which matters less the closer they are.
 BESIDE = {FAMILY: {STEPS: 40, LENGTH: 0.75}, BODY: {FLANK: 2.0}, LENGTH: {FLANK: 8.0, STEPS: 40}, STEPS: {FLANK: 2.0}}
-# Gears meshed anew at every step take a hundred times as long, so that both ways of condensing are compared at a coarser setting.
+# Gears meshed anew at every step take a hundred times as long, so that both ways of condensing are compared at a
+# coarser setting.
 REMESHED_FINE = {FLANK: 2.0, NODES: 2.0, BODY: 1.0, STEPS: 20}
-CHOICES: dict[str, tuple[str, ...]] = {"element": ("P1", "Q1", "Q1 incompatible", "P2", "Q2"), "interpolation": ("collocated", AVERAGED)}
+CHOICES: dict[str, tuple[str, ...]] = {
+    "element": ("P1", "Q1", "Q1 incompatible", "P2", "Q2"),
+    "interpolation": ("collocated", AVERAGED),
+}
 QUICK_CHOICES: dict[str, tuple[str, ...]] = {"element": ("P1", "P2"), "interpolation": CHOICES["interpolation"]}
 # Settings that are numbers, whose inverse is a size.
 COUNTED = ("steps", SLICES, LAYERS)
@@ -46,7 +59,8 @@ SCENE, DEFAULT = "scene", "default"
 
 @dataclass(frozen=True)
 class Level:
-    """A value of a setting. `size` goes to zero as it is refined; None for a choice. `own`: whose it is where it stands between the others."""
+    """A value of a setting. `size` goes to zero as it is refined; None for a choice. `own`: whose it is where it stands
+    between the others."""
 
     label: str
     setting: Setting
@@ -85,13 +99,24 @@ def checked_model(scene: Scene) -> Model:
     """The model of a scene whose accuracy can be measured. Raises SceneError for others."""
     model = model_of(scene)
     if not scene.resolves_contact:
-        raise SceneError("gears accuracy needs the full contact of elastic flanks: give [gears.material], and leave out accuracy.model")
+        raise SceneError(
+            "gears accuracy needs the full contact of elastic flanks: give [gears.material], and leave out"
+            " accuracy.model"
+        )
     if model.resolution.condensation == EVERY_STEP:
-        raise SceneError('accuracy.condensation = "every step": accuracy is measured on the fast route. Take "once", or leave it out.')
+        raise SceneError(
+            'accuracy.condensation = "every step": accuracy is measured on the fast route. Take "once", or leave it'
+            " out."
+        )
     if scene.body_meshes is not None:
-        raise SceneError("[body_meshes]: a mesh that is given cannot be refined, and its error not be measured. Leave the section out.")
+        raise SceneError(
+            "[body_meshes]: a mesh that is given cannot be refined, and its error not be measured. Leave the section"
+            " out."
+        )
     if not scene.load.wheel_torque:
-        raise SceneError("load.wheel_torque is 0: without load nothing gives way and there is no error to measure. Give a torque.")
+        raise SceneError(
+            "load.wheel_torque is 0: without load nothing gives way and there is no error to measure. Give a torque."
+        )
     return model
 
 
@@ -116,7 +141,8 @@ def fine(scene: Scene, quick: bool = False) -> Setting:
 
 
 def _setting(scene: Scene, values: dict[str, float]) -> Setting:
-    """A whole setting with elements of second order and, unless `values` says otherwise, contact nodes at NODE_SPACING of them."""
+    """A whole setting with elements of second order and, unless `values` says otherwise, contact nodes at NODE_SPACING
+    of them."""
     unit, length = half_width(scene), model_of(without_settings(scene)).resolution.contact_grid.length
     flank = unit / values[FLANK]
     spacing = unit / values[NODES] if NODES in values else NODE_SPACING * flank
@@ -158,9 +184,15 @@ def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
         sizes["elastic teeth"] = [{"elastic_teeth": each} for each in (1, None)]
     found = []
     for name, levels in sizes.items():
-        base = fine(scene, quick) if quick or scene.three_dimensional else _setting(scene, {**FINE, **BESIDE.get(name, {})})
+        base = (
+            fine(scene, quick)
+            if quick or scene.three_dimensional
+            else _setting(scene, {**FINE, **BESIDE.get(name, {})})
+        )
         expected = orders.get(name, (None, "a choice"))
-        found.append(Refinement(name, tuple(levels[0]), tuple(_level(base, each, unit) for each in levels), *expected, base))
+        found.append(
+            Refinement(name, tuple(levels[0]), tuple(_level(base, each, unit) for each in levels), *expected, base)
+        )
     # The remeshed route has nodes on the drive flanks and on the path of contact alone.
     if not quick and not scene.three_dimensional and scene.coast_flanks is None and scene.corner_contact is None:
         found.append(condensation(scene))
@@ -171,7 +203,9 @@ def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
 def condensation(scene: Scene) -> Refinement:
     """Gears condensed once for all positions, and meshed anew at every one: another model, no finer one."""
     base = _setting(scene, REMESHED_FINE)
-    levels = tuple(Level(f"{each}, {base.steps} steps", replace(base, condensation=each)) for each in (EVERY_STEP, ONCE))
+    levels = tuple(
+        Level(f"{each}, {base.steps} steps", replace(base, condensation=each)) for each in (EVERY_STEP, ONCE)
+    )
     return Refinement(CONDENSATION, ("condensation",), levels, None, "another model", base)
 
 
@@ -197,12 +231,17 @@ def _label(field: str, value, unit: float) -> str:
     """A value in words; `unit`: the half-width in mm, in which sizes are given, too."""
     if field in ("flank", "spacing"):
         return f"{value:.3g} mm = {value / unit:.2g} half-widths"
-    words = {"length": f"{value:.3g} mm" if field == "length" else "", "body": f"default x {value:.3g}" if field == "body" else "", **dict.fromkeys(COUNTED, f"{value}")}
+    words = {
+        "length": f"{value:.3g} mm" if field == "length" else "",
+        "body": f"default x {value:.3g}" if field == "body" else "",
+        **dict.fromkeys(COUNTED, f"{value}"),
+    }
     return words.get(field, "all that can be loaded" if value is None else str(value))
 
 
 def _with_own(refinement: Refinement, settings: dict[str, Setting], unit: float) -> Refinement:
-    """The refinement with the values of whole `settings` as levels, where they are none: between coarser and finer ones, before choices."""
+    """The refinement with the values of whole `settings` as levels, where they are none: between coarser and finer
+    ones, before choices."""
 
     def coarseness(level: Level) -> float:
         return level.size or (-level.setting.length if refinement.name == LENGTH else float(bool(level.own)))
@@ -210,7 +249,9 @@ def _with_own(refinement: Refinement, settings: dict[str, Setting], unit: float)
     for own, setting in settings.items():
         if refinement.level_of(setting) is None:
             level = _level(refinement.base, {field: getattr(setting, field) for field in refinement.fields}, unit, own)
-            refinement = replace(refinement, levels=tuple(sorted((level, *refinement.levels), key=coarseness, reverse=True)))
+            refinement = replace(
+                refinement, levels=tuple(sorted((level, *refinement.levels), key=coarseness, reverse=True))
+            )
     return refinement
 
 

@@ -1,4 +1,5 @@
-"""The study of `gears accuracy`: settings refined one at a time, the reference, whole settings and cheaper models, all run and timed."""
+"""The study of `gears accuracy`: settings refined one at a time, the reference, whole settings and cheaper models, all
+run and timed."""
 
 from __future__ import annotations
 
@@ -15,9 +16,27 @@ from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accu
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy import whole
 from fenics_gears.studies.accuracy.convergence import LAST_TERMS, Limit, last_of, richardson, together
-from fenics_gears.studies.accuracy.measures import DEFECT, Answer, answer, comparable, distance, distances, judged, measures_of
+from fenics_gears.studies.accuracy.measures import (
+    DEFECT,
+    Answer,
+    answer,
+    comparable,
+    distance,
+    distances,
+    judged,
+    measures_of,
+)
 from fenics_gears.studies.accuracy.over_face import PLANE, in_the_plane
-from fenics_gears.studies.accuracy.refinement import CONDENSATION, LENGTH, OF_FAMILY, Level, Refinement, checked_model, fine, refinements
+from fenics_gears.studies.accuracy.refinement import (
+    CONDENSATION,
+    LENGTH,
+    OF_FAMILY,
+    Level,
+    Refinement,
+    checked_model,
+    fine,
+    refinements,
+)
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
 from fenics_gears.studies.accuracy.runs import Times, run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
@@ -75,7 +94,8 @@ class WholeResult:
 
 @dataclass(frozen=True)
 class AccuracyReport:
-    """All that was measured; `uncertainty`: relative, of the reference, by measure; `failures`: what did not run, and why.
+    """All that was measured; `uncertainty`: relative, of the reference, by measure; `failures`: what did not run, and
+    why.
 
     rounds: how often whole settings were timed; single settings as often while `seconds_on_single` lasted.
     """
@@ -114,10 +134,14 @@ class AccuracyReport:
 
 
 def measure(
-    scene: Scene, progress: Progress | None = None, quick: bool = False, rounds: int | None = None, seconds_on_single: float = SECONDS_ON_SINGLE
+    scene: Scene,
+    progress: Progress | None = None,
+    quick: bool = False,
+    rounds: int | None = None,
+    seconds_on_single: float = SECONDS_ON_SINGLE,
 ) -> AccuracyReport:
-    """Refine every setting of a scene alone, then run and time whole settings; `quick`: few levels, coarse ones; `seconds_on_single`: for
-    repeating single settings for their times.
+    """Refine every setting of a scene alone, then run and time whole settings; `quick`: few levels, coarse ones;
+    `seconds_on_single`: for repeating single settings for their times.
 
     Raises SceneError, GeometryError, ComputationError.
     """
@@ -127,14 +151,17 @@ def measure(
     reference, uncertainty = study.reference(results)
     settings, models = study.whole_runs(results, reference)
     return AccuracyReport(
-        scene, study.base, results, settings, models, uncertainty, tuple(study.failures), machine(), study.rounds, seconds_on_single,
+        scene, study.base, results, settings, models, uncertainty, tuple(study.failures), machine(), study.rounds,
+        seconds_on_single,
     )  # fmt: skip
 
 
 class AccuracyStudy:
     """The measurement of one scene: the answers and times of each setting so far, and what failed."""
 
-    def __init__(self, scene: Scene, progress: Progress, quick: bool, rounds: int, seconds_on_single: float = SECONDS_ON_SINGLE):
+    def __init__(
+        self, scene: Scene, progress: Progress, quick: bool, rounds: int, seconds_on_single: float = SECONDS_ON_SINGLE
+    ):
         checked_model(scene)
         # Root stress is taken at one point; the output of it along both fillets is not what is measured here.
         self.scene, self.progress, self.rounds = replace(scene, output=Output()), progress, rounds
@@ -152,7 +179,9 @@ class AccuracyStudy:
         compile_kernels(self.scene.friction is not None)
         self.progress.stage("single settings")
         if not self._run(self.base, "all settings fine"):
-            raise ComputationError(f"the setting that all others are compared with does not run: {self.failures[-1][1]}")
+            raise ComputationError(
+                f"the setting that all others are compared with does not run: {self.failures[-1][1]}"
+            )
         levels = [(f"{each.name} {level.label}", level.setting) for each in self.refinements for level in each.levels]
         levels += [(f"the base of {each.name}", each.base) for each in self.refinements]
         for done, (name, setting) in enumerate(levels):
@@ -166,24 +195,34 @@ class AccuracyStudy:
         """The reference, all settings at their limits, and its relative uncertainty by measure."""
         base, value = self._known[self.base][0], {}
         uncertainty = dict.fromkeys(measures_of(base), float("nan"))
-        moved = [(each.limits, self._known[each.refinement.base][0]) for each in results if each.refinement.name not in (*OF_FAMILY, CONDENSATION)]
+        moved = [
+            (each.limits, self._known[each.refinement.base][0])
+            for each in results
+            if each.refinement.name not in (*OF_FAMILY, CONDENSATION)
+        ]
         for name in base:
             limit = together(base[name], [(limits[name], own_base[name]) for limits, own_base in moved], name)
             value[name], scale = limit.value, float(np.linalg.norm(limit.value))
             uncertainty[name] = limit.uncertainty / scale if scale and name != DEFECT else 0.0
         return value, uncertainty
 
-    def whole_runs(self, results: tuple[RefinementResult, ...], reference: Answer) -> tuple[tuple[WholeResult, ...], tuple[WholeResult, ...]]:
+    def whole_runs(
+        self, results: tuple[RefinementResult, ...], reference: Answer
+    ) -> tuple[tuple[WholeResult, ...], tuple[WholeResult, ...]]:
         """Run and time whole settings and cheaper models."""
         ran = [each.refinement for each in results]
         errors = {
-            (each.refinement.name, each.refinement.levels.index(level.level)): judged(level.errors) for each in results for level in each.levels
+            (each.refinement.name, each.refinement.levels.index(level.level)): judged(level.errors)
+            for each in results
+            for level in each.levels
         }
         plain = without_settings(self.scene)
         chosen: dict[str, Setting | None] = {OWN: own_setting(self.scene)}
         if plain != self.scene:
             chosen[DEFAULTS] = own_setting(plain)
-        for setting in whole.path(self.base, ran, errors, lambda setting: whole.fits(self.scene, setting), whole.ENOUGH):
+        for setting in whole.path(
+            self.base, ran, errors, lambda setting: whole.fits(self.scene, setting), whole.ENOUGH
+        ):
             chosen[setting.words] = setting
         chosen |= dict.fromkeys((PLANE,) if self.scene.three_dimensional else MODELS)
         answers, times = self._in_turns({name: scene_of(self.scene, name, setting) for name, setting in chosen.items()})
@@ -216,7 +255,8 @@ class AccuracyStudy:
         return answer(run, self.window, peak_root_stress(run, scene, cycle) if recovered else None)
 
     def _time_single_settings(self) -> None:
-        """Repeat single settings to time them, the quickest first, as many as can be repeated in all rounds within the time limit."""
+        """Repeat single settings to time them, the quickest first, as many as can be repeated in all rounds within the
+        time limit."""
         seconds = {setting: times.total for setting, (_, times) in self._known.items()}
         repeated = within(seconds, self.seconds_on_single / max(self.rounds - 1, 1))
         if self.rounds > 1:
@@ -229,7 +269,8 @@ class AccuracyStudy:
                 self._known[setting] = answers, times.and_also(run_sharing(setting.of(self.scene), gears)[0])
 
     def _in_turns(self, scenes: dict[str, Scene]) -> tuple[dict[str, Answer], dict[str, Times]]:
-        """Run every scene once a round, with gears of its own, so that other load of the machine affects all of them alike."""
+        """Run every scene once a round, with gears of its own, so that other load of the machine affects all of them
+        alike."""
         self.progress.stage("whole settings")
         answers, times, left = {}, {}, dict(scenes)
         for turn in range(self.rounds):
@@ -247,17 +288,22 @@ class AccuracyStudy:
         return answers, times
 
     def _result(self, refinement: Refinement) -> RefinementResult:
-        """Errors of the levels from the limit of their setting; a choice is compared with its base, for no choice is the limit of the others."""
+        """Errors of the levels from the limit of their setting; a choice is compared with its base, for no choice is
+        the limit of the others."""
         base = self._known[refinement.base][0]
         ran = [(level, *self._known[level.setting]) for level in refinement.levels if level.setting in self._known]
         regular = [(level, found) for level, found, _ in ran if not level.own or refinement.name == LENGTH]
         limits = {name: _limit(refinement, regular, base, name) for name in base}
-        levels = tuple(LevelResult(level, {name: _error(found, limits, name) for name in measures_of(base)}, times) for level, found, times in ran)
+        levels = tuple(
+            LevelResult(level, {name: _error(found, limits, name) for name in measures_of(base)}, times)
+            for level, found, times in ran
+        )
         return RefinementResult(refinement, levels, limits)
 
 
 def scene_of(scene: Scene, name: str, setting: Setting | None) -> Scene:
-    """The scene with a whole setting, or with the cheaper model of a name. Its own and the default settings are left as they are decided there."""
+    """The scene with a whole setting, or with the cheaper model of a name. Its own and the default settings are left as
+    they are decided there."""
     if setting is None:
         return in_the_plane(scene) if name == PLANE else replace(scene, accuracy=_accuracy_of(scene, name))
     return {OWN: scene, DEFAULTS: without_settings(scene)}.get(name) or setting.of(scene)
@@ -266,7 +312,9 @@ def scene_of(scene: Scene, name: str, setting: Setting | None) -> Scene:
 def within(seconds: dict[Setting, float], budget: float) -> list[Setting]:
     """The quickest settings that together take no longer than `budget` (s), in the order in which they were run."""
     quickest = sorted(seconds, key=seconds.__getitem__)
-    chosen = {setting for setting, spent in zip(quickest, accumulate(seconds[each] for each in quickest)) if spent <= budget}
+    chosen = {
+        setting for setting, spent in zip(quickest, accumulate(seconds[each] for each in quickest)) if spent <= budget
+    }
     return [setting for setting in seconds if setting in chosen]
 
 
@@ -284,7 +332,11 @@ def _limit(refinement: Refinement, ran: list, base: Answer, name: str) -> Limit:
     if len(ran) > 1 and (refinement.expected is not None or refinement.name == LENGTH):
         last = ran[-LAST_TERMS:]
         values = comparable([found[name] for _, found in last], name)
-        return last_of(values) if refinement.expected is None else richardson(values, [level.size for level, _ in last], refinement.expected)
+        return (
+            last_of(values)
+            if refinement.expected is None
+            else richardson(values, [level.size for level, _ in last], refinement.expected)
+        )
     return Limit(base[name], None, 0.0)
 
 

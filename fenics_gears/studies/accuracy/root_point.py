@@ -1,6 +1,8 @@
-"""Peak stress at one material point of the pinion's tooth root: where the fillet's tangent stands at 30 degrees to the tooth's centreline.
+"""Peak stress at one material point of the pinion's tooth root: where the fillet's tangent stands at 30 degrees to the
+tooth's centreline.
 
-Meshes can be compared at this point, for it is the same on all of them; the place of the largest stress differs from mesh to mesh.
+Meshes can be compared at this point, for it is the same on all of them; the place of the largest stress differs from
+mesh to mesh.
 """
 
 from __future__ import annotations
@@ -20,13 +22,15 @@ PINION = 0
 
 
 def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
-    """Largest tension (MPa) at the point over the last stored mesh cycle, of both fillets: it is that on the loaded side.
+    """Largest tension (MPa) at the point over the last stored mesh cycle, of both fillets: it is that on the loaded
+    side.
 
     run: a result of `scene` with contact fields; cycle: its mesh cycle.
     """
     model = model_of(scene)
     rows = _rows(
-        model.pair.pinion, scene.gears.material_of("pinion"), model.resolution.discretisation(0), model.touching.reach.farthest + 1,
+        model.pair.pinion, scene.gears.material_of("pinion"), model.resolution.discretisation(0),
+        model.touching.reach.farthest + 1,
         scene.coast_flanks is not None,
     )  # fmt: skip
     point = point_rows(rows)
@@ -36,7 +40,8 @@ def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
 
 
 def point_rows(rows: RootStressRows) -> np.ndarray:
-    """Rows (2 reach + 1, 2, d) of the point on either side; of the fillet's middle where the fillet has no such tangent."""
+    """Rows (2 reach + 1, 2, d) of the point on either side; of the fillet's middle where the fillet has no such
+    tangent."""
     points = rows.rows.shape[1] // 2
     place = points - 1 if np.isfinite(rows.rows[rows.reach, points - 1]).all() else (points - 1) // 2
     return rows.rows[:, [place, points + place]]

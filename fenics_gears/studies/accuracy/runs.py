@@ -55,7 +55,8 @@ def shared_gears(most: int | None = None) -> GearStore:
 
 
 def run_sharing(scene: Scene, gears: GearStore, progress: Progress | None = None) -> tuple[xr.Dataset, Cycle]:
-    """A run that shares gears with others, without the cache, and its mesh cycle; its times include condensing these gears.
+    """A run that shares gears with others, without the cache, and its mesh cycle; its times include condensing these
+    gears.
 
     Raises KeyboardInterrupt on Ctrl-C, or from `progress`.
     """

@@ -1,4 +1,5 @@
-"""A whole setting of `[accuracy]`: element, sizes and steps; the scene's own setting; the half-width in which sizes are given."""
+"""A whole setting of `[accuracy]`: element, sizes and steps; the scene's own setting; the half-width in which sizes are
+given."""
 
 from __future__ import annotations
 
@@ -15,9 +16,11 @@ from fenics_gears.scene.defaults import ELEMENTS_PER_HALF_WIDTH, ELEMENTS_PER_HA
 
 @dataclass(frozen=True)
 class Setting:
-    """Element; sizes along flank and between contact nodes and window (mm); body elements in parts of the default; steps, and the rest.
+    """Element; sizes along flank and between contact nodes and window (mm); body elements in parts of the default;
+    steps, and the rest.
 
-    `slices`, `layers`: of flanks resolved over the face, whose body elements are those of the swept section; None in the plane.
+    `slices`, `layers`: of flanks resolved over the face, whose body elements are those of the swept section; None in
+        the plane.
     """
 
     element: str
@@ -34,7 +37,8 @@ class Setting:
 
     @property
     def grid(self) -> ContactGrid:
-        """Contact nodes at the wanted spacing, but not closer than the flank's elements resolve; wider windows hold the nodes of narrower ones."""
+        """Contact nodes at the wanted spacing, but not closer than the flank's elements resolve; wider windows hold the
+        nodes of narrower ones."""
         flank_nodes = self.flank / (2 if self.order == 2 else 1)
         spacing = max(self.spacing, CLOSEST_NODES * flank_nodes)
         cells = max(2, 2 * round(self.length / (2.0 * spacing)))
@@ -73,7 +77,10 @@ class Setting:
         collocated = "" if self.interpolation == AVERAGED else f", {self.interpolation}"
         remeshed = "" if self.condensation == ONCE else f", condensed {self.condensation}"
         face = "" if self.slices is None else f", {self.slices} slices, {self.layers} layers"
-        return f"{self.element} {self.flank:.3g} mm, {self.grid.nodes} nodes, {self.steps} steps, body x{self.body:.3g}{face}{collocated}{teeth}{remeshed}"
+        return (
+            f"{self.element} {self.flank:.3g} mm, {self.grid.nodes} nodes, {self.steps} steps, body"
+            f" x{self.body:.3g}{face}{collocated}{teeth}{remeshed}"
+        )
 
 
 def body_size(order: int, over_face: bool) -> float:
@@ -99,7 +106,8 @@ def own_setting(scene: Scene) -> Setting:
         slices, layers = model.face.slices, layers_of_common_face(scene, model.pair, model.face.slices)
     body = 1.0 if size is None else size / (body_size(order, slices is not None) * scene.gears.module)
     return Setting(
-        resolution.element, resolution.flank_element_size, grid.spacing, grid.length, body, resolution.steps_per_mesh_cycle,
+        resolution.element, resolution.flank_element_size, grid.spacing, grid.length, body,
+        resolution.steps_per_mesh_cycle,
         grid.interpolation, resolution.elastic_teeth, slices=slices, layers=layers,
     )  # fmt: skip
 

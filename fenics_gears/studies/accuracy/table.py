@@ -15,7 +15,8 @@ from fenics_gears.studies.machine import write_lines
 # Measures whose observed orders are shown.
 ORDERED = ("T_E", "T_EPP", "root stress")
 TARGETS = (0.01, 0.001)
-# An order further than this from the expected one gets a remark; a setting whose errors are all below this, relative, has no influence.
+# An order further than this from the expected one gets a remark; a setting whose errors are all below this, relative,
+# has no influence.
 ORDER_OFF, NO_INFLUENCE = 0.5, 1e-6
 
 
@@ -47,7 +48,9 @@ def table_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
             orders = _orders(result) if place == 0 else ("",) * (len(ORDERED) + 1)
             label = each.level.label + (f" ({each.level.own})" if each.level.own else "")
             rows.append((
-                result.refinement.name if place == 0 else "", label, *(percent(each.errors[name]) for name in measures_of(report.uncertainty)), seconds(each.times.total), *orders,
+                result.refinement.name if place == 0 else "", label,
+                *(percent(each.errors[name]) for name in measures_of(report.uncertainty)), seconds(each.times.total),
+                *orders,
             ))  # fmt: skip
     return rows
 
@@ -60,7 +63,9 @@ def whole_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
         name = each.name + (" *" if each in front else "")
         times = (seconds(each.times.median(stage)) for stage in STAGES)
         rows.append((
-            name, percent(each.total_error), *(percent(each.errors[measure]) for measure in measures_of(report.uncertainty)), *times, seconds(each.times.total), limits_it(each),
+            name, percent(each.total_error),
+            *(percent(each.errors[measure]) for measure in measures_of(report.uncertainty)), *times,
+            seconds(each.times.total), limits_it(each),
         ))  # fmt: skip
     return rows
 
@@ -97,13 +102,23 @@ def in_one_sentence(report: AccuracyReport) -> str:
     costs = ". ".join(_cost(report, target) for target in TARGETS if target >= report.floor)
     missed = [f"{100 * target:g} %" for target in TARGETS if target < report.floor]
     if missed:
-        unknown = f"{' and '.join(missed)} cannot be assessed, since the reference is uncertain by {percent(report.floor)} %"
+        unknown = (
+            f"{' and '.join(missed)} cannot be assessed, since the reference is uncertain by {percent(report.floor)} %"
+        )
         costs = ". ".join(filter(None, (costs, unknown, _best(report) if len(missed) == len(TARGETS) else "")))
     mine = report.own
     worst = largest_part(mine.parts)
-    own = f"The scene's own settings have an error of {percent(mine.total_error)} %, of which {percent(mine.parts[worst])} % is due to the {worst}"
+    own = (
+        f"The scene's own settings have an error of {percent(mine.total_error)} %, of which"
+        f" {percent(mine.parts[worst])} % is due to the {worst}"
+    )
     plain = report.defaults
-    default = f". The default settings have an error of {percent(plain.total_error)} % and cost {seconds(plain.times.total)} s" if plain else ""
+    default = (
+        f". The default settings have an error of {percent(plain.total_error)} % and cost"
+        f" {seconds(plain.times.total)} s"
+        if plain
+        else ""
+    )
     return f"{costs}. {own}{default}."
 
 
@@ -117,34 +132,56 @@ def _cost(report: AccuracyReport, target: float) -> str:
 
 def _best(report: AccuracyReport) -> str:
     best = report.front[-1]
-    return f"the best settings that were run have an error of {percent(max(best.total_error, report.floor))} % and cost {seconds(best.times.total)} s"
+    return (
+        f"the best settings that were run have an error of {percent(max(best.total_error, report.floor))} % and cost"
+        f" {seconds(best.times.total)} s"
+    )
 
 
 def remarks(report: AccuracyReport) -> list[str]:
     """Remarks on how to read the numbers."""
     found = [
-        f"the reference (Richardson's limits of all settings together) is uncertain by {percent(report.floor)} % in {judged_by(report)}; smaller errors cannot be assessed",
-        "the error of a single setting is measured with all others fine; the total error is the sum of these errors, flank elements and contact nodes taken "
-        "together, or the difference from the reference where that is larger",
+        (
+            f"the reference (Richardson's limits of all settings together) is uncertain by {percent(report.floor)} % in"
+            f" {judged_by(report)}; smaller errors cannot be assessed"
+        ),
+        (
+            "the error of a single setting is measured with all others fine; the total error is the sum of these"
+            " errors, flank elements and contact nodes taken together, or the difference from the reference where that"
+            " is larger"
+        ),
     ]
     for result in report.refinements:
         order = result.order("T_E")
         if result.refinement.expected is None:
             continue
         if max(each.errors["T_E"] for each in result.levels) < NO_INFLUENCE:
-            found.append(f"{result.refinement.name}: T_E at the steps does not depend on it ({result.refinement.why}); T_EPP is located between the steps")
+            found.append(
+                f"{result.refinement.name}: T_E at the steps does not depend on it ({result.refinement.why}); T_EPP is"
+                " located between the steps"
+            )
         elif order is None:
-            found.append(f"{result.refinement.name}: no order in T_E, expected {result.refinement.expected:g} ({result.refinement.why}); the error of its finest value is taken to be its last change")
+            found.append(
+                f"{result.refinement.name}: no order in T_E, expected {result.refinement.expected:g}"
+                f" ({result.refinement.why}); the error of its finest value is taken to be its last change"
+            )
         elif abs(order - result.refinement.expected) > ORDER_OFF:
-            found.append(f"{result.refinement.name}: order {order:.2f} in T_E, expected {result.refinement.expected:g} ({result.refinement.why})")
+            found.append(
+                f"{result.refinement.name}: order {order:.2f} in T_E, expected {result.refinement.expected:g}"
+                f" ({result.refinement.why})"
+            )
     if any(result.refinement.name == CONDENSATION for result in report.refinements):
         found.append(
-            'condensation "every step" is another model, not a finer one: normal forces have the lever arms of their nodes in place of the base radius. '
-            "Its difference was measured with coarser settings than the others; it does not vanish with refinement"
+            'condensation "every step" is another model, not a finer one: normal forces have the lever arms of their'
+            " nodes in place of the base radius. Its difference was measured with coarser settings than the others; it"
+            " does not vanish with refinement"
         )
     peak = report.uncertainty["peak pressure"]
     if peak > 0.1:
-        found.append(f"the peak pressure does not converge in these runs (it is uncertain by {percent(peak)} %); contact at a sharp tip edge is a usual cause")
+        found.append(
+            f"the peak pressure does not converge in these runs (it is uncertain by {percent(peak)} %); contact at a"
+            " sharp tip edge is a usual cause"
+        )
     return found
 
 
@@ -155,11 +192,16 @@ def timed(report: AccuracyReport) -> str:
     words = f"Times are medians. Combinations of settings were timed {report.rounds} times in turns, "
     if again == len(counts):
         return words + "single settings as often."
-    return words + f"{again} of {len(counts)} single settings as often. The slowest single settings were timed once, to keep the time limit of {report.seconds_on_single:g} s."
+    return (
+        words
+        + f"{again} of {len(counts)} single settings as often. The slowest single settings were timed once, to keep the"
+        f" time limit of {report.seconds_on_single:g} s."
+    )
 
 
 def write_csv(report: AccuracyReport, file: Path) -> None:
-    """All numbers: a line for each level, whole setting, cheaper model, the reference's uncertainty, and what did not run."""
+    """All numbers: a line for each level, whole setting, cheaper model, the reference's uncertainty, and what did not
+    run."""
     uncertain = {"kind": "reference", "name": "uncertainty", **_errors(report.uncertainty)}
     failed = [{"kind": "failed", "name": name, "setting": reason} for name, reason in report.failures]
     write_lines(file, [*_level_lines(report), *_whole_lines(report), uncertain, *failed], report.machine)
@@ -167,10 +209,13 @@ def write_csv(report: AccuracyReport, file: Path) -> None:
 
 def _level_lines(report: AccuracyReport):
     for result in report.refinements:
-        orders = {f"order_{name.replace(' ', '_')}": result.order(name) for name in ORDERED} | {"order_expected": result.refinement.expected}
+        orders = {f"order_{name.replace(' ', '_')}": result.order(name) for name in ORDERED} | {
+            "order_expected": result.refinement.expected
+        }
         for each in result.levels:
             yield {
-                "kind": "single setting", "name": result.refinement.name, "setting": each.level.label, "size": each.level.size, "own": each.level.own,
+                "kind": "single setting", "name": result.refinement.name, "setting": each.level.label,
+                "size": each.level.size, "own": each.level.own,
                 **_errors(each.errors), **_times(each.times), **orders,
             }  # fmt: skip
 
@@ -180,14 +225,20 @@ def _whole_lines(report: AccuracyReport):
         words = each.setting.words if each.setting else ""
         kind = "setting" if each.setting else "model"
         yield {
-            "kind": kind, "name": each.name, "setting": words, **_errors(each.errors), "total_error": each.total_error, **_times(each.times),
+            "kind": kind, "name": each.name, "setting": words, **_errors(each.errors), "total_error": each.total_error,
+            **_times(each.times),
             "on_front": int(each in report.front), "limited_by": limits_it(each),
         }  # fmt: skip
 
 
 def _errors(errors: dict[str, float]) -> dict[str, float]:
-    return {f"error_{name.replace(' ', '_')}": errors[name] for name in measures_of(errors)} | {"judged_error": judged(errors)}
+    return {f"error_{name.replace(' ', '_')}": errors[name] for name in measures_of(errors)} | {
+        "judged_error": judged(errors)
+    }
 
 
 def _times(times: Times) -> dict[str, float]:
-    return {f"time_{stage}_s": times.median(stage) for stage in STAGES} | {"time_s": times.total, "timed_runs": times.rounds}
+    return {f"time_{stage}_s": times.median(stage) for stage in STAGES} | {
+        "time_s": times.total,
+        "timed_runs": times.rounds,
+    }

@@ -1,7 +1,7 @@
 """Whole settings: the sum of their parts' errors, a path of them from coarse to fine, and the Pareto front.
 
-Errors may cancel in one run and add up at another load or speed. So the total error of a whole setting is the sum of its parts' errors, each measured
-with the others fine, or its own distance from the reference where that is larger.
+Errors may cancel in one run and add up at another load or speed. So the total error of a whole setting is the sum of
+its parts' errors, each measured with the others fine, or its own distance from the reference where that is larger.
 """
 
 from __future__ import annotations
@@ -30,7 +30,8 @@ Errors = Mapping[tuple[str, int], float]
 
 
 def total_error(direct: float, parts: Mapping[str, float]) -> float:
-    """The total error of a whole setting: its `direct` difference from the reference, or the sum of its parts' errors if that is larger."""
+    """The total error of a whole setting: its `direct` difference from the reference, or the sum of its parts' errors
+    if that is larger."""
     return max(direct, sum(parts.values()))
 
 
@@ -40,7 +41,9 @@ def parts_of(setting: Setting, refinements: Sequence[Refinement], errors: Errors
     Flank elements and contact nodes count together, not each.
     """
     levels = {each.name: each.level_of(setting) for each in refinements if each.name not in OF_FAMILY}
-    return {name: errors[name, level] for name, level in levels.items() if level is not None and (name, level) in errors}
+    return {
+        name: errors[name, level] for name, level in levels.items() if level is not None and (name, level) in errors
+    }
 
 
 def pareto_front(points: Sequence[tuple[float, float]]) -> list[int]:
@@ -52,14 +55,24 @@ def pareto_front(points: Sequence[tuple[float, float]]) -> list[int]:
     return front
 
 
-def path(base: Setting, refinements: Sequence[Refinement], errors: Errors, allowed=lambda setting: True, enough: float = 0.0) -> list[Setting]:
-    """Whole settings from the coarsest on: from one to the next the setting with the largest error, weighed by WAITS, goes one level finer.
+def path(
+    base: Setting, refinements: Sequence[Refinement], errors: Errors, allowed=lambda setting: True, enough: float = 0.0
+) -> list[Setting]:
+    """Whole settings from the coarsest on: from one to the next the setting with the largest error, weighed by WAITS,
+    goes one level finer.
 
-    The path ends where the sum of errors is below `enough`, or where that setting has no finer level that is `allowed`; its end is kept. Choices, such
-    as the element, are those of `base`.
+    The path ends where the sum of errors is below `enough`, or where that setting has no finer level that is `allowed`;
+    its end is kept. Choices, such as the element, are those of `base`.
     """
-    moving = {each.name: each for each in refinements if (each.expected is not None or each.name == LENGTH) and each.name not in OF_FAMILY}
-    levels = {name: [place for place, level in enumerate(each.levels) if not level.own and (name, place) in errors] for name, each in moving.items()}
+    moving = {
+        each.name: each
+        for each in refinements
+        if (each.expected is not None or each.name == LENGTH) and each.name not in OF_FAMILY
+    }
+    levels = {
+        name: [place for place, level in enumerate(each.levels) if not level.own and (name, place) in errors]
+        for name, each in moving.items()
+    }
     at = {name: 0 for name, places in levels.items() if places}
 
     def setting() -> Setting:

@@ -1,4 +1,5 @@
-"""Settings for a target: errors are estimated at coarse sizes, sizes of least counted cost follow from them by order 2."""
+"""Settings for a target: errors are estimated at coarse sizes, sizes of least counted cost follow from them by order
+2."""
 
 from __future__ import annotations
 
@@ -9,7 +10,15 @@ from math import ceil, inf, sqrt
 
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.studies.accuracy.setting import Setting
-from fenics_gears.studies.accuracy_target.trial_runs import FEWEST_STEPS, MESH, SLICES, STEPS, Sizes, TargetNotReached, TrialRuns
+from fenics_gears.studies.accuracy_target.trial_runs import (
+    FEWEST_STEPS,
+    MESH,
+    SLICES,
+    STEPS,
+    Sizes,
+    TargetNotReached,
+    TrialRuns,
+)
 from fenics_gears.system.progress import Progress
 
 # Sizes at which errors are estimated first for a target of 1 %, the mesh also for larger ones.
@@ -22,7 +31,8 @@ RATIO_OF_SLICES, SLICINGS = 2.0**0.25, 13
 ROUND_STEPS = 20
 # Ratio of neighbouring meshes in the search for the cheapest, and how many there are: down to 1/32 of the tried one.
 RATIO, MESHES = 2.0 ** (1.0 / 6.0), 31
-# Sizes finer by more than this factor than those of the trial runs are not trusted: new trial runs with sizes coarser by the second factor.
+# Sizes finer by more than this factor than those of the trial runs are not trusted: new trial runs with sizes coarser
+# by the second factor.
 EXTRAPOLATED, COARSER_FIRST = 2.5, 1.5
 MOST_ROUNDS = 6
 # The search ends where costs have risen by this factor above the least.
@@ -37,7 +47,8 @@ Errors = dict[str, float]
 
 @dataclass(frozen=True)
 class Chosen:
-    """Chosen settings with their relative estimated error: `parts` by setting, `estimated_error` of all together; `runs`: how many it took."""
+    """Chosen settings with their relative estimated error: `parts` by setting, `estimated_error` of all together;
+    `runs`: how many it took."""
 
     accuracy: Accuracy
     setting: Setting
@@ -61,8 +72,8 @@ def choose(scene: Scene, target: float, progress: Progress) -> Chosen:
         return _chosen(_reporting_runs(scene, progress), scene.gears.module, target)
     except TargetNotReached as reason:
         raise TargetNotReached(
-            f"accuracy.target = {100.0 * target:g} % is not reached: {reason}. Take a larger target, or give settings of your own; "
-            "`gears accuracy` shows the error of each."
+            f"accuracy.target = {100.0 * target:g} % is not reached: {reason}. Take a larger target, or give settings"
+            " of your own; `gears accuracy` shows the error of each."
         ) from None
 
 
@@ -87,7 +98,11 @@ def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
     for _ in range(MOST_ROUNDS):
         errors = runs.errors(tried)
         sizes = _cheapest(runs, tried, errors, target)
-        if tried.mesh <= EXTRAPOLATED * sizes.mesh and sizes.steps <= EXTRAPOLATED * tried.steps and sizes.slices <= EXTRAPOLATED * tried.slices:
+        if (
+            tried.mesh <= EXTRAPOLATED * sizes.mesh
+            and sizes.steps <= EXTRAPOLATED * tried.steps
+            and sizes.slices <= EXTRAPOLATED * tried.slices
+        ):
             setting = runs.setting(sizes)
             return Chosen(setting.accuracy(module), setting, errors_at(tried, errors, sizes), runs.runs)
         tried = Sizes(
@@ -99,10 +114,13 @@ def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
 
 
 def first_sizes(target: float, fewest_steps: int, steps_matter: bool, slices: int = 0) -> Sizes:
-    """Sizes of the first trial runs, somewhat coarser than those that will be chosen; `slices`: the default number, 0 in the plane."""
+    """Sizes of the first trial runs, somewhat coarser than those that will be chosen; `slices`: the default number, 0
+    in the plane."""
     finer = sqrt(0.01 / target)
     steps = round_steps(max(FIRST_STEPS * finer, fewest_steps) if steps_matter else fewest_steps)
-    return Sizes(FIRST_MESH / max(finer, 1.0), steps, max(even(FIRST_SLICES * finer * slices), FEWEST_SLICES) if slices else 0)
+    return Sizes(
+        FIRST_MESH / max(finer, 1.0), steps, max(even(FIRST_SLICES * finer * slices), FEWEST_SLICES) if slices else 0
+    )
 
 
 def even(number: float) -> int:
@@ -128,7 +146,11 @@ def round_steps(steps: float) -> int:
 
 def errors_at(tried: Sizes, errors: Errors, sizes: Sizes) -> Errors:
     """Errors at other sizes than the tried ones: of order 2."""
-    ratios = {MESH: sizes.mesh / tried.mesh, STEPS: tried.steps / sizes.steps, SLICES: tried.slices / (sizes.slices or 1)}
+    ratios = {
+        MESH: sizes.mesh / tried.mesh,
+        STEPS: tried.steps / sizes.steps,
+        SLICES: tried.slices / (sizes.slices or 1),
+    }
     return {name: error * ratios[name] ** 2 for name, error in errors.items()}
 
 
@@ -171,7 +193,8 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
 
 
 def _beside(mesh: float, tried: Sizes, errors: Errors, left: float) -> Iterator[Sizes]:
-    """Sizes with a mesh and as many slices and steps as what is `left` of the error for them asks for, from the fewest slices on."""
+    """Sizes with a mesh and as many slices and steps as what is `left` of the error for them asks for, from the fewest
+    slices on."""
     slicings = [tried.slices * RATIO_OF_SLICES**place for place in range(SLICINGS)] if tried.slices else [0.0]
     for slices in map(even, slicings):
         for_steps = left - (errors.get(SLICES, 0.0) * (tried.slices / slices) ** 2 if slices else 0.0)

@@ -1,9 +1,10 @@
 """The trial runs from which the errors of settings are estimated: three that are coarse in different ways.
 
-Two sizes make a setting: that of the mesh, with which flank elements, contact nodes and body elements grow together from their defaults, and the
+Two sizes make a setting: that of the mesh, with which flank elements, contact nodes and body elements grow together
+    from their defaults, and the
 number of steps. Over a face there is a third, the number of slices; layers of the bodies go with these, since a layer
 tells but a few slices apart. All errors fall with the square of the size, so that a run with twice the size differs
-by three times the error. """
+by three times the error."""
 
 from __future__ import annotations
 
@@ -23,12 +24,14 @@ from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
 from fenics_gears.studies.work import Ticking
 
-# Fewest steps in a mesh cycle, and the most that are taken for the sake of vibrations: if these are still faster, the motion follows the static one.
+# Fewest steps in a mesh cycle, and the most that are taken for the sake of vibrations: if these are still faster, the
+# motion follows the static one.
 FEWEST_STEPS, MOST_STEPS = 40, 1280
 MESH, STEPS, SLICES = "finite elements and contact nodes", "steps per mesh cycle", "slices"
 FEWEST_LAYERS, ROUNDING = 2, 1e-9
 COARSER = 2
-# Errors are taken to be so many times what order 2 makes of the difference: at coarse sizes it falls more slowly, and signs of its parts differ.
+# Errors are taken to be so many times what order 2 makes of the difference: at coarse sizes it falls more slowly, and
+# signs of its parts differ.
 SAFETY = 2.5
 # Of slices, whose differences keep their sign and fall with an order of 1.7: by that alone 1.3.
 SAFETY_OF_SLICES = 1.8
@@ -56,7 +59,8 @@ class Sizes:
 class TrialRuns:
     """Trial runs, each setting once; gears are condensed once for all runs that share them.
 
-    `begun`: called before each run with its settings in words; `tick`: called often during a run, may raise KeyboardInterrupt.
+    `begun`: called before each run with its settings in words; `tick`: called often during a run, may raise
+        KeyboardInterrupt.
     """
 
     def __init__(self, scene: Scene, begun: Callable[[str], None], tick: Callable[[], None] | None = None):
@@ -72,7 +76,13 @@ class TrialRuns:
     def setting(self, sizes: Sizes) -> Setting:
         """Sizes as a setting with the contact window in use."""
         default = self._default
-        found = replace(default, flank=sizes.mesh * default.flank, spacing=sizes.mesh * default.spacing, body=sizes.mesh, steps=sizes.steps)
+        found = replace(
+            default,
+            flank=sizes.mesh * default.flank,
+            spacing=sizes.mesh * default.spacing,
+            body=sizes.mesh,
+            steps=sizes.steps,
+        )
         if not self.slices:
             return found
         slices = sizes.slices or self.slices
@@ -86,7 +96,8 @@ class TrialRuns:
 
     @property
     def fewest_steps(self) -> int:
-        """Fewest steps of a run beside one with half as many: both can represent the slowest vibration, where there is one that matters."""
+        """Fewest steps of a run beside one with half as many: both can represent the slowest vibration, where there is
+        one that matters."""
         steps = FEWEST_STEPS
         while not self._model(Sizes(COARSER, steps // COARSER)).time_scales.averages_acceleration:
             steps *= 2
@@ -95,7 +106,8 @@ class TrialRuns:
         return steps
 
     def errors(self, sizes: Sizes) -> dict[str, float]:
-        """Estimated relative errors of a run, the larger of the judged measures, by setting. Raises ComputationError."""
+        """Estimated relative errors of a run, the larger of the judged measures, by setting. Raises
+        ComputationError."""
         self._with_window_long_enough(sizes)
         coarser = replace(sizes, mesh=COARSER * sizes.mesh)
         # The mesh's error is measured where runs are short, beside fewer steps and slices.
@@ -110,21 +122,29 @@ class TrialRuns:
         return {MESH: self._error(short, replace(coarser, steps=short.steps, slices=short.slices)), **errors}
 
     def cost(self, sizes: Sizes) -> float:
-        """Expected seconds of the whole scene's run, which are counted. Raises TargetNotReached where it is beyond the limits."""
+        """Expected seconds of the whole scene's run, which are counted. Raises TargetNotReached where it is beyond the
+        limits."""
         model = self._model(sizes)
         expected = expected_cost(model)
         # Operators over a face are the most of it, and need not be kept.
         held = expected.memory - (expected.operators if self.slices else 0.0)
         if held > MOST_BYTES:
-            raise TargetNotReached(f"{self.setting(sizes).words} would take more than {MOST_BYTES / 1e9:g} GB of memory")
+            raise TargetNotReached(
+                f"{self.setting(sizes).words} would take more than {MOST_BYTES / 1e9:g} GB of memory"
+            )
         return (expected.condensing or 0.0) + expected.marching
 
     def _model(self, sizes: Sizes) -> Model:
         setting, module = self.setting(sizes), self._whole.gears.module
         accuracy = setting.accuracy(module)
-        if setting.flank < FINEST_ELEMENT * module or accuracy.body_element_size < FINEST_BODY * module or setting.grid.nodes > MOST_CONTACT_NODES:
+        if (
+            setting.flank < FINEST_ELEMENT * module
+            or accuracy.body_element_size < FINEST_BODY * module
+            or setting.grid.nodes > MOST_CONTACT_NODES
+        ):
             raise TargetNotReached(
-                f"{setting.words}: finer than a scene may ask for ({FINEST_ELEMENT:g} modules on the flank, {FINEST_BODY:g} in the body, {MOST_CONTACT_NODES} nodes)"
+                f"{setting.words}: finer than a scene may ask for ({FINEST_ELEMENT:g} modules on the flank,"
+                f" {FINEST_BODY:g} in the body, {MOST_CONTACT_NODES} nodes)"
             )
         try:
             return model_of(setting.of(self._whole))
@@ -143,7 +163,8 @@ class TrialRuns:
         return self._known[setting]
 
     def _with_window_long_enough(self, sizes: Sizes) -> None:
-        """Lengthen the contact window until no contact reaches its ends: a longer one then only moves the contact nodes."""
+        """Lengthen the contact window until no contact reaches its ends: a longer one then only moves the contact
+        nodes."""
         for _ in range(MOST_LENGTHENED):
             setting = self.setting(sizes)
             if setting in self._known:
@@ -163,4 +184,6 @@ class TrialRuns:
         except MemoryError:
             raise TargetNotReached(f"there is not enough memory for the run with {setting.words}") from None
         except GearsError as error:
-            raise ComputationError(f"while accuracy.target was choosing settings, the run with {setting.words} failed: {error}") from error
+            raise ComputationError(
+                f"while accuracy.target was choosing settings, the run with {setting.words} failed: {error}"
+            ) from error

@@ -1,1 +1,2 @@
-"""`gears effects`: run a scene with subsets of its effects, to see what each effect costs in time and changes in the results."""
+"""`gears effects`: run a scene with subsets of its effects, to see what each effect costs in time and changes in the
+results."""

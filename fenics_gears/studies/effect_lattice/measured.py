@@ -32,9 +32,12 @@ MOST_BYTES = 1e9
 class Row:
     """Costs and results of one subset.
 
-    `contact_rows`: of the contact operator, on the average over the mesh cycle; `step_times` (rounds,), s; `condense`: both gears, s,
-    zero for rigid flanks; `operators`: of one mesh cycle, s; `transmission_error`: peak to peak, mm on the wheel's base circle;
-    `peak_force`: largest contact force of the mesh, N; `remarks`: what to know of this row; `peak_pressure`: MPa, tip edges left out, NaN of rigid flanks;
+    `contact_rows`: of the contact operator, on the average over the mesh cycle; `step_times` (rounds,), s; `condense`:
+        both gears, s,
+    zero for rigid flanks; `operators`: of one mesh cycle, s; `transmission_error`: peak to peak, mm on the wheel's base
+    circle;
+    `peak_force`: largest contact force of the mesh, N; `remarks`: what to know of this row; `peak_pressure`: MPa, tip
+        edges left out, NaN of rigid flanks;
     `face_load_factor`: K_Hbeta, NaN where flanks are not resolved over the face.
     """
 
@@ -67,15 +70,22 @@ class Row:
     def operations(self) -> float:
         """Floating-point operations of a step, as many as its Newton iterations need.
 
-        An iteration of `contact.newton` sets up and solves a dense system of N = c closed nodes + k centre coordinates (a slipping node's
-        tangential force is no unknown) and multiplies out the displacement of all m contact rows: 2/3 N^3 + 2 N^2 (elimination, substitution)
-        + N^2, and 2 c^2 with friction (assembly) + 2 m (l + k), with l = c loaded rows, 2 c with friction. With friction a step multiplies out
-        once, m (m + k), what the material points had moved before.
+        An iteration of `contact.newton` sets up and solves a dense system of N = c closed nodes + k centre coordinates
+        (a slipping node's tangential force is no unknown) and multiplies out the displacement of all m contact rows:
+        2/3 N^3 + 2 N^2 (elimination, substitution) + N^2, and 2 c^2 with friction (assembly) + 2 m (l + k), with l = c
+        loaded rows, 2 c with friction. With friction a step multiplies out once, m (m + k), what the material points
+        had moved before.
         """
         friction = self.subset.scene.friction is not None
         closed, rows, size = self.closed_nodes, self.contact_rows, self.closed_nodes + self.coordinates
-        loaded, assembling, history = (2.0 * closed, 2.0 * closed**2, rows * (rows + self.coordinates)) if friction else (closed, 0.0, 0.0)
-        return self.iterations * (2.0 / 3.0 * size**3 + 3.0 * size**2 + assembling + 2.0 * rows * (loaded + self.coordinates)) + history
+        loaded, assembling, history = (
+            (2.0 * closed, 2.0 * closed**2, rows * (rows + self.coordinates)) if friction else (closed, 0.0, 0.0)
+        )
+        return (
+            self.iterations
+            * (2.0 / 3.0 * size**3 + 3.0 * size**2 + assembling + 2.0 * rows * (loaded + self.coordinates))
+            + history
+        )
 
     @property
     def step_time(self) -> float:
@@ -103,17 +113,24 @@ class EffectReport:
 
     @property
     def ratios(self) -> tuple[float, ...]:
-        """Time of a step of the full scene by that of the bare one, in each round; empty where one of them is missing."""
+        """Time of a step of the full scene by that of the bare one, in each round; empty where one of them is
+        missing."""
         bare, full = self.row(BARE), self.row(ALL)
-        return () if bare is None or full is None else tuple(large / small for small, large in zip(bare.step_times, full.step_times))
+        return (
+            ()
+            if bare is None or full is None
+            else tuple(large / small for small, large in zip(bare.step_times, full.step_times))
+        )
 
     def reference(self, row: Row) -> Row | None:
-        """What a row is compared with: the bare scene for an effect alone, the full one for an effect left out; else None."""
+        """What a row is compared with: the bare scene for an effect alone, the full one for an effect left out; else
+        None."""
         return {ALONE: self.row(BARE), LEFT_OUT: self.row(ALL)}.get(row.subset.kind)
 
 
 def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS) -> EffectReport:
-    """Run and time the subsets of a scene's effects. Raises SceneError, GeometryError, ComputationError where not one subset runs."""
+    """Run and time the subsets of a scene's effects. Raises SceneError, GeometryError, ComputationError where not one
+    subset runs."""
     progress = progress or SilentProgress()
     scene = at_one_accuracy(scene)
     subsets, skipped = lattice(scene)
@@ -134,7 +151,9 @@ def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS
             bench.cycle = None
         benches.append(bench)
     if not benches:
-        raise ComputationError("no subset of the effects could be run: " + "; ".join(f"{each.name}: {each.reason}" for each in skipped))
+        raise ComputationError(
+            "no subset of the effects could be run: " + "; ".join(f"{each.name}: {each.reason}" for each in skipped)
+        )
     progress.stage("times")
     for turn in range(rounds):
         for done, bench in enumerate(benches):
@@ -144,10 +163,14 @@ def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS
 
 
 def at_one_accuracy(scene: Scene) -> Scene:
-    """The scene with every accuracy setting written out, so that all subsets have the mesh and the steps of the scene as a whole."""
+    """The scene with every accuracy setting written out, so that all subsets have the mesh and the steps of the scene
+    as a whole."""
     resolution = model_of(scene).resolution
     if resolution.condensation == EVERY_STEP:
-        raise SceneError('accuracy.condensation = "every step": the effects are measured on the fast route. Take "once", or leave it out.')
+        raise SceneError(
+            'accuracy.condensation = "every step": the effects are measured on the fast route. Take "once", or leave it'
+            " out."
+        )
     grid = resolution.contact_grid
     settings = replace(
         scene.accuracy,
@@ -162,7 +185,8 @@ def at_one_accuracy(scene: Scene) -> Scene:
 
 
 class Bench:
-    """One subset: its whole run, made at once, and its shorter runs, which are timed. Raises GearsError where it cannot be run.
+    """One subset: its whole run, made at once, and its shorter runs, which are timed. Raises GearsError where it cannot
+    be run.
 
     `cycle`: the contact operators; None where they are to be built again for every timed run. `bytes`: of them.
     """

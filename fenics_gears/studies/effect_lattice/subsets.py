@@ -1,4 +1,5 @@
-"""The subsets of a scene's effects that are run: none, each alone, all but each, all; only those that make a valid scene."""
+"""The subsets of a scene's effects that are run: none, each alone, all but each, all; only those that make a valid
+scene."""
 
 from __future__ import annotations
 
@@ -26,7 +27,8 @@ Valid = Callable[[Sections], str]
 
 @dataclass(frozen=True)
 class Subset:
-    """A scene with some of its effects: `kind` of subset, the `effect` that is added or left out ("" for none), the `sections` that are on,
+    """A scene with some of its effects: `kind` of subset, the `effect` that is added or left out ("" for none), the
+    `sections` that are on,
     and those that had to be added or left out `beside` it."""
 
     kind: str
@@ -39,7 +41,13 @@ class Subset:
     def name(self) -> str:
         """What the subset is called in tables."""
         changed = ", ".join([self.effect, *self.beside])
-        names = {NOTHING: "rigid flanks, no effect", BARE: "bare", ALONE: f"+ {changed}", LEFT_OUT: f"all - {changed}", ALL: "all"}
+        names = {
+            NOTHING: "rigid flanks, no effect",
+            BARE: "bare",
+            ALONE: f"+ {changed}",
+            LEFT_OUT: f"all - {changed}",
+            ALL: "all",
+        }
         return names[self.kind]
 
     @property
@@ -68,7 +76,11 @@ def lattice(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
     base = every & {BASE}
     problem = functools.cache(functools.partial(_problem, scene))
     # A set with several names keeps the first one here.
-    wanted: list[tuple[str, str, Sections | None]] = [(ALL, "", every), *([(NOTHING, "", frozenset())] if base else []), (BARE, "", base)]
+    wanted: list[tuple[str, str, Sections | None]] = [
+        (ALL, "", every),
+        *([(NOTHING, "", frozenset())] if base else []),
+        (BARE, "", base),
+    ]
     wanted += [(ALONE, each, smallest_valid(base | {each}, every, problem)) for each in in_order(every - base)]
     wanted += [(LEFT_OUT, each, largest_valid(every - {each}, problem)) for each in in_order(every)]
     found: dict[Sections, Subset] = {}
@@ -79,7 +91,9 @@ def lattice(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
             skipped.append(Skipped(Subset(kind, name, asked, scene).name, problem(asked)))
         elif sections not in found:
             left = every - sections
-            found[sections] = Subset(kind, name, sections, without(scene, *in_order(left)), _beside(kind, name, sections, left))
+            found[sections] = Subset(
+                kind, name, sections, without(scene, *in_order(left)), _beside(kind, name, sections, left)
+            )
     whole, *others = found.values()
     return [*others, *_parts(whole), whole], skipped
 

@@ -14,7 +14,8 @@ from fenics_gears.studies.machine import write_lines
 MICRO, MILLI = 1e6, 1e3
 NUMBERS_OF_ONE = " (numbers of the first row that says so)"
 HEADINGS = (
-    "effects", "unknowns", "closed nodes", "Newton iterations per step", "time per step", "operators", "condensing", "T_EPP", "peak force", "",
+    "effects", "unknowns", "closed nodes", "Newton iterations per step", "time per step", "operators", "condensing",
+    "T_EPP", "peak force", "",
 )  # fmt: skip
 UNITS = ("", "centre + contact", "mean (most)", "", "us", "s", "s", "um", "N", "remark")
 
@@ -31,7 +32,8 @@ def headings(report: EffectReport) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 
 def table_rows(report: EffectReport) -> list[tuple[str, ...]]:
-    """A row of cells for each subset; changes are against the bare scene for one effect more, against all for one less."""
+    """A row of cells for each subset; changes are against the bare scene for one effect more, against all for one
+    less."""
     numbers = {_words(remark): place for place, remark in enumerate(remarks(report), 1)}
     return [_cells(report, row, numbers) for row in report.rows]
 
@@ -55,7 +57,9 @@ def _cells(report: EffectReport, row: Row, numbers: dict[str, int]) -> tuple[str
 def _face_cells(report: EffectReport, row: Row) -> tuple[str, ...]:
     if not report.over_face:
         return ()
-    return _with_change(row.face_load_factor, report, row, "face_load_factor", 2), _with_change(row.peak_pressure, report, row, "peak_pressure", 0)
+    return _with_change(row.face_load_factor, report, row, "face_load_factor", 2), _with_change(
+        row.peak_pressure, report, row, "peak_pressure", 0
+    )
 
 
 def _with_change(value: float, report: EffectReport, row: Row, name: str, digits: int) -> str:
@@ -66,7 +70,8 @@ def _with_change(value: float, report: EffectReport, row: Row, name: str, digits
 
 
 def change(report: EffectReport, row: Row, name: str) -> float | None:
-    """Relative change of a number of the rows, such as "transmission_error", against what the row is compared with; None without that."""
+    """Relative change of a number of the rows, such as "transmission_error", against what the row is compared with;
+    None without that."""
     reference = report.reference(row)
     return None if reference is None else relative_change(reference, row, name)
 
@@ -112,19 +117,33 @@ def ratio_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
     return [
         ("unknowns", f"{bare.unknowns:.1f} and {full.unknowns:.1f}, ratio {full.unknowns / bare.unknowns:.2f}", ""),
         ("time a step", f"{bare.step_time * MICRO:.1f} and {full.step_time * MICRO:.1f}", "us"),
-        ("ratio measured", f"{statistics.median(report.ratios):.2f}, {low:.2f} to {high:.2f} in {len(report.ratios)} rounds", ""),
-        ("ratio expected of the arithmetic alone", f"{full.operations / bare.operations:.2f}, as if a step were nothing else", ""),
+        (
+            "ratio measured",
+            f"{statistics.median(report.ratios):.2f}, {low:.2f} to {high:.2f} in {len(report.ratios)} rounds",
+            "",
+        ),
+        (
+            "ratio expected of the arithmetic alone",
+            f"{full.operations / bare.operations:.2f}, as if a step were nothing else",
+            "",
+        ),
     ]
 
 
 def needs_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
-    """Rows of label, value, unit: what leaving an effect out changes and saves, the largest change of either answer first."""
+    """Rows of label, value, unit: what leaving an effect out changes and saves, the largest change of either answer
+    first."""
     full, found = report.row(ALL), []
     for section in in_order(full.subset.sections if full is not None else ()):
-        # With few effects all but one is the bare scene or that of one effect: take the largest set without this effect.
+        # With few effects all but one is the bare scene or that of one effect: take the largest set without this
+        # effect.
         others = [row for row in report.rows if section not in row.subset.sections]
         row = max(others, key=lambda each: len(each.subset.sections), default=None)
-        changes = [] if row is None else [relative_change(full, row, name) for name in ("transmission_error", "peak_force", "step_time")]
+        changes = (
+            []
+            if row is None
+            else [relative_change(full, row, name) for name in ("transmission_error", "peak_force", "step_time")]
+        )
         if not changes or None in changes:
             continue
         gone = in_order(full.subset.sections - row.subset.sections - {section})
@@ -134,9 +153,11 @@ def needs_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
 
 
 CSV_COLUMNS = (
-    "effects", "sections", "centre_coordinates", "contact_rows", "closed_nodes_mean", "closed_nodes_max", "newton_iterations_per_step",
+    "effects", "sections", "centre_coordinates", "contact_rows", "closed_nodes_mean", "closed_nodes_max",
+    "newton_iterations_per_step",
     "operations_per_step", "step_time_s", "step_time_least_s", "step_time_most_s", "operators_s", "condensing_s",
-    "transmission_error_peak_to_peak_mm", "peak_force_N", "change_of_transmission_error", "change_of_peak_force", "compared_with",
+    "transmission_error_peak_to_peak_mm", "peak_force_N", "change_of_transmission_error", "change_of_peak_force",
+    "compared_with",
     "remarks", "peak_contact_pressure_MPa", "face_load_factor", "processor", "load", "threads", "versions",
 )  # fmt: skip
 
@@ -150,8 +171,12 @@ def write_csv(report: EffectReport, file: Path) -> None:
 def _line(report: EffectReport, row: Row) -> tuple:
     reference = report.reference(row)
     return (
-        row.subset.name, " ".join(sorted(row.subset.sections)), row.coordinates, row.contact_rows, row.closed_nodes, row.most_closed_nodes,
-        row.iterations, row.operations, row.step_time, min(row.step_times), max(row.step_times), row.operators, row.condense,
-        row.transmission_error, row.peak_force, change(report, row, "transmission_error"), change(report, row, "peak_force"),
-        "" if reference is None else reference.subset.name, "; ".join(row.remarks), row.peak_pressure, row.face_load_factor,
+        row.subset.name, " ".join(sorted(row.subset.sections)), row.coordinates, row.contact_rows, row.closed_nodes,
+        row.most_closed_nodes,
+        row.iterations, row.operations, row.step_time, min(row.step_times), max(row.step_times), row.operators,
+        row.condense,
+        row.transmission_error, row.peak_force, change(report, row, "transmission_error"),
+        change(report, row, "peak_force"),
+        "" if reference is None else reference.subset.name, "; ".join(row.remarks), row.peak_pressure,
+        row.face_load_factor,
     )  # fmt: skip

@@ -17,14 +17,19 @@ FROM_ZERO = ("profile_modifications", "lead_modifications")
 
 
 def samples(design: Design, fresh: bool = False) -> np.ndarray:
-    """Deviations (samples, scatters) in parts of their limits, -1 to 1, by Sobol's scrambled sequence: the same for all designs, so that these
-    are compared under the same deviations. Without tolerances one sample of none. `fresh`: other ones, and `FRESH` times as many."""
+    """Deviations (samples, scatters) in parts of their limits, -1 to 1, by Sobol's scrambled sequence: the same for all
+    designs, so that these
+    are compared under the same deviations. Without tolerances one sample of none. `fresh`: other ones, and `FRESH`
+    times as many."""
     count = len(design.tolerances.scatters)
     if not count:
         return np.zeros((1, 0))
     from scipy.stats import qmc
 
-    sequence, number = qmc.Sobol(count, scramble=True, seed=design.search.seed + fresh), design.tolerances.samples * (FRESH if fresh else 1)
+    sequence, number = (
+        qmc.Sobol(count, scramble=True, seed=design.search.seed + fresh),
+        design.tolerances.samples * (FRESH if fresh else 1),
+    )
     return 2.0 * sequence.random_base2(number.bit_length() - 1) - 1.0
 
 
@@ -35,7 +40,8 @@ def value_of(tree: Mapping[str, Any], path: fields.Path) -> Any:
 
 
 def scattered(tree: Mapping[str, Any], scatters: Sequence[Scatter], deviations: np.ndarray) -> dict[str, Any]:
-    """A parsed scene with deviations (scatters,), in parts of the limits; a modification that is not there deviates from zero, another field
+    """A parsed scene with deviations (scatters,), in parts of the limits; a modification that is not there deviates
+    from zero, another field
     that is not there does not deviate."""
     changed = dict(tree)
     for scatter, deviation in zip(scatters, deviations):

@@ -1,4 +1,5 @@
-"""An optimisation as frozen dataclasses: what may vary, at which operating points, within which tolerances, for which goals."""
+"""An optimisation as frozen dataclasses: what may vary, at which operating points, within which tolerances, for which
+goals."""
 
 from __future__ import annotations
 
@@ -44,7 +45,8 @@ class Variable:
 
 @dataclass(frozen=True)
 class Scatter:
-    """A field that scatters evenly within `limit` on either side of its value, in `unit`; never beyond what the field allows, `lowest` to `highest`."""
+    """A field that scatters evenly within `limit` on either side of its value, in `unit`; never beyond what the field
+    allows, `lowest` to `highest`."""
 
     path: fields.Path
     limit: float
@@ -60,7 +62,8 @@ class Scatter:
 
 @dataclass(frozen=True)
 class Goal:
-    """A number of the result to be made small. `weight`: of its ratio to what it is before, in the choice of one design."""
+    """A number of the result to be made small. `weight`: of its ratio to what it is before, in the choice of one
+    design."""
 
     name: str
     unit: str
@@ -78,13 +81,16 @@ class Bound:
 
     def violation(self, value: float) -> float:
         """How far a value is beyond the bounds, in parts of the bound; 0 within."""
-        beyond, bound = max((self.at_least - value, self.at_least), (value - self.at_most, self.at_most), key=lambda each: each[0])
+        beyond, bound = max(
+            (self.at_least - value, self.at_least), (value - self.at_most, self.at_most), key=lambda each: each[0]
+        )
         return max(beyond, 0.0) / (abs(bound) or 1.0)
 
 
 @dataclass(frozen=True)
 class Loads:
-    """Operating points: the values of scene fields at each, their weights, and whether goals are their mean or the worst of them."""
+    """Operating points: the values of scene fields at each, their weights, and whether goals are their mean or the
+    worst of them."""
 
     points: tuple[dict[fields.Path, Any], ...] = ({},)
     weights: tuple[float, ...] = (1.0,)
@@ -97,7 +103,8 @@ class Loads:
 
 @dataclass(frozen=True)
 class Tolerances:
-    """What scatters, the number of samples (a power of two), the quantile, and by which of mean and quantile designs are judged."""
+    """What scatters, the number of samples (a power of two), the quantile, and by which of mean and quantile designs
+    are judged."""
 
     scatters: tuple[Scatter, ...] = ()
     samples: int = 1
@@ -122,7 +129,8 @@ class Search:
 class Design:
     """A validated optimisation.
 
-    `tree`: the parsed scene that designs are changes of; `before`: the one they are compared with; `directory`: from which files are found
+    `tree`: the parsed scene that designs are changes of; `before`: the one they are compared with; `directory`: from
+        which files are found
     that the scene names; `text`: of the design file.
     """
 

@@ -1,4 +1,5 @@
-"""Designs to numbers: their runs over operating points and samples, computed where they are not kept, and what they amount to."""
+"""Designs to numbers: their runs over operating points and samples, computed where they are not kept, and what they
+amount to."""
 
 from __future__ import annotations
 
@@ -29,15 +30,18 @@ from fenics_gears.studies.work import Tick, Ticking, in_order_of_sharing
 from fenics_gears.system.interruption import Interruption
 
 UNUSABLE = 1e6
-"""What the search is told instead of a goal where a design failed; one that breaks bounds is told a thousandth of it and more."""
+"""What the search is told instead of a goal where a design failed; one that breaks bounds is told a thousandth of it
+and more."""
 
 
 @dataclass(frozen=True)
 class Evaluation:
     """What a design amounts to.
 
-    `values`: of its variables; `goals`: by name, judged by the design file's statistic; `of_samples`: by name, the values (samples,) behind it;
-    `at_points`: by name, the mean over the samples at each operating point; `violation`: of the constraints, 0 where all hold; `failure`: why it
+    `values`: of its variables; `goals`: by name, judged by the design file's statistic; `of_samples`: by name, the
+        values (samples,) behind it;
+    `at_points`: by name, the mean over the samples at each operating point; `violation`: of the constraints, 0 where
+        all hold; `failure`: why it
     has no numbers, empty where it has.
     """
 
@@ -54,16 +58,21 @@ class Evaluation:
         return not self.failure and self.violation == 0.0
 
     def told(self, goals: Sequence[Goal]) -> list[float]:
-        """What the search is told: the goals; a large number where there are none or bounds are broken, the larger the further."""
+        """What the search is told: the goals; a large number where there are none or bounds are broken, the larger the
+        further."""
         if self.failure:
             return [UNUSABLE] * len(goals)
-        return [self.goals[goal.name] if self.allowed else 1e-3 * UNUSABLE * (1.0 + min(self.violation, 100.0)) for goal in goals]
+        return [
+            self.goals[goal.name] if self.allowed else 1e-3 * UNUSABLE * (1.0 + min(self.violation, 100.0))
+            for goal in goals
+        ]
 
 
 class Evaluator:
     """Evaluates designs with the processes of a `team`; runs that are in `directory` are taken from there.
 
-    `designs`: how many of how many have been evaluated, for the progress; `computed`: runs that were computed here; `kept`: those that were there before, beside `others` of versions with other numbers.
+    `designs`: how many of how many have been evaluated, for the progress; `computed`: runs that were computed here;
+        `kept`: those that were there before, beside `others` of versions with other numbers.
     """
 
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
@@ -75,7 +84,9 @@ class Evaluator:
         """Designs, by the values of their variables, under deviations (samples, scatters) in parts of their limits."""
         return self.of_trees([self.design.scene_tree(values) for values in designs], designs, deviations)
 
-    def of_trees(self, trees: Sequence[Mapping[str, Any]], designs: Sequence[Mapping[str, float | str]], deviations: np.ndarray) -> list[Evaluation]:
+    def of_trees(
+        self, trees: Sequence[Mapping[str, Any]], designs: Sequence[Mapping[str, float | str]], deviations: np.ndarray
+    ) -> list[Evaluation]:
         """The same for parsed scenes; `designs` are only noted."""
         cases = [[self._case(each) for each in trees_of(self.design, tree, deviations)] for tree in trees]
         self._run([case for of_tree in cases for case in of_tree if isinstance(case, Case)], len(trees))
@@ -83,10 +94,18 @@ class Evaluator:
 
     def curves(self, trees: Sequence[Mapping[str, Any]]) -> list[np.ndarray | None]:
         """Mesh phase and transmission error (2, steps), rad, of parsed scenes; None where a run failed."""
-        cases = [replace(case, key=f"{case.key} curve", values={"curve": ""}) for case in map(self._case, trees) if isinstance(case, Case)]
+        cases = [
+            replace(case, key=f"{case.key} curve", values={"curve": ""})
+            for case in map(self._case, trees)
+            if isinstance(case, Case)
+        ]
         self._run(cases, len(trees))
         lines = [self._lines[case.key] for case in cases]
-        return [np.array(line["curve"]) if "curve" in line else None for line in lines] if len(lines) == len(trees) else [None] * len(trees)
+        return (
+            [np.array(line["curve"]) if "curve" in line else None for line in lines]
+            if len(lines) == len(trees)
+            else [None] * len(trees)
+        )
 
     def _case(self, tree: Mapping[str, Any]) -> Case | str:
         """The run of a parsed scene, or why it is no scene."""
@@ -100,7 +119,11 @@ class Evaluator:
 
     @functools.cached_property
     def _names(self) -> list[str]:
-        return [*dict.fromkeys([goal.name for goal in self.design.goals] + [bound.goal.name for bound in self.design.bounds])]
+        return [
+            *dict.fromkeys(
+                [goal.name for goal in self.design.goals] + [bound.goal.name for bound in self.design.bounds]
+            )
+        ]
 
     def _run(self, cases: list[Case], batch: int) -> None:
         """Compute the runs of a `batch` of designs that are not kept; their processes keep them."""
@@ -127,16 +150,28 @@ class Evaluator:
     def _evaluation(self, values: dict[str, float | str], cases: list[Case | str], samples: int) -> Evaluation:
         lines = [{"failure": case} if isinstance(case, str) else self._lines[case.key] for case in cases]
         failures = [line["failure"] for line in lines if "failure" in line]
-        lacking = [f"the run has no {name}" for line in lines if "failure" not in line for name in self._names if name not in line["numbers"]]
+        lacking = [
+            f"the run has no {name}"
+            for line in lines
+            if "failure" not in line
+            for name in self._names
+            if name not in line["numbers"]
+        ]
         if failures or lacking:
             return Evaluation(values, failure=[*failures, *lacking][0])
         points = len(self.design.loads.points)
-        found = {name: np.array([line["numbers"][name] for line in lines]).reshape(points, samples) for name in self._names}
+        found = {
+            name: np.array([line["numbers"][name] for line in lines]).reshape(points, samples) for name in self._names
+        }
         of_samples = {name: self.design.loads.combined(numbers) for name, numbers in found.items()}
         judge = self.design.tolerances.statistic
         goals = {goal.name: judge(of_samples[goal.name]) for goal in self.design.goals}
-        violation = sum(_violation(bound, [judge(each) for each in found[bound.goal.name]]) for bound in self.design.bounds)
-        return Evaluation(values, goals, of_samples, {name: each.mean(axis=1) for name, each in found.items()}, violation)
+        violation = sum(
+            _violation(bound, [judge(each) for each in found[bound.goal.name]]) for bound in self.design.bounds
+        )
+        return Evaluation(
+            values, goals, of_samples, {name: each.mean(axis=1) for name, each in found.items()}, violation
+        )
 
 
 def _violation(bound: Bound, of_points: Sequence[float]) -> float:
@@ -151,14 +186,18 @@ def _curve(run) -> list[list[float]]:
 
 
 def run_and_keep(directory: Path, case: Case, tick: Tick | None = None) -> dict[str, Any]:
-    """Run a case and keep its line: its numbers, or as `failure` why it has none. What is no error of this program is not kept, so that it is tried again."""
+    """Run a case and keep its line: its numbers, or as `failure` why it has none. What is no error of this program is
+    not kept, so that it is tried again."""
     begun = time.perf_counter()
     try:
         run = simulate(case.scene, progress=Ticking(tick), preparation=own_gear_store().prepared)
         if not run.attrs["complete"]:
             raise KeyboardInterrupt
         if NO_MEANING in run.attrs.get("warnings", ""):
-            line = {"key": case.key, "failure": next(said for said in run.attrs["warnings"].splitlines() if NO_MEANING in said)}
+            line = {
+                "key": case.key,
+                "failure": next(said for said in run.attrs["warnings"].splitlines() if NO_MEANING in said),
+            }
         else:
             run.attrs["wall_time"] = time.perf_counter() - begun
             numbers = record_of(run).numbers

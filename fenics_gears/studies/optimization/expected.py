@@ -1,4 +1,5 @@
-"""How many runs an optimisation takes, and how long they take: said before it starts, refused where it is a day's work that nobody has agreed to."""
+"""How many runs an optimisation takes, and how long they take: said before it starts, refused where it is a day's work
+that nobody has agreed to."""
 
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ from fenics_gears.studies.work import gear_tasks
 from fenics_gears.system.progress import seconds_in_words
 
 MOST_HOURS = 8.0
-# Of a run beside its march: seconds, and positions whose operators extremes between steps take (measured on the paper's pair and on a helical one).
+# Of a run beside its march: seconds, and positions whose operators extremes between steps take (measured on the paper's
+# pair and on a helical one).
 TIME_OF_A_RESULT, EXTREMES = 0.03, 22
 # Values of a variable at which the chosen design's goals are evaluated, over its whole range.
 VALUES = 9
@@ -27,7 +29,8 @@ TORQUES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5)
 
 @dataclass(frozen=True)
 class Work:
-    """Runs of an optimisation that are not kept yet, at most; seconds on one core of an idle machine, None where its scenes are none at the ends of the variables."""
+    """Runs of an optimisation that are not kept yet, at most; seconds on one core of an idle machine, None where its
+    scenes are none at the ends of the variables."""
 
     runs: int
     seconds: float | None
@@ -35,15 +38,20 @@ class Work:
     def words(self, processes: int) -> str:
         """For people."""
         by = f" by {processes} processes" if processes > 1 else ""
-        about = "" if self.seconds is None else f", about {seconds_in_words(self.seconds / processes)}{by} on an idle machine"
+        about = (
+            ""
+            if self.seconds is None
+            else f", about {seconds_in_words(self.seconds / processes)}{by} on an idle machine"
+        )
         return f"up to {self.runs} runs{about}"
 
     def check(self, title: str, processes: int) -> None:
         """Raise SceneError where it takes too long."""
         if self.seconds is not None and self.seconds / processes > 3600.0 * MOST_HOURS:
             raise SceneError(
-                f"{title}: {self.words(processes)}. Allowed without being asked for: {MOST_HOURS:g} h. Nothing was computed. Take fewer evaluations, samples or operating points, "
-                "coarser settings or more processes; or add --yes."
+                f"{title}: {self.words(processes)}. Allowed without being asked for: {MOST_HOURS:g} h. Nothing was"
+                " computed. Take fewer evaluations, samples or operating points, coarser settings or more processes;"
+                " or add --yes."
             )
 
 
@@ -59,7 +67,10 @@ def expected_work(design: Design, kept: int) -> Work:
         return Work(runs, None)
     models = [model_of(case.scene) for case in cases]
     costs = [expected_cost(model) for model in models]
-    marching, building, condensing = (sum(getattr(cost, name) or 0.0 for cost in costs) / len(costs) for name in ("marching", "building", "condensing"))
+    marching, building, condensing = (
+        sum(getattr(cost, name) or 0.0 for cost in costs) / len(costs)
+        for name in ("marching", "building", "condensing")
+    )
     shared = len({operators_key(model) for model in models}) == 1
     position = building / models[0].resolution.steps_per_mesh_cycle
     each = TIME_OF_A_RESULT + EXTREMES * position + marching - (building if shared else 0.0)

@@ -11,7 +11,8 @@ ERROR = "peak_to_peak_transmission_error"
 ROOT = ("largest_root_stress_pinion", "largest_root_stress_wheel")
 OVER_FACE = ("face_load_factor", "largest_line_load_factor", "edge_line_load_factor", "transverse_load_factor")
 NAMES = (
-    ERROR, *HARMONIC_NAMES, "max_normal_force", "largest_pair_force", "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure",
+    ERROR, *HARMONIC_NAMES, "max_normal_force", "largest_pair_force", "dynamic_factor_by_force",
+    "dynamic_factor_by_stress", "peak_contact_pressure",
     *ROOT, "friction_loss", *OVER_FACE,
 )  # fmt: skip
 
@@ -32,7 +33,9 @@ def lacking(name: str, scene: Scene) -> str:
         return "a constant speed: leave [speed_ramp] out"
     if name.startswith("dynamic_factor") and scene.inertia is None:
         return "[inertia]"
-    if (name in ROOT or name == "dynamic_factor_by_stress") and not (scene.output.root_stress and scene.resolves_contact):
+    if (name in ROOT or name == "dynamic_factor_by_stress") and not (
+        scene.output.root_stress and scene.resolves_contact
+    ):
         return "elastic teeth and [output] root_stress = true"
     if name == "peak_contact_pressure" and not scene.resolves_contact:
         return 'elastic teeth and accuracy.model = "elastic"'

@@ -36,11 +36,15 @@ NOT_IN_A_HARRIS_MAP = ("inertia", "damping", "motion", "speed_ramp", "torque_rip
 class Outcome:
     """What an optimisation found.
 
-    `before`: the scene before, `tried`: all designs in their order, `best`: the place of the chosen one, `front`: places of the Pareto front.
-    `fresh`: the scene before and the chosen design under samples that the search did not know, where there are tolerances.
-    `along`: by variable its values and the chosen design's evaluations there, without scatter; `limits`: by scatter the evaluations of the
-    chosen design at the lower limit, without scatter and at the upper limit; nothing where one failed. `harris`: torques (loads,), N m, and of the scene before and the chosen one curves
-    (2, steps) of mesh phase and transmission error, rad.
+    `before`: the scene before, `tried`: all designs in their order, `best`: the place of the chosen one, `front`:
+        places of the Pareto front.
+    `fresh`: the scene before and the chosen design under samples that the search did not know, where there are
+        tolerances.
+    `along`: by variable its values and the chosen design's evaluations there, without scatter; `limits`: by scatter the
+        evaluations of the
+    chosen design at the lower limit, without scatter and at the upper limit; nothing where one failed. `harris`:
+    torques (loads,), N m, and of the scene before and the chosen one curves (2, steps) of mesh phase and transmission
+    error, rad.
     """
 
     design: Design
@@ -63,11 +67,16 @@ class Outcome:
         return self.tried[self.best]
 
 
-def optimize(path: Path, output: Path | None, progress: Progress, quiet: bool = False, any_time: bool = False) -> Outcome | None:
-    """Search the best design and look at it from all sides; None on every rank of an MPI job but 0. Finished runs are kept in `runs` of the directory.
+def optimize(
+    path: Path, output: Path | None, progress: Progress, quiet: bool = False, any_time: bool = False
+) -> Outcome | None:
+    """Search the best design and look at it from all sides; None on every rank of an MPI job but 0. Finished runs are
+    kept in `runs` of the directory.
 
-    output: the directory, `results/<name of the design file>` where None. Raises SceneError, before anything is computed or written, where the design
-    file is wrong or the work takes more than `expected.MOST_HOURS`, unless `any_time`; ComputationError where the directory cannot be used or no design keeps the constraints; KeyboardInterrupt at Ctrl-C.
+    output: the directory, `results/<name of the design file>` where None. Raises SceneError, before anything is
+        computed or written, where the design
+    file is wrong or the work takes more than `expected.MOST_HOURS`, unless `any_time`; ComputationError where the
+    directory cannot be used or no design keeps the constraints; KeyboardInterrupt at Ctrl-C.
     """
     with ranks() as team:
         if team is None:
@@ -80,7 +89,9 @@ def optimize(path: Path, output: Path | None, progress: Progress, quiet: bool = 
             return _run(design, directory, team, interruption, quiet, any_time)
 
 
-def _run(design: Design, directory: Path, team: Alone | Together, progress: Interruption, quiet: bool, any_time: bool) -> Outcome:
+def _run(
+    design: Design, directory: Path, team: Alone | Together, progress: Interruption, quiet: bool, any_time: bool
+) -> Outcome:
     evaluator, deviations = Evaluator(design, directory / "runs", team, progress), samples(design)
     work = expected_work(design, evaluator.kept)
     if not any_time:
@@ -112,24 +123,41 @@ def _opening(design: Design, count: int, evaluator: Evaluator, work: Work, size:
     """One line on how much there is to do."""
     runs = len(design.loads.points) * count
     kept = f" {evaluator.kept} runs are kept from before." if evaluator.kept else ""
-    kept += f" {evaluator.others} runs of a version of the program with other numbers are not used." if evaluator.others else ""
-    return f"{design.title}: {design.search.evaluations} designs of {len(design.variables)} variables, {runs} runs each, and around them; {work.words(size)}.{kept}"
+    kept += (
+        f" {evaluator.others} runs of a version of the program with other numbers are not used."
+        if evaluator.others
+        else ""
+    )
+    return (
+        f"{design.title}: {design.search.evaluations} designs of {len(design.variables)} variables, {runs} runs each,"
+        f" and around them; {work.words(size)}.{kept}"
+    )
 
 
 def chosen(design: Design, before: Evaluation, tried: Sequence[Evaluation]) -> int:
-    """The place of the design with the least weighted sum of its goals, each in parts of what it is before. Raises ComputationError without any allowed one."""
+    """The place of the design with the least weighted sum of its goals, each in parts of what it is before. Raises
+    ComputationError without any allowed one."""
     allowed = [place for place, each in enumerate(tried) if each.allowed]
     if not allowed:
         failed = [each.failure for each in tried if each.failure]
-        why = f"{len(failed)} failed, the first since: {failed[0]}" if failed else f"the nearest one breaks the bounds by {min(each.violation for each in tried):.3g} of them"
-        raise ComputationError(f"None of {len(tried)} designs keeps the constraints: {why}. Widen ranges or bounds; the runs are kept.")
+        why = (
+            f"{len(failed)} failed, the first since: {failed[0]}"
+            if failed
+            else f"the nearest one breaks the bounds by {min(each.violation for each in tried):.3g} of them"
+        )
+        raise ComputationError(
+            f"None of {len(tried)} designs keeps the constraints: {why}. Widen ranges or bounds; the runs are kept."
+        )
     reference = tried[allowed[0]] if before.failure else before
     return min(allowed, key=lambda place: score(design, reference, tried[place]))
 
 
 def score(design: Design, before: Evaluation, evaluation: Evaluation) -> float:
     """The weighted sum of the goals, each in parts of what it is before."""
-    return sum(goal.weight * evaluation.goals[goal.name] / (abs(before.goals.get(goal.name, 0.0)) or 1.0) for goal in design.goals)
+    return sum(
+        goal.weight * evaluation.goals[goal.name] / (abs(before.goals.get(goal.name, 0.0)) or 1.0)
+        for goal in design.goals
+    )
 
 
 def _look_around(outcome: Outcome, evaluator: Evaluator) -> None:
@@ -138,8 +166,13 @@ def _look_around(outcome: Outcome, evaluator: Evaluator) -> None:
     count = len(design.tolerances.scatters)
     nominal = np.zeros((1, count))
     for variable in design.variables:
-        places = list(variable.words) or sorted({*map(variable.at, np.linspace(0.0, 1.0, VALUES)), values[variable.name]})
-        outcome.along[variable.name] = places, evaluator.of_designs([values | {variable.name: place} for place in places], nominal)
+        places = list(variable.words) or sorted(
+            {*map(variable.at, np.linspace(0.0, 1.0, VALUES)), values[variable.name]}
+        )
+        outcome.along[variable.name] = (
+            places,
+            evaluator.of_designs([values | {variable.name: place} for place in places], nominal),
+        )
     if not count:
         return
     trees = [design.before, design.scene_tree(values)]

@@ -1,6 +1,8 @@
-"""The runs of an optimisation on disk: a line of JSON for each, in a file of its own for each process, so that a kill loses no finished run.
+"""The runs of an optimisation on disk: a line of JSON for each, in a file of its own for each process, so that a kill
+loses no finished run.
 
-A line is written at once when its run has ended. One that a kill or a full disk cut short is none: it is not read, and the next one begins below it.
+A line is written at once when its run has ended. One that a kill or a full disk cut short is none: it is not read, and
+the next one begins below it.
 """
 
 from __future__ import annotations
@@ -25,7 +27,11 @@ def append(directory: Path, line: Mapping[str, Any]) -> None:
     try:
         with open(file, "ab+", buffering=0) as out:
             torn = out.seek(0, os.SEEK_END) and (out.seek(-1, os.SEEK_END), out.read(1))[1] != b"\n"
-            out.write((b"\n" if torn else b"") + json.dumps({"numbers_version": NUMBERS_VERSION, **line}, ensure_ascii=False).encode() + b"\n")
+            out.write(
+                (b"\n" if torn else b"")
+                + json.dumps({"numbers_version": NUMBERS_VERSION, **line}, ensure_ascii=False).encode()
+                + b"\n"
+            )
     except OSError as error:
         raise ComputationError(f"{file}: a run could not be kept: {error.strerror or error}") from error
 

@@ -1,14 +1,16 @@
-"""Natural frequencies and a time response of an unequal pair on a constant mesh stiffness, by this program and by Exudyn, side by side.
+"""Natural frequencies and a time response of an unequal pair on a constant mesh stiffness, by this program and by
+Exudyn, side by side.
 
     pip install exudyn                                        # into an environment of its own
     python -m tests.benchmarks.against_exudyn PYTHON          # PYTHON: that environment's
 
-Exudyn (J. Gerstmayr, https://github.com/jgerstm/EXUDYN) is a multi-body program of the University of Innsbruck. It is given rigid bodies
-and springs only (`exudyn_pair.py`); this program its drivetrain with a mesh of one spring (`contact.spring_cycle`), marched as any run.
-The pair is pair_19_48.toml of this folder, J1 : J2 = 1 : 19, with another bearing in every direction and another stiffness of either shaft.
+Exudyn (J. Gerstmayr, https://github.com/jgerstm/EXUDYN) is a multi-body program of the University of Innsbruck. It is
+given rigid bodies and springs only (`exudyn_pair.py`); this program its drivetrain with a mesh of one spring
+(`contact.spring_cycle`), marched as any run. The pair is pair_19_48.toml of this folder, J1 : J2 = 1 : 19, with another
+bearing in every direction and another stiffness of either shaft.
 
-Exudyn 1.13.6 gave the seven natural frequencies, 215.3 to 4818.5 Hz, the same within 3e-15 of each, and the response to a step of the couple, both
-by average acceleration at 2 us, the same within 4e-8 of its swing over 10 ms.
+Exudyn 1.13.6 gave the seven natural frequencies, 215.3 to 4818.5 Hz, the same within 3e-15 of each, and the response to
+a step of the couple, both by average acceleration at 2 us, the same within 4e-8 of its swing over 10 ms.
 """
 
 from __future__ import annotations
@@ -47,7 +49,9 @@ def scene():
     supports = {gear: Support(stiffness_x=x, stiffness_y=y) for gear, (x, y) in BEARINGS.items()}
     shafts = Shafts(**{name: Shaft(stiffness) for name, stiffness in SHAFTS.items()})
     read = load_scene(SCENE)
-    return replace(read, damping=None, bearings=Bearings(**supports), shafts=shafts, load=replace(read.load, wheel_torque=COUPLE))
+    return replace(
+        read, damping=None, bearings=Bearings(**supports), shafts=shafts, load=replace(read.load, wheel_torque=COUPLE)
+    )
 
 
 def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
@@ -65,14 +69,18 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
     marcher = Marcher(cycle, EquationsOfMotion(shafts, STEP, loads=(lambda step: added * (step > 0),)))
     start = marcher.start()
     # At rest where the first couple holds it, accelerated by what is added, as Exudyn starts.
-    still = replace(start, state=replace(start.state, velocity=0.0 * added, acceleration=np.linalg.solve(shafts.mass, added)))
+    still = replace(
+        start, state=replace(start.state, velocity=0.0 * added, acceleration=np.linalg.solve(shafts.mass, added))
+    )
     marcher.start = lambda: still
     records = marcher.run(STEPS - 1, STEPS).records
     states = np.array([record.state.position for record in records])
     rotations = np.array([shafts.value(states, name) for name in ("rotation_1", "rotation_2")])
     given = {
-        "base_radii": [pair.pinion.base_radius, pair.wheel.base_radius], "line_length": pair.line_of_action_length, "mesh": MESH,
-        "mass": [each.mass for each in lumped.values()], "inertia": [each.moment_of_inertia for each in lumped.values()],
+        "base_radii": [pair.pinion.base_radius, pair.wheel.base_radius], "line_length": pair.line_of_action_length,
+        "mesh": MESH,
+        "mass": [each.mass for each in lumped.values()],
+        "inertia": [each.moment_of_inertia for each in lumped.values()],
         "load": of.inertia.shaft_end, "bearing": list(BEARINGS.values()), "shaft": list(SHAFTS.values()),
         "couple": COUPLE, "couple_after": COUPLE_AFTER, "step": STEP, "steps": STEPS - 1,
     }  # fmt: skip
@@ -81,10 +89,16 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
 
 def main() -> None:
     """Print both side by side."""
-    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.against_exudyn", description=__doc__.splitlines()[0])
-    parser.add_argument("python", nargs="?", default=sys.executable, help="a Python that has Exudyn (default: this one)")
+    parser = argparse.ArgumentParser(
+        prog="python -m tests.benchmarks.against_exudyn", description=__doc__.splitlines()[0]
+    )
+    parser.add_argument(
+        "python", nargs="?", default=sys.executable, help="a Python that has Exudyn (default: this one)"
+    )
     frequencies, rotations, given = by_this_program()
-    done = subprocess.run([parser.parse_args().python, HERE / "exudyn_pair.py"], input=json.dumps(given), capture_output=True, text=True)
+    done = subprocess.run(
+        [parser.parse_args().python, HERE / "exudyn_pair.py"], input=json.dumps(given), capture_output=True, text=True
+    )
     if done.returncode:
         sys.exit(f"Exudyn failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}")
     found = json.loads(done.stdout[done.stdout.index('{"version"') :])
@@ -93,7 +107,10 @@ def main() -> None:
         print(f"{number:<6} {own:<18.6f} {other:<15.6f} {own / other - 1.0:.1e}")
     for name, own, other in zip(("pinion", "wheel"), rotations, np.array(found["rotations"])):
         own, other = own[: len(other)], other[: len(own)]
-        print(f"{name}: rotation swings by {np.ptp(own):.6e} and {np.ptp(other):.6e} rad; largest difference {np.abs(own - other).max() / np.ptp(other):.1e} of that")
+        print(
+            f"{name}: rotation swings by {np.ptp(own):.6e} and {np.ptp(other):.6e} rad; largest difference"
+            f" {np.abs(own - other).max() / np.ptp(other):.1e} of that"
+        )
 
 
 if __name__ == "__main__":

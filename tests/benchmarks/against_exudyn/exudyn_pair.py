@@ -1,10 +1,12 @@
-"""A gear pair as Exudyn has it: rigid bodies, point masses and springs; run by a Python that has Exudyn, without this program.
+"""A gear pair as Exudyn has it: rigid bodies, point masses and springs; run by a Python that has Exudyn, without this
+program.
 
-Reads a JSON object from standard input and writes natural frequencies (Hz) and a response to standard output. N, mm, s, rad.
+Reads a JSON object from standard input and writes natural frequencies (Hz) and a response to standard output. N, mm, s,
+rad.
 
-Two rigid bodies turn and move in the plane, the pinion about (0, 0), the wheel about (L, -(rb1 + rb2)). The mesh is a spring between the points
-of both where the line of action touches their base circles, so that Exudyn's own kinematics makes rb phi of it; bearings and shafts are
-springs on single coordinates, and the load a rotor on the output shaft.
+Two rigid bodies turn and move in the plane, the pinion about (0, 0), the wheel about (L, -(rb1 + rb2)). The mesh is a
+spring between the points of both where the line of action touches their base circles, so that Exudyn's own kinematics
+makes rb phi of it; bearings and shafts are springs on single coordinates, and the load a rotor on the output shaft.
 """
 
 import json
@@ -38,7 +40,9 @@ def assembled(given):
     nodes, marks = [], []
     for number in range(2):
         node = system.AddNode(NodeRigidBody2D(referenceCoordinates=[*places[number], 0.0]))
-        body = system.AddObject(ObjectRigidBody2D(mass=given["mass"][number], inertia=given["inertia"][number], nodeNumber=node))
+        body = system.AddObject(
+            ObjectRigidBody2D(mass=given["mass"][number], inertia=given["inertia"][number], nodeNumber=node)
+        )
         for axis in range(2):
             spring(system, ground, at(system, node, axis), given["bearing"][number][axis])
         nodes.append(node)
@@ -63,7 +67,8 @@ def spring(system, first, second, stiffness):
 
 
 def main():
-    """Frequencies about the unloaded position; static equilibrium, then the response of both gears' rotations to the added couple."""
+    """Frequencies about the unloaded position; static equilibrium, then the response of both gears' rotations to the
+    added couple."""
     given = json.load(sys.stdin)
     container, system, *_ = assembled({**given, "couple": 0.0})
     system.Assemble()
@@ -71,21 +76,36 @@ def main():
     frequencies = np.sqrt(np.maximum(np.asarray(frequencies, float), 0.0)) / (2.0 * np.pi)
 
     container, system, nodes, couple = assembled(given)
-    sensors = [system.AddSensor(SensorNode(nodeNumber=node, outputVariableType=exu.OutputVariableType.Coordinates, storeInternal=True)) for node in nodes]
+    sensors = [
+        system.AddSensor(
+            SensorNode(nodeNumber=node, outputVariableType=exu.OutputVariableType.Coordinates, storeInternal=True)
+        )
+        for node in nodes
+    ]
     system.Assemble()
     settings = exu.SimulationSettings()
     settings.solutionSettings.writeSolutionToFile = False
     settings.staticSolver.newton.relativeTolerance = 1e-10
     system.SolveStatic(settings, updateInitialValues=True)
     system.SetLoadParameter(couple, "load", given["couple"] + given["couple_after"])
-    settings.timeIntegration.numberOfSteps, settings.timeIntegration.endTime = given["steps"], given["steps"] * given["step"]
+    settings.timeIntegration.numberOfSteps, settings.timeIntegration.endTime = (
+        given["steps"],
+        given["steps"] * given["step"],
+    )
     settings.timeIntegration.generalizedAlpha.spectralRadius = 1.0
     settings.timeIntegration.generalizedAlpha.useNewmark = True
     settings.timeIntegration.newton.relativeTolerance = 1e-10
     settings.solutionSettings.sensorsWritePeriod = given["step"]
     system.SolveDynamic(settings)
     stored = [system.GetSensorStoredData(sensor)[:, 3] for sensor in sensors]
-    json.dump({"version": exu.GetVersionString(), "frequencies": sorted(frequencies), "rotations": [list(each) for each in stored]}, sys.stdout)
+    json.dump(
+        {
+            "version": exu.GetVersionString(),
+            "frequencies": sorted(frequencies),
+            "rotations": [list(each) for each in stored],
+        },
+        sys.stdout,
+    )
 
 
 if __name__ == "__main__":

@@ -1,9 +1,12 @@
-"""A gear pair in space as Exudyn has it: rigid bodies on bearings along their shafts; run by a Python that has Exudyn, without this program.
+"""A gear pair in space as Exudyn has it: rigid bodies on bearings along their shafts; run by a Python that has Exudyn,
+without this program.
 
-Reads a JSON object from standard input and writes natural frequencies (Hz), and static displacements under a torque, to standard output. N, mm, s, rad.
+Reads a JSON object from standard input and writes natural frequencies (Hz), and static displacements under a torque, to
+standard output. N, mm, s, rad.
 
-Two rigid bodies move about their mid-widths; each bearing is a spring in x and y between a point of the body's axis and the ground, the mesh two springs
-along the contact normal between points of both bodies. All that tilts and couples is Exudyn's own kinematics.
+Two rigid bodies move about their mid-widths; each bearing is a spring in x and y between a point of the body's axis and
+the ground, the mesh two springs along the contact normal between points of both bodies. All that tilts and couples is
+Exudyn's own kinematics.
 """
 
 import json
@@ -44,14 +47,25 @@ def assembled(given):
         inertia = [given["tilting_inertia"][number]] * 2 + [given["inertia"][number], 0.0, 0.0, 0.0]
         body = system.AddObject(ObjectRigidBody(mass=given["mass"][number], inertia=inertia, nodeNumber=node))
         for place in given["places"][number]:
-            spring_in_space(system, base, body, centre, place, [*(0.5 * stiffness for stiffness in given["bearing"][number]), 0.0])
+            spring_in_space(
+                system, base, body, centre, place, [*(0.5 * stiffness for stiffness in given["bearing"][number]), 0.0]
+            )
         spring_in_space(system, base, body, centre, 0.0, [0.0, 0.0, given["axial"][number]])
         nodes.append(node)
         bodies.append(body)
     normal = np.array(given["normal"])
     for point in np.array(given["contact"]):
-        ends = [system.AddMarker(MarkerBodyPosition(bodyNumber=bodies[i], localPosition=list(point - given["centre"][i] + side * HALF * normal))) for i, side in ((0, -1.0), (1, 1.0))]
-        system.AddObject(SpringDamper(markerNumbers=ends, stiffness=0.5 * given["mesh"], damping=0.0, referenceLength=2.0 * HALF))
+        ends = [
+            system.AddMarker(
+                MarkerBodyPosition(
+                    bodyNumber=bodies[i], localPosition=list(point - given["centre"][i] + side * HALF * normal)
+                )
+            )
+            for i, side in ((0, -1.0), (1, 1.0))
+        ]
+        system.AddObject(
+            SpringDamper(markerNumbers=ends, stiffness=0.5 * given["mesh"], damping=0.0, referenceLength=2.0 * HALF)
+        )
     spring(system, fixed, at(system, nodes[0], TURN), given["shaft"][0])
     rotor = system.AddNode(Node1D(referenceCoordinates=[0.0]))
     system.AddObject(Mass1D(mass=given["load"], nodeNumber=rotor))
@@ -77,7 +91,8 @@ def spring(system, first, second, stiffness):
 
 
 def main():
-    """Frequencies about the unloaded position; displacements of both gears, x, y, z and about x, y, z, under the torque."""
+    """Frequencies about the unloaded position; displacements of both gears, x, y, z and about x, y, z, under the
+    torque."""
     given = json.load(sys.stdin)
     container, system, *_ = assembled(given)
     system.Assemble()

@@ -1,13 +1,16 @@
-"""Natural frequencies and static displacements of a helical pair whose gears tilt and move axially, by this program and by Exudyn, side by side.
+"""Natural frequencies and static displacements of a helical pair whose gears tilt and move axially, by this program and
+by Exudyn, side by side.
 
-    python -m tests.benchmarks.against_exudyn.tilting PYTHON          # PYTHON: one that has Exudyn, see the folder's `__main__`
+    python -m tests.benchmarks.against_exudyn.tilting PYTHON   # PYTHON: one that has Exudyn; see `__main__`
 
-The pair is pair_19_48.toml of this folder with a helix of 20 degrees on its sections as they are, gears that are not opposite each other, bearings at unequal
-distances from mid-width and of another stiffness in every direction. Exudyn has rigid bodies in space, and springs between their points
-(`exudyn_tilting_pair.py`); this program its drivetrain of 13 coordinates with the mesh as its natural frequencies have it.
+The pair is pair_19_48.toml of this folder with a helix of 20 degrees on its sections as they are, gears that are not
+opposite each other, bearings at unequal distances from mid-width and of another stiffness in every direction. Exudyn
+has rigid bodies in space, and springs between their points (`exudyn_tilting_pair.py`); this program its drivetrain of
+13 coordinates with the mesh as its natural frequencies have it.
 
-Exudyn 1.13.6 gave the 13 natural frequencies, 208.2 to 5088.0 Hz, the same within 4e-15 of each, and the twelve static displacements the same within 1.1e-6 of each.
-These differences are Exudyn's large displacements: they fall in proportion to the torque.
+Exudyn 1.13.6 gave the 13 natural frequencies, 208.2 to 5088.0 Hz, the same within 4e-15 of each, and the twelve static
+displacements the same within 1.1e-6 of each. These differences are Exudyn's large displacements: they fall in
+proportion to the torque.
 """
 
 from __future__ import annotations
@@ -34,14 +37,18 @@ HERE = Path(__file__).parent
 TORQUE = 30.0
 PLACES = BearingPlaces((-30.0, 55.0), (-70.0, 25.0))
 AXIAL = {"pinion": 4.0e4, "wheel": 6.0e4}
-MOTIONS = [[f"{name}{gear}" for name in ("centre_x", "centre_y", "axial_", "tilt_x", "tilt_y", "rotation_")] for gear in (1, 2)]
+MOTIONS = [
+    [f"{name}{gear}" for name in ("centre_x", "centre_y", "axial_", "tilt_x", "tilt_y", "rotation_")] for gear in (1, 2)
+]
 
 
 def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
     """Frequencies (13,), Hz; displacements of both gears (2, 6), mm and rad; and what Exudyn is to be given."""
     plane = scene()
     held = {gear: replace(getattr(plane.bearings, gear), axial_stiffness=AXIAL[gear]) for gear in AXIAL}
-    of = replace(plane, bearings=replace(plane.bearings, places=PLACES, **held), load=replace(plane.load, wheel_torque=TORQUE))
+    of = replace(
+        plane, bearings=replace(plane.bearings, places=PLACES, **held), load=replace(plane.load, wheel_torque=TORQUE)
+    )
     pair = replace(gear_pair(of.gears), helix=Helix(radians(20.0)), axial_offsets=(1.5, -2.0))
     shafts, lumped = drivetrain(of, pair), lumped_gears(of, pair)
     normals = shafts.mesh.normals
@@ -49,22 +56,41 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
     moved = np.array([[float(shafts.value(state, name)) for name in names] for names in MOTIONS])
     heights = np.array([-0.5, 0.5]) * pair.face_width / sqrt(3.0)
     given = {
-        "centre": [[0.0, 0.0, pair.gear_middles[0]], [pair.line_of_action_length, -pair.pinion.base_radius - pair.wheel.base_radius, pair.gear_middles[1]]],
-        "normal": [pair.cosine, 0.0, -pair.cosine * pair.slope], "mesh": MESH,
+        "centre": [
+            [0.0, 0.0, pair.gear_middles[0]],
+            [pair.line_of_action_length, -pair.pinion.base_radius - pair.wheel.base_radius, pair.gear_middles[1]],
+        ],
+        "normal": [pair.cosine, 0.0, -pair.cosine * pair.slope],
+        "mesh": MESH,
         "contact": [[pair.pitch_point + pair.slope * height, -pair.pinion.base_radius, height] for height in heights],
-        "mass": [each.mass for each in lumped.values()], "inertia": [each.moment_of_inertia for each in lumped.values()],
-        "tilting_inertia": [each.tilting_inertia for each in lumped.values()], "load": of.inertia.shaft_end, "shaft": list(SHAFTS.values()),
-        "bearing": list(BEARINGS.values()), "axial": list(AXIAL.values()), "places": [PLACES.pinion, PLACES.wheel], "torque": TORQUE,
-    }  # fmt: skip
+        "mass": [each.mass for each in lumped.values()],
+        "inertia": [each.moment_of_inertia for each in lumped.values()],
+        "tilting_inertia": [each.tilting_inertia for each in lumped.values()],
+        "load": of.inertia.shaft_end,
+        "shaft": list(SHAFTS.values()),
+        "bearing": list(BEARINGS.values()),
+        "axial": list(AXIAL.values()),
+        "places": [PLACES.pinion, PLACES.wheel],
+        "torque": TORQUE,
+    }
     return natural_frequencies(shafts, MESH), moved, given
 
 
 def main() -> None:
     """Print both side by side."""
-    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.against_exudyn.tilting", description=__doc__.splitlines()[0])
-    parser.add_argument("python", nargs="?", default=sys.executable, help="a Python that has Exudyn (default: this one)")
+    parser = argparse.ArgumentParser(
+        prog="python -m tests.benchmarks.against_exudyn.tilting", description=__doc__.splitlines()[0]
+    )
+    parser.add_argument(
+        "python", nargs="?", default=sys.executable, help="a Python that has Exudyn (default: this one)"
+    )
     frequencies, moved, given = by_this_program()
-    done = subprocess.run([parser.parse_args().python, HERE / "exudyn_tilting_pair.py"], input=json.dumps(given), capture_output=True, text=True)
+    done = subprocess.run(
+        [parser.parse_args().python, HERE / "exudyn_tilting_pair.py"],
+        input=json.dumps(given),
+        capture_output=True,
+        text=True,
+    )
     if done.returncode:
         sys.exit(f"Exudyn failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}")
     found = json.loads(done.stdout[done.stdout.index('{"version"') :])

@@ -1,10 +1,13 @@
-"""A gear pair as GetFEM has it: two elastic bodies in large-sliding contact; run by a Python that has GetFEM, without this program.
+"""A gear pair as GetFEM has it: two elastic bodies in large-sliding contact; run by a Python that has GetFEM, without
+this program.
 
-Reads a JSON object from standard input and writes, for each position, the wheel's rotation (rad) under the torque, what the torques on both bores
-say of the equilibrium, and seconds, to standard output. N, mm, rad; plane strain, per mm of face width.
+Reads a JSON object from standard input and writes, for each position, the wheel's rotation (rad) under the torque, what
+the torques on both bores say of the equilibrium, and seconds, to standard output. N, mm, rad; plane strain, per mm of
+face width.
 
-The integral large-sliding contact brick with ray tracing (K. Poulios, Y. Renard, "An unconstrained integral approximation of large sliding
-frictional contact between deformable solids", Computers & Structures 153, 2015), without friction: quadratic displacements, linear multipliers.
+The integral large-sliding contact brick with ray tracing (K. Poulios, Y. Renard, "An unconstrained integral
+approximation of large sliding frictional contact between deformable solids", Computers & Structures 153, 2015), without
+friction: quadratic displacements, linear multipliers.
 """
 
 import json
@@ -51,7 +54,8 @@ def near(points, others):
 
 
 def pair(given, position):
-    """The model at a position, and a function that turns the wheel's bore and gives the torques on both bores (N mm per mm)."""
+    """The model at a position, and a function that turns the wheel's bore and gives the torques on both bores (N mm per
+    mm)."""
     young, poisson = given["youngs_modulus"], given["poissons_ratio"]
     lame, shear = young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))
     model = gf.Model("real")
@@ -72,15 +76,22 @@ def pair(given, position):
     multipliers.set_fem(gf.Fem("FEM_PK(2,1)"))
     model.add_filtered_fem_variable("pressure", multipliers, SLAVE)
     contact = model.set("add_integral_large_sliding_contact_brick_raytracing", "augmentation", given["release"])
-    model.set("add_slave_contact_boundary_to_large_sliding_contact_brick", contact, bodies[0][2], SLAVE, "u0", "pressure")
+    model.set(
+        "add_slave_contact_boundary_to_large_sliding_contact_brick", contact, bodies[0][2], SLAVE, "u0", "pressure"
+    )
     model.set("add_master_contact_boundary_to_large_sliding_contact_brick", contact, bodies[1][2], MASTER, "u1")
     stiffness = []
     for mesh, space, quadrature in bodies:
         data = gf.MeshFem(mesh, 1)
         data.set_classical_fem(0)
-        stiffness.append(gf.asm_linear_elasticity(quadrature, space, data, np.full(data.nbdof(), lame), np.full(data.nbdof(), shear)))
+        stiffness.append(
+            gf.asm_linear_elasticity(quadrature, space, data, np.full(data.nbdof(), lame), np.full(data.nbdof(), shear))
+        )
     hubs = [space.basic_dof_on_region(HUB) for _, space, _ in bodies]
-    arms = [space.basic_dof_nodes()[:, ::2] - np.array(centre)[:, None] for (_, space, _), centre in zip(bodies, given["centres"])]
+    arms = [
+        space.basic_dof_nodes()[:, ::2] - np.array(centre)[:, None]
+        for (_, space, _), centre in zip(bodies, given["centres"])
+    ]
 
     def turn(angle):
         cosine, sine = np.cos(angle) - 1.0, np.sin(angle)

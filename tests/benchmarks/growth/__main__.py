@@ -1,8 +1,9 @@
 """How time and memory grow, into docs/growth.md: `python -m tests.benchmarks.growth [axis ...]`.
 
-Runs the points of all axes (`axes.py`, over the face `face_axes.py`), each in a process of its own on one thread; writes tables and exponents
-between the page's markers, pictures and all numbers to docs/pictures/growth.png and growth.csv, over the face growth_face. Axes named on the
-command line alone are run anew, what the CSV has of the others is kept.
+Runs the points of all axes (`axes.py`, over the face `face_axes.py`), each in a process of its own on one thread;
+writes tables and exponents between the page's markers, pictures and all numbers to docs/pictures/growth.png and
+growth.csv, over the face growth_face. Axes named on the command line alone are run anew, what the CSV has of the others
+is kept.
 """
 
 from __future__ import annotations
@@ -33,7 +34,8 @@ GROUPS = {
     "growth_face": (FACE_AXES, "over the face, 20 and 30 teeth at 15 degrees, one thing at a time made larger"),
 }
 COUNTED = (
-    "flank_nodes", "contact_nodes", "teeth", "steps", "cycles", "unknowns", "condensed_unknowns", "most_contact_rows", "newton_iterations", "closed_nodes",
+    "flank_nodes", "contact_nodes", "teeth", "steps", "cycles", "unknowns", "condensed_unknowns", "most_contact_rows",
+    "newton_iterations", "closed_nodes",
     "section_nodes", "layers", "slices", "ranks",
 )  # fmt: skip
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
@@ -47,9 +49,16 @@ def points_of(axis: Axis) -> list[dict[str, float]]:
         call = [sys.executable, "-m", f"tests.benchmarks.growth.{module}", axis.name, str(value)]
         if axis.counted == "ranks":
             call = ["mpirun", "--bind-to", "none", "-n", f"{value:g}", *call]
-        run = subprocess.run(call, cwd=ROOT, env={**os.environ, **ONE_THREAD}, stdout=subprocess.PIPE, text=True, check=True)
+        run = subprocess.run(
+            call, cwd=ROOT, env={**os.environ, **ONE_THREAD}, stdout=subprocess.PIPE, text=True, check=True
+        )
         found.append(json.loads(run.stdout.splitlines()[-1]))
-        print(f"{axis.name} {value:g}: " + ", ".join(f"{name} {found[-1].get(name + '_s', 0.0):.3g} s" for name in sorted(axis.stages)) + f", peak {_peak(found[-1]):.2f} GB", flush=True)
+        print(
+            f"{axis.name} {value:g}: "
+            + ", ".join(f"{name} {found[-1].get(name + '_s', 0.0):.3g} s" for name in sorted(axis.stages))
+            + f", peak {_peak(found[-1]):.2f} GB",
+            flush=True,
+        )
     return found
 
 
@@ -63,23 +72,37 @@ def saved(numbers: Path) -> tuple[dict[str, list[dict[str, float]]], dict[str, s
     with open(numbers, encoding="utf-8", newline="") as file:
         lines = [line for line in csv.DictReader(file) if line["kind"] == "point"]
     for line in lines:
-        known = {name: float(value) for name, value in line.items() if name.endswith(("_s", "_bytes", "_rounds", "_operations")) and value}
-        found.setdefault(line["axis"], []).append(known | {name: float(line[name]) for name in COUNTED if line.get(name)})
+        known = {
+            name: float(value)
+            for name, value in line.items()
+            if name.endswith(("_s", "_bytes", "_rounds", "_operations")) and value
+        }
+        found.setdefault(line["axis"], []).append(
+            known | {name: float(line[name]) for name in COUNTED if line.get(name)}
+        )
     return found, {name: lines[0][name] for name in machine()}
 
 
 def main() -> None:
     """Measure, write numbers, pictures and the page's sections."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("names", nargs="*", help=f"of axes, all unless given: {', '.join(axis.name for axis in AXES + FACE_AXES)}")
-    parser.add_argument("--write-again", action="store_true", help="pictures and page from the saved numbers, without measuring")
+    parser.add_argument(
+        "names", nargs="*", help=f"of axes, all unless given: {', '.join(axis.name for axis in AXES + FACE_AXES)}"
+    )
+    parser.add_argument(
+        "--write-again", action="store_true", help="pictures and page from the saved numbers, without measuring"
+    )
     options = parser.parse_args()
     for group, (axes, what) in GROUPS.items():
-        wanted = [] if options.write_again else [axis for axis in axes if not options.names or axis.name in options.names]
+        wanted = (
+            [] if options.write_again else [axis for axis in axes if not options.names or axis.name in options.names]
+        )
         if not wanted and not options.write_again:
             continue
         numbers = PICTURES / f"{group}.csv"
-        found, before = saved(numbers) if (options.names or options.write_again) and numbers.exists() else ({}, machine())
+        found, before = (
+            saved(numbers) if (options.names or options.write_again) and numbers.exists() else ({}, machine())
+        )
         for axis in wanted:
             found[axis.name] = points_of(axis)
             write_csv(found, before, numbers)

@@ -1,4 +1,5 @@
-"""What MUMPS expects of the factor of a body: its symbolic analysis, on the program's own matrix, without factorising it."""
+"""What MUMPS expects of the factor of a body: its symbolic analysis, on the program's own matrix, without factorising
+it."""
 
 from __future__ import annotations
 
@@ -16,13 +17,17 @@ from fenics_gears.simulation.face_route import gear_body
 
 
 class _Analysed(Exception):
-    """In place of the factors of a sector's halves: operations of both, bytes of one's entries; unknowns of both, size of one's Schur complement."""
+    """In place of the factors of a sector's halves: operations of both, bytes of one's entries; unknowns of both, size
+    of one's Schur complement."""
 
     def __init__(self, matrix, what: str, dofs: np.ndarray):
         super().__init__(what)
         matrix = _petsc_matrix(matrix)
         matrix.setOption(PETSc.Mat.Option.SPD, True)
-        preconditioner, retained = PETSc.PC().create(matrix.comm), PETSc.IS().createGeneral(np.asarray(dofs, dtype=PETSc.IntType), matrix.comm)
+        preconditioner, retained = (
+            PETSc.PC().create(matrix.comm),
+            PETSc.IS().createGeneral(np.asarray(dofs, dtype=PETSc.IntType), matrix.comm),
+        )
         preconditioner.setOperators(matrix)
         preconditioner.setType("cholesky")
         preconditioner.setFactorSolverType("mumps")
@@ -34,7 +39,8 @@ class _Analysed(Exception):
         # Negative: millions (MUMPS users' guide, INFOG(20)).
         entries = factor.getMumpsInfog(20)
         self.found = {
-            "factor_operations": 2.0 * factor.getMumpsRinfog(1), "factor_array_bytes": 8.0 * (entries if entries > 0 else -1e6 * entries),
+            "factor_operations": 2.0 * factor.getMumpsRinfog(1),
+            "factor_array_bytes": 8.0 * (entries if entries > 0 else -1e6 * entries),
             "unknowns": 2 * matrix.size[0], "condensed_half": len(dofs),
         }  # fmt: skip
         preconditioner.destroy()
@@ -47,7 +53,9 @@ def expected_by_mumps(model: Model) -> dict[str, float]:
     try:
         gear_body(model, "wheel", model.touching.reach, None)
     except _Analysed as analysed:
-        return analysed.found | {"condensed_unknowns": expected_size(model.pair.wheel, face_discretisation(model, 1))[1]}
+        return analysed.found | {
+            "condensed_unknowns": expected_size(model.pair.wheel, face_discretisation(model, 1))[1]
+        }
     finally:
         condensed.Factor = usual
     raise RuntimeError("the body was condensed without a factor")

@@ -42,9 +42,12 @@ def of_flank_elements(elements: float) -> Scene:
 
 
 def of_contact_nodes(nodes: float) -> Scene:
-    """So many nodes in a window, the flanks' elements as the program's defaults have them beside them, but not too fine to be held."""
+    """So many nodes in a window, the flanks' elements as the program's defaults have them beside them, but not too fine
+    to be held."""
     spacing = LENGTH / (nodes - 1)
-    return _accuracy(paper(), contact_nodes=int(nodes), flank_element_size=max(spacing / 0.7, FINEST_FLANK), steps_per_mesh_cycle=8)
+    return _accuracy(
+        paper(), contact_nodes=int(nodes), flank_element_size=max(spacing / 0.7, FINEST_FLANK), steps_per_mesh_cycle=8
+    )
 
 
 def of_steps(steps: float) -> Scene:
@@ -60,7 +63,8 @@ def of_cycles(cycles: float) -> Scene:
 
 
 def of_teeth(teeth: float, solid: bool) -> Scene:
-    """A pinion of 20 teeth and a wheel of so many; its rim is three modules thick, or it is solid down to 0.45 of its root radius."""
+    """A pinion of 20 teeth and a wheel of so many; its rim is three modules thick, or it is solid down to 0.45 of its
+    root radius."""
     scene, module = paper(), 4.5
     gears = replace(
         scene.gears, centre_distance=0.5 * module * (20 + teeth) + 0.1,
@@ -78,29 +82,37 @@ def _standard_gear(teeth: int, module: float, solid: bool) -> GearData:
 LINEAR, NONE = "proportional to their number", "does not depend on it"
 AXES = (
     Axis(
-        "flank nodes", "nodes along the pinion's flank (P2, two an element)", logarithmic(8, 800), of_flank_elements, "flank_nodes",
+        "flank nodes", "nodes along the pinion's flank (P2, two an element)", logarithmic(8, 800), of_flank_elements,
+        "flank_nodes",
         {
-            "mesh": Theory(1.0, "element sizes increase with the distance from the flank, so the number of layers is fixed and cells are proportional to n"),
+            "mesh": Theory(1.0, "element sizes increase with the distance from the flank, so the number of layers is "
+            "fixed and cells are proportional to n"),
             "assemble": Theory(1.0, "proportional to the number of cells"),
-            "schur": Theory(2.0, "the n dofs of the flank are retained and the graded strip beside it has short separators, so fronts have n dofs, squared (N^1.5 holds for a square mesh without retained dofs)"),
+            "schur": Theory(2.0, "the n dofs of the flank are retained and the graded strip beside it has short "
+            "separators, so fronts have n dofs, squared (N^1.5 holds for a square mesh without retained dofs)"),
             "ring": Theory(3.0, "dense inverse of the flank's stiffness"),
-            "operators": Theory(2.0, "rows and columns of the flank's compliance at the contact nodes: the number of flank nodes in a fixed window, squared"),
+            "operators": Theory(2.0, "rows and columns of the flank's compliance at the contact nodes: the number of "
+            "flank nodes in a fixed window, squared"),
             "solving": Theory(0.0, NONE),
             "condense arrays": Theory(2.0, "dense matrices of the flank's dofs"),
             "condense peak": Theory(2.0, "a dozen dense matrices of the flank's dofs at once"),
-            "operators arrays": Theory(2.0, "the flank's compliance between every two teeth, stored a second time in the order of its use"),
+            "operators arrays": Theory(2.0, "the flank's compliance between every two teeth, stored a second time in "
+            "the order of its use"),
         },
     ),
     Axis(
-        "contact nodes", "contact nodes of a pair's window, flank elements finer along with them", logarithmic(6, 600), of_contact_nodes, "contact_nodes",
+        "contact nodes", "contact nodes of a pair's window, flank elements finer along with them", logarithmic(6, 600),
+        of_contact_nodes, "contact_nodes",
         {
             "operators": Theory(2.0, "every pair of contact nodes; for large n the rank by pivoted Cholesky, n^3/3"),
-            "solving": Theory(2.0, "products with the rows of all nodes, n^2; for large n the dense system of the closed nodes, n^3"),
+            "solving": Theory(2.0, "products with the rows of all nodes, n^2; for large n the dense system of the "
+            "closed nodes, n^3"),
             "operators arrays": Theory(2.0, "every pair of contact nodes"),
         },
     ),
     Axis(
-        "teeth of a rim", "teeth of the wheel, a rim three modules thick", logarithmic(20, 2000), lambda z: of_teeth(z, False), "teeth",
+        "teeth of a rim", "teeth of the wheel, a rim three modules thick", logarithmic(20, 2000),
+        lambda z: of_teeth(z, False), "teeth",
         {
             "mesh": Theory(0.0, "one sector, whatever the number of teeth"),
             "schur": Theory(0.0, "one sector"),
@@ -112,10 +124,13 @@ AXES = (
         },
     ),
     Axis(
-        "teeth of a solid gear", "teeth of the wheel, solid down to 0.45 of its root radius", logarithmic(20, 2000), lambda z: of_teeth(z, True), "teeth",
+        "teeth of a solid gear", "teeth of the wheel, solid down to 0.45 of its root radius", logarithmic(20, 2000),
+        lambda z: of_teeth(z, True), "teeth",
         {
-            "mesh": Theory(1.0, "a sector becomes a wedge whose length is proportional to z, with elements as wide as the wedge, so cells are proportional to z"),
-            "schur": Theory(2.0, "retained cuts have a number of nodes proportional to z beside a strip: fronts of as many dofs, squared"),
+            "mesh": Theory(1.0, "a sector becomes a wedge whose length is proportional to z, with elements as wide as "
+            "the wedge, so cells are proportional to z"),
+            "schur": Theory(2.0, "retained cuts have a number of nodes proportional to z beside a strip: fronts of as "
+            "many dofs, squared"),
             "ring": Theory(3.0, "log z dense eliminations of a cut, whose nodes are proportional to z"),
             "fourier": Theory(4.0, "a dense inverse of a cut for every other tooth"),
             "operators": Theory(0.0, NONE),
@@ -137,7 +152,8 @@ AXES = (
             "operators": Theory(0.0, "the positions of one mesh cycle are used for all cycles"),
             "solving": Theory(1.0, LINEAR),
             "operators arrays": Theory(0.0, "the positions of one mesh cycle are used for all cycles"),
-            "solving arrays": Theory(0.0, "contact forces are kept for the last cycles only; the curves of the result are not counted here"),
+            "solving arrays": Theory(0.0, "contact forces are kept for the last cycles only; the curves of the result "
+            "are not counted here"),
         },
     ),
 )  # fmt: skip

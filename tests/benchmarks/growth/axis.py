@@ -24,8 +24,10 @@ class Theory:
 class Axis:
     """Something that grows: `values` are asked for, what a point then has is its x (`counted` by the point's run).
 
-    `theory`: of seconds of stages, of bytes of their arrays ("condense arrays"), of the process's peak above its idle ("condense peak") and of operations.
-    `measured`: the "pair" of plane gears, over the face the "body" of the wheel or the "contact" of the pair. `also`: further counts of a point, in words.
+    `theory`: of seconds of stages, of bytes of their arrays ("condense arrays"), of the process's peak above its idle
+        ("condense peak") and of operations.
+    `measured`: the "pair" of plane gears, over the face the "body" of the wheel or the "contact" of the pair. `also`:
+        further counts of a point, in words.
     """
 
     name: str

@@ -1,6 +1,8 @@
-"""One point of an axis over the face, in a process of its own or in one for each rank: `python -m tests.benchmarks.growth.face_point "layers" 8`.
+"""One point of an axis over the face, in a process of its own or in one for each rank: `python -m
+tests.benchmarks.growth.face_point "layers" 8`.
 
-As `point`; the processor's seconds of a rank count while it waits for another. Numbers are those of rank 0, which alone holds the finished body.
+As `point`; the processor's seconds of a rank count while it waits for another. Numbers are those of rank 0, which alone
+holds the finished body.
 """
 
 from __future__ import annotations
@@ -36,7 +38,8 @@ class FacePoint(Point):
     """The stages of the wheel's body, or of contact on bodies from the cache."""
 
     def body(self, job: Job | None = None) -> dict[str, float]:
-        """Seconds of every part of condensing, which is the program's own account, and by the clock; memory; what was counted.
+        """Seconds of every part of condensing, which is the program's own account, and by the clock; memory; what was
+        counted.
 
         Of a body that is too large to be condensed here, and of any on one rank, what MUMPS expects.
         """
@@ -46,7 +49,8 @@ class FacePoint(Point):
         if job is None:
             self.found |= expected_by_mumps(self.model)
         return self.found | {
-            "teeth": gear.teeth, "layers": face.layers, "section_nodes": self.found["unknowns"] / (3 * (2 * face.layers + 1)),
+            "teeth": gear.teeth, "layers": face.layers,
+            "section_nodes": self.found["unknowns"] / (3 * (2 * face.layers + 1)),
             "ranks": 1 if job is None else job.size,
         }  # fmt: skip
 
@@ -61,7 +65,9 @@ class FacePoint(Point):
                 found[part].append(body.timings[f"time_{part}"])
             return body
 
-        body = self._stage("condense", run, lambda body: array_bytes(body.blocks) + 8 * body.timings["condensed_unknowns"] ** 2)
+        body = self._stage(
+            "condense", run, lambda body: array_bytes(body.blocks) + 8 * body.timings["condensed_unknowns"] ** 2
+        )
         self.found |= {f"{part}_s": statistics.median(seconds) for part, seconds in found.items()}
         self.found |= {name: body.timings[name] for name in ("unknowns", "condensed_unknowns")}
 
@@ -76,10 +82,17 @@ class FacePoint(Point):
                 cycle.position(step)
             return cycle
 
-        cycle = self._stage("operators", operators, lambda cycle: array_bytes(cycle._positions, cycle._pairs, cycle._pairing._bodies))
-        march = self._stage("solving", lambda: self._march(cycle), lambda march: array_bytes([(each.state, each.solution) for each in march.records]))
+        cycle = self._stage(
+            "operators", operators, lambda cycle: array_bytes(cycle._positions, cycle._pairs, cycle._pairing._bodies)
+        )
+        march = self._stage(
+            "solving",
+            lambda: self._march(cycle),
+            lambda march: array_bytes([(each.state, each.solution) for each in march.records]),
+        )
         return self.found | {
-            "slices": self.model.face.slices, "steps": cycle.steps, "contact_nodes": self.model.resolution.contact_grid.nodes,
+            "slices": self.model.face.slices, "steps": cycle.steps,
+            "contact_nodes": self.model.resolution.contact_grid.nodes,
             "most_contact_rows": max(len(cycle.position(step).operator.compliance) for step in range(cycle.steps)),
             "newton_iterations": march.newton_iterations / march.steps,
             "closed_nodes": max(int((record.solution.status != 0).sum()) for record in march.records),

@@ -13,7 +13,8 @@ UPPER_DECADE = 0.1
 
 @dataclass(frozen=True)
 class Exponent:
-    """p of y = C x^p over the upper decade of x; `error`: standard error of p; `points`: how many were fitted; `last`: between the last two."""
+    """p of y = C x^p over the upper decade of x; `error`: standard error of p; `points`: how many were fitted; `last`:
+    between the last two."""
 
     value: float
     error: float
@@ -22,7 +23,8 @@ class Exponent:
 
 
 def exponent(x: Sequence[float], y: Sequence[float]) -> Exponent | None:
-    """Least squares through the logarithms of the upper decade; None with fewer than three points there, or where y is not positive."""
+    """Least squares through the logarithms of the upper decade; None with fewer than three points there, or where y is
+    not positive."""
     x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     if not len(x):
         return None

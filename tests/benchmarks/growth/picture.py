@@ -55,7 +55,9 @@ def _times(panel: Axes, axis: Axis, points: Points) -> None:
         if stage not in axis.theory:
             continue
         fit, theory, line = fits[stage], axis.theory[stage].exponent, known(axis, points, column(stage))
-        label = f"{WORDS[stage]}: {_rounded(local_slopes(*line)[-1] if fit is None else fit.value)}, theory {theory:.2g}"
+        label = (
+            f"{WORDS[stage]}: {_rounded(local_slopes(*line)[-1] if fit is None else fit.value)}, theory {theory:.2g}"
+        )
         panel.plot(*line, "-" + MARKS[stage], color=colour, markersize=5, label=label)
     _logarithmic(panel)
     panel.set_title(axis.words if len(axis.words) < 52 else axis.words.replace(", ", ",\n", 1))
@@ -72,13 +74,22 @@ def _rounded(value: float) -> str:
 
 
 def _memory(panel: Axes, axis: Axis, points: Points) -> None:
-    peaks = [max((value for name, value in point.items() if name.endswith("_peak_bytes")), default=nan) for point in points]
+    peaks = [
+        max((value for name, value in point.items() if name.endswith("_peak_bytes")), default=nan) for point in points
+    ]
     panel.plot([point[axis.counted] for point in points], [each / MEBI for each in peaks], "-", color=GREY, label=IDLE)
     for stage, colour in (("condense", PALETTE[2]), ("operators", PALETTE[4]), ("solving", PALETTE[5])):
         at, held = known(axis, points, f"{stage}_array_bytes")
         if not at:
             continue
-        panel.plot(at, [each / MEBI for each in held], "-" + {"condense": "^", "operators": "v", "solving": "p"}[stage], color=colour, markersize=4, label=f"arrays of {stage.replace('condense', 'condensing')}")
+        panel.plot(
+            at,
+            [each / MEBI for each in held],
+            "-" + {"condense": "^", "operators": "v", "solving": "p"}[stage],
+            color=colour,
+            markersize=4,
+            label=f"arrays of {stage.replace('condense', 'condensing')}",
+        )
     _logarithmic(panel)
     panel.set_ylabel("Memory (MiB)")
     panel.set_xlabel(axis.name[0].upper() + axis.name[1:])

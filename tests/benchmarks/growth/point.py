@@ -1,7 +1,8 @@
-"""One point of an axis, in a process of its own: `python -m tests.benchmarks.growth.point "flank nodes" 100` prints its numbers as JSON.
+"""One point of an axis, in a process of its own: `python -m tests.benchmarks.growth.point "flank nodes" 100` prints its
+numbers as JSON.
 
-A stage that theory says something about is run until it has been run five times, or has taken long enough; medians count. Seconds are the
-processor's, which on one thread are those of an idle machine, whatever else this one does.
+A stage that theory says something about is run until it has been run five times, or has taken long enough; medians
+count. Seconds are the processor's, which on one thread are those of an idle machine, whatever else this one does.
 """
 
 from __future__ import annotations
@@ -34,7 +35,8 @@ GEARS = ("pinion", "wheel")
 
 
 class Point:
-    """The stages of one scene, measured; `repeated`: those that are timed more than once; `compares_rings`: by both routes."""
+    """The stages of one scene, measured; `repeated`: those that are timed more than once; `compares_rings`: by both
+    routes."""
 
     def __init__(self, model: Model, repeated: set[str], compares_rings: bool = False):
         self.model, self.repeated, self.compares_rings = model, repeated, compares_rings
@@ -48,7 +50,11 @@ class Point:
         if self.compares_rings:
             self._transformed(compliances)
         cycle = self._stage("operators", lambda: self._operators(compliances), _bytes_of_cycle)
-        march = self._stage("solving", lambda: self._march(cycle), lambda march: array_bytes([(each.state, each.solution) for each in march.records]))
+        march = self._stage(
+            "solving",
+            lambda: self._march(cycle),
+            lambda march: array_bytes([(each.state, each.solution) for each in march.records]),
+        )
         grid, teeth = self.model.resolution.contact_grid, self.model.pair.wheel.teeth
         return self.found | {
             "flank_nodes": compliances[0].nodes, "contact_nodes": grid.nodes, "teeth": teeth, "steps": cycle.steps,
@@ -77,7 +83,11 @@ class Point:
 
     def _memory(self, name: str, held: int) -> None:
         most = peak()
-        self.found |= {f"{name}_peak_bytes": most, f"{name}_above_idle_bytes": max(most - self.found["idle_bytes"], 0), f"{name}_array_bytes": held}
+        self.found |= {
+            f"{name}_peak_bytes": most,
+            f"{name}_above_idle_bytes": max(most - self.found["idle_bytes"], 0),
+            f"{name}_array_bytes": held,
+        }
 
     def _mesh(self):
         scene, resolution = self.model.scene, self.model.resolution
@@ -85,11 +95,16 @@ class Point:
         meshes = []
         for gear in (getattr(self.model.pair, name) for name in GEARS):
             sizes = element_sizes(gear, element, resolution.flank_element_size, resolution.body_element_size)
-            meshes.append(sector_mesh(gear.of_module_one, replace(sizes, both_flanks=scene.coast_flanks is not None).in_modules_of(gear)))
+            meshes.append(
+                sector_mesh(
+                    gear.of_module_one, replace(sizes, both_flanks=scene.coast_flanks is not None).in_modules_of(gear)
+                )
+            )
         return meshes
 
     def _condense(self):
         """Both gears; seconds of assembling, Schur complement and ring are the program's own."""
+
         def held(gears) -> int:
             dense = [8 * gear.timings["condensed_unknowns"] ** 2 for gear in gears]
             return array_bytes([gear.blocks for gear in gears]) + max(dense)
@@ -115,7 +130,9 @@ class Point:
             return
         chosen, ring.chain_is_quicker = ring.chain_is_quicker, lambda teeth, reach: False
         try:
-            self.found["fourier_s"] = sum(_seconds(gear, "ring") for gear in gear_compliances(self.model, SilentProgress(), None))
+            self.found["fourier_s"] = sum(
+                _seconds(gear, "ring") for gear in gear_compliances(self.model, SilentProgress(), None)
+            )
         finally:
             ring.chain_is_quicker = chosen
 
@@ -140,7 +157,9 @@ def warmed_up() -> None:
     """Every library loaded and every kernel and form compiled, so that neither counts."""
     compile_kernels(tangential=True)
     small = paper()
-    small = replace(small, accuracy=replace(small.accuracy, flank_element_size=0.5, contact_nodes=9, steps_per_mesh_cycle=4))
+    small = replace(
+        small, accuracy=replace(small.accuracy, flank_element_size=0.5, contact_nodes=9, steps_per_mesh_cycle=4)
+    )
     Point(model_of(small), set()).measured()
 
 

@@ -13,8 +13,10 @@ from tests.benchmarks.growth.fit import Exponent, exponent, local_slopes
 Points = Sequence[Mapping[str, float]]
 STAGES = ("mesh", "assemble", "schur", "ring", "fourier", "clock", "condense", "operators", "solving")
 WORDS = {
-    "mesh": "meshing", "assemble": "condensing: assembling", "schur": "condensing: Schur complement", "ring": "condensing: ring of sectors",
-    "fourier": "instead: ring by Fourier transform", "clock": "condensing by the clock", "factor": "factor, as MUMPS counts",
+    "mesh": "meshing", "assemble": "condensing: assembling", "schur": "condensing: Schur complement",
+    "ring": "condensing: ring of sectors",
+    "fourier": "instead: ring by Fourier transform", "clock": "condensing by the clock",
+    "factor": "factor, as MUMPS counts",
     "condense": "condensing", "operators": "marching: operators", "solving": "marching: solving",
 }  # fmt: skip
 MEBI, ROUNDS = 2.0**20, 5
@@ -23,13 +25,23 @@ MEBI, ROUNDS = 2.0**20, 5
 def column(quantity: str) -> str:
     """The name that a quantity of the theory has in a point."""
     stage, _, what = quantity.partition(" ")
-    return {"": f"{stage}_s", "arrays": f"{stage}_array_bytes", "peak": f"{stage}_above_idle_bytes", "operations": f"{stage}_operations"}[what]
+    return {
+        "": f"{stage}_s",
+        "arrays": f"{stage}_array_bytes",
+        "peak": f"{stage}_above_idle_bytes",
+        "operations": f"{stage}_operations",
+    }[what]
 
 
 def words(quantity: str) -> str:
     """A quantity for people."""
     stage, _, what = quantity.partition(" ")
-    return WORDS[stage] + {"": "", "arrays": ", arrays", "peak": ", peak of the process above its idle", "operations": ", operations"}[what]
+    return (
+        WORDS[stage]
+        + {"": "", "arrays": ", arrays", "peak": ", peak of the process above its idle", "operations": ", operations"}[
+            what
+        ]
+    )
 
 
 def exponents(axis: Axis, points: Points) -> dict[str, Exponent | None]:
@@ -48,10 +60,23 @@ def section(found: Mapping[str, Points], machine: Mapping[str, str], name: str =
     parts = [f"![](pictures/{name}.png)", "", f"All numbers: [{name}.csv](pictures/{name}.csv)."]
     for axis in those_of(found):
         points = found[axis.name]
-        parts += ["", f"## {axis.name[0].upper()}{axis.name[1:]}", "", *_exponent_table(axis, points), "", *_point_table(axis, points)]
-    fewest = min(int(point.get(f"{stage}_rounds", ROUNDS)) for name, points in found.items() for point in points for stage in _timed(name))
+        parts += [
+            "",
+            f"## {axis.name[0].upper()}{axis.name[1:]}",
+            "",
+            *_exponent_table(axis, points),
+            "",
+            *_point_table(axis, points),
+        ]
+    fewest = min(
+        int(point.get(f"{stage}_rounds", ROUNDS))
+        for name, points in found.items()
+        for point in points
+        for stage in _timed(name)
+    )
     parts += ["", (
-        f"Times are processor seconds on one thread: medians of 5 runs, or of at least {fewest} where a stage takes longer than a second. Each point ran in a process "
+        f"Times are processor seconds on one thread: medians of 5 runs, or of at least {fewest} where a stage takes "
+        f"longer than a second. Each point ran in a process "
         f"of its own. {machine['processor']}, load {machine['load']}; {machine['versions']}."
     )]  # fmt: skip
     return "\n".join(parts)
@@ -62,7 +87,10 @@ def _timed(name: str) -> set[str]:
 
 
 def _exponent_table(axis: Axis, points: Points) -> list[str]:
-    lines = ["|what grows|exponent over the upper decade|between the last two points|theory|why|", "|---|---|---|---|---|"]
+    lines = [
+        "|what grows|exponent over the upper decade|between the last two points|theory|why|",
+        "|---|---|---|---|---|",
+    ]
     for quantity, found in exponents(axis, points).items():
         theory = axis.theory[quantity]
         last = local_slopes(*known(axis, points, column(quantity)))[-1]
@@ -73,20 +101,44 @@ def _exponent_table(axis: Axis, points: Points) -> list[str]:
 
 def _point_table(axis: Axis, points: Points) -> list[str]:
     timed = [stage for stage in STAGES if stage in axis.theory]
-    heading = [axis.name, *axis.also.values(), *(f"{WORDS[stage]}, s" for stage in timed), "peak of the process, MiB", "arrays, MiB"]
+    heading = [
+        axis.name,
+        *axis.also.values(),
+        *(f"{WORDS[stage]}, s" for stage in timed),
+        "peak of the process, MiB",
+        "arrays, MiB",
+    ]
     lines = [f"|{'|'.join(heading)}|", "|---" * len(heading) + "|"]
     for point in points:
         peak = max((value for name, value in point.items() if name.endswith("_peak_bytes")), default=None)
         arrays = sum(value for name, value in point.items() if name.endswith("_array_bytes"))
-        cells = [f"{point[axis.counted]:g}", *(f"{point[count]:.0f}" for count in axis.also), *(f"{point[stage + '_s']:.2g}" if f"{stage}_s" in point else "-" for stage in timed)]
-        lines.append(f"|{'|'.join([*cells, '-' if peak is None else str(round(peak / MEBI)), f'{arrays / MEBI:.3g}'])}|")
+        cells = [
+            f"{point[axis.counted]:g}",
+            *(f"{point[count]:.0f}" for count in axis.also),
+            *(f"{point[stage + '_s']:.2g}" if f"{stage}_s" in point else "-" for stage in timed),
+        ]
+        lines.append(
+            f"|{'|'.join([*cells, '-' if peak is None else str(round(peak / MEBI)), f'{arrays / MEBI:.3g}'])}|"
+        )
     return lines
 
 
 def write_csv(found: Mapping[str, Points], machine: Mapping[str, str], file: Path) -> None:
     """A line for each point, with all that was measured, then one for each exponent."""
     measured = dict.fromkeys(name for points in found.values() for point in points for name in point)
-    columns = ["kind", "axis", "quantity", *measured, "exponent", "standard_error", "fitted_points", "last_slope", "theory", "why", *machine]
+    columns = [
+        "kind",
+        "axis",
+        "quantity",
+        *measured,
+        "exponent",
+        "standard_error",
+        "fitted_points",
+        "last_slope",
+        "theory",
+        "why",
+        *machine,
+    ]
     with open(file, "w", encoding="utf-8", newline="") as opened:
         writer = csv.DictWriter(opened, columns, restval="")
         writer.writeheader()
@@ -96,8 +148,10 @@ def write_csv(found: Mapping[str, Points], machine: Mapping[str, str], file: Pat
             for quantity, fit in exponents(axis, found[axis.name]).items():
                 theory = axis.theory[quantity]
                 told = {} if fit is None else {
-                    "exponent": fit.value, "standard_error": fit.error, "fitted_points": fit.points, "last_slope": fit.last,
+                    "exponent": fit.value, "standard_error": fit.error, "fitted_points": fit.points,
+                    "last_slope": fit.last,
                 }  # fmt: skip
                 writer.writerow({
-                    "kind": "exponent", "axis": axis.name, "quantity": quantity, **told, "theory": theory.exponent, "why": theory.why, **machine,
+                    "kind": "exponent", "axis": axis.name, "quantity": quantity, **told, "theory": theory.exponent,
+                    "why": theory.why, **machine,
                 })  # fmt: skip

@@ -1,4 +1,5 @@
-"""Measure and write the sections of docs/third_dimension.md: all of them, or those that are named; `--draw`: from the numbers kept."""
+"""Measure and write the sections of docs/third_dimension.md: all of them, or those that are named; `--draw`: from the
+numbers kept."""
 
 from __future__ import annotations
 
@@ -9,7 +10,18 @@ from pathlib import Path
 from tests.benchmarks.marked_section import write_section
 
 PAGE = Path(__file__).parents[3] / "docs" / "third_dimension.md"
-NAMES = ("plane_limits", "face_widths", "overlap", "misaligned", "crowned", "tooth_stiffness", "stiffness_function", "root_stress", "cited", "resolved")
+NAMES = (
+    "plane_limits",
+    "face_widths",
+    "overlap",
+    "misaligned",
+    "crowned",
+    "tooth_stiffness",
+    "stiffness_function",
+    "root_stress",
+    "cited",
+    "resolved",
+)
 
 
 def main(words: list[str]) -> None:

@@ -1,8 +1,8 @@
 """Crowned spur flanks at the pitch point against Hertz's point contact, over the axis ratio of the ellipse.
 
-Each slice sees its contact in plane strain across the line of contact, and its neighbours through the body. Long ellipses are that; short ones are not. What
-the bodies' shape adds to the approach is proportional to the load as long as the ellipse is small: it cancels in the difference of approach per load of
-two loads on the same flanks.
+Each slice sees its contact in plane strain across the line of contact, and its neighbours through the body. Long
+ellipses are that; short ones are not. What the bodies' shape adds to the approach is proportional to the load as long
+as the ellipse is small: it cancels in the difference of approach per load of two loads on the same flanks.
 """
 
 from __future__ import annotations
@@ -34,7 +34,8 @@ LONG_AXIS, WIDTH, SECTION = 0.5, 1.5, 0.2
 LAYERS, SLICES, RATIOS = 8, 31, (3.0, 5.0, 10.0, 20.0, 40.0)
 # Layers and slices of a coarser body, and of slices that are too narrow for it.
 COARSER, THEIR_RATIO = ((4, 8), (2, 4), (2, 31)), 10.0
-# Flank elements in half the short axis, window in short half-axes, distance of contact nodes in elements, the smaller load.
+# Flank elements in half the short axis, window in short half-axes, distance of contact nodes in elements, the smaller
+# load.
 ELEMENTS, WINDOW, SPACING, SMALLER = 4, 5.0, 0.7, 0.25
 QUANTITIES = ("peak_pressure", "short_axis", "long_axis", "line_load")
 
@@ -60,7 +61,8 @@ class CrownedFlanks:
         self.exact = PointContact(long_axis, long_axis / ratio, radius, plane_contact_modulus(plain))
         size, length = self.exact.short_axis / ELEMENTS, WINDOW * self.exact.short_axis
         accuracy = Accuracy(
-            flank_element_size=size, contact_length=length, contact_nodes=2 * ceil(0.5 * length / (SPACING * size)) + 1, steps_per_mesh_cycle=1,
+            flank_element_size=size, contact_length=length, contact_nodes=2 * ceil(0.5 * length / (SPACING * size)) + 1,
+            steps_per_mesh_cycle=1,
             slices=slices, layers=layers, body_element_size=SECTION * MODULE,
         )  # fmt: skip
         crowning = LeadModification(crowning=gears.face_width**2 / (8.0 * self.exact.radius_along))
@@ -75,7 +77,8 @@ class CrownedFlanks:
         operator, exact = self.operator, self.exact.under(part)
         rotation = np.abs(operator.jacobian[:, [self.cycle._coordinates.index(CENTRE_COORDINATES.index("rotation_2"))]])
         problem = StepProblem(
-            stiffness=np.zeros((1, 1)), load=np.array([exact.load]), compliance=operator.compliance, jacobian=rotation, gap=operator.gap,
+            stiffness=np.zeros((1, 1)), load=np.array([exact.load]), compliance=operator.compliance, jacobian=rotation,
+            gap=operator.gap,
             slip_before=np.empty(0), friction=0.0, free_motion=np.ones(1), tolerance=Tolerance.of_load(exact.load),
         )  # fmt: skip
         solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
@@ -86,27 +89,48 @@ class CrownedFlanks:
         np.add.at(load, [self.operator.pairs[pair].place.slice for pair in self.operator.node_pair], forces)
         # Of a parabola of line loads the second moment is a^2/5, of half an ellipse of pressures b^2/4.
         along = sqrt(5.0 * load @ (face.positions**2 + face.widths**2 / 12.0) / load.sum())
-        middle = next(k for k, pair in enumerate(self.operator.pairs) if pair.place.slice == face.slices // 2 and forces[self.operator.node_pair == k].any())
+        middle = next(
+            k
+            for k, pair in enumerate(self.operator.pairs)
+            if pair.place.slice == face.slices // 2 and forces[self.operator.node_pair == k].any()
+        )
         nodes, own = self.operator.pairs[middle], forces[self.operator.node_pair == middle]
         centre = own @ nodes.offsets / own.sum()
         across = 2.0 * sqrt(own @ (nodes.offsets - centre) ** 2 / own.sum())
         peak = without_oscillation(own / (nodes.lengths * face.widths[face.slices // 2])).max()
         line_load = own.sum() / face.widths[face.slices // 2]
-        found = (peak / exact.peak_pressure, across / exact.short_axis, along / exact.long_axis, line_load / (0.75 * exact.load / exact.long_axis))
+        found = (
+            peak / exact.peak_pressure,
+            across / exact.short_axis,
+            along / exact.long_axis,
+            line_load / (0.75 * exact.load / exact.long_axis),
+        )
         return {name: float(value) - 1.0 for name, value in zip(QUANTITIES, found)}
 
     def errors(self) -> dict[str, float]:
         """Of QUANTITIES under the whole load, and of the approach between it and the smaller one."""
         large, small, exact = self.pressed(1.0), self.pressed(SMALLER), (self.exact, self.exact.under(SMALLER))
         found = small.approach / exact[1].load - large.approach / exact[0].load
-        return large.errors | {"approach": found / (exact[1].approach / exact[1].load - exact[0].approach / exact[0].load) - 1.0}
+        return large.errors | {
+            "approach": found / (exact[1].approach / exact[1].load - exact[0].approach / exact[0].load) - 1.0
+        }
 
 
 def measure() -> list[Row]:
     """The ladders of axis ratios and of layers."""
     rows: list[Row] = []
-    for ratio, layers, slices in [*((ratio, LAYERS, SLICES) for ratio in RATIOS), *((THEIR_RATIO, *coarser) for coarser in COARSER)]:
-        rows.append({"ratio": ratio, "layer": WIDTH / layers / LONG_AXIS, "slices": slices / layers, **CrownedFlanks(ratio, layers, slices).errors()})
+    for ratio, layers, slices in [
+        *((ratio, LAYERS, SLICES) for ratio in RATIOS),
+        *((THEIR_RATIO, *coarser) for coarser in COARSER),
+    ]:
+        rows.append(
+            {
+                "ratio": ratio,
+                "layer": WIDTH / layers / LONG_AXIS,
+                "slices": slices / layers,
+                **CrownedFlanks(ratio, layers, slices).errors(),
+            }
+        )
         write_rows(NAME, rows)
     return rows
 
@@ -114,6 +138,23 @@ def measure() -> list[Row]:
 def section() -> str:
     """Table."""
     names = (*QUANTITIES, "approach")
-    lines = [[f"{row['ratio']:g}", f"{row['layer']:.2g}", f"{row['slices']:.2g}", *(f"{100 * row[name]:+.1f}" for name in names)] for row in read_rows(NAME)]
-    headings = ["axis ratio", "layer in half-lengths", "slices in a layer", "peak pressure, %", "half-width, %", "half-length, %", "line load at the middle, %", "approach, %"]
+    lines = [
+        [
+            f"{row['ratio']:g}",
+            f"{row['layer']:.2g}",
+            f"{row['slices']:.2g}",
+            *(f"{100 * row[name]:+.1f}" for name in names),
+        ]
+        for row in read_rows(NAME)
+    ]
+    headings = [
+        "axis ratio",
+        "layer in half-lengths",
+        "slices in a layer",
+        "peak pressure, %",
+        "half-width, %",
+        "half-length, %",
+        "line load at the middle, %",
+        "approach, %",
+    ]
     return "\n".join(table(headings, lines))

@@ -1,8 +1,10 @@
 """Line load of a misaligned spur pair on stiff shafts, against a uniform foundation and ISO 6336-1, method C.
 
-Foundation: springs of c (N/mm per mm of face and mm of approach) that know nothing of their neighbours. Under the force F over the face width b and a
-misalignment f the largest line load is ``1 + c b f/(2 F)`` times the mean one while the whole face touches, ``2 sqrt(c b f/(2 F))`` times beyond.
-ISO 6336-1, 7.5 (method C) has the same formulas with ``c_gamma_beta = 0.85 c_gamma_alpha`` and the misalignment after running-in.
+Foundation: springs of c (N/mm per mm of face and mm of approach) that know nothing of their neighbours. Under the force
+    F over the face width b and a
+misalignment f the largest line load is ``1 + c b f/(2 F)`` times the mean one while the whole face touches, ``2 sqrt(c
+b f/(2 F))`` times beyond. ISO 6336-1, 7.5 (method C) has the same formulas with ``c_gamma_beta = 0.85 c_gamma_alpha``
+and the misalignment after running-in.
 """
 
 from __future__ import annotations
@@ -34,7 +36,8 @@ def face_load_factor(share: float) -> float:
 
 
 def foundation(z: np.ndarray, width: float, stiffness: float, misalignment: float, mean: float) -> np.ndarray:
-    """Line load (k,), N/mm, of the foundation at places z (k,) from mid-width; stiffness N/mm^2, misalignment mm over the width, opening towards +z."""
+    """Line load (k,), N/mm, of the foundation at places z (k,) from mid-width; stiffness N/mm^2, misalignment mm over
+    the width, opening towards +z."""
     share = 0.5 * stiffness * misalignment / mean
     if share <= 1.0:
         return mean * (1.0 - 2.0 * share * z / width)
@@ -43,7 +46,8 @@ def foundation(z: np.ndarray, width: float, stiffness: float, misalignment: floa
 
 
 def tilting_stiffness(z: np.ndarray, load: np.ndarray, width: float, misalignment: float) -> float:
-    """Stiffness (N/mm^2) of the foundation that has the same moment under a misalignment (mm over the width): c f b^2/12 of line loads (k,) at z (k,)."""
+    """Stiffness (N/mm^2) of the foundation that has the same moment under a misalignment (mm over the width): c f
+    b^2/12 of line loads (k,) at z (k,)."""
     return -12.0 * float(np.mean(load * z)) / (misalignment * width)
 
 
@@ -64,15 +68,21 @@ def measure() -> list[Row]:
         step = single_pair_step(result)
         load = result.line_load.values.sum(axis=1)
         if amount == 0.0:
-            single = [float(result[name][step]) * 1e-3 / gears.face_width for name in ("mesh_stiffness", "mesh_stiffness_tangent")]
+            single = [
+                float(result[name][step]) * 1e-3 / gears.face_width
+                for name in ("mesh_stiffness", "mesh_stiffness_tangent")
+            ]
         peaks = load.max(axis=1) / load.mean(axis=1)
         shares = [0.5 * c * amount / LINE_LOAD for c in (*single, mesh)]
         names = ("secant_foundation", "tangent_foundation", "iso_6336")
         rows.append({
-            "misalignment": amount, "stiffness": single[0], "tangent": single[1], "single_pair": peaks[step], "cycle_mean": peaks[:-1].mean(),
+            "misalignment": amount, "stiffness": single[0], "tangent": single[1], "single_pair": peaks[step],
+            "cycle_mean": peaks[:-1].mean(),
             **dict(zip(names, map(face_load_factor, shares))),
         })  # fmt: skip
-        lines += [{"misalignment": amount, "z": z, "line_load": w} for z, w in zip(result.face_position.values, load[step])]
+        lines += [
+            {"misalignment": amount, "z": z, "line_load": w} for z, w in zip(result.face_position.values, load[step])
+        ]
         write_rows(NAME, rows)
         write_rows(LINES, lines)
     return rows
@@ -90,15 +100,31 @@ def picture(rows: list[Row], lines: list[Row]) -> Figure:
         z = np.array([line["z"] for line in own])
         left.plot(z, [line["line_load"] for line in own], color=colour, label=f"{amount:g} µm")
         fine = np.linspace(-0.5 * width, 0.5 * width, 400)
-        left.plot(fine, foundation(fine, width, 1e3 * stiffness, 1e-3 * amount, LINE_LOAD), "--", color=colour, linewidth=1.2)
-    left.set(xlabel="Place on the face (mm from mid-width)", ylabel="Line load (N/mm)", title="One pair in contact; dashed: uniform foundation")
+        left.plot(
+            fine, foundation(fine, width, 1e3 * stiffness, 1e-3 * amount, LINE_LOAD), "--", color=colour, linewidth=1.2
+        )
+    left.set(
+        xlabel="Place on the face (mm from mid-width)",
+        ylabel="Line load (N/mm)",
+        title="One pair in contact; dashed: uniform foundation",
+    )
     left.legend(title="misalignment")
     left.set_ylim(0.0, None)
     amounts = [row["misalignment"] for row in rows]
     right.plot(amounts, [row["single_pair"] for row in rows], "-o", color=DARK, label="elastic teeth, one pair")
-    right.plot(amounts, [row["secant_foundation"] for row in rows], "--", color=PALETTE[0], label="foundation of the same stiffness")
+    right.plot(
+        amounts,
+        [row["secant_foundation"] for row in rows],
+        "--",
+        color=PALETTE[0],
+        label="foundation of the same stiffness",
+    )
     right.plot(amounts, [row["iso_6336"] for row in rows], ":", color=PALETTE[1], label="ISO 6336-1, method C")
-    right.set(xlabel="Misalignment in the plane of action (µm)", ylabel="Largest line load over the mean", title="Face load factor")
+    right.set(
+        xlabel="Misalignment in the plane of action (µm)",
+        ylabel="Largest line load over the mean",
+        title="Face load factor",
+    )
     right.axhline(2.0, color=GREY, linewidth=0.8)
     right.legend()
     return figure
@@ -117,4 +143,6 @@ def section() -> str:
     lines = [[f"{row['misalignment']:g}", *(f"{row[name]:.3f}" for name in names)] for row in rows]
     stiffness = (f"foundation of {1e-3 * c:.1f} N/(mm µm)" for c in (1e3 * rows[0]["stiffness"], tilting))
     headings = ["misalignment, µm", "K_Hβ, one pair", "mean of the mesh cycle", *stiffness, "ISO 6336-1, method C"]
-    return "\n".join([f"![Line load of a misaligned pair](pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)])
+    return "\n".join(
+        [f"![Line load of a misaligned pair](pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)]
+    )

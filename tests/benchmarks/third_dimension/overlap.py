@@ -1,7 +1,8 @@
 """Peak-to-peak transmission error of helical pairs over the overlap ratio: least where it is a whole number.
 
-Where the overlap ratio is whole, the contact lines' length in the mesh is the same at every position. A uniform foundation under each line, stiffer or
-softer along the path as it may be, would give no ripple at all; what is left is what the ends of the face and the entering of corners make.
+Where the overlap ratio is whole, the contact lines' length in the mesh is the same at every position. A uniform
+foundation under each line, stiffer or softer along the path as it may be, would give no ripple at all; what is left is
+what the ends of the face and the entering of corners make.
 """
 
 from __future__ import annotations
@@ -23,11 +24,18 @@ OVERLAPS = (0.2, 0.4, 0.5, 0.6, 0.8, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0, 2.2)
 STEPS, SLICE_WIDTH, LAYER_THICKNESS, SECTION_SIZE = 40, 0.25, 1.5, 0.6
 
 
-def scene(overlap: float, slice_width: float = SLICE_WIDTH, layer_thickness: float = LAYER_THICKNESS, section: float = SECTION_SIZE, steps: int = STEPS):
+def scene(
+    overlap: float,
+    slice_width: float = SLICE_WIDTH,
+    layer_thickness: float = LAYER_THICKNESS,
+    section: float = SECTION_SIZE,
+    steps: int = STEPS,
+):
     """The pair with an overlap ratio; widths of slices, layers and section elements in modules."""
     width = width_of_overlap(overlap, HELIX_ANGLE)
     accuracy = Accuracy(
-        steps_per_mesh_cycle=steps, slices=max(ceil(width / (slice_width * MODULE)), 5), layers=max(ceil(width / (layer_thickness * MODULE)), 3),
+        steps_per_mesh_cycle=steps, slices=max(ceil(width / (slice_width * MODULE)), 5),
+        layers=max(ceil(width / (layer_thickness * MODULE)), 3),
         body_element_size=section * MODULE,
     )  # fmt: skip
     return scene_of(standard_pair(width, HELIX_ANGLE), accuracy)
@@ -35,8 +43,13 @@ def scene(overlap: float, slice_width: float = SLICE_WIDTH, layer_thickness: flo
 
 def of_result(result, base_radius: float) -> Row:
     """Transmission error along the line of action, um."""
-    mean, span = (1e3 * base_radius * result.attrs[name] for name in ("mean_transmission_error", "peak_to_peak_transmission_error"))
-    return {"mean": mean, "peak_to_peak": span} | {f"harmonic_{n}": result.attrs[f"transmission_error_harmonic_{n}"] for n in (1, 2, 3)}
+    mean, span = (
+        1e3 * base_radius * result.attrs[name]
+        for name in ("mean_transmission_error", "peak_to_peak_transmission_error")
+    )
+    return {"mean": mean, "peak_to_peak": span} | {
+        f"harmonic_{n}": result.attrs[f"transmission_error_harmonic_{n}"] for n in (1, 2, 3)
+    }
 
 
 def measure() -> list[Row]:
@@ -67,7 +80,9 @@ def picture(rows: list[Row]) -> Figure:
     axes.set_xlim(-0.04, None)
     axes.set_xlabel(r"Overlap ratio $\varepsilon_\beta$, by the face width")
     axes.set_ylabel("Peak-to-peak transmission error (µm, line of action)")
-    axes.set_title(f"Unmodified pair, helix angle {degrees(HELIX_ANGLE):.0f}°, no friction, the same load per face width")
+    axes.set_title(
+        f"Unmodified pair, helix angle {degrees(HELIX_ANGLE):.0f}°, no friction, the same load per face width"
+    )
     return figure
 
 
@@ -77,6 +92,20 @@ def section() -> str:
     picture(rows).savefig(PICTURES / f"{NAME}.png")
     spur = rows[0]["peak_to_peak"]
     wanted = [row for row in rows if row["overlap"] in (0.0, 0.5, 1.0, 1.5, 2.0)]
-    lines = [[f"{row['overlap']:g}", f"{row['mean']:.2f}", f"{row['peak_to_peak']:.3f}", f"{100 * row['peak_to_peak'] / spur:.1f}"] for row in wanted]
+    lines = [
+        [
+            f"{row['overlap']:g}",
+            f"{row['mean']:.2f}",
+            f"{row['peak_to_peak']:.3f}",
+            f"{100 * row['peak_to_peak'] / spur:.1f}",
+        ]
+        for row in wanted
+    ]
     headings = ["overlap ratio", "mean T_E, µm", "T_EPP, µm", "of the spur pair's, %"]
-    return "\n".join([f"![Transmission error over the overlap ratio](pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)])
+    return "\n".join(
+        [
+            f"![Transmission error over the overlap ratio](pictures/third_dimension/{NAME}.png)",
+            "",
+            *table(headings, lines),
+        ]
+    )

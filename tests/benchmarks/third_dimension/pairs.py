@@ -1,4 +1,5 @@
-"""Pairs of the benchmarks over the face: standard teeth with any helix, in steel, with nothing but teeth and gear bodies to give way."""
+"""Pairs of the benchmarks over the face: standard teeth with any helix, in steel, with nothing but teeth and gear
+bodies to give way."""
 
 from __future__ import annotations
 
@@ -28,7 +29,11 @@ def standard_gear(teeth: int, helix_angle: float, bore: float) -> GearData:
 
 
 def standard_pair(
-    face_width: float, helix_angle: float = 0.0, material: Material = STEEL, bore: float = 0.5, teeth: tuple[int, int] = TEETH
+    face_width: float,
+    helix_angle: float = 0.0,
+    material: Material = STEEL,
+    bore: float = 0.5,
+    teeth: tuple[int, int] = TEETH,
 ) -> GearPairData:
     """20 and 30 teeth unless given, module 3 mm; face_width mm, helix_angle rad."""
     centre_distance = 0.5 * sum(teeth) * MODULE / cos(helix_angle)
@@ -37,7 +42,8 @@ def standard_pair(
 
 
 def scene_of(gears: GearPairData, accuracy: Accuracy, line_load: float = LINE_LOAD) -> Scene:
-    """Quasi-static, without friction, on rigid shafts; line_load N/mm: transverse force along the line of action over the face width.
+    """Quasi-static, without friction, on rigid shafts; line_load N/mm: transverse force along the line of action over
+    the face width.
 
     A spur pair goes the three-dimensional way, too: it has a misalignment, of nothing.
     """

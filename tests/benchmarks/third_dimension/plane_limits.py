@@ -1,4 +1,5 @@
-"""A spur pair by the three-dimensional way over its face width: from plane stress to plane strain, both by the plane route."""
+"""A spur pair by the three-dimensional way over its face width: from plane stress to plane strain, both by the plane
+route."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ NAME = "plane_limits"
 WIDTHS = (0.5, 1.0, 2.0, 4.0, 8.0, 15.0, 30.0, 60.0)
 STEPS, SLICES, LAYER_THICKNESS, LAYERS = 40, 15, 0.8, (4, 12)
 NU = STEEL.poissons_ratio
-# The elastic constants with which equations of plane strain are those of plane stress (Timoshenko and Goodier, Theory of Elasticity, 1970, section 20).
+# The elastic constants with which equations of plane strain are those of plane stress (Timoshenko and Goodier, Theory
+# of Elasticity, 1970, section 20).
 PLANE_STRESS = Material(STEEL.youngs_modulus * (1.0 + 2.0 * NU) / (1.0 + NU) ** 2, NU / (1.0 + NU))
 
 
@@ -26,7 +28,10 @@ def of_scene(scene) -> Row:
     """Mean transmission error, um along the line of action, and mean mesh stiffness, N/(mm um)."""
     result = simulate(scene)
     stiffness = float(result.mesh_stiffness[:-1].mean()) * 1e-3 / scene.gears.face_width
-    return {"mean": 1e3 * result.attrs["base_radius_wheel"] * result.attrs["mean_transmission_error"], "stiffness": stiffness}
+    return {
+        "mean": 1e3 * result.attrs["base_radius_wheel"] * result.attrs["mean_transmission_error"],
+        "stiffness": stiffness,
+    }
 
 
 def scene(width: float):
@@ -38,7 +43,9 @@ def scene(width: float):
 def measure() -> list[Row]:
     """Plane stress (width 0), the widths, and plane strain (width infinite)."""
     flat = Accuracy(steps_per_mesh_cycle=STEPS, flank_element_size=0.0459, contact_length=1.834, contact_nodes=59)
-    stress, strain = (of_scene(in_plane(scene_of(standard_pair(20.0, material=material), flat))) for material in (PLANE_STRESS, STEEL))
+    stress, strain = (
+        of_scene(in_plane(scene_of(standard_pair(20.0, material=material), flat))) for material in (PLANE_STRESS, STEEL)
+    )
     rows = [{"width": 0.0, **stress}]
     for width in WIDTHS:
         rows.append({"width": width, **of_scene(scene(width))})
@@ -75,8 +82,28 @@ def section() -> str:
     names = ["plane stress", *(f"{row['width']:g}" for row in rows[1:-1]), "plane strain"]
     part = lambda row, limit, key: f"{100 * (row[key] / limit[key] - 1):+.2f}"  # noqa: E731
     lines = [
-        [name, f"{row['mean']:.3f}", part(row, stress, "mean"), part(row, strain, "mean"), f"{row['stiffness']:.3f}", part(row, strain, "stiffness")]
+        [
+            name,
+            f"{row['mean']:.3f}",
+            part(row, stress, "mean"),
+            part(row, strain, "mean"),
+            f"{row['stiffness']:.3f}",
+            part(row, strain, "stiffness"),
+        ]
         for name, row in zip(names, rows)
     ]
-    headings = ["b/m", "mean T_E, µm", "off plane stress, %", "off plane strain, %", "mean mesh stiffness, N/(mm µm)", "off plane strain, %"]
-    return "\n".join([f"![Mean transmission error over the face width](pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)])
+    headings = [
+        "b/m",
+        "mean T_E, µm",
+        "off plane stress, %",
+        "off plane strain, %",
+        "mean mesh stiffness, N/(mm µm)",
+        "off plane strain, %",
+    ]
+    return "\n".join(
+        [
+            f"![Mean transmission error over the face width](pictures/third_dimension/{NAME}.png)",
+            "",
+            *table(headings, lines),
+        ]
+    )

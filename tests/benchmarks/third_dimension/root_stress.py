@@ -1,6 +1,7 @@
 """Root stress over the face against ISO 6336-3, method B, at helix angles from 0 to 30 degrees.
 
-sigma_F0 = F_t/(b m_n) Y_F Y_S Y_beta in the edition of 2006; that of 2019 has load sharing, f_epsilon, in its Y_F, and Y_beta/cos(beta)^3.
+sigma_F0 = F_t/(b m_n) Y_F Y_S Y_beta in the edition of 2006; that of 2019 has load sharing, f_epsilon, in its Y_F, and
+Y_beta/cos(beta)^3.
 """
 
 from __future__ import annotations
@@ -28,7 +29,10 @@ def measure() -> list[Row]:
     for degrees in HELIX_ANGLES:
         gears = standard_pair(WIDTH * MODULE, radians(degrees), bore=BORE)
         accuracy = Accuracy(
-            steps_per_mesh_cycle=STEPS, slices=ceil(WIDTH / SLICE_WIDTH), layers=ceil(WIDTH / LAYER_THICKNESS), body_element_size=SECTION_SIZE * MODULE
+            steps_per_mesh_cycle=STEPS,
+            slices=ceil(WIDTH / SLICE_WIDTH),
+            layers=ceil(WIDTH / LAYER_THICKNESS),
+            body_element_size=SECTION_SIZE * MODULE,
         )
         result, pair = simulate(replace(scene_of(gears, accuracy), output=Output(root_stress=True))), gear_pair(gears)
         # Of the tangential force at the reference cylinder.
@@ -38,10 +42,13 @@ def measure() -> list[Row]:
             share = float((result["pair_normal_force"] / result["pair_normal_force"].sum("slot")).max())
             over_face = result["root_stress_over_face"].isel(gear=number).max(("slot", "fillet"))
             rows.append({
-                "helix_angle": degrees, "gear": number, "transverse_contact_ratio": pair.contact_ratio, "overlap_ratio": pair.overlap_ratio,
+                "helix_angle": degrees, "gear": number, "transverse_contact_ratio": pair.contact_ratio,
+                "overlap_ratio": pair.overlap_ratio,
                 "form": form, "correction": correction, "nominal": nominal, "largest_share": share,
-                "helix_factor": helix_angle_factor(pair.overlap_ratio, degrees), "sharing_factor": load_sharing_factor(pair.overlap_ratio, normal_contact_ratio),
-                "largest": float(result["root_stress"].isel(gear=number).max()), "at_30_degrees": float(over_face.max()),
+                "helix_factor": helix_angle_factor(pair.overlap_ratio, degrees),
+                "sharing_factor": load_sharing_factor(pair.overlap_ratio, normal_contact_ratio),
+                "largest": float(result["root_stress"].isel(gear=number).max()),
+                "at_30_degrees": float(over_face.max()),
                 "mean_over_face": float(over_face.mean("face_position").max()),
             })  # fmt: skip
         write_rows(NAME, rows)
@@ -56,12 +63,14 @@ def section() -> str:
         newer = older * row["sharing_factor"] / cos(radians(row["helix_angle"])) ** 3
         share = f"{row['largest_share']:.2f}" if row["gear"] == 0.0 else ""
         lines.append([
-            f"{row['helix_angle']:g}", GEARS[round(row["gear"])], f"{row['form']:.3f}", f"{row['correction']:.3f}", f"{row['helix_factor']:.3f}", f"{row['sharing_factor']:.3f}",
+            f"{row['helix_angle']:g}", GEARS[round(row["gear"])], f"{row['form']:.3f}", f"{row['correction']:.3f}",
+            f"{row['helix_factor']:.3f}", f"{row['sharing_factor']:.3f}",
             *(f"{value:.0f}" for value in (older, newer, row["largest"], row["at_30_degrees"], row["mean_over_face"])),
             *(f"{100.0 * (row['largest'] / value - 1.0):+.0f}" for value in (older, newer)), share,
         ])  # fmt: skip
     headings = [
-        "β, deg", "gear", "Y_F", "Y_S", "Y_β", "f_ε", "ISO 6336-3:2006, MPa", "ISO 6336-3:2019", "largest here", "at the 30 deg tangent", "there, mean over the face",
+        "β, deg", "gear", "Y_F", "Y_S", "Y_β", "f_ε", "ISO 6336-3:2006, MPa", "ISO 6336-3:2019", "largest here",
+        "at the 30 deg tangent", "there, mean over the face",
         "largest off 2006, %", "off 2019, %", "largest share of a pair",
     ]  # fmt: skip
     return "\n".join(table(headings, lines))

@@ -1,8 +1,10 @@
-"""Mesh stiffness over the mesh cycle against the published function of Gu, Velex, Sainsot and Bruyère, at the contact ratios of their Fig. 5.
+"""Mesh stiffness over the mesh cycle against the published function of Gu, Velex, Sainsot and Bruyère, at the contact
+ratios of their Fig. 5.
 
-The function needs the two contact ratios alone: 1.667 and 1.343 give that figure's curve. The pair has these by its helix angle and its face width.
-The function is of the mesh; gear bodies give way with it at all phases alike, the less the larger their bores are. What elastic coupling along the
-face does, a mean of plane slices in parallel shows, which have none.
+The function needs the two contact ratios alone: 1.667 and 1.343 give that figure's curve. The pair has these by its
+helix angle and its face width. The function is of the mesh; gear bodies give way with it at all phases alike, the less
+the larger their bores are. What elastic coupling along the face does, a mean of plane slices in parallel shows, which
+have none.
 """
 
 from __future__ import annotations
@@ -39,35 +41,61 @@ def measure() -> list[Row]:
         pair = gear_pair(gears)
         assert abs(pair.contact_ratio - CONTACT_RATIO) < 1e-3 and abs(pair.overlap_ratio - OVERLAP_RATIO) < 1e-3
         accuracy = Accuracy(
-            steps_per_mesh_cycle=STEPS, slices=ceil(modules / SLICE_WIDTH), layers=ceil(modules / LAYER_THICKNESS), body_element_size=SECTION_SIZE * pairs.MODULE
+            steps_per_mesh_cycle=STEPS,
+            slices=ceil(modules / SLICE_WIDTH),
+            layers=ceil(modules / LAYER_THICKNESS),
+            body_element_size=SECTION_SIZE * pairs.MODULE,
         )
         result = simulate(pairs.scene_of(gears, accuracy))
         found[f"slices_{bore:g}"] = slices_in_parallel(gears)
-        found["phase"], found[f"bore_{bore:g}"] = result["mesh_phase"].values[:STEPS], 1e-3 * result["mesh_stiffness"].values[:STEPS] / width
+        found["phase"], found[f"bore_{bore:g}"] = (
+            result["mesh_phase"].values[:STEPS],
+            1e-3 * result["mesh_stiffness"].values[:STEPS] / width,
+        )
     rows = [dict(zip(found, map(float, values))) for values in zip(*found.values())]
     write_rows(NAME, rows)
     return rows
 
 
 def slices_in_parallel(gears: GearPairData) -> np.ndarray:
-    """Mesh stiffness at STEPS phases, N/(mm um), of plane slices of the transverse section that know nothing of each other: means of the plane
+    """Mesh stiffness at STEPS phases, N/(mm um), of plane slices of the transverse section that know nothing of each
+    other: means of the plane
     route's over the overlap ratio."""
     pair, samples = gear_pair(gears), 4 * STEPS
     flat = [replace(gear, rack_tip_radius=0.2) for gear in (gears.pinion, gears.wheel)]
-    spur = GearPairData(pair.pinion.module, pair.pinion.pressure_angle, gears.centre_distance, gears.face_width, flat[0], flat[1], gears.material)
+    spur = GearPairData(
+        pair.pinion.module,
+        pair.pinion.pressure_angle,
+        gears.centre_distance,
+        gears.face_width,
+        flat[0],
+        flat[1],
+        gears.material,
+    )
     scene = pairs.in_plane(pairs.scene_of(spur, Accuracy(steps_per_mesh_cycle=samples)))
     stiffness = simulate(scene)["mesh_stiffness"].values[:samples]
     integral = np.concatenate([[0.0], np.cumsum(np.tile(stiffness, 3))]) / samples
     places, phases, half = np.arange(len(integral)) / samples, 1.0 + np.arange(STEPS) / STEPS, 0.5 * pair.overlap_ratio
-    return 1e-3 / gears.face_width * (np.interp(phases + half, places, integral) - np.interp(phases - half, places, integral)) / pair.overlap_ratio
+    return (
+        1e-3
+        / gears.face_width
+        * (np.interp(phases + half, places, integral) - np.interp(phases - half, places, integral))
+        / pair.overlap_ratio
+    )
 
 
 def _shares(rows: list[Row]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Phases, and stiffness over its mean: of the formulas, in the order of these phases, and of the program."""
     phases = np.array([row["phase"] for row in rows])
-    shares = {"lines of contact, Velex and Maatar 1996": contact_lines, "mesh stiffness, Gu, Velex et al. 2015": mesh_stiffness}
-    # The formulas count from where a line of contact enters at one end of the face, the program from where it enters in the middle.
-    found = {name: formula(phases + 0.5 * OVERLAP_RATIO, CONTACT_RATIO, OVERLAP_RATIO) for name, formula in shares.items()}
+    shares = {
+        "lines of contact, Velex and Maatar 1996": contact_lines,
+        "mesh stiffness, Gu, Velex et al. 2015": mesh_stiffness,
+    }
+    # The formulas count from where a line of contact enters at one end of the face, the program from where it enters in
+    # the middle.
+    found = {
+        name: formula(phases + 0.5 * OVERLAP_RATIO, CONTACT_RATIO, OVERLAP_RATIO) for name, formula in shares.items()
+    }
     for kind, words in (("slices", "plane slices in parallel"), ("bore", "this program")):
         for bore in BORES:
             values = np.array([row[f"{kind}_{bore:g}"] for row in rows])
@@ -81,7 +109,9 @@ def picture(rows: list[Row]) -> Figure:
     figure = Figure(figsize=(9.0, 4.8), layout="constrained")
     axes = figure.subplots()
     phases, shares = _shares(rows)
-    for (name, values), style, colour in zip(shares.items(), (":", "--", "-.", "-.", "-", "-"), (PALETTE[2], PALETTE[1], DARK, PALETTE[0], DARK, PALETTE[0])):
+    for (name, values), style, colour in zip(
+        shares.items(), (":", "--", "-.", "-.", "-", "-"), (PALETTE[2], PALETTE[1], DARK, PALETTE[0], DARK, PALETTE[0])
+    ):
         axes.plot(phases, values, style, color=colour, label=name)
     axes.set(xlabel="Mesh phase (mesh cycles)", ylabel="Mesh stiffness over its mean", xlim=(0.0, 1.0))
     axes.set_title(f"Contact ratio {CONTACT_RATIO:g}, overlap ratio {OVERLAP_RATIO:g}")
@@ -95,10 +125,22 @@ def section() -> str:
     rows = read_rows(NAME)
     picture(rows).savefig(PICTURES / f"{NAME}.png")
     _, shares = _shares(rows)
-    lines = [["their Fig. 5", *(f"{value:.3f}" for value in PUBLISHED), f"{100.0 * (PUBLISHED[1] - PUBLISHED[0]):.1f}", ""]]
+    lines = [
+        ["their Fig. 5", *(f"{value:.3f}" for value in PUBLISHED), f"{100.0 * (PUBLISHED[1] - PUBLISHED[0]):.1f}", ""]
+    ]
     for name, values in shares.items():
-        column = next((f"{kind}_{bore:g}" for kind, words in (("slices", "plane"), ("bore", "this")) for bore in BORES if name.startswith(words) and f" {bore:g} " in name), None)
+        column = next(
+            (
+                f"{kind}_{bore:g}"
+                for kind, words in (("slices", "plane"), ("bore", "this"))
+                for bore in BORES
+                if name.startswith(words) and f" {bore:g} " in name
+            ),
+            None,
+        )
         mean = "" if column is None else f"{np.mean([row[column] for row in rows]):.2f}"
         lines.append([name, f"{values.min():.3f}", f"{values.max():.3f}", f"{100.0 * np.ptp(values):.1f}", mean])
     headings = ["", "smallest over the mean", "largest", "span, %", "mean, N/(mm µm)"]
-    return "\n".join([f"![Mesh stiffness over the mesh phase](pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)])
+    return "\n".join(
+        [f"![Mesh stiffness over the mesh phase](pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)]
+    )

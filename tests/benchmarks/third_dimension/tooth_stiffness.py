@@ -1,8 +1,8 @@
 """Mesh stiffness of spur and helical pairs against ISO 6336-1, method B.
 
-The standard's c' is 0.8 of its theoretical c'th, for teeth as measured; teeth of finite elements lie between the two. It counts the teeth and the body close
-to them, not the twist of the body down to the bore, which the transmission error contains; the bores are 0.7 of the root diameter here, as in
-tests/simulation/test_iso_6336.py.
+The standard's c' is 0.8 of its theoretical c'th, for teeth as measured; teeth of finite elements lie between the two.
+It counts the teeth and the body close to them, not the twist of the body down to the bore, which the transmission error
+contains; the bores are 0.7 of the root diameter here, as in tests/simulation/test_iso_6336.py.
 """
 
 from __future__ import annotations
@@ -30,15 +30,20 @@ def measure() -> list[Row]:
     for degrees in HELIX_ANGLES:
         gears = standard_pair(WIDTH * MODULE, radians(degrees), bore=BORE)
         accuracy = Accuracy(
-            steps_per_mesh_cycle=20, slices=ceil(WIDTH / SLICE_WIDTH), layers=ceil(WIDTH / LAYER_THICKNESS), body_element_size=SECTION_SIZE * MODULE
+            steps_per_mesh_cycle=20,
+            slices=ceil(WIDTH / SLICE_WIDTH),
+            layers=ceil(WIDTH / LAYER_THICKNESS),
+            body_element_size=SECTION_SIZE * MODULE,
         )
         result, pair = simulate(scene_of(gears, accuracy)), gear_pair(gears)
         theoretical, single = single_stiffness(gears)
         factor = mesh_factor(pair.contact_ratio)
         rows.append({
-            "helix_angle": degrees, "transverse_contact_ratio": pair.contact_ratio, "overlap_ratio": pair.overlap_ratio, "load": LINE_LOAD,
+            "helix_angle": degrees, "transverse_contact_ratio": pair.contact_ratio, "overlap_ratio": pair.overlap_ratio,
+            "load": LINE_LOAD,
             "mesh": result.attrs["mean_mesh_stiffness"], "of_one_pair": result.attrs["mean_mesh_stiffness"] / factor,
-            "standard_single": single, "standard_mesh": single * factor, "theoretical_mesh": theoretical * cos(gears.helix_angle) * factor,
+            "standard_single": single, "standard_mesh": single * factor,
+            "theoretical_mesh": theoretical * cos(gears.helix_angle) * factor,
         })  # fmt: skip
         write_rows(NAME, rows)
     return rows
@@ -54,7 +59,11 @@ def picture(rows: list[Row]) -> Figure:
     axes.plot(angles, theoretical, "--", color=PALETTE[0], label="ISO 6336-1, theoretical (c'th cos β)")
     axes.plot(angles, mesh, "-", color=PALETTE[0], label="ISO 6336-1, adjusted to measurements (c')")
     axes.plot(angles, [row["mesh"] for row in rows], "o", color=DARK, markersize=8, label="this program")
-    axes.set(xlabel="Helix angle (°)", ylabel="Mean mesh stiffness (N/(mm µm))", title="Mesh stiffness $c_\\gamma$ in the transverse plane")
+    axes.set(
+        xlabel="Helix angle (°)",
+        ylabel="Mean mesh stiffness (N/(mm µm))",
+        title="Mesh stiffness $c_\\gamma$ in the transverse plane",
+    )
     axes.set_ylim(0.0, None)
     axes.legend(loc="lower left")
     return figure
@@ -66,12 +75,18 @@ def section() -> str:
     picture(rows).savefig(PICTURES / f"{NAME}.png")
     lines = [
         [
-            f"{row['helix_angle']:g}", f"{row['transverse_contact_ratio']:.3f}", f"{row['overlap_ratio']:.2f}", f"{row['standard_mesh']:.2f}",
-            f"{row['theoretical_mesh']:.2f}", f"{row['mesh']:.2f}", f"{100 * (row['mesh'] / row['standard_mesh'] - 1):+.1f}", f"{row['of_one_pair']:.2f}", f"{row['standard_single']:.2f}",
+            f"{row['helix_angle']:g}", f"{row['transverse_contact_ratio']:.3f}", f"{row['overlap_ratio']:.2f}",
+            f"{row['standard_mesh']:.2f}",
+            f"{row['theoretical_mesh']:.2f}", f"{row['mesh']:.2f}",
+            f"{100 * (row['mesh'] / row['standard_mesh'] - 1):+.1f}", f"{row['of_one_pair']:.2f}",
+            f"{row['standard_single']:.2f}",
         ]
         for row in rows
     ]  # fmt: skip
     headings = [
-        "β, deg", "ε_α", "ε_β", "c_γ by ISO", "with c'th cos β", "c_γ here", "off ISO, %", "c_γ here/(0.75 ε_α + 0.25)", "c' by ISO",
+        "β, deg", "ε_α", "ε_β", "c_γ by ISO", "with c'th cos β", "c_γ here", "off ISO, %", "c_γ here/(0.75 ε_α + 0.25)",
+        "c' by ISO",
     ]  # fmt: skip
-    return "\n".join([f"![Mesh stiffness over the helix angle](pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)])
+    return "\n".join(
+        [f"![Mesh stiffness over the helix angle](pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)]
+    )

@@ -35,7 +35,9 @@ def section():
 
 def swept_points(section_points: np.ndarray, sweep: Sweep) -> np.ndarray:
     """Section's points (n, 2) at all heights as (X, Y, z)."""
-    return np.vstack([np.column_stack([section_points, np.full(len(section_points), height)]) for height in sweep.heights])
+    return np.vstack(
+        [np.column_stack([section_points, np.full(len(section_points), height)]) for height in sweep.heights]
+    )
 
 
 def in_place(points: np.ndarray, twist: float) -> np.ndarray:
@@ -44,7 +46,8 @@ def in_place(points: np.ndarray, twist: float) -> np.ndarray:
 
 
 def in_frame(displacements: np.ndarray, points: np.ndarray, twist: float) -> np.ndarray:
-    """Displacements (k, 3, j) by their components in the section's frame at the height of each point (X, Y, z), as dofs (3 k, j)."""
+    """Displacements (k, 3, j) by their components in the section's frame at the height of each point (X, Y, z), as dofs
+    (3 k, j)."""
     return np.concatenate([rotation(twist * point[2], 3).T @ each for point, each in zip(points, displacements)])
 
 
@@ -55,8 +58,11 @@ def rigid_motions(points: np.ndarray, twist: float) -> np.ndarray:
     return in_frame(np.concatenate([np.broadcast_to(np.eye(3), turning.shape), turning], axis=-1), points, twist)
 
 
-def condense_swept(mesh, sweep: Sweep, poissons_ratio: float, lines: dict[str, np.ndarray], held: np.ndarray | None = None) -> CondensedBody:
-    """Brute force: Schur complement of a swept body, not folded, onto surfaces swept from nodes (k, 2) of the section; nodes (j, 2) are held."""
+def condense_swept(
+    mesh, sweep: Sweep, poissons_ratio: float, lines: dict[str, np.ndarray], held: np.ndarray | None = None
+) -> CondensedBody:
+    """Brute force: Schur complement of a swept body, not folded, onto surfaces swept from nodes (k, 2) of the section;
+    nodes (j, 2) are held."""
     section = SectionForms(mesh, poissons_ratio)
     nodes, heights = section.nodes.points, sweep.heights
     surfaces = {name: swept_nodes(nodes, line, len(heights)) for name, line in lines.items()}
@@ -64,9 +70,15 @@ def condense_swept(mesh, sweep: Sweep, poissons_ratio: float, lines: dict[str, n
     if held is not None:
         free[dofs_of(swept_nodes(nodes, held, 1), 3)] = False
     free = np.tile(free, len(heights))
-    factor = Factor(swept_stiffness(section, sweep)[free][:, free], "a swept body", (np.cumsum(free) - 1)[dofs_of(np.concatenate([*surfaces.values()]), 3)])
+    factor = Factor(
+        swept_stiffness(section, sweep)[free][:, free],
+        "a swept body",
+        (np.cumsum(free) - 1)[dofs_of(np.concatenate([*surfaces.values()]), 3)],
+    )
     try:
-        points = {name: np.column_stack([nodes[at % len(nodes)], heights[at // len(nodes)]]) for name, at in surfaces.items()}
+        points = {
+            name: np.column_stack([nodes[at % len(nodes)], heights[at // len(nodes)]]) for name, at in surfaces.items()
+        }
         return CondensedBody(points, factor.schur(), {})
     finally:
         factor.close()

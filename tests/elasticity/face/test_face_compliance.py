@@ -32,7 +32,9 @@ from fenics_gears.system.memory import MEMORY_VARIABLE
 BOTH = Reach(1, (-1, 1))
 COARSEST = FaceDiscretisation(9.0, 1, 3.0, 0.006)
 # Wider than its mate, so that layers are of two thicknesses.
-TWISTED_PINION = FaceDiscretisation(2.7, 3, 15.0, tan(radians(15.0)) / PINION.reference_radius, overhang=4.0, overhang_layers=1)
+TWISTED_PINION = FaceDiscretisation(
+    2.7, 3, 15.0, tan(radians(15.0)) / PINION.reference_radius, overhang=4.0, overhang_layers=1
+)
 
 
 def difference(first, second):
@@ -60,31 +62,44 @@ def flank_nodes(section_mesh, side):
 
 
 def test_condensed_is_uncondensed(sector):
-    """Brute force, hard case 6 in three dimensions: a twisted sector with free cuts, its sparse stiffness solved by SuperLU for forces on both flanks."""
+    """Brute force, hard case 6 in three dimensions: a twisted sector with free cuts, its sparse stiffness solved by
+    SuperLU for forces on both flanks."""
     whole = mesh(both_flanks=True)
     forms = SectionForms(whole, 0.3)
     nodes, heights = forms.nodes.points, len(TWISTED.heights)
-    free = np.delete(np.arange(3 * heights * len(nodes)), dofs_of(swept_nodes(nodes, whole.edge_nodes("hub", ELEMENT.order), heights), 3))
-    flanks = np.searchsorted(free, dofs_of(np.concatenate([swept_nodes(nodes, flank_nodes(whole, side), heights) for side in ("flank", "coast")]), 3))
+    free = np.delete(
+        np.arange(3 * heights * len(nodes)),
+        dofs_of(swept_nodes(nodes, whole.edge_nodes("hub", ELEMENT.order), heights), 3),
+    )
+    flanks = np.searchsorted(
+        free,
+        dofs_of(
+            np.concatenate([swept_nodes(nodes, flank_nodes(whole, side), heights) for side in ("flank", "coast")]), 3
+        ),
+    )
     loads = sparse.csc_matrix((np.ones(len(flanks)), (flanks, np.arange(len(flanks)))), shape=(len(free), len(flanks)))
     uncondensed = spsolve(swept_stiffness(forms, TWISTED)[free][:, free].tocsc(), loads).toarray()[flanks]
     assert difference(sector.held + sector.to_cuts @ np.linalg.solve(sector.link, sector.to_cuts.T), uncondensed) < 1e-9
 
 
 def test_ring_of_sectors_is_the_whole_gear(sector):
-    """Brute force: the section copied around the gear, swept and condensed as one body; every tooth's frame is turned by its pitches."""
+    """Brute force: the section copied around the gear, swept and condensed as one body; every tooth's frame is turned
+    by its pitches."""
     whole, offsets = whole_gear_mesh(mesh(both_flanks=True), GEAR.teeth), 2
     flanks = {f"flank {tooth}": flank_nodes(whole, f"flank {tooth}") for tooth in range(offsets + 1)}
     body = condense_swept(whole, TWISTED, 0.3, flanks, held=whole.edge_nodes("hub", ELEMENT.order))
     compliance, size = np.linalg.inv(body.stiffness), len(body.dofs("flank 0"))
-    joint = half_turn_response(sector.link, GEAR.teeth, offsets + 1, half_turn_basis(sector.lower, len(TWISTED.heights)))
+    joint = half_turn_response(
+        sector.link, GEAR.teeth, offsets + 1, half_turn_basis(sector.lower, len(TWISTED.heights))
+    )
     for offset, block in enumerate(ring_blocks(sector.held, sector.to_cuts, joint, offsets)[:, :size, :size]):
         frame = np.kron(np.eye(size // 3), rotation(offset * GEAR.angular_pitch, 3))
         assert difference(block, frame.T @ compliance[offset * size : (offset + 1) * size, :size]) < 1e-10
 
 
 def test_conjugate_gradients_are_the_factorisation(monkeypatch):
-    """Brute force: the same body by MUMPS's Schur complement; the memory that a run may take chooses, where it holds the one and not the other."""
+    """Brute force: the same body by MUMPS's Schur complement; the memory that a run may take chooses, where it holds
+    the one and not the other."""
     size = expected_size(PINION, COARSEST)
     between = 0.5 * sum(expected_memory(*size, iterative) for iterative in (False, True))
     factorised = face_compliance(PINION, STEEL, COARSEST, Reach(1))
@@ -109,9 +124,11 @@ def test_rigid_motions_that_multigrid_knows():
 
 
 def test_hands_mirror_each_other():
-    """Exact symmetry: z -> -z turns a right-hand gear into a left-hand one; positions along z are even about mid-width."""
+    """Exact symmetry: z -> -z turns a right-hand gear into a left-hand one; positions along z are even about
+    mid-width."""
     right, left = (
-        face_compliance(PINION, STEEL, replace(TWISTED_PINION, twist=sign * TWISTED_PINION.twist), Reach(1)) for sign in (1.0, -1.0)
+        face_compliance(PINION, STEEL, replace(TWISTED_PINION, twist=sign * TWISTED_PINION.twist), Reach(1))
+        for sign in (1.0, -1.0)
     )
     nodes, heights = len(right.roll_angle), len(right.heights)
     flip = np.kron(np.eye(heights)[::-1], np.kron(np.eye(nodes), np.diag([1.0, 1.0, -1.0])))
@@ -121,7 +138,8 @@ def test_hands_mirror_each_other():
 
 
 def test_either_flank_is_the_other_turned_over(both):
-    """Exact symmetry of a helical gear: half a turn about its centreline at mid-width. Mirrored frames then differ by z -> -z, and ahead is behind."""
+    """Exact symmetry of a helical gear: half a turn about its centreline at mid-width. Mirrored frames then differ by z
+    -> -z, and ahead is behind."""
     nodes, heights = len(both.roll_angle), len(both.heights)
     flip, half = np.kron(np.eye(heights)[::-1], np.kron(np.eye(nodes), np.diag([1.0, 1.0, -1.0]))), 3 * nodes * heights
     flip = np.kron([[0.0, 1.0], [1.0, 0.0]], flip)
@@ -138,7 +156,8 @@ def test_compliance_is_symmetric_and_positive_definite(both):
 
 
 def test_plane_part_is_the_coast_flank_in_the_mirror(both):
-    """Exact symmetry of the plane section about the tooth's centreline: in its mirrored frame the coast flank is a drive flank."""
+    """Exact symmetry of the plane section about the tooth's centreline: in its mirrored frame the coast flank is a
+    drive flank."""
     for offset in (0, 1):
         drive, coast = (both.plane.between(offset, 0, (side, side)) for side in (0, 1))
         assert difference(coast, drive.T) < 1e-12
@@ -156,7 +175,8 @@ def even_load(compliance, component):
 
 @pytest.mark.parametrize(("width", "layers", "limit"), [(0.05, 1, "plane stress"), (270.0, 6, "plane strain")])
 def test_limits_of_a_spur_gear(width, layers, limit):
-    """Theory of elasticity: a thin gear is in plane stress, the plane strain of Poisson's ratio nu/(1 + nu) and modulus E (1 + 2 nu)/(1 + nu)^2."""
+    """Theory of elasticity: a thin gear is in plane stress, the plane strain of Poisson's ratio nu/(1 + nu) and modulus
+    E (1 + 2 nu)/(1 + nu)^2."""
     body = face_compliance(PINION, STEEL, FaceDiscretisation(2.7, layers, width), Reach(0))
     poisson, factor = STEEL.poissons_ratio, 1.0
     expected = body.plane.blocks[0]
@@ -173,8 +193,16 @@ def test_limits_of_a_spur_gear(width, layers, limit):
 
 def test_similar_gears_share_an_entry(both, tmp_path):
     """Exact scaling: of similar gears displacement per force goes with 1/(E m); lengths go with the module."""
-    twice = replace(PINION, **{name: 2.0 * getattr(PINION, name) for name in ("module", "tip_radius", "root_radius", "bore_radius", "rack_tip_radius")})
-    larger = replace(TWISTED_PINION, section_size=2.0 * 2.7, face_width=30.0, twist=0.5 * TWISTED_PINION.twist, overhang=8.0)
+    twice = replace(
+        PINION,
+        **{
+            name: 2.0 * getattr(PINION, name)
+            for name in ("module", "tip_radius", "root_radius", "bore_radius", "rack_tip_radius")
+        },
+    )
+    larger = replace(
+        TWISTED_PINION, section_size=2.0 * 2.7, face_width=30.0, twist=0.5 * TWISTED_PINION.twist, overhang=8.0
+    )
     cache = Cache(tmp_path)
     first = face_compliance(PINION, STEEL, TWISTED_PINION, BOTH, cache)
     second = face_compliance(twice, replace(STEEL, youngs_modulus=2.0 * STEEL.youngs_modulus), larger, BOTH, cache)
@@ -186,7 +214,12 @@ def test_similar_gears_share_an_entry(both, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("change", "message"), [({"section_size": 0.0}, "section_size is 0.0 mm"), ({"layers": 0}, "layers is 0"), ({"twist": 0.2}, "take 9 or more")]
+    ("change", "message"),
+    [
+        ({"section_size": 0.0}, "section_size is 0.0 mm"),
+        ({"layers": 0}, "layers is 0"),
+        ({"twist": 0.2}, "take 9 or more"),
+    ],
 )
 def test_impossible_bodies_are_refused(change, message):
     """What is wrong, and what is allowed."""
@@ -203,7 +236,8 @@ def test_half_a_turn_gives_the_fourier_transform(sector):
 
 
 def test_sector_without_the_symmetry_is_refused(sector):
-    """Half a turn does not map a sector on itself whose coast flank is meshed otherwise than its drive flank, or one of whose cuts is stiffer."""
+    """Half a turn does not map a sector on itself whose coast flank is meshed otherwise than its drive flank, or one of
+    whose cuts is stiffer."""
     with pytest.raises(ComputationError, match="not symmetric"):
         swept_sector(mesh())
     stiffer = sector.link + np.diag(np.arange(len(sector.link)) == 0) * sector.link[0, 0]

@@ -25,7 +25,8 @@ def recovery():
 
 
 def test_flanks_move_as_their_compliance_says(recovery):
-    """Identity: what is recovered at the flanks of the loaded tooth and its neighbours is the condensed compliance times the forces."""
+    """Identity: what is recovered at the flanks of the loaded tooth and its neighbours is the condensed compliance
+    times the forces."""
     compliance = face_compliance(PINION, STEEL, PINION_BODY, Reach(1))
     flank = recovery.body.flank_nodes("flank")
     forces = np.random.default_rng(1).normal(size=(1, len(compliance.heights), len(compliance.roll_angle), 3))
@@ -35,7 +36,8 @@ def test_flanks_move_as_their_compliance_says(recovery):
 
 
 def test_loads_of_several_teeth_superpose(recovery):
-    """Linear: two loaded teeth move and are stressed as by each load alone, also where one has the number of a tooth a whole turn on."""
+    """Linear: two loaded teeth move and are stressed as by each load alone, also where one has the number of a tooth a
+    whole turn on."""
     shape = (1, len(recovery.heights), len(recovery.body.flank_nodes("flank")) // len(recovery.heights), 3)
     one, other = np.random.default_rng(2).normal(size=(2, *shape))
     together = recovery.recovered({0: one, 1 + PINION.teeth: other}, range(2))
@@ -46,10 +48,13 @@ def test_loads_of_several_teeth_superpose(recovery):
 
 
 def test_uniform_strain_has_its_stress():
-    """Exact: a displacement linear in space has one stress at all nodes of a twisted body, Hooke's, turned into each height's frame."""
+    """Exact: a displacement linear in space has one stress at all nodes of a twisted body, Hooke's, turned into each
+    height's frame."""
     points = swept_points(section().nodes.points, TWISTED)
     gradient = np.random.default_rng(3).normal(size=(3, 3))
-    moved = in_frame((in_place(points, TWIST) @ gradient.T)[..., None], points, TWIST).reshape(len(TWISTED.heights), -1, 3)
+    moved = in_frame((in_place(points, TWIST) @ gradient.T)[..., None], points, TWIST).reshape(
+        len(TWISTED.heights), -1, 3
+    )
     strain, shear, lame = 0.5 * (gradient + gradient.T), 0.5 / 1.3, 0.3 / (1.3 * 0.4)
     stress = 2.0 * shear * strain + lame * np.trace(strain) * np.eye(3)
     found = SweptStress(section().nodes, TWISTED, 0.3).at_nodes(moved)

@@ -4,7 +4,17 @@ import numpy as np
 import pytest
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
-from tests.elasticity.face.swept import TWIST, TWISTED, condense_swept, in_frame, in_place, mesh, rigid_motions, section, swept_points
+from tests.elasticity.face.swept import (
+    TWIST,
+    TWISTED,
+    condense_swept,
+    in_frame,
+    in_place,
+    mesh,
+    rigid_motions,
+    section,
+    swept_points,
+)
 
 from fenics_gears.elasticity.condensation import by_radius, condense, dofs_of, without
 from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
@@ -22,14 +32,17 @@ def test_patch_test(twist):
     sweep, nodes = Sweep(np.linspace(-1.5, 1.5, 4), twist), section().nodes
     points = swept_points(nodes.points, sweep)
     gradient = np.random.default_rng(1).normal(size=(3, 3))
-    forces = swept_stiffness(section(), sweep) @ in_frame((in_place(points, twist) @ gradient.T)[:, :, None], points, twist)
+    forces = swept_stiffness(section(), sweep) @ in_frame(
+        (in_place(points, twist) @ gradient.T)[:, :, None], points, twist
+    )
     inner = np.setdiff1d(np.arange(len(nodes.points)), nodes.boundary_sides)
     assert abs(forces.reshape(-1, len(nodes.points), 3)[1:-1, inner]).max() < 1e-12 * abs(forces).max()
 
 
 @pytest.mark.parametrize("twist", [0.0, TWIST])
 def test_energy_of_uniform_strain(twist):
-    """Exact: energy density times volume, which a layer's parabolas make smaller by its turn^4 / 480 (integral of abs(w)^2)."""
+    """Exact: energy density times volume, which a layer's parabolas make smaller by its turn^4 / 480 (integral of
+    abs(w)^2)."""
     sweep = Sweep(np.linspace(-1.5, 1.5, 4), twist)
     points = swept_points(section().nodes.points, sweep)
     strain = np.diag([1.0, -0.4, 0.7]) + 0.3 * (np.ones((3, 3)) - np.eye(3))
@@ -45,12 +58,15 @@ def test_left_hand_is_the_mirror_image_of_the_right_hand():
     """Exact symmetry: z -> -z turns a left-hand body into a right-hand one, node for node."""
     right, left = (swept_stiffness(section(), Sweep(TWISTED.boundaries, twist)) for twist in (TWIST, -TWIST))
     heights = len(TWISTED.heights)
-    flip = sparse.kron(np.eye(heights)[::-1], sparse.kron(sparse.eye(len(section().nodes.points)), np.diag([1.0, 1.0, -1.0])))
+    flip = sparse.kron(
+        np.eye(heights)[::-1], sparse.kron(sparse.eye(len(section().nodes.points)), np.diag([1.0, 1.0, -1.0]))
+    )
     assert relative(flip @ left @ flip.T - right, right) < 1e-14
 
 
 def test_body_without_variation_along_the_face_is_the_plane_section():
-    """Exact identity: with u_z held and loads even along z, displacements are those in plane strain of the section's own mesh at any height."""
+    """Exact identity: with u_z held and loads even along z, displacements are those in plane strain of the section's
+    own mesh at any height."""
     sweep, nodes = Sweep(np.array([-1.5, -1.0, 0.2, 1.5])), section().nodes.points
     hub = mesh().edge_nodes("hub", ELEMENT.order)
     flank = by_radius(without(mesh().edge_nodes("flank", ELEMENT.order), hub))
@@ -66,9 +82,13 @@ def test_body_without_variation_along_the_face_is_the_plane_section():
     free[:, 2], free[swept_nodes(nodes, hub, heights)] = False, False
     free = np.flatnonzero(free.ravel())
     loads = np.zeros((3 * heights * len(nodes), 2 * len(flank)))
-    loads[dofs_of(at, 3).reshape(heights, -1, 3)[:, :, :2].reshape(heights, -1)] = share[:, None, None] * np.eye(2 * len(flank))
+    loads[dofs_of(at, 3).reshape(heights, -1, 3)[:, :, :2].reshape(heights, -1)] = share[:, None, None] * np.eye(
+        2 * len(flank)
+    )
     solved = np.zeros_like(loads)
-    solved[free] = spsolve(swept_stiffness(section(), sweep)[free][:, free].tocsc(), sparse.csc_matrix(loads[free])).toarray()
+    solved[free] = spsolve(
+        swept_stiffness(section(), sweep)[free][:, free].tocsc(), sparse.csc_matrix(loads[free])
+    ).toarray()
     for height in solved[dofs_of(at, 3)].reshape(heights, len(flank), 3, -1)[:, :, :2]:
         assert relative(height.reshape(2 * len(flank), -1) - expected, expected) < 1e-8
 

@@ -1,4 +1,5 @@
-"""A gear meshed as a whole and condensed by its teeth: equal to a ring of sectors where it is one, to brute force where it is not."""
+"""A gear meshed as a whole and condensed by its teeth: equal to a ring of sectors where it is one, to brute force where
+it is not."""
 
 import numpy as np
 import pytest
@@ -39,21 +40,27 @@ def test_a_whole_gear_of_equal_teeth_is_a_ring_of_sectors(name):
 
 
 def test_another_mesh_agrees_within_its_discretisation():
-    """Authority: the ring of sectors on a mesh of its own; two P2 meshes with 0.3 mm and 0.2 mm on the flank differ by their errors.
+    """Authority: the ring of sectors on a mesh of its own; two P2 meshes with 0.3 mm and 0.2 mm on the flank differ by
+    their errors.
 
-    The tooth bends alike; under a single node a mesh gives way as much as its elements are small, so that a pressure over the flank's
+    The tooth bends alike; under a single node a mesh gives way as much as its elements are small, so that a pressure
+    over the flank's
     middle is compared. Pinned below what a P2 mesh of this size is known to err by (0.05 %, `gear_compliance`)."""
     sizes = element_sizes(PINION, ELEMENTS["P2"], 0.3)
     body = whole_body(standing_anywhere(cracked_gear_mesh(PINION, sizes, {})), PINION, "gear")
     one = whole_body_compliance(body.mesh, PINION, STEEL, tooth_offsets=1)
     other = flank_compliance(PINION, STEEL, Discretisation("P2", 0.2, 0.9), Reach(1))
     for ahead in (0, 1):
-        here, there = under_pressure(one.rolls_of(0), one.between(ahead, 0)), under_pressure(other.roll_angle, other.block(ahead))
+        here, there = (
+            under_pressure(one.rolls_of(0), one.between(ahead, 0)),
+            under_pressure(other.roll_angle, other.block(ahead)),
+        )
         assert here == pytest.approx(there, rel=1e-3)
 
 
 def under_pressure(rolls: np.ndarray, block: np.ndarray) -> float:
-    """Work of a smooth normal line load over a flank's middle on the displacement of the same part of this or the next flank."""
+    """Work of a smooth normal line load over a flank's middle on the displacement of the same part of this or the next
+    flank."""
     arc = 0.5 * PINION.base_radius * rolls**2
     shape = np.exp(-(((rolls - 0.55) / 0.1) ** 2))
     weight = shape * np.gradient(arc)
@@ -76,7 +83,8 @@ def test_a_cracked_gear_equals_brute_force():
 
 
 def test_parts_may_meet_anywhere_but_between_the_twins_of_a_crack(monkeypatch):
-    """Exact identity: parts that are turned by some of a pitch, so that their interface would cross the crack, give the same compliance."""
+    """Exact identity: parts that are turned by some of a pitch, so that their interface would cross the crack, give the
+    same compliance."""
     mesh = whole_body(cracked_gear_mesh(PINION, COARSE, {8: RootCrack(4.0)}), PINION, "gear").mesh
     expected = whole_body_compliance(mesh, PINION, STEEL, element="P1", tooth_offsets=1)
     centreline = parts.centreline_angle
@@ -106,7 +114,9 @@ def test_parts_share_nothing_but_their_interface():
     assert [len(face) > 10 for face in parts.crack_faces(body.mesh)] == [True, True]
     assert [len(part.faces) > 0 for part in divided.parts] == [tooth == 8 for tooth in range(16)]
     cracks = divided.cracks
-    assert np.array_equal(divided.nodes.points[cracks.one], divided.nodes.points[cracks.other]) and not set(cracks.one) & set(cracks.other)
+    assert np.array_equal(divided.nodes.points[cracks.one], divided.nodes.points[cracks.other]) and not set(
+        cracks.one
+    ) & set(cracks.other)
 
 
 def test_the_cache_knows_a_body_by_its_mesh(tmp_path):
@@ -116,7 +126,11 @@ def test_the_cache_knows_a_body_by_its_mesh(tmp_path):
     first = whole_body_compliance(mesh, PINION, STEEL, **options)
     again = whole_body_compliance(mesh, PINION, STEEL, **options)
     assert again.timings["from_cache"] and not first.timings["from_cache"]
-    assert np.array_equal(first.between(3, 2), again.between(3, 2)) and np.array_equal(first.rolls_of(2), again.rolls_of(2))
+    assert np.array_equal(first.between(3, 2), again.between(3, 2)) and np.array_equal(
+        first.rolls_of(2), again.rolls_of(2)
+    )
     points = mesh.points.copy()
     points[np.argmin(np.abs(np.linalg.norm(points, axis=1) - 25.0))] += 1e-6
-    assert not whole_body_compliance(BodyMesh(points, mesh.cells, mesh.edges), PINION, STEEL, **options).timings["from_cache"]
+    assert not whole_body_compliance(BodyMesh(points, mesh.cells, mesh.edges), PINION, STEEL, **options).timings[
+        "from_cache"
+    ]

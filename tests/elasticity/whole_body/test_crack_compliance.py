@@ -1,9 +1,10 @@
-"""How much softer a crack makes its tooth, from the whole tooth's stress alone: no mesh of a crack, no compliance of a cracked gear.
+"""How much softer a crack makes its tooth, from the whole tooth's stress alone: no mesh of a crack, no compliance of a
+cracked gear.
 
-Superposition (Bueckner): a crack opens under the stress that stood across it before. Each depth's stress intensities come from that stress
-and the weight function of an edge crack in a half-plane (Tada, Paris, Irwin), K = 2/sqrt(pi a) times the integral of
-s(x) (1.3 - 0.3 (x/a)^(5/4))/sqrt(1 - (x/a)^2) dx; Irwin's energy release (K_I^2 + K_II^2)/E' over all depths is half the work that the load
-does more than on the whole tooth.
+Superposition (Bueckner): a crack opens under the stress that stood across it before. Each depth's stress intensities
+come from that stress and the weight function of an edge crack in a half-plane (Tada, Paris, Irwin), K = 2/sqrt(pi a)
+times the integral of s(x) (1.3 - 0.3 (x/a)^(5/4))/sqrt(1 - (x/a)^2) dx; Irwin's energy release (K_I^2 + K_II^2)/E' over
+all depths is half the work that the load does more than on the whole tooth.
 """
 
 from dataclasses import replace
@@ -26,7 +27,8 @@ from meshes.root_crack import RootCrack, crack_line, cracked_gear_mesh
 P2 = ELEMENTS["P2"]
 SIZES = element_sizes(PINION, P2, 0.6, 2.0)
 PLANE_MODULUS = STEEL.youngs_modulus / (1.0 - STEEL.poissons_ratio**2)
-# Roll angles (rad) about which the flank is loaded, from below the pitch point to the highest point of single tooth contact.
+# Roll angles (rad) about which the flank is loaded, from below the pitch point to the highest point of single tooth
+# contact.
 PLACES = (0.3, 0.4, 0.5)
 
 
@@ -38,7 +40,8 @@ def load_about(place: float, rolls: np.ndarray) -> np.ndarray:
 
 @lru_cache
 def work(crack: RootCrack | None) -> np.ndarray:
-    """Work of the loads at PLACES on the displacement of their own tooth, cracked or not, from the whole gear's compliance."""
+    """Work of the loads at PLACES on the displacement of their own tooth, cracked or not, from the whole gear's
+    compliance."""
     mesh = cracked_gear_mesh(PINION, SIZES, {} if crack is None else {0: crack})
     found = whole_body_compliance(whole_body(mesh, PINION, "gear").mesh, PINION, STEEL, tooth_offsets=0)
     loads = [load_about(place, found.rolls_of(0)) for place in PLACES]
@@ -47,7 +50,8 @@ def work(crack: RootCrack | None) -> np.ndarray:
 
 @lru_cache
 def whole_tooth():
-    """Stress components at points of the uncracked tooth under the loads at PLACES, on a mesh of its own: for each three functions."""
+    """Stress components at points of the uncracked tooth under the loads at PLACES, on a mesh of its own: for each
+    three functions."""
     sizes = replace(element_sizes(PINION, P2, 0.4, 0.45), fillet=0.09)
     mesh = sector_mesh(PINION.of_module_one, sizes.in_modules_of(PINION))
     corners = PINION.module * mesh.points[mesh.edge_points("flank")]
@@ -70,7 +74,9 @@ def released(crack: RootCrack, stress) -> float:
         points = mouth + (depth * np.sin(angle) + 1e-4)[:, None] * along
         xx, yy, xy = (np.asarray(component(*points.T)) for component in stress)
         opening = xx * across[0] ** 2 + yy * across[1] ** 2 + 2.0 * xy * across[0] * across[1]
-        sliding = xx * across[0] * along[0] + yy * across[1] * along[1] + xy * (across[0] * along[1] + across[1] * along[0])
+        sliding = (
+            xx * across[0] * along[0] + yy * across[1] * along[1] + xy * (across[0] * along[1] + across[1] * along[0])
+        )
         kernel = 0.25 * np.pi * weights * 2.0 * np.sqrt(depth / np.pi) * (1.3 - 0.3 * np.sin(angle) ** 1.25)
         return np.array([kernel @ opening, kernel @ sliding])
 
@@ -81,7 +87,8 @@ def released(crack: RootCrack, stress) -> float:
 
 @pytest.mark.parametrize("angle", [45.0, 90.0])
 def test_a_crack_softens_its_tooth_as_its_stress_intensities_say(angle):
-    """Authority: above; measured +4 to +9 %: the weight function is that of a half-plane, not of a fillet (+12 % at half this depth, whose
+    """Authority: above; measured +4 to +9 %: the weight function is that of a half-plane, not of a fillet (+12 % at
+    half this depth, whose
     mouth sees more of the fillet), and no tooth ends opposite (-11 % at twice this depth and 45 degrees)."""
     crack = RootCrack(1.5, np.radians(angle))
     softer = work(crack) - work(None)

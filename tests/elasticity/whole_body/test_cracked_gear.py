@@ -1,4 +1,5 @@
-"""A crack is a slit that gives way as fracture mechanics says, and a cracked tooth's sector still fits its neighbours."""
+"""A crack is a slit that gives way as fracture mechanics says, and a cracked tooth's sector still fits its
+neighbours."""
 
 from dataclasses import replace
 
@@ -19,7 +20,8 @@ LENGTH, HEIGHT = 6.0, 1.0
 
 
 def strip(depth: float) -> BodyMesh:
-    """A strip along x, between y = 0 and HEIGHT, with a crack of some depth (none for zero) down from the middle of its upper side."""
+    """A strip along x, between y = 0 and HEIGHT, with a crack of some depth (none for zero) down from the middle of its
+    upper side."""
     step = 0.125
     right, left = np.arange(0.0, LENGTH, step), np.arange(LENGTH, 0.0, -step)
     up = np.arange(0.0, HEIGHT, step)
@@ -40,11 +42,14 @@ def strip(depth: float) -> BodyMesh:
     field = SizeField(tuple(sources), step)
     slit = along(line, divided(line, field.at(line), 4))[1:]
     points, (cells,) = filled(boundary, field, 1.0, recombine=False, slit=slit, mouth=mouth)
-    return BodyMesh(*opened(points, oriented(points, cells), np.append(mouth, len(boundary) + np.arange(len(slit)))), {})
+    return BodyMesh(
+        *opened(points, oriented(points, cells), np.append(mouth, len(boundary) + np.arange(len(slit)))), {}
+    )
 
 
 def rotation_under_couple(mesh: BodyMesh) -> float:
-    """Rotation of a strip's right end, its left end held, per couple there, E = 1, nu = 0.3, plane strain: from the couple's work."""
+    """Rotation of a strip's right end, its left end held, per couple there, E = 1, nu = 0.3, plane strain: from the
+    couple's work."""
     ends = [np.array([[x, y] for y in np.arange(0.0, HEIGHT + 0.01, 0.125)]) for x in (0.0, LENGTH)]
     body = condense(mesh, ELEMENTS["P2"], 0.3, {"held": ends[0], "loaded": ends[1]})
     arms = ends[1][:, 1] - 0.5 * HEIGHT
@@ -54,7 +59,8 @@ def rotation_under_couple(mesh: BodyMesh) -> float:
 
 @pytest.mark.parametrize("depth", [0.3, 0.6])
 def test_a_crack_lets_a_bent_strip_turn_as_fracture_mechanics_says(depth):
-    """Authority: K_I = sigma sqrt(pi a) F(a/W) of an edge crack in pure bending, F by Brown and Srawley (ASTM STP 410, 1966) to 0.2 % up to
+    """Authority: K_I = sigma sqrt(pi a) F(a/W) of an edge crack in pure bending, F by Brown and Srawley (ASTM STP 410,
+    1966) to 0.2 % up to
     a/W = 0.6; by energy release (Irwin) the additional rotation is 12 pi sigma/(E' W^2) times the integral of a F^2."""
     shape = np.polynomial.Polynomial([1.122, -1.40, 7.33, -13.08, 14.0])
     integral = (np.polynomial.Polynomial([0.0, 1.0]) * shape**2).integ()(depth / HEIGHT)
@@ -64,7 +70,8 @@ def test_a_crack_lets_a_bent_strip_turn_as_fracture_mechanics_says(depth):
 
 
 def test_a_cracked_sector_has_two_faces_and_the_cuts_of_a_whole_one():
-    """Exact: cuts, bore and flank are the whole tooth's; the boundary is longer by both faces of the crack; the area is the same."""
+    """Exact: cuts, bore and flank are the whole tooth's; the boundary is longer by both faces of the crack; the area is
+    the same."""
     crack = RootCrack(3.0)
     whole, cracked = coarse_sector_mesh("P2"), cracked_sector_mesh(PINION, COARSE, crack)
     for part in ("flank", "hub", "lower cut", "upper cut"):
@@ -82,14 +89,17 @@ def test_a_cracked_sector_has_two_faces_and_the_cuts_of_a_whole_one():
 
 
 def test_a_crack_begins_where_the_fillet_has_the_angle_and_goes_into_the_tooth():
-    """Authority: the definition; at 30 degrees of the fillet to the centreline, and 45 degrees between centreline and crack."""
+    """Authority: the definition; at 30 degrees of the fillet to the centreline, and 45 degrees between centreline and
+    crack."""
     mouth, direction = crack_line(PINION, RootCrack(3.0))
     outline = tooth_outline(PINION, 4001)
     axis = np.array([np.cos(outline.centreline_angle), np.sin(outline.centreline_angle)])
     nearest = int(np.argmin(np.linalg.norm(outline.fillet - mouth, axis=1)))
     tangent = outline.fillet[nearest + 1] - outline.fillet[nearest - 1]
     assert abs(tangent @ axis) / np.linalg.norm(tangent) == pytest.approx(np.cos(np.radians(30.0)), abs=1e-3)
-    assert direction @ axis == pytest.approx(-np.cos(np.radians(45.0))) and np.linalg.norm(direction) == pytest.approx(1.0)
+    assert direction @ axis == pytest.approx(-np.cos(np.radians(45.0))) and np.linalg.norm(direction) == pytest.approx(
+        1.0
+    )
     across = abs(mouth[0] * axis[1] - mouth[1] * axis[0])
     ahead = mouth + 1e-3 * direction
     assert abs(ahead[0] * axis[1] - ahead[1] * axis[0]) < across
@@ -98,10 +108,16 @@ def test_a_crack_begins_where_the_fillet_has_the_angle_and_goes_into_the_tooth()
 @pytest.mark.parametrize(
     ("crack", "message"),
     [
-        (RootCrack(30.0), "30 mm at 45 degrees .* leaves less than 0.675 mm of the tooth's sector whole from about 12 mm on"),
+        (
+            RootCrack(30.0),
+            "30 mm at 45 degrees .* leaves less than 0.675 mm of the tooth's sector whole from about 12 mm on",
+        ),
         (RootCrack(9.0, np.radians(100.0)), "leaves less than"),
         (RootCrack(-1.0), "depth must be positive"),
-        (RootCrack(3.0, mouth=np.radians(85.0)), "no place where it stands at 85 degrees .* between .* and 79.2 degrees"),
+        (
+            RootCrack(3.0, mouth=np.radians(85.0)),
+            "no place where it stands at 85 degrees .* between .* and 79.2 degrees",
+        ),
     ],
 )
 def test_a_crack_that_leaves_no_tooth_is_refused(crack, message):

@@ -1,4 +1,5 @@
-"""`python -m meshes.cracked_gear` writes what a scene can name, and says what it cannot do; the mesh that lies in the repository is such a one."""
+"""`python -m meshes.cracked_gear` writes what a scene can name, and says what it cannot do; the mesh that lies in the
+repository is such a one."""
 
 from pathlib import Path
 
@@ -40,7 +41,9 @@ def test_the_repositorys_mesh_is_the_papers_pinion_with_its_ninth_tooth_cracked(
     assert reach == pytest.approx(3.0, abs=0.1)
 
 
-@pytest.mark.parametrize("gear, tooth, depth, found", [("pinion", 3, "2.5 mm", 3), ("wheel", 23, "0.1 in", 23), ("wheel", 0, None, -1)])
+@pytest.mark.parametrize(
+    "gear, tooth, depth, found", [("pinion", 3, "2.5 mm", 3), ("wheel", 23, "0.1 in", 23), ("wheel", 0, None, -1)]
+)
 def test_a_mesh_is_written_for_either_gear(gear, tooth, depth, found, tmp_path, capsys):
     """The file is the gear, read back; the command says how large it is."""
     file = tmp_path / "gear.msh"
@@ -67,7 +70,9 @@ def test_what_cannot_be_meshed_is_said_and_nothing_written(words, message, tmp_p
     assert message in capsys.readouterr().err and not file.exists()
 
 
-@pytest.mark.parametrize("words, message", [(["--depth", "3 deg"], "'3 deg' is an angle, not a length"), (["--depth", "three"], "'three' ")])
+@pytest.mark.parametrize(
+    "words, message", [(["--depth", "3 deg"], "'3 deg' is an angle, not a length"), (["--depth", "three"], "'three' ")]
+)
 def test_quantities_of_another_kind_are_refused(words, message, tmp_path, capsys):
     """The parser's own exit code."""
     with pytest.raises(SystemExit) as stopped:

@@ -76,12 +76,21 @@ def moved(mesh: BodyMesh, part: str, shift: float) -> BodyMesh:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (cut_off, "2 parts that do not hold together; the smallest, of .* A tooth that a crack has cut off carries nothing"),
+        (
+            cut_off,
+            "2 parts that do not hold together; the smallest, of .* A tooth that a crack has cut off carries nothing",
+        ),
         (broken_off, "has 15 tooth tips on its tip circle, the gear of the scene has 16 teeth"),
         (lambda mesh: unnamed(mesh, 1e-3 * mesh.points), "0.04132 mm from the origin, .* 41.32 mm. Is it in metres"),
         (lambda mesh: unnamed(mesh, mesh.points / 4.5), "Is it in modules"),
-        (lambda mesh: unnamed(mesh, mesh.points + [1.0, 0.0]), "42.* mm from the origin, .* the gear's centre at the origin"),
-        (lambda mesh: moved(mesh, "flank 5", -2e-3), "drive flank of tooth 5, .* lie up to 67.* um off the gear's involute; allowed are 9 um"),
+        (
+            lambda mesh: unnamed(mesh, mesh.points + [1.0, 0.0]),
+            "42.* mm from the origin, .* the gear's centre at the origin",
+        ),
+        (
+            lambda mesh: moved(mesh, "flank 5", -2e-3),
+            "drive flank of tooth 5, .* lie up to 67.* um off the gear's involute; allowed are 9 um",
+        ),
     ],
 )
 def test_a_mesh_that_is_not_this_gear_is_named_for_what_it_is(whole, change, message):
@@ -93,7 +102,10 @@ def test_a_mesh_that_is_not_this_gear_is_named_for_what_it_is(whole, change, mes
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"bore_radius": 14.0}, "no bore of radius 14 mm .*bore_diameter is 28 mm.* innermost point of the boundary is 15 mm"),
+        (
+            {"bore_radius": 14.0},
+            "no bore of radius 14 mm .*bore_diameter is 28 mm.* innermost point of the boundary is 15 mm",
+        ),
         ({"teeth": 17}, "16 tooth tips"),
         ({"profile_shift": 0.18}, r"the teeth are thicker than those of the scene \(profile_shift\)"),
         ({"pressure_angle": 0.36}, "drive flank of tooth"),
@@ -120,7 +132,10 @@ def test_a_crack_that_opens_on_a_flank_is_refused(whole):
     middle = flank[np.argsort(np.linalg.norm(whole.points[flank], axis=1))][len(flank) // 2]
     beyond = np.linalg.norm(whole.points[whole.cells].mean(axis=1), axis=1) > np.linalg.norm(whole.points[middle])
     cells = np.where(beyond[:, None] & (whole.cells == middle), len(whole.points), whole.cells)
-    with pytest.raises(SceneError, match="flank of tooth 3, .* is not one line of elements from form circle to tip: it is broken near radius 37"):
+    with pytest.raises(
+        SceneError,
+        match="flank of tooth 3, .* is not one line of elements from form circle to tip: it is broken near radius 37",
+    ):
         whole_body(BodyMesh(np.vstack([whole.points, whole.points[middle]]), cells, {}), PINION, "gear")
 
 
@@ -185,14 +200,17 @@ def test_what_is_no_plane_mesh_of_straight_cells_is_refused(whole, tmp_path):
     folded = whole.cells.copy()
     folded[:5] = folded[:5, ::-1]
     write_body_mesh(BodyMesh(whole.points, folded, {}), path)
-    with pytest.raises(SceneError, match="5 of .* cells are inverted, the first near x = .*: the mesh folds over itself there"):
+    with pytest.raises(
+        SceneError, match="5 of .* cells are inverted, the first near x = .*: the mesh folds over itself there"
+    ):
         read_body_mesh(path)
     write_body_mesh(BodyMesh(whole.points, whole.cells[:, ::-1], {}), path)
     assert len(read_body_mesh(path).cells) == len(whole.cells)
 
 
 def test_damage_that_ends_gmsh_is_refused(whole, tmp_path, monkeypatch):
-    """Gmsh 4.15 ends by SIGSEGV where a physical group has the dimension -1: that ends a process of its own, not this one."""
+    """Gmsh 4.15 ends by SIGSEGV where a physical group has the dimension -1: that ends a process of its own, not this
+    one."""
     path = tmp_path / "gear.msh"
     write_body_mesh(whole, path)
     damaged, count = re.subn(r'^1 (\d+ "flank 1")', r"-1 \1", path.read_text(encoding="utf-8"), flags=re.MULTILINE)
@@ -205,7 +223,9 @@ def test_damage_that_ends_gmsh_is_refused(whole, tmp_path, monkeypatch):
     (tmp_path / "python").write_text("#!/bin/sh\nkill -SEGV $$\n", encoding="utf-8")
     (tmp_path / "python").chmod(0o755)
     monkeypatch.setattr(sys, "executable", str(tmp_path / "python"))
-    with pytest.raises(SceneError, match=r"gmsh cannot read it \(it ends gmsh by SIGSEGV: the file is damaged; write it again"):
+    with pytest.raises(
+        SceneError, match=r"gmsh cannot read it \(it ends gmsh by SIGSEGV: the file is damaged; write it again"
+    ):
         read_body_mesh(path)
 
 
@@ -213,7 +233,10 @@ def test_a_given_body_is_of_its_element_and_there(whole, tmp_path):
     """The field of the scene leads every message; meshes in the same folder are named for a file that is not there."""
     path = str(tmp_path / "gear.msh")
     write_body_mesh(whole, path)
-    with pytest.raises(SceneError, match='body_meshes.pinion = "gear.msh": the mesh has triangles, accuracy.element is Q2. Take "P1" or "P2"'):
+    with pytest.raises(
+        SceneError,
+        match='body_meshes.pinion = "gear.msh": the mesh has triangles, accuracy.element is Q2. Take "P1" or "P2"',
+    ):
         given_body(path, "some", PINION, "Q2", 'body_meshes.pinion = "gear.msh"')
     with pytest.raises(SceneError, match="there is no such file, or it cannot be read. Meshes beside it: gear.msh"):
         given_body(str(tmp_path / "other.msh"), "", PINION, "P2", "field")

@@ -1,4 +1,5 @@
-"""Chromium without a screen, led over a pipe by the DevTools protocol: pages are read, clicked and photographed, offline."""
+"""Chromium without a screen, led over a pipe by the DevTools protocol: pages are read, clicked and photographed,
+offline."""
 
 import base64
 import fcntl
@@ -11,8 +12,10 @@ import time
 
 CHROMIUM = shutil.which("chromium")
 OPTIONS = (
-    "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run", "--disable-dev-shm-usage", "--disable-extensions",
-    "--disable-background-networking", "--disable-component-update", "--host-resolver-rules=MAP * ~NOTFOUND", "--remote-debugging-pipe",
+    "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run", "--disable-dev-shm-usage",
+    "--disable-extensions",
+    "--disable-background-networking", "--disable-component-update", "--host-resolver-rules=MAP * ~NOTFOUND",
+    "--remote-debugging-pipe",
 )  # fmt: skip
 SECONDS = 120.0
 # The numbers that Chromium reads commands from and writes answers to.
@@ -47,7 +50,9 @@ class Browser:
         self._session = self._call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self._call(f"{domain}.enable")
-        self._call("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=0, uploadThroughput=0)
+        self._call(
+            "Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=0, uploadThroughput=0
+        )
         return self
 
     def __exit__(self, *failure):
@@ -63,7 +68,10 @@ class Browser:
         """Show a page and wait until it has been loaded and its library unpacked."""
         self._call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
         self._call("Page.navigate", url=file.as_uri())
-        self.wait("document.readyState === 'complete' && (!document.querySelector('.curves') || document.documentElement.dataset.ready === 'yes')")
+        self.wait(
+            "document.readyState === 'complete' && (!document.querySelector('.curves') ||"
+            " document.documentElement.dataset.ready === 'yes')"
+        )
 
     def value(self, expression):
         """The value of a JavaScript expression, which may be a promise."""
@@ -85,7 +93,10 @@ class Browser:
     def _call(self, method, **parameters):
         self._number += 1
         number, message = self._number, {"id": self._number, "method": method, "params": parameters}
-        os.write(self._commands, json.dumps(message | ({"sessionId": self._session} if self._session else {})).encode() + b"\0")
+        os.write(
+            self._commands,
+            json.dumps(message | ({"sessionId": self._session} if self._session else {})).encode() + b"\0",
+        )
         while True:
             answer = self._next()
             if answer.get("id") == number:
@@ -96,7 +107,9 @@ class Browser:
     def _next(self):
         end = time.monotonic() + SECONDS
         while b"\0" not in self._rest:
-            assert select.select([self._answers], [], [], max(0.0, end - time.monotonic()))[0], "Chromium does not answer"
+            assert select.select([self._answers], [], [], max(0.0, end - time.monotonic()))[0], (
+                "Chromium does not answer"
+            )
             part = os.read(self._answers, 1 << 20)
             assert part, f"Chromium has ended with exit code {self._process.poll()}"
             self._rest += part

@@ -18,9 +18,12 @@ steps_per_mesh_cycle = 20
 
 
 def scene_text(paper_scene, *, without=(), more="", cycles=2):
-    """The paper's scene on a coarse mesh, less some sections, with more of them before the accuracy; `cycles` mesh cycles, one stored."""
+    """The paper's scene on a coarse mesh, less some sections, with more of them before the accuracy; `cycles` mesh
+    cycles, one stored."""
     head = paper_scene.text[: paper_scene.text.index("[accuracy]")]
-    head = head.replace("mesh_cycles = 30", f"mesh_cycles = {cycles}").replace("recorded_cycles = 2", "recorded_cycles = 1")
+    head = head.replace("mesh_cycles = 30", f"mesh_cycles = {cycles}").replace(
+        "recorded_cycles = 2", "recorded_cycles = 1"
+    )
     parts = head.split("\n[")
     kept = [part for part in parts if part.partition("]")[0] not in without]
     return "\n[".join(kept).rstrip("#\n ") + f"\n\n{more}\n{COARSE}"
@@ -33,7 +36,12 @@ def made(tmp_path_factory):
     def make(text, name):
         directory = tmp_path_factory.mktemp(name)
         (directory / f"{name}.toml").write_text(text, encoding="utf-8")
-        assert main(["run", str(directory / f"{name}.toml"), "--output", str(directory / "run"), "--quiet", "--no-pictures"]) == 0
+        assert (
+            main(
+                ["run", str(directory / f"{name}.toml"), "--output", str(directory / "run"), "--quiet", "--no-pictures"]
+            )
+            == 0
+        )
         return directory / "run"
 
     return make
@@ -54,7 +62,8 @@ def report(run):
 
 @pytest.fixture
 def without_stills(monkeypatch):
-    """Pages of this test have an empty image before each chart: drawing them takes longer than all else, and one page's are looked at."""
+    """Pages of this test have an empty image before each chart: drawing them takes longer than all else, and one page's
+    are looked at."""
     monkeypatch.setattr(rendering, "still", lambda chart: b"<svg/>")
 
 

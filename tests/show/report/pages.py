@@ -1,4 +1,5 @@
-"""A report's HTML as the tests look at it: whether it is well formed, its sections and their words, what it would load."""
+"""A report's HTML as the tests look at it: whether it is well formed, its sections and their words, what it would
+load."""
 
 from dataclasses import dataclass, field
 from html.parser import HTMLParser
@@ -28,7 +29,9 @@ class Seen(HTMLParser):
     def handle_starttag(self, tag, attributes):
         found = dict(attributes)
         self.tags.append((tag, found))
-        self.fetched += [(tag, name, value) for name, value in attributes if name in FETCHED or (tag == "link" and name == "href")]
+        self.fetched += [
+            (tag, name, value) for name, value in attributes if name in FETCHED or (tag == "link" and name == "href")
+        ]
         if "id" in found:
             self.names.append(found["id"])
         if tag == "section":

@@ -22,7 +22,8 @@ def browser(tmp_path):
 
 
 def check_alone(browser, page):
-    """Nothing was fetched but the page itself and what is inside it; nothing was said in the console; nothing sticks out sideways."""
+    """Nothing was fetched but the page itself and what is inside it; nothing was said in the console; nothing sticks
+    out sideways."""
     assert [each for each in browser.requests if not each.startswith("data:")] == [page.as_uri()]
     assert browser.console == []
     assert browser.value("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
@@ -46,7 +47,9 @@ def test_a_run_is_drawn_and_zoomed_without_a_network(browser, report):
     whole = browser.value(ends)
     first, last = browser.value(f"{LINKED}[0].layout.xaxis.range")
     middle = 0.5 * (first + last)
-    browser.value(f"Plotly.relayout({LINKED}[0], {{'xaxis.range[0]': {first}, 'xaxis.range[1]': {middle}}}).then(() => true)")
+    browser.value(
+        f"Plotly.relayout({LINKED}[0], {{'xaxis.range[0]': {first}, 'xaxis.range[1]': {middle}}}).then(() => true)"
+    )
     browser.wait(f"{ends}.every(end => end === {middle})")
     browser.value(f"Plotly.relayout({LINKED}[1], {{'xaxis.autorange': true}}).then(() => true)")
     browser.wait(f"{ends}.every(end => end === {last})")
@@ -61,7 +64,9 @@ def test_a_plot_that_is_drawn_later_has_the_zoom_of_the_others(browser, report):
     browser.wait(f"{LINKED}[0].querySelector('svg.main-svg') !== null")
     first, last = browser.value(f"{LINKED}[0].layout.xaxis.range")
     assert not browser.value(f"Boolean({LINKED}.at(-1).querySelector('svg'))")
-    browser.value(f"Plotly.relayout({LINKED}[0], {{'xaxis.range': [{first}, {0.5 * (first + last)}]}}).then(() => true)")
+    browser.value(
+        f"Plotly.relayout({LINKED}[0], {{'xaxis.range': [{first}, {0.5 * (first + last)}]}}).then(() => true)"
+    )
     browser.value(f"{LINKED}.at(-1).scrollIntoView({{behavior: 'instant'}})")
     browser.wait(f"{LINKED}.at(-1).querySelector('svg.main-svg') !== null")
     assert browser.value(f"{LINKED}.at(-1).layout.xaxis.range[1]") == 0.5 * (first + last)
@@ -79,7 +84,8 @@ def test_all_charts_are_there_to_be_printed(browser, report):
 
 @pytest.mark.parametrize("width", [1300, 400])
 def test_a_run_on_a_screen(browser, report, tmp_path, width):
-    """On a desk and on a telephone the page is neither blank nor black, from its top to its end, and nothing sticks out."""
+    """On a desk and on a telephone the page is neither blank nor black, from its top to its end, and nothing sticks
+    out."""
     browser.open(report, width, 900)
     draw_all(browser)
     height = min(browser.value("document.documentElement.scrollHeight"), 6000)
@@ -92,7 +98,9 @@ def test_a_run_on_a_screen(browser, report, tmp_path, width):
     assert pixels.shape[:2] == (height, width)
     inked = (pixels.min(axis=2) < 0.9).mean(axis=1)
     assert 0.01 < inked.mean() < 0.5 and all(part.max() > 0.05 for part in np.array_split(inked, 10))
-    assert browser.console == [] and browser.value("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
+    assert browser.console == [] and browser.value(
+        "document.documentElement.scrollWidth <= document.documentElement.clientWidth"
+    )
 
 
 def test_a_study_is_sorted_by_a_click(browser, study, tmp_path):
@@ -100,7 +108,10 @@ def test_a_study_is_sorted_by_a_click(browser, study, tmp_path):
     page = tmp_path / "study.html"
     assert main(["report", str(study), "--quiet", "--output", str(page)]) == 0
     browser.open(page, 1300, 900)
-    column = browser.value("[...document.querySelector('.sortable').tHead.rows[0].cells].findIndex(each => each.textContent.startsWith('T_EPP'))")
+    column = browser.value(
+        "[...document.querySelector('.sortable').tHead.rows[0].cells].findIndex(each =>"
+        " each.textContent.startsWith('T_EPP'))"
+    )
     sorted_values = f"""(() => {{
         const table = document.querySelector('.sortable');
         table.tHead.rows[0].cells[{column}].querySelector('button').click();

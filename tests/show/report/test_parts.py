@@ -30,7 +30,8 @@ from fenics_gears.show.units import digits
 
 @given(st.lists(st.floats(-1e6, 1e6) | st.just(float("nan")), min_size=1, max_size=400), st.sampled_from([10, 40]))
 def test_thinned_curves_keep_peaks_ends_and_gaps(values, most):
-    """Authority: the whole curve: its extremes, its ends, and a gap in each slice that has one; places in order, and few."""
+    """Authority: the whole curve: its extremes, its ends, and a gap in each slice that has one; places in order, and
+    few."""
     values = np.array(values)
     places = thinned(values, most)
     assert places[0] == 0 and places[-1] == len(values) - 1 and (np.diff(places) > 0).all()
@@ -47,7 +48,11 @@ def test_thinned_curves_keep_peaks_ends_and_gaps(values, most):
 
 def run_of(scene_text, values, phase, tmp_path):
     """A run with nothing but a curve."""
-    dataset = xr.Dataset({"transmission_error": ("time", values, {"units": "rad"})}, {"mesh_phase": ("time", phase)}, {"scene": scene_text, "base_radius_wheel": 50.0})
+    dataset = xr.Dataset(
+        {"transmission_error": ("time", values, {"units": "rad"})},
+        {"mesh_phase": ("time", phase)},
+        {"scene": scene_text, "base_radius_wheel": 50.0},
+    )
     return Run(dataset, tmp_path / "run.nc")
 
 
@@ -66,7 +71,11 @@ def test_turns_of_the_gears_stand_apart_in_a_hunting_tooth_period(paper_scene, t
     phase = np.linspace(0.0, 48.0, 48 * 20 + 1)
     values = np.cos(2 * pi * phase) + 0.5 * np.cos(2 * pi * phase / 16) + 0.25 * np.cos(2 * pi * phase / 24)
     found = spectrum(run_of(paper_scene.text, values, phase, tmp_path), values)
-    there = {origin: (round(order * 48), round(size, 9)) for origin, order, size in zip(found.origins, *found_lines(found)) if size > 1e-9}
+    there = {
+        origin: (round(order * 48), round(size, 9))
+        for origin, order, size in zip(found.origins, *found_lines(found))
+        if size > 1e-9
+    }
     assert there == {"mesh": (48, 1.0), "turn of the pinion": (3, 0.5), "turn of the wheel": (2, 0.25)}
 
 
@@ -111,7 +120,8 @@ def test_a_ramp_is_told_from_its_first_frequency_to_its_last(paper_scene, tmp_pa
 
 
 def test_a_scene_without_speed_has_none_on_its_page(paper_scene, tmp_path):
-    """Authority: the scene: without [motion] nothing depends on a speed, and its nominal 1 Hz is no figure of the pair's."""
+    """Authority: the scene: without [motion] nothing depends on a speed, and its nominal 1 Hz is no figure of the
+    pair's."""
     text = paper_scene.text
     for section in ("motion", "inertia", "damping"):
         before, _, after = text.partition(f"[{section}]")
@@ -123,22 +133,29 @@ def test_a_scene_without_speed_has_none_on_its_page(paper_scene, tmp_path):
 
 
 def test_the_largest_mesh_force_is_compared_with_the_force_along_the_same_normal(paper_scene, tmp_path):
-    """Authority: statics: F_bn = T_2/(r_b2 cos(beta_b)); a mesh force of just that size is 1.000 times the nominal one, of a helical pair too."""
+    """Authority: statics: F_bn = T_2/(r_b2 cos(beta_b)); a mesh force of just that size is 1.000 times the nominal one,
+    of a helical pair too."""
     for scene, helix in ((paper_scene.text, 0.0), (wide_pair().text, 15.0)):
         run = made_up_run(scene=scene)
         pair = Run(run).pair
-        run["normal_force"] = 0.0 * run["normal_force"] + Run(run).scene.load.wheel_torque / (pair.wheel.base_radius * cos(asin(sin(radians(helix)) * cos(radians(20.0)))))
+        run["normal_force"] = 0.0 * run["normal_force"] + Run(run).scene.load.wheel_torque / (
+            pair.wheel.base_radius * cos(asin(sin(radians(helix)) * cos(radians(20.0))))
+        )
         assert tiles_of(run, tmp_path)["Largest mesh force"].note.startswith("1.000 ×")
 
 
-@pytest.mark.parametrize("given, words", [("wheel_torque", "437 N m on the wheel"), ("pinion_torque", "291.3 N m on the pinion"), ("power", "22.88 kW")])
+@pytest.mark.parametrize(
+    "given, words",
+    [("wheel_torque", "437 N m on the wheel"), ("pinion_torque", "291.3 N m on the pinion"), ("power", "22.88 kW")],
+)
 def test_loads_are_titled_as_the_scene_gives_them(paper_scene, given, words):
     """Arithmetic: 437 N m on 24 teeth are 291.33 on 16, and 22.88 kW at 200 Hz; a title has four digits."""
     assert conditions(replace(paper_scene, load=Load(437e3, given))).startswith(f"{words}, 200 Hz")
 
 
 def test_the_page_has_the_profile_shift_of_the_drawing_and_that_of_the_thickness(paper_scene, tmp_path):
-    """Authority: ISO 21771: x_E is less than x by the backlash; without thinner teeth there is one shift, with them both stand on the page."""
+    """Authority: ISO 21771: x_E is less than x by the backlash; without thinner teeth there is one shift, with them
+    both stand on the page."""
 
     def shifts(text):
         table = geometry(Run(made_up_run(scene=text), tmp_path / "run.nc")).blocks[-1].blocks[0]
@@ -147,18 +164,32 @@ def test_the_page_has_the_profile_shift_of_the_drawing_and_that_of_the_thickness
     assert shifts(paper_scene.text) == {"profile shift x (modules)": ("0.196", "0.125")}
     thinner = shifts(paper_scene.text.replace('face_width = "15 mm"', 'face_width = "15 mm"\nbacklash = "0.2 mm"'))
     generating = thinner["generating profile shift x_E, of the tooth thickness (modules)"]
-    assert thinner["profile shift x (modules)"] == ("0.196", "0.125") and float(generating[0]) < 0.196 and float(generating[1]) < 0.125
+    assert (
+        thinner["profile shift x (modules)"] == ("0.196", "0.125")
+        and float(generating[0]) < 0.196
+        and float(generating[1]) < 0.125
+    )
 
 
 def test_contact_loss_is_said_of_the_flanks_that_lose_it(paper_scene, tmp_path):
     """A wheel that drives presses on the coast flanks all the time: what is lost is the contact of the drive flanks."""
-    lost = {"contact_loss_count": 1, "contact_loss_share": 1.0, "contact_loss_opening": 0.2, "contact_loss_longest": 0.15}
+    lost = {
+        "contact_loss_count": 1,
+        "contact_loss_share": 1.0,
+        "contact_loss_opening": 0.2,
+        "contact_loss_longest": 0.15,
+    }
     tiles = tiles_of(made_up_run(scene=paper_scene.text, **lost), tmp_path)
-    assert (tiles["Contact lost"].value, tiles["Contact lost"].unit) == ("1", "time") and "wheel drives" not in tiles["Contact lost"].note
+    assert (tiles["Contact lost"].value, tiles["Contact lost"].unit) == ("1", "time") and "wheel drives" not in tiles[
+        "Contact lost"
+    ].note
     assert ", for up to 0.15 s, " in tiles["Contact lost"].note
     backwards = made_up_run(scene=paper_scene.text.replace('"437 N m"', '"-437 N m"') + "\n[coast_flanks]\n", **lost)
     backwards["coast_normal_force"] = backwards["normal_force"]
-    assert "the wheel drives, on the coast flanks" in tiles_of(backwards, tmp_path)["Contact of the drive flanks lost"].note
+    assert (
+        "the wheel drives, on the coast flanks"
+        in tiles_of(backwards, tmp_path)["Contact of the drive flanks lost"].note
+    )
 
 
 def test_numbers_of_a_tile_fit_into_it():
@@ -189,9 +220,17 @@ def test_a_curve_of_work_that_stands_alone_is_named(paper_scene, tmp_path):
 
 
 def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp_path):
-    """Authority: conservation of energy: a wheel that drives does the larger work, of which shares are; what is taken from it is positive."""
+    """Authority: conservation of energy: a wheel that drives does the larger work, of which shares are; what is taken
+    from it is positive."""
     dataset = made_up_run(scene=paper_scene.text)
-    work = {"work_input": -96.0, "work_output": -100.0, "work_friction": 3.0, "work_contact_changes": -1.0, "energy": 0.0, "energy_defect": 0.0}
+    work = {
+        "work_input": -96.0,
+        "work_output": -100.0,
+        "work_friction": 3.0,
+        "work_contact_changes": -1.0,
+        "energy": 0.0,
+        "energy_defect": 0.0,
+    }
     for name, last in work.items():
         dataset[name] = ("time", np.linspace(0.0, 1e3 * last, dataset.sizes["time"]), {"units": "N mm"})
 
@@ -211,13 +250,21 @@ def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp
 
 def test_the_teeth_are_drawn_on_the_line_of_action_of_the_flanks_that_carry(paper_scene, paper_pair, tmp_path):
     """Mirror at the line of centres; coast flanks go from the pinion's tip, which is furthest from T1, to its root."""
-    drive, coast = ({curve.name: curve for curve in drawings(paper_pair, side)[1].curves if curve.beside != "bottom left"} for side in (False, True))
+    drive, coast = (
+        {curve.name: curve for curve in drawings(paper_pair, side)[1].curves if curve.beside != "bottom left"}
+        for side in (False, True)
+    )
     for name in ("line of action", "path of contact"):
         np.testing.assert_allclose(coast[name].x, -drive[name].x, atol=1e-12)
-    drive, coast = ({words: x for curve in drawings(paper_pair, side)[1].curves for words, x in zip(curve.words, curve.x)} for side in (False, True))
+    drive, coast = (
+        {words: x for curve in drawings(paper_pair, side)[1].curves for words, x in zip(curve.words, curve.x)}
+        for side in (False, True)
+    )
     assert set(drive) == {"start of contact", "LPSTC", "pitch point", "HPSTC", "end of contact"}
     other = {"start of contact": "end of contact", "end of contact": "start of contact"}
-    np.testing.assert_allclose([coast[other.get(name, name)] for name in drive], [-x for x in drive.values()], atol=1e-12)
+    np.testing.assert_allclose(
+        [coast[other.get(name, name)] for name in drive], [-x for x in drive.values()], atol=1e-12
+    )
     run = made_up_run(scene=paper_scene.text)
     assert not Run(run, tmp_path / "run.nc").on_coast_flanks
     run["coast_normal_force"], run["normal_force"] = run["normal_force"], 0.0 * run["normal_force"]
@@ -227,12 +274,15 @@ def test_the_teeth_are_drawn_on_the_line_of_action_of_the_flanks_that_carry(pape
 
 @pytest.mark.parametrize("coast", [False, True])
 def test_the_drawn_gears_touch_at_the_pitch_point_and_nowhere_overlap(paper_pair, coast):
-    """Authority: at the phase that is drawn a tooth pair touches at the pitch point; rigid involutes with backlash do not overlap.
+    """Authority: at the phase that is drawn a tooth pair touches at the pitch point; rigid involutes with backlash do
+    not overlap.
     Outlines are chords of 14 points a flank, so a few thousandths of a millimetre off."""
     phase = (paper_pair.pitch_point - paper_pair.path_start) / paper_pair.base_pitch
     outlines = [gear_outline(paper_pair, gear, phase, coast) for gear in (0, 1)]
     pitch = _on_line(paper_pair, [paper_pair.pitch_point], coast)[0]
-    for points, gear, centre in zip(outlines, (paper_pair.pinion, paper_pair.wheel), (np.zeros(2), np.array([0.0, -paper_pair.centre_distance]))):
+    for points, gear, centre in zip(
+        outlines, (paper_pair.pinion, paper_pair.wheel), (np.zeros(2), np.array([0.0, -paper_pair.centre_distance]))
+    ):
         radius = np.linalg.norm(points - centre, axis=1)
         np.testing.assert_allclose([radius.min(), radius.max()], [gear.root_radius, gear.tip_radius], rtol=1e-9)
         turned = np.unwrap(np.arctan2(*(points - centre).T[::-1]))
@@ -250,7 +300,8 @@ def densely(points):
 
 
 def test_pairs_of_a_long_run_have_curves_where_they_are_seen():
-    """Authority: the result's own slots: what the curves of the pairs show together is the mesh's force in the cycles shown."""
+    """Authority: the result's own slots: what the curves of the pairs show together is the mesh's force in the cycles
+    shown."""
     run = Run(made_up_run(steps=401, cycles=20.0))
     curves = run.of_pairs("pair_normal_force", "N")
     assert 4 <= len(curves) <= 7 and len({number for *_, number in curves}) == len(curves)

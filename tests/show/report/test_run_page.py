@@ -26,7 +26,8 @@ from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
 CHECKOUT = Path(__file__).parents[3]
 pytestmark = pytest.mark.usefixtures("without_stills")
 SECTIONS = [
-    "summary", "warnings", "motion", "forces", "pressure", "stress", "root-stress", "spectra", "geometry", "numbers", "effects", "energy", "solver",
+    "summary", "warnings", "motion", "forces", "pressure", "stress", "root-stress", "spectra", "geometry", "numbers",
+    "effects", "energy", "solver",
     "versions", "scene",
 ]  # fmt: skip
 
@@ -55,22 +56,39 @@ def test_every_section_is_there_and_says_what_the_result_holds(report, run):
     assert "elastic torsion of the input" in page.sections["effects"] and "constant speed" in page.sections["effects"]
     assert "contact ratio" in page.sections["geometry"] and "4.5 mm" in page.sections["geometry"]
     assert "lost to friction" in page.sections["energy"] and "lost to damping" in page.sections["energy"]
-    assert f"{dataset.attrs['newton_iterations_total']:,}" in page.sections["solver"] and "mode 1" in page.sections["solver"]
+    assert (
+        f"{dataset.attrs['newton_iterations_total']:,}" in page.sections["solver"]
+        and "mode 1" in page.sections["solver"]
+    )
     assert dataset.attrs["fenics_gears_version"] in page.sections["versions"]
     assert dataset.attrs["scene"] in page.sections["scene"]
-    wanted = {"Normal force of the mesh", "Friction force of the mesh", "Load sharing: normal force of each tooth pair", "Energy held"}
+    wanted = {
+        "Normal force of the mesh",
+        "Friction force of the mesh",
+        "Load sharing: normal force of each tooth pair",
+        "Energy held",
+    }
     assert wanted <= set(captions(page))
-    assert {"The pair", "Largest contact pressure", "Largest tension in the fillets of either gear"} <= set(captions(page))
+    assert {"The pair", "Largest contact pressure", "Largest tension in the fillets of either gear"} <= set(
+        captions(page)
+    )
     assert sum(each.startswith("Transmission error on the wheel's base circle") for each in captions(page)) == 1
     assert any(each.startswith("Contact pressure") for each in captions(page))
     pictures = [attributes for tag, attributes in page.tags if tag == "img"]
-    assert [picture["alt"] for picture in pictures if "png" in picture["src"][:20]] == ["Von Mises stress of both gears in mesh"]
+    assert [picture["alt"] for picture in pictures if "png" in picture["src"][:20]] == [
+        "Von Mises stress of both gears in mesh"
+    ]
 
 
 def test_every_chart_is_an_image_before_any_script_runs(report):
-    """What is printed, photographed at once or opened without scripts has all charts: each as an SVG with its axes' words."""
+    """What is printed, photographed at once or opened without scripts has all charts: each as an SVG with its axes'
+    words."""
     page = seen(report)
-    images = {attributes["alt"]: attributes["src"] for tag, attributes in page.tags if tag == "img" and "svg" in attributes["src"][:20]}
+    images = {
+        attributes["alt"]: attributes["src"]
+        for tag, attributes in page.tags
+        if tag == "img" and "svg" in attributes["src"][:20]
+    }
     assert list(images) == list(dict.fromkeys(captions(page))) and len(images) > 15
     drawn = base64.b64decode(images["Normal force of the mesh"].partition(",")[2]).decode()
     assert "<svg" in drawn and "Normal force (N)" in drawn and "Time (mesh cycles since the start)" in drawn
@@ -86,7 +104,8 @@ def test_every_chart_is_one_that_plotly_knows(report):
 
 
 def test_the_page_is_well_formed(report):
-    """Authority: HTML's rules: every element closed in its order, each id once, each link of the contents to a section."""
+    """Authority: HTML's rules: every element closed in its order, each id once, each link of the contents to a
+    section."""
     page = seen(report)
     assert page.faults == [] and len(page.names) == len(set(page.names))
     links = {attributes["href"] for tag, attributes in page.tags if tag == "a"}
@@ -94,7 +113,8 @@ def test_the_page_is_well_formed(report):
 
 
 def test_nothing_is_loaded_from_anywhere(report):
-    """Authority: issue 7: needs no network. Addresses that a browser fetches are all `data:`; style and script fetch nothing."""
+    """Authority: issue 7: needs no network. Addresses that a browser fetches are all `data:`; style and script fetch
+    nothing."""
     page = seen(report)
     assert page.fetched and all(value.startswith("data:") for _, _, value in page.fetched)
     assert not re.search(r"url\(|@import", "".join(page.styles))
@@ -117,7 +137,10 @@ def test_a_scene_without_effects_has_neither_their_curves_nor_their_words(made, 
 
 def test_rigid_flanks_have_no_pressure_and_no_stress(made, paper_scene):
     """Authority: rigid flanks touch at points; the page says so in a line."""
-    rigid = made(scene_text(paper_scene, without=("gears.material", "inertia", "damping", "friction"), more="[coast_flanks]\n"), "rigid")
+    rigid = made(
+        scene_text(paper_scene, without=("gears.material", "inertia", "damping", "friction"), more="[coast_flanks]\n"),
+        "rigid",
+    )
     assert main(["report", str(rigid), "--quiet"]) == 0
     page = seen(rigid / "report.html")
     for name in ("pressure", "stress"):
@@ -140,7 +163,8 @@ def test_titles_and_scenes_are_shown_as_they_are_written(run, tmp_path):
 
 @pytest.mark.parametrize("steps", [0, 1, 8])
 def test_an_incomplete_run_says_so(run, tmp_path, steps):
-    """Authority: the attribute `complete`; of fewer than two steps there is no curve, and the rest of the page is there."""
+    """Authority: the attribute `complete`; of fewer than two steps there is no curve, and the rest of the page is
+    there."""
     whole = contact_times(results.load(run / "run.nc"))
     cut = whole.isel(time=slice(0, steps), contact_time=slice(0, steps)).assign_attrs(complete=0, stopped="interrupted")
     page = page_of(cut, tmp_path)
@@ -160,14 +184,19 @@ def test_a_result_without_meaning_says_so_before_anything(run, tmp_path):
 def test_a_scene_of_another_version_still_has_its_curves(run, tmp_path):
     """A result is worth a look whatever its scene's text has become."""
     page = page_of(results.load(run / "run.nc").assign_attrs(scene="[unheard_of]\n"), tmp_path)
-    assert any(each.startswith("Transmission error on") for each in captions(page)) and "none of this version" in page.sections["geometry"]
+    assert (
+        any(each.startswith("Transmission error on") for each in captions(page))
+        and "none of this version" in page.sections["geometry"]
+    )
     assert "none of this version" in page.sections["effects"]
 
 
 def test_a_scene_whose_meshes_are_elsewhere_has_the_rest_of_its_page(run, tmp_path):
     """A run's file has its scene's text, not the meshes that it names: the page tells what does not need them."""
     dataset = results.load(run / "run.nc")
-    meshed = dataset.assign_attrs(scene=dataset.attrs["scene"].replace("root_stress = true", "") + '\n[body_meshes]\npinion = "nowhere.msh"\n')
+    meshed = dataset.assign_attrs(
+        scene=dataset.attrs["scene"].replace("root_stress = true", "") + '\n[body_meshes]\npinion = "nowhere.msh"\n'
+    )
     page = page_of(meshed, tmp_path)
     assert page.faults == [] and list(page.sections) == SECTIONS and "contact ratio" in page.sections["geometry"]
     assert "cannot be described without" in page.sections["solver"] and "nowhere.msh" in page.sections["solver"]
@@ -178,8 +207,17 @@ def measured_lines(dataset, error):
     """Lines of effects.csv: the bare scene and the whole one, with a transmission error in mm."""
     whole = "bearings damping friction inertia shafts tooth_elasticity"
     for name, sections, compared in (("bare", "tooth_elasticity", ""), ("all", whole, "")):
-        line = dict.fromkeys(CSV_COLUMNS, "1") | {"effects": name, "sections": sections, "remarks": "", "compared_with": compared}
-        line |= {"transmission_error_peak_to_peak_mm": str(float(error)), "change_of_transmission_error": "0.25", "change_of_peak_force": ""}
+        line = dict.fromkeys(CSV_COLUMNS, "1") | {
+            "effects": name,
+            "sections": sections,
+            "remarks": "",
+            "compared_with": compared,
+        }
+        line |= {
+            "transmission_error_peak_to_peak_mm": str(float(error)),
+            "change_of_transmission_error": "0.25",
+            "change_of_peak_force": "",
+        }
         yield line
 
 
@@ -192,12 +230,16 @@ def write_measured(directory, lines):
 
 
 def test_measured_effects_are_shown_if_they_are_of_this_scene(run, tmp_path):
-    """Authority: the transmission error of the scene with all its effects is the run's own, or the table is of another scene."""
+    """Authority: the transmission error of the scene with all its effects is the run's own, or the table is of another
+    scene."""
     dataset = results.load(run / "run.nc")
     error = dataset.attrs["peak_to_peak_transmission_error"] * dataset.attrs["base_radius_wheel"]
     write_measured(tmp_path, measured_lines(dataset, error))
     page = page_of(dataset, tmp_path)
-    assert "What each effect costs and changes" in page.sections["effects"] and f"{error * 1e3:.3f} (+25%)" in page.sections["effects"]
+    assert (
+        "What each effect costs and changes" in page.sections["effects"]
+        and f"{error * 1e3:.3f} (+25%)" in page.sections["effects"]
+    )
 
     def last_words():
         return effects(Run(dataset, tmp_path / "run.nc")).blocks[-1].text
@@ -212,7 +254,8 @@ def test_measured_effects_are_shown_if_they_are_of_this_scene(run, tmp_path):
 
 
 def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
-    """--effects measures the run's own scene and writes what `gears effects` writes beside the run, before the page reads it."""
+    """--effects measures the run's own scene and writes what `gears effects` writes beside the run, before the page
+    reads it."""
     from fenics_gears.commands import measuring
     from fenics_gears.studies.effect_lattice import measured
 
@@ -233,13 +276,19 @@ def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
 
 def test_a_long_run_makes_a_small_page(run, tmp_path):
     """30,000 steps stay below 10 MB, and the highest of them is drawn."""
-    dataset = results.load(run / "run.nc").drop_dims(["contact_time", "contact_node", "fillet_point", "fillet"], errors="ignore").drop_vars("root_stress_maximum")
+    dataset = (
+        results.load(run / "run.nc")
+        .drop_dims(["contact_time", "contact_node", "fillet_point", "fillet"], errors="ignore")
+        .drop_vars("root_stress_maximum")
+    )
     steps = 30_001
     long = dataset.isel(time=np.arange(steps) % dataset.sizes["time"])
     phase = np.arange(steps) / 100.0
     force = long["normal_force"].values.copy()
     force[17_333] = 123_456.0
-    long = long.assign_coords(time=phase / 200.0, mesh_phase=("time", phase, dataset["mesh_phase"].attrs)).assign_attrs(shown_cycles=300)
+    long = long.assign_coords(time=phase / 200.0, mesh_phase=("time", phase, dataset["mesh_phase"].attrs)).assign_attrs(
+        shown_cycles=300
+    )
     long["normal_force"] = ("time", force, dataset["normal_force"].attrs)
     page = page_of(long, tmp_path)
     assert (tmp_path / "report.html").stat().st_size < 10e6
@@ -271,7 +320,11 @@ def test_wrong_calls_are_refused_before_anything_is_written(run, tmp_path, capsy
 def test_the_page_goes_where_it_is_asked_to_and_replaces_an_earlier_one(run, tmp_path, capsys):
     """A file, a directory that is there or is not yet; an earlier page is replaced as a whole."""
     (tmp_path / "report.html").write_text("an earlier page", encoding="utf-8")
-    for output, file in ((tmp_path, "report.html"), (tmp_path / "new" / "folder", "new/folder/report.html"), (tmp_path / "my.page.html", "my.page.html")):
+    for output, file in (
+        (tmp_path, "report.html"),
+        (tmp_path / "new" / "folder", "new/folder/report.html"),
+        (tmp_path / "my.page.html", "my.page.html"),
+    ):
         assert main(["report", str(run / "run.nc"), "--no-stress", "--output", str(output)]) == 0
         assert str(tmp_path / file) in capsys.readouterr().out
         assert list(seen(tmp_path / file).sections) == SECTIONS
@@ -280,13 +333,28 @@ def test_the_page_goes_where_it_is_asked_to_and_replaces_an_earlier_one(run, tmp
 
 def test_other_commands_load_neither_plotly_nor_jinja():
     """They are needed by the report alone."""
-    code = "import sys, fenics_gears.commands.cli as cli; cli._parser(); print([name for name in ('plotly', 'jinja2') if name in sys.modules])"
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=CHECKOUT, check=True).stdout.strip() == "[]"
+    code = (
+        "import sys, fenics_gears.commands.cli as cli; cli._parser(); print([name for name in ('plotly', 'jinja2') if"
+        " name in sys.modules])"
+    )
+    assert (
+        subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, text=True, cwd=CHECKOUT, check=True
+        ).stdout.strip()
+        == "[]"
+    )
 
 
 def test_an_installed_copy_has_the_template():
-    """Authority: setuptools takes along what package-data names; each file of a package that is no module is so named."""
-    wanted = tomllib.loads((CHECKOUT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]["package-data"]["*"]
-    files = [file for file in (CHECKOUT / "fenics_gears" / "show" / "report").iterdir() if file.is_file() and file.suffix != ".py"]
+    """Authority: setuptools takes along what package-data names; each file of a package that is no module is so
+    named."""
+    wanted = tomllib.loads((CHECKOUT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"][
+        "package-data"
+    ]["*"]
+    files = [
+        file
+        for file in (CHECKOUT / "fenics_gears" / "show" / "report").iterdir()
+        if file.is_file() and file.suffix != ".py"
+    ]
     assert {"page.html", "page.css", "page.js"} <= {file.name for file in files}
     assert all(any(fnmatch(file.name, pattern) for pattern in wanted) for file in files)

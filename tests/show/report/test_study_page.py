@@ -16,7 +16,18 @@ from fenics_gears.show.study_charts import over_parameter, result_charts
 from fenics_gears.studies.combine import load_combined, save_study
 
 pytestmark = pytest.mark.usefixtures("without_stills")
-SECTIONS = ["summary", "failures", "warnings", "results", "outstanding", "cases", "effort", "versions", "study", "scene"]
+SECTIONS = [
+    "summary",
+    "failures",
+    "warnings",
+    "results",
+    "outstanding",
+    "cases",
+    "effort",
+    "versions",
+    "study",
+    "scene",
+]
 
 
 def page_of(directory, *options):
@@ -38,7 +49,9 @@ def test_cases_and_curves_are_those_of_the_file(study):
         dataset = opened.load()
     assert page.faults == [] and list(page.sections) == SECTIONS and "Three speeds <i>" in page.sections["study"]
     assert all(value.startswith("data:") for _, _, value in page.fetched)
-    radius = xr.open_dataset(study / dataset["case_file"].values.ravel()[0], engine="h5netcdf").attrs["base_radius_wheel"]
+    radius = xr.open_dataset(study / dataset["case_file"].values.ravel()[0], engine="h5netcdf").attrs[
+        "base_radius_wheel"
+    ]
     drawn = figures(page)["Transmission error, peak to peak over mesh frequency"]
     for trace, friction, words in zip(drawn["data"], ("absent", "present"), ("without friction", "with friction")):
         assert trace["name"] == words and trace["x"] == [100, 200, 300]
@@ -52,11 +65,16 @@ def test_cases_and_curves_are_those_of_the_file(study):
 
 def test_a_study_writes_its_pictures(study):
     """A picture for each number that cases are compared by, under the number's name in the study's file."""
-    assert {file.stem for file in study.glob("*.png")} == {"peak_to_peak_transmission_error", "mean_transmission_error", "max_normal_force"}
+    assert {file.stem for file in study.glob("*.png")} == {
+        "peak_to_peak_transmission_error",
+        "mean_transmission_error",
+        "max_normal_force",
+    }
 
 
 def test_cases_lead_to_their_files_and_to_their_reports(study, tmp_path):
-    """A case's number leads to its report where `gears report` has made one, else to its file; from wherever the page is."""
+    """A case's number leads to its report where `gears report` has made one, else to its file; from wherever the page
+    is."""
     copy = tmp_path / "with a space" / "out"
     shutil.copytree(study, copy)
     files = sorted((copy / "cases").glob("*.nc"))
@@ -77,7 +95,8 @@ def changed(study, directory, change):
 
 
 def test_failed_and_missing_cases_are_named(study, tmp_path):
-    """Authority: `failed` and `failure` of the dataset; a case without either and without a result is not computed yet."""
+    """Authority: `failed` and `failure` of the dataset; a case without either and without a result is not computed
+    yet."""
 
     def fail(dataset):
         for name in ("peak_to_peak_transmission_error", "mean_transmission_error", "max_normal_force", "wall_time"):
@@ -91,7 +110,10 @@ def test_failed_and_missing_cases_are_named(study, tmp_path):
             dataset["warnings"][place] = ""
 
     page = page_of(changed(study, tmp_path, fail))
-    assert "no <equilibrium> & no end" in page.sections["failures"] and "mesh frequency 100 Hz, without friction" in page.sections["failures"]
+    assert (
+        "no <equilibrium> & no end" in page.sections["failures"]
+        and "mesh frequency 100 Hz, without friction" in page.sections["failures"]
+    )
     assert "of 6 cases 1 failed, 1 not computed yet" in (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "missing" in page.sections["cases"] and page.faults == []
     curves = figures(page)["Transmission error, peak to peak over mesh frequency"]["data"]
@@ -102,7 +124,14 @@ def test_a_study_without_a_result_has_a_page(study, tmp_path):
     """Interrupted before its first case ended: the page says so."""
 
     def nothing(dataset):
-        for name in ("peak_to_peak_transmission_error", "mean_transmission_error", "max_normal_force", "wall_time", "newton_iterations", "steps_per_mesh_cycle"):
+        for name in (
+            "peak_to_peak_transmission_error",
+            "mean_transmission_error",
+            "max_normal_force",
+            "wall_time",
+            "newton_iterations",
+            "steps_per_mesh_cycle",
+        ):
             dataset[name][:] = np.nan
         dataset["case_file"][:], dataset["warnings"][:] = "", ""
 
@@ -113,7 +142,9 @@ def test_a_study_without_a_result_has_a_page(study, tmp_path):
 def made_up(**axes):
     """A study's dataset over axes, its results the sum of the axes' places."""
     shape = tuple(map(len, axes.values()))
-    coordinates = {name: (name, np.asarray(values), {"long_name": f"load.{name}", "units": "N"}) for name, values in axes.items()}
+    coordinates = {
+        name: (name, np.asarray(values), {"long_name": f"load.{name}", "units": "N"}) for name, values in axes.items()
+    }
     place = sum(np.meshgrid(*(np.arange(float(length)) for length in shape), indexing="ij"), 1.0)
     names = ("peak_to_peak_transmission_error", "mean_transmission_error", "max_normal_force")
     values = {name: (tuple(axes), place) for name in names}
@@ -129,25 +160,39 @@ def drawn(tmp_path, **axes):
 
 def test_a_study_of_one_case_has_no_ranges(tmp_path):
     """One value is neither a range nor its own median."""
-    tiles = {tile.label: tile for tile in _summary(Cases(made_up(torque=[1.0]), tmp_path / "study.nc", tmp_path / "report.html")).blocks[0].tiles}
+    tiles = {
+        tile.label: tile
+        for tile in _summary(Cases(made_up(torque=[1.0]), tmp_path / "study.nc", tmp_path / "report.html"))
+        .blocks[0]
+        .tiles
+    }
     assert (tiles["Largest mesh force"].value, tiles["Largest mesh force"].note) == ("1", "")
 
 
 def test_many_lines_become_a_map_or_a_choice(tmp_path):
-    """A legend of dozens cannot be read: two fields of numbers become a map, of more fields some combinations are drawn, and it is said."""
+    """A legend of dozens cannot be read: two fields of numbers become a map, of more fields some combinations are
+    drawn, and it is said."""
     few = drawn(tmp_path, torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0])
     assert [curve.name for curve in few.curves] == ["offset 4 N", "offset 5 N"] and not few.logarithmic
     chart = drawn(tmp_path, torque=np.geomspace(1.0, 1000.0, 20), offset=np.arange(15.0))
     assert chart.logarithmic == "x" and chart.field.values.shape == (15, 20) and chart.field.values[14, 19] == 34.0
     # Cells end half-way between the values, by factors where these are factors.
-    assert chart.field.x[1] ** 2 == pytest.approx(np.prod(np.geomspace(1.0, 1000.0, 20)[:2])) and chart.field.y[1] == 0.5
-    many = drawn(tmp_path, torque=[1.0, 2.0, 3.0, 4.0], offset=np.arange(3.0), width=np.arange(3.0), height=np.arange(3.0))
+    assert (
+        chart.field.x[1] ** 2 == pytest.approx(np.prod(np.geomspace(1.0, 1000.0, 20)[:2])) and chart.field.y[1] == 0.5
+    )
+    many = drawn(
+        tmp_path, torque=[1.0, 2.0, 3.0, 4.0], offset=np.arange(3.0), width=np.arange(3.0), height=np.arange(3.0)
+    )
     assert len(many.curves) == 12 and "12 of 27 combinations" in many.note
 
 
 def test_long_legends_have_room(tmp_path):
     """Each row of a legend takes room of its own, so that the curves keep theirs."""
-    assert height(drawn(tmp_path, torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0])) == 340 < height(drawn(tmp_path, torque=np.arange(12.0), offset=np.arange(11.0)))
+    assert (
+        height(drawn(tmp_path, torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0]))
+        == 340
+        < height(drawn(tmp_path, torque=np.arange(12.0), offset=np.arange(11.0)))
+    )
 
 
 def test_words_are_drawn_over_the_field_with_most_of_them(tmp_path):
@@ -160,7 +205,10 @@ def test_words_are_drawn_over_the_field_with_most_of_them(tmp_path):
 def test_cases_that_stand_out_are_the_extremes(tmp_path):
     """Authority: the made-up values: least at the first places, largest at the last ones."""
     cases = Cases(made_up(torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0]), tmp_path / "study.nc", tmp_path / "report.html")
-    assert standing_out(cases)[0] == ["least transmission error"] and standing_out(cases)[5] == ["largest transmission error", "largest mesh force"]
+    assert standing_out(cases)[0] == ["least transmission error"] and standing_out(cases)[5] == [
+        "largest transmission error",
+        "largest mesh force",
+    ]
 
 
 @pytest.mark.parametrize("options", [("--effects",), ("--at", "0.5")])
@@ -185,7 +233,8 @@ def test_damaged_and_missing_files_are_said(study, tmp_path, capsys):
 
 
 def test_a_case_without_meaning_does_not_flatten_the_others(study):
-    """Ten times all others and without meaning: neither in plots nor in the summary's range, and said so; without either it is there."""
+    """Ten times all others and without meaning: neither in plots nor in the summary's range, and said so; without
+    either it is there."""
     dataset, file = load_combined(study / "study.nc"), study / "study.nc"
     name = "peak_to_peak_transmission_error"
     values, said = dataset[name].values.copy(), dataset["warnings"].values.copy()

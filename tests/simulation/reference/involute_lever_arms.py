@@ -1,8 +1,9 @@
 """The reference route but for one thing: normal forces have the base radii as arms, as on the fast route.
 
-An involute turned by phi moves by rb phi along its own normal wherever it is touched. The published node-to-node equations see a
-material point at the height h off the line of action instead, which moves by h phi along e_x: they neglect that, moving tangentially,
-another part of a slanted flank takes its place. This part of the routes' difference stays under refinement.
+An involute turned by phi moves by rb phi along its own normal wherever it is touched. The published node-to-node
+equations see a material point at the height h off the line of action instead, which moves by h phi along e_x: they
+neglect that, moving tangentially, another part of a slanted flank takes its place. This part of the routes' difference
+stays under refinement.
 """
 
 from dataclasses import replace
@@ -28,8 +29,12 @@ class InvoluteArms(Cycle):
         position = self._cycle.position(step)
         operator = position.operator
         arms = lines_of(operator.pairs, operator.base_radii).lever_arms
-        rigid = displacement_jacobian(operator.pairs, operator.base_radii, arms, operator.rigid_slip is not None)[:, self._coordinates]
-        return replace(position, operator=replace(operator, jacobian=np.ascontiguousarray(rigid), normal_lever_arms=arms))
+        rigid = displacement_jacobian(operator.pairs, operator.base_radii, arms, operator.rigid_slip is not None)[
+            :, self._coordinates
+        ]
+        return replace(
+            position, operator=replace(operator, jacobian=np.ascontiguousarray(rigid), normal_lever_arms=arms)
+        )
 
 
 def with_involute_arms(model, progress, cache):

@@ -24,7 +24,8 @@ SEEDS = [pytest.param(seed, marks=pytest.mark.nightly if seed > 3 else ()) for s
 
 
 def random_problem(seed, tangential=True, friction=0.2):
-    """A step in the mixed form whose drivetrain is regular, and the same in [24], [25], [C.1] by K = (C + G K_eff^-1 G^T)^-1."""
+    """A step in the mixed form whose drivetrain is regular, and the same in [24], [25], [C.1] by K = (C + G K_eff^-1
+    G^T)^-1."""
     generator = np.random.default_rng(seed)
     m = 2 * NODES if tangential else NODES
     factor = generator.normal(size=(m, m))
@@ -70,7 +71,8 @@ def solved(equations, most=200):
 @pytest.mark.parametrize("tangential", [True, False])
 @pytest.mark.parametrize("seed", SEEDS)
 def test_same_solution_as_active_sets(seed, tangential):
-    """Other solver: the active-set Newton on the mixed form, whose answers are checked against enumeration elsewhere."""
+    """Other solver: the active-set Newton on the mixed form, whose answers are checked against enumeration
+    elsewhere."""
     problem, equations = random_problem(seed, tangential)
     expected = solve_step(problem, cold_start(problem.gap, np.zeros(NODES, dtype=int)))
     found = solved(equations)[-1]
@@ -82,7 +84,8 @@ def test_same_solution_as_active_sets(seed, tangential):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_merit_decreases_as_the_criterion_asks(seed):
-    """Definition [B.3]: Phi(y + beta^m z) <= (1 - 2 gamma beta^m) Phi(y) with the first m that does, the shortest step where none does."""
+    """Definition [B.3]: Phi(y + beta^m z) <= (1 - 2 gamma beta^m) Phi(y) with the first m that does, the shortest step
+    where none does."""
     shortest = BETA**MOST_HALVINGS
     found = solved(random_problem(seed)[1])
     for before, after in zip(found, found[1:]):
@@ -114,7 +117,8 @@ def test_coast_flanks_are_refused(paper_cases):
 
 
 def test_what_it_cannot_solve_goes_to_the_ladder_and_is_told(paper_cases, reference_cache):
-    """Message: a load that pulls the flanks apart has no static equilibrium; the error lists the published method first, then the ladder."""
+    """Message: a load that pulls the flanks apart has no static equilibrium; the error lists the published method
+    first, then the ladder."""
     accuracy = Accuracy("P2", 0.3, 1.5, 8, 2, EVERY_STEP)
     model = model_of(replace(paper_cases["static frictionless"], accuracy=accuracy))
     cycle = reference_route(model, SilentProgress(), reference_cache)[1]

@@ -32,12 +32,16 @@ def scene_file(tmp_path_factory):
 
 @pytest.mark.parametrize("ranks", [pytest.param(number, marks=pytest.mark.nightly) for number in (2, 3)])
 def test_ranks_give_what_one_gives(scene_file, tmp_path, monkeypatch, ranks):
-    """Which process condenses a position changes nothing but, with its number of threads, round-off; and only rank 0 writes."""
+    """Which process condenses a position changes nothing but, with its number of threads, round-off; and only rank 0
+    writes."""
     monkeypatch.setenv("FENICS_GEARS_CACHE", str(tmp_path / "cache"))
     run = gears(tmp_path, "run", scene_file, "--output", tmp_path / "run", "--no-pictures", ranks=ranks)
     assert run.returncode == 0, run.stderr
     assert run.stdout.count("Files") == 1
-    together, alone = results.load(tmp_path / "run" / "run.nc"), simulate(load_scene(scene_file), cache=Cache(tmp_path / "other"))
+    together, alone = (
+        results.load(tmp_path / "run" / "run.nc"),
+        simulate(load_scene(scene_file), cache=Cache(tmp_path / "other")),
+    )
     for name in ("transmission_error", "contact_pressure", "friction_force"):
         scale = np.abs(alone[name].values).max()
         assert together[name].values == pytest.approx(alone[name].values, rel=1e-8, abs=1e-9 * scale, nan_ok=True)

@@ -27,7 +27,8 @@ def scene_of(scene, case):
 
 
 def elastic_gears(seed):
-    """Stiffness of two gears over normals, tangents and centre that costs rigid motions nothing; compliances and motions too."""
+    """Stiffness of two gears over normals, tangents and centre that costs rigid motions nothing; compliances and
+    motions too."""
     generator, gears = np.random.default_rng(seed), []
     for radius in RADII:
         factor = generator.normal(size=(2 * NODES, 2 * NODES))
@@ -38,7 +39,9 @@ def elastic_gears(seed):
         motion[NODES:, 2] = generator.uniform(5.0, 20.0, NODES)
         stiffness = np.linalg.inv(compliance)
         coupling = -stiffness @ motion
-        gears.append((np.block([[stiffness, coupling], [coupling.T, motion.T @ stiffness @ motion]]), compliance, motion))
+        gears.append(
+            (np.block([[stiffness, coupling], [coupling.T, motion.T @ stiffness @ motion]]), compliance, motion)
+        )
     return gears
 
 
@@ -73,7 +76,9 @@ def test_elimination_equals_the_mixed_form(case, tangential, paper_scene, paper_
     residual = reduced.stiffness @ displacement + forces + reduced.load(force)
     scale = np.abs(reduced.stiffness).max() * np.abs(displacement).max()
     assert np.abs(residual).max() < 1e-11 * scale
-    assert reduced.coordinates(force, displacement) == pytest.approx(coordinates, rel=1e-8, abs=1e-9 * np.abs(coordinates).max())
+    assert reduced.coordinates(force, displacement) == pytest.approx(
+        coordinates, rel=1e-8, abs=1e-9 * np.abs(coordinates).max()
+    )
 
 
 def balanced(effective, rigid, force, forces):
@@ -88,11 +93,14 @@ def balanced(effective, rigid, force, forces):
 
 
 def test_stiffness_is_symmetric_and_semi_definite(paper_scene, paper_pair):
-    """Exact identity (hard case 5): no energy is negative; without mass on the wheel's shaft one motion, its rotation, costs none."""
+    """Exact identity (hard case 5): no energy is negative; without mass on the wheel's shaft one motion, its rotation,
+    costs none."""
     for case, zero in (("all", 0), ("static", 1)):
         shafts = drivetrain(scene_of(paper_scene, case), paper_pair)
         effective = AverageAcceleration(shafts, 5e-5).stiffness
-        stiffness = RelativeStiffness([gear[0] for gear in elastic_gears(5)], effective, shafts.indices, RADII, True).stiffness
+        stiffness = RelativeStiffness(
+            [gear[0] for gear in elastic_gears(5)], effective, shafts.indices, RADII, True
+        ).stiffness
         assert np.array_equal(stiffness, stiffness.T)
         values = np.linalg.eigvalsh(stiffness)
         assert np.sum(np.abs(values) < 1e-10 * values.max()) == zero
@@ -101,7 +109,8 @@ def test_stiffness_is_symmetric_and_semi_definite(paper_scene, paper_pair):
 
 @pytest.mark.parametrize("frequency", [0.01, 1e-6])
 def test_long_steps_lose_no_more_digits(frequency, paper_cases, both_routes):
-    """Equilibrium: with the wheel's inertia vanishing its couple is the load's. [22] inverts K_qq + K^i, so that 4J/dt^2 may vanish.
+    """Equilibrium: with the wheel's inertia vanishing its couple is the load's. [22] inverts K_qq + K^i, so that
+    4J/dt^2 may vanish.
 
     What inertia and damping are left in proportion to the frequency is below 2e-7 of the load at 0.01 Hz.
     """

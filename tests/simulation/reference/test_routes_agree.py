@@ -8,7 +8,8 @@ CASES = ("static", "static frictionless", "200 Hz", "200 Hz frictionless")
 
 
 def distance(fast, reference):
-    """Root mean square difference of T_E by its mean, and difference of T_EPP by itself, of the same steps: the reference has no positions between them."""
+    """Root mean square difference of T_E by its mean, and difference of T_EPP by itself, of the same steps: the
+    reference has no positions between them."""
     difference = fast.transmission_error.values - reference.transmission_error.values
     mean = reference.transmission_error.values.mean()
     peaks = [np.ptp(result.transmission_error.values) for result in (fast, reference)]
@@ -17,7 +18,8 @@ def distance(fast, reference):
 
 @pytest.mark.parametrize("case", CASES)
 def test_routes_agree_on_the_papers_pair(case, paper_cases, both_routes):
-    """Other method, asked for: T_E over the cycle within 0.5 % of its mean and T_EPP within 3 % at equal flank resolution."""
+    """Other method, asked for: T_E over the cycle within 0.5 % of its mean and T_EPP within 3 % at equal flank
+    resolution."""
     error, peak_to_peak = distance(*both_routes(paper_cases[case]))
     assert error < 0.005
     assert peak_to_peak < 0.03
@@ -35,7 +37,8 @@ def test_routes_agree_at_the_papers_resolution(case, element, paper_cases, both_
 
 @pytest.mark.nightly
 def test_routes_approach_each_other(paper_cases, both_routes):
-    """Other method: with the same arms of the normal forces nothing but discretisation is between the routes, of order one at least."""
+    """Other method: with the same arms of the normal forces nothing but discretisation is between the routes, of order
+    one at least."""
     sizes = (0.16, 0.08)
     errors = [
         distance(*both_routes(paper_cases["200 Hz"], size=size, preparation=with_involute_arms))[0] for size in sizes
@@ -45,7 +48,8 @@ def test_routes_approach_each_other(paper_cases, both_routes):
 
 
 def test_published_arms_are_what_remains(paper_cases, both_routes):
-    """Exact kinematics of the involute: the published arms h = rb -+ y put the remaining difference in T_E, below y/rb of the window."""
+    """Exact kinematics of the involute: the published arms h = rb -+ y put the remaining difference in T_E, below y/rb
+    of the window."""
     published = distance(*both_routes(paper_cases["200 Hz"]))[0]
     involute = distance(*both_routes(paper_cases["200 Hz"], preparation=with_involute_arms))[0]
     assert involute < 0.5 * published
@@ -53,7 +57,8 @@ def test_published_arms_are_what_remains(paper_cases, both_routes):
 
 
 def test_published_method_solves_every_step(paper_cases, both_routes):
-    """The paper [B]: its Newton method with line search converges on its pair, the pitch point included; no step needs the ladder."""
+    """The paper [B]: its Newton method with line search converges on its pair, the pitch point included; no step needs
+    the ladder."""
     for case in CASES:
         reference = both_routes(paper_cases[case])[1]
         steps = reference.attrs["steps_by_rung: Newton with line search"]
@@ -71,10 +76,13 @@ def test_result_is_labelled_and_complete(paper_cases, both_routes):
 
 
 def test_static_equilibrium_of_either_gear(paper_cases, both_routes, paper_scene):
-    """Exact identity, quasi-static: the wheel's reaction torque is the load's; without friction nothing acts off the line of action."""
+    """Exact identity, quasi-static: the wheel's reaction torque is the load's; without friction nothing acts off the
+    line of action."""
     reference = both_routes(paper_cases["static"])[1]
     torque = paper_scene.load.wheel_torque
-    assert reference.reaction_couple.sel(gear="wheel").values == pytest.approx(np.full(reference.sizes["time"], -torque), rel=1e-8)
+    assert reference.reaction_couple.sel(gear="wheel").values == pytest.approx(
+        np.full(reference.sizes["time"], -torque), rel=1e-8
+    )
     frictionless = both_routes(paper_cases["static frictionless"])[1]
     assert np.abs(frictionless.centre_y.values).max() < 1e-9
     assert np.abs(frictionless.reaction_y.values).max() == 0.0

@@ -4,7 +4,17 @@ from types import SimpleNamespace
 
 import pytest
 
-from fenics_gears.studies.accuracy_target.choose import EXTRAPOLATED, RATIO, RATIO_OF_SLICES, ROUND_STEPS, _chosen, errors_at, first_sizes, round_steps, search
+from fenics_gears.studies.accuracy_target.choose import (
+    EXTRAPOLATED,
+    RATIO,
+    RATIO_OF_SLICES,
+    ROUND_STEPS,
+    _chosen,
+    errors_at,
+    first_sizes,
+    round_steps,
+    search,
+)
 from fenics_gears.studies.accuracy_target.trial_runs import FEWEST_STEPS, MESH, SLICES, STEPS, Sizes, TargetNotReached
 
 TRIED = Sizes(2.0, 60)
@@ -12,7 +22,8 @@ MODULE = 4.5
 
 
 class KnownRuns:
-    """Errors `constants` times the square of the size, costs a power of both; sizes below `finest` are beyond the limits."""
+    """Errors `constants` times the square of the size, costs a power of both; sizes below `finest` are beyond the
+    limits."""
 
     fewest_steps, slices = FEWEST_STEPS, 0
 
@@ -38,7 +49,8 @@ class KnownRuns:
 @pytest.mark.parametrize("target", [0.02, 0.005, 0.001])
 @pytest.mark.parametrize("powers", [(2.0, 1.0), (1.0, 1.0), (1.0, 2.0)])
 def test_the_cheapest_sizes_are_lagranges(target, powers):
-    """Exact: with errors of order 2 and a cost mesh^-a steps^b the least cost has errors as a to b (Lagrange's multiplier)."""
+    """Exact: with errors of order 2 and a cost mesh^-a steps^b the least cost has errors as a to b (Lagrange's
+    multiplier)."""
     runs = KnownRuns((0.005, 0.02 * 60**2), powers)
     errors = runs.errors(TRIED)
     found = search(runs, TRIED, errors, target)
@@ -53,7 +65,8 @@ def test_the_cheapest_sizes_are_lagranges(target, powers):
 
 
 def test_sizes_are_never_coarser_than_those_tried():
-    """By definition: coarser ones would cost less than what was spent on choosing them, and order 2 need not hold there."""
+    """By definition: coarser ones would cost less than what was spent on choosing them, and order 2 need not hold
+    there."""
     assert search(KnownRuns((1e-6, 1e-6)), TRIED, {MESH: 1e-6, STEPS: 1e-6}, 0.01) == TRIED
 
 
@@ -61,7 +74,9 @@ def test_without_steps_that_matter_their_number_stays():
     """By definition."""
     runs = KnownRuns((0.01, 0.0), steps_matter=False)
     chosen = _chosen(runs, MODULE, 0.002)
-    assert chosen.setting.sizes.steps == FEWEST_STEPS and set(chosen.parts) == {MESH} and chosen.estimated_error <= 0.002
+    assert (
+        chosen.setting.sizes.steps == FEWEST_STEPS and set(chosen.parts) == {MESH} and chosen.estimated_error <= 0.002
+    )
     assert chosen.accuracy == (MODULE, chosen.setting.sizes)
 
 
@@ -82,7 +97,8 @@ def test_errors_that_do_not_fall_are_refused():
 
 
 def test_sizes_beyond_the_limits_are_not_chosen_and_the_reachable_target_is_named():
-    """Exact: with the mesh's error alone the finest mesh allowed has the error that is named, up to the search's steps."""
+    """Exact: with the mesh's error alone the finest mesh allowed has the error that is named, up to the search's
+    steps."""
     runs = KnownRuns((0.01, 0.0), finest=0.99, steps_matter=False)
     assert search(runs, TRIED, {MESH: 0.04}, 0.011).mesh >= 0.99
     with pytest.raises(TargetNotReached, match=r"^too fine; 1 % can be reached$"):
@@ -116,14 +132,20 @@ class KnownRunsOverFace(KnownRuns):
 
 @pytest.mark.parametrize("steps_matter", [True, False])
 def test_slices_are_chosen_beside_mesh_and_steps(steps_matter):
-    """Brute force over all meshes of the search and every number of slices: nothing that reaches the target is much cheaper."""
+    """Brute force over all meshes of the search and every number of slices: nothing that reaches the target is much
+    cheaper."""
     runs = KnownRunsOverFace((0.002, 0.004 * 60**2), steps_matter=steps_matter)
     tried = first_sizes(0.01, FEWEST_STEPS, steps_matter, runs.slices)
     assert tried.slices == 14
     errors = runs.errors(tried)
     found = search(runs, tried, errors, 0.01)
     assert sum(errors_at(tried, errors, found).values()) <= 0.01 and found.slices > tried.slices
-    candidates = [Sizes(tried.mesh / RATIO**place, steps, slices) for place in range(12) for slices in range(14, 90) for steps in range(tried.steps, 400, ROUND_STEPS)]
+    candidates = [
+        Sizes(tried.mesh / RATIO**place, steps, slices)
+        for place in range(12)
+        for slices in range(14, 90)
+        for steps in range(tried.steps, 400, ROUND_STEPS)
+    ]
     least = min(runs.cost(sizes) for sizes in candidates if sum(errors_at(tried, errors, sizes).values()) <= 0.01)
     # Numbers of slices of the search rise by a fifth.
     assert runs.cost(found) <= least * RATIO_OF_SLICES**2

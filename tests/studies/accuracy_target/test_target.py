@@ -1,4 +1,5 @@
-"""`[accuracy] target` on a real scene: what is chosen reaches it, is told, and repeats; what cannot be reached is refused."""
+"""`[accuracy] target` on a real scene: what is chosen reaches it, is told, and repeats; what cannot be reached is
+refused."""
 
 import re
 import time
@@ -37,7 +38,10 @@ def text(paper_scene):
     for section in ("shafts", "bearings", "inertia", "damping", "friction"):
         before, _, after = plain.partition(f"[{section}]")
         plain = before + ("[" + after.partition("\n[")[2] if "\n[" in after else "")
-    return plain.replace("mesh_cycles = 30", "mesh_cycles = 1").replace("recorded_cycles = 2", "recorded_cycles = 1") + TEXT_TARGET
+    return (
+        plain.replace("mesh_cycles = 30", "mesh_cycles = 1").replace("recorded_cycles = 2", "recorded_cycles = 1")
+        + TEXT_TARGET
+    )
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +71,9 @@ def run(scene):
 
 def test_the_scene_is_the_one_meant(scene, paper_scene):
     """Identity with the scene made from the paper's."""
-    expected = replace(teeth_alone(paper_scene), friction=None, accuracy=Accuracy(target=TARGET), motion=Motion(200.0, 1, 1))
+    expected = replace(
+        teeth_alone(paper_scene), friction=None, accuracy=Accuracy(target=TARGET), motion=Motion(200.0, 1, 1)
+    )
     assert replace(scene, name="", title="") == replace(expected, name="", title="")
 
 
@@ -77,7 +83,12 @@ def test_the_true_error_is_within_the_target(scene, run):
     mesh = run.attrs["flank_element_size"] / runs.setting(Sizes(1.0, 40)).flank
     fine = runs.setting(Sizes(mesh / 3.0, 2 * run.attrs["steps_per_mesh_cycle"]))
     found, reference = (judged_answer(each) for each in (run, simulate(fine.of(replace(scene, accuracy=Accuracy())))))
-    assert max(distance(found, reference, name) for name in JUDGED) <= run.attrs["estimated_error"] <= TARGET == run.attrs["target"]
+    assert (
+        max(distance(found, reference, name) for name in JUDGED)
+        <= run.attrs["estimated_error"]
+        <= TARGET
+        == run.attrs["target"]
+    )
 
 
 def test_parts_of_the_error_are_told(run):
@@ -90,7 +101,8 @@ def test_parts_of_the_error_are_told(run):
 
 
 def test_the_scene_that_the_result_carries_repeats_it(run):
-    """Identity, to the last bit: settings stand in the result's scene in place of the target, and nothing is measured again."""
+    """Identity, to the last bit: settings stand in the result's scene in place of the target, and nothing is measured
+    again."""
     again = scene_from_text(run.attrs["scene"])
     assert again.accuracy.target is None and again.accuracy.flank_element_size == run.attrs["flank_element_size"]
     assert np.array_equal(simulate(again).transmission_error.values, run.transmission_error.values)
@@ -98,9 +110,14 @@ def test_the_scene_that_the_result_carries_repeats_it(run):
 
 def test_a_scene_changed_in_python_can_have_a_target(scene, monkeypatch):
     """The text that the result carries gives what was run, by its reader: the chosen settings, and what was changed."""
-    monkeypatch.setattr("fenics_gears.studies.accuracy_target.choose.choose", lambda *arguments: choosing.Chosen(Accuracy("P1", 0.25), None, {"x": 0.05}, 1))
+    monkeypatch.setattr(
+        "fenics_gears.studies.accuracy_target.choose.choose",
+        lambda *arguments: choosing.Chosen(Accuracy("P1", 0.25), None, {"x": 0.05}, 1),
+    )
     result = simulate(replace(scene, load=Load(0.9 * scene.load.wheel_torque)))
-    assert scene_from_text(result.attrs["scene"]) == replace(scene, name="scene", load=Load(0.9 * scene.load.wheel_torque), accuracy=Accuracy("P1", 0.25))
+    assert scene_from_text(result.attrs["scene"]) == replace(
+        scene, name="scene", load=Load(0.9 * scene.load.wheel_torque), accuracy=Accuracy("P1", 0.25)
+    )
     assert result.attrs["element"] == "P1"
 
 
@@ -111,12 +128,16 @@ def test_a_tighter_target_takes_a_finer_mesh(scene, run):
 
 
 def test_the_clock_has_no_say(scene, run, runs_once, monkeypatch):
-    """Identity: with a clock, and times of the trial runs, that say anything the same settings are chosen, by as many runs."""
+    """Identity: with a clock, and times of the trial runs, that say anything the same settings are chosen, by as many
+    runs."""
     random = np.random.default_rng(5)
 
     def timed_at_random(scene, gears, progress):
         found, cycle = runs_once(scene, gears, progress)
-        return found.assign_attrs({name: random.uniform(0.0, 1e3) for name in found.attrs if name.startswith("time_")}), cycle
+        return (
+            found.assign_attrs({name: random.uniform(0.0, 1e3) for name in found.attrs if name.startswith("time_")}),
+            cycle,
+        )
 
     monkeypatch.setattr(trial_runs, "run_sharing", timed_at_random)
     monkeypatch.setattr(time, "perf_counter", lambda: float(random.uniform(0.0, 1e3)))
@@ -127,7 +148,8 @@ def test_the_clock_has_no_say(scene, run, runs_once, monkeypatch):
 
 
 def test_only_steps_with_a_past_have_an_error(scene):
-    """Identity: a quasi-static step without friction knows nothing of the one before, so that half the steps give the same values; with friction
+    """Identity: a quasi-static step without friction knows nothing of the one before, so that half the steps give the
+    same values; with friction
     they do not, and one more run measures by how much."""
     runs, sizes = TrialRuns(scene, lambda words: None), Sizes(2.5, 40)
     assert set(runs.errors(sizes)) == {MESH} and runs.runs == 2
@@ -138,7 +160,8 @@ def test_only_steps_with_a_past_have_an_error(scene):
 
 
 def test_test_runs_can_represent_the_slowest_vibration(paper_scene, scene):
-    """Nyquist: at least two steps in a period, also with half the steps. Where no usual number has them, and without inertia, few do."""
+    """Nyquist: at least two steps in a period, also with half the steps. Where no usual number has them, and without
+    inertia, few do."""
     slow = replace(paper_scene, accuracy=Accuracy(), motion=Motion(5.0, 2, 1))
     fewest = TrialRuns(slow, lambda words: None).fewest_steps
     slowest = model_of(slow).vibrations[0].frequency
@@ -183,7 +206,10 @@ def test_a_window_that_cuts_contact_off_is_lengthened(scene):
 def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
     """With little memory no fine settings fit; the target named instead can be reached, by the same runs."""
     monkeypatch.setattr(trial_runs, "MOST_BYTES", 3.4e8)
-    with pytest.raises(TargetNotReached, match=r"accuracy.target = 0.1 %.*P2 .* would take more than 0.34 GB of memory; [\d.]+ % can be") as failure:
+    with pytest.raises(
+        TargetNotReached,
+        match=r"accuracy.target = 0.1 %.*P2 .* would take more than 0.34 GB of memory; [\d.]+ % can be",
+    ) as failure:
         choose(scene, 0.001, SilentProgress())
     assert failure.value.exit_code == 3
     reachable = 0.01 * float(re.search(r"; ([\d.]+) % can be", str(failure.value))[1])
@@ -192,6 +218,7 @@ def test_what_memory_does_not_hold_is_refused_by_name(scene, monkeypatch):
 
 def test_memory_that_runs_out_is_a_typed_error(scene, monkeypatch):
     """What the estimate did not foresee."""
+
     def no_memory(scene, gears, progress):
         raise MemoryError
 
@@ -201,7 +228,8 @@ def test_memory_that_runs_out_is_a_typed_error(scene, monkeypatch):
 
 
 def test_elements_are_no_finer_than_a_scene_may_ask_for(scene):
-    """The schema's own bounds, for the chosen settings are written into a scene; and the largest result that a scene may have."""
+    """The schema's own bounds, for the chosen settings are written into a scene; and the largest result that a scene
+    may have."""
     runs = TrialRuns(scene, lambda words: None)
     with pytest.raises(TargetNotReached, match="finer than a scene may ask for"):
         runs.cost(Sizes(0.05, 40))
@@ -213,6 +241,7 @@ def test_elements_are_no_finer_than_a_scene_may_ask_for(scene):
 
 def test_choosing_can_be_interrupted_within_a_run(scene, monkeypatch):
     """Ctrl-C becomes a KeyboardInterrupt within the first run, not at its end."""
+
     class Interrupted(SilentProgress):
         said = 0
 
@@ -242,8 +271,10 @@ def test_a_setting_beside_a_target_is_refused(text, line, reason):
 
 @pytest.mark.parametrize("written, reason", [
     ("1", 'is a number without its unit. In % it is written "1 %"'),
-    ('"1"', "is a number without unit, not a percentage"), ('"1 mm"', "is a length, not a percentage"), ('"-1 %"', "is negative"),
-    ('"0 %"', "is zero"), ('"0.01 %"', "is too small"), ('"60 %"', "is too large"), ("true", "is not a text with a number and its unit"),
+    ('"1"', "is a number without unit, not a percentage"), ('"1 mm"', "is a length, not a percentage"),
+    ('"-1 %"', "is negative"),
+    ('"0 %"', "is zero"), ('"0.01 %"', "is too small"), ('"60 %"', "is too large"),
+    ("true", "is not a text with a number and its unit"),
     ('"1e999 %"', "is not a finite number"), ("0.2", 'In % it is written "0.2 %"'),
 ])  # fmt: skip
 def test_a_wrong_percentage_says_what_is_wrong(text, written, reason):

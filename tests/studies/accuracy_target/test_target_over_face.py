@@ -46,7 +46,8 @@ def test_all_that_a_target_promises_holds(name):
     own, said = scene.accuracy, "\n".join(" ".join(map(str, row)) for row in summary_rows(run))
     assert f"{own.slices} slices on {own.layers} layers" in said and "estimated error of T_E, T_EPP, line load" in said
     finer = replace(
-        own, flank_element_size=0.5 * own.flank_element_size, contact_nodes=2 * own.contact_nodes - 1, slices=2 * own.slices, layers=2 * own.layers,
+        own, flank_element_size=0.5 * own.flank_element_size, contact_nodes=2 * own.contact_nodes - 1,
+        slices=2 * own.slices, layers=2 * own.layers,
         body_element_size=own.body_element_size / 1.5,
     )  # fmt: skip
     found, truth = judged_answer(run), judged_answer(simulate(replace(scene, accuracy=finer)))
