@@ -21,6 +21,9 @@ from tests.stand_in import stand_in_compliance
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
+from fenics_gears.inputs.tree import GEARS
+from fenics_gears.model.face_resolution import face_discretisation
+from fenics_gears.model.model import model_of
 from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.elastic_route import mesh_cycle
@@ -44,7 +47,7 @@ def pinned() -> dict:
         "over the face": simulate(helical_scene('[misalignment]\nin_plane = "6 um"\n'), preparation=over_the_face),
     }
     found = {f"{name}: {number}": value for name, run in runs.items() for number, value in _numbers(run).items()}
-    return {"numbers_version": NUMBERS_VERSION, "numbers": found | _of_a_body()}
+    return {"numbers_version": NUMBERS_VERSION, "numbers": found | _of_a_body() | _of_default_layers()}
 
 
 def _numbers(run) -> dict[str, float]:
@@ -95,6 +98,20 @@ def _of_a_body() -> dict[str, float]:
     )
     blocks = ring_compliance(condensed_sector(sector, element, 0.3), SECTORS, 2)
     return {f"body: teeth {offset} apart": float(np.abs(block).mean()) for offset, block in enumerate(blocks)}
+
+
+def _of_default_layers() -> dict[str, float]:
+    """Slices and layers of the face by default, of little helix and much: bodies themselves have gmsh meshes."""
+    numbers = {}
+    for helix in (10.0, 30.0):
+        model = model_of(helical_scene(helix=helix, accuracy=""))
+        numbers[f"{helix:g} deg: slices"] = float(model.face.slices)
+        for gear, name in enumerate(GEARS):
+            divided = face_discretisation(model, gear)
+            ends = divided.sweep.boundaries
+            numbers[f"{helix:g} deg: layers, {name}"] = float(len(ends) - 1)
+            numbers[f"{helix:g} deg: ends of layers, {name}"] = float(np.abs(ends).mean())
+    return numbers
 
 
 def main() -> None:
