@@ -18,7 +18,6 @@ NEEDED = (
     "gmsh",
     "numpy",
     "scipy",
-    "cvxopt",
     "numba",
     "h5py",
     "xarray",
