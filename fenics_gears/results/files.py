@@ -10,7 +10,6 @@ from typing import BinaryIO
 import xarray as xr
 
 from fenics_gears.errors import ComputationError
-from fenics_gears.results.old_layout import upgraded
 from fenics_gears.system.copied_process import survives
 from fenics_gears.system.sealed import seal_of, unsealed
 
@@ -78,7 +77,7 @@ class NeverFull:
 
 
 def load(path: str | Path) -> xr.Dataset:
-    """Read a saved result into memory, one of an earlier layout as results are now. Raises ComputationError when the
+    """Read a saved result into memory. Raises ComputationError when the
     file is no result of this program, or damaged."""
     result = read(path)
     if "transmission_error" not in result or "scene" not in result.attrs:
@@ -86,7 +85,6 @@ def load(path: str | Path) -> xr.Dataset:
     # The contents' layout, imported here: writing a result does not need it.
     from fenics_gears.results.layout import mistake_in
 
-    result = upgraded(result)
     if mistake := mistake_in(result):
         raise ComputationError(f"{path}: is no whole result of this program: {mistake}. Run its scene again.")
     return result

@@ -85,8 +85,7 @@ def _summary(cases: Cases) -> Section:
         values = list(dict.fromkeys(field.words(case) for case in range(cases.count)))
         shown = ", ".join(values) if len(values) <= 8 else f"{', '.join(values[:3])}, … {values[-1]}"
         rows.append((field.called, f"{shown} {field.unit}".strip(), ""))
-    remarks = [Words(f"Remark: {said}.") for said in str(cases.dataset.attrs.get("remarks", "")).splitlines()]
-    return Section("summary", "Summary", [Tiles(tiles), Facts(rows, "Swept fields"), *remarks])
+    return Section("summary", "Summary", [Tiles(tiles), Facts(rows, "Swept fields")])
 
 
 def _failures(cases: Cases) -> Section:
