@@ -10,7 +10,6 @@ from typing import BinaryIO
 import xarray as xr
 
 from fenics_gears.errors import ComputationError
-from fenics_gears.system.copied_process import survives
 from fenics_gears.system.sealed import seal_of, unsealed
 
 
@@ -88,23 +87,6 @@ def load(path: str | Path) -> xr.Dataset:
     if mistake := mistake_in(result):
         raise ComputationError(f"{path}: is no whole result of this program: {mistake}. Run its scene again.")
     return result
-
-
-def check_readable(path: str | Path) -> None:
-    """Raise ComputationError where HDF5 would end this process at a file: where it is damaged below a seal that was
-    made anew."""
-    import h5py
-
-    from fenics_gears.results.netcdf import variables_in
-
-    def all_but_values() -> None:
-        with h5py.File(path) as file:
-            list(variables_in(file))
-
-    if not survives(all_but_values):
-        raise ComputationError(
-            f"{path}: cannot be read as a result: it is damaged, although its digest fits. Run its scene again."
-        )
 
 
 def read(path: str | Path) -> xr.Dataset:
