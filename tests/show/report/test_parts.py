@@ -22,10 +22,10 @@ from fenics_gears.show.report.energy import energy
 from fenics_gears.show.report.geometry import geometry
 from fenics_gears.show.report.interactive import figure
 from fenics_gears.show.report.overview import counted, summary
-from fenics_gears.show.report.pair_drawing import _on_line, drawings, gear_outline
-from fenics_gears.show.report.solver import _extent
 from fenics_gears.show.report.page import Page, Section
+from fenics_gears.show.report.pair_drawing import _on_line, drawings, gear_outline
 from fenics_gears.show.report.rendering import plotly_library, rendered
+from fenics_gears.show.report.solver import _extent
 from fenics_gears.show.run import Run, conditions
 from fenics_gears.show.thinning import thinned
 from fenics_gears.show.units import digits
