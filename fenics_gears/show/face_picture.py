@@ -156,13 +156,14 @@ def _rendered(
     """The image of a panel."""
     try:
         import pyvista
-    except ImportError as error:
+
+        if pyvista.vtk_version_info[:2] < (9, 4) and not os.environ.get("DISPLAY"):
+            pyvista.start_xvfb(window_size=[1600, 1200])
+    except (ImportError, OSError) as error:
         raise ComputationError(
-            "a picture of gears in three dimensions needs pyvista, which is not installed"
+            "a picture of gears in three dimensions needs pyvista, and a version of VTK before 9.4 a display or Xvfb"
+            f" (Debian: xvfb): {error}"
         ) from error
-    if pyvista.vtk_version_info[:2] < (9, 4) and not os.environ.get("DISPLAY"):
-        # Earlier versions of VTK draw on a display only, such as Xvfb's in memory.
-        pyvista.start_xvfb(window_size=[1600, 1200])
     if hasattr(pyvista, "vtk_verbosity"):
         # Without a display VTK warns before it draws in memory; versions before 0.45 of pyvista leave it to its own.
         pyvista.vtk_verbosity("off")
