@@ -6,7 +6,7 @@ returns an ``xarray.Dataset``.
 
 import importlib
 
-__version__ = "0.3.0"
+__version__ = "0.4.0"
 __all__ = ["__version__", "build_scene", "load_scene", "simulate"]
 
 # Loaded when first asked for, so that `gears --help` does not wait for the finite element stack.

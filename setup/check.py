@@ -18,7 +18,6 @@ NEEDED = (
     "gmsh",
     "numpy",
     "scipy",
-    "cvxopt",
     "numba",
     "h5py",
     "xarray",
@@ -28,11 +27,21 @@ NEEDED = (
     "matplotlib",
     "threadpoolctl",
     "jinja2",
-    "plotly",
+)
+# What single commands need, which say so themselves, stands here too.
+NEEDED_BY_TESTS = (
     "optuna",
     "cmaes",
+    "plotly",
+    "h5netcdf",
+    "pytest",
+    "pytest_benchmark",
+    "xdist",
+    "hypothesis",
+    "sphinx",
+    "myst_parser",
+    "furo",
 )
-NEEDED_BY_TESTS = ("h5netcdf", "pytest", "pytest_benchmark", "xdist", "hypothesis", "sphinx", "myst_parser", "furo")
 
 
 def lacking(names):

@@ -39,7 +39,7 @@ def plot(options: argparse.Namespace) -> int:
     check_writable(directory, *((*PICTURE_FILES, *FACE_PICTURE_FILES) if options.spectrum is None else NOISE_FILES))
     dataset = loaded_run(file)
     files = (
-        plots().draw_run(dataset, directory, shared=True)
+        plots().draw_run(dataset, directory)
         if options.spectrum is None
         else _noise(dataset, directory, options.spectrum)
     )

@@ -68,7 +68,7 @@ def _run(options: argparse.Namespace, job: Job | None) -> int:
             try:
                 interruption.heed()
                 interruption.stage("draw pictures")
-                files += plots().draw_run(dataset, directory, shared=True)
+                files += plots().draw_run(dataset, directory)
             except KeyboardInterrupt:
                 last_words = (
                     f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; `gears plot"

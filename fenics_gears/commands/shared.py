@@ -178,7 +178,6 @@ def loaded_run(file: Path, load: Callable | None = None):
     Of a run that has not ended, its journal is read, and it is said on the standard error what is missing.
     """
     from fenics_gears import results
-    from fenics_gears.results.files import check_readable
 
     try:
         if file.name == JOURNAL:
@@ -187,7 +186,6 @@ def loaded_run(file: Path, load: Callable | None = None):
             dataset = unfinished(file)
             print(f"{file}: {dataset.attrs['warnings'].splitlines()[0]}", file=sys.stderr)
             return dataset
-        check_readable(file)
         return (load or results.load)(file)
     except ComputationError as error:
         raise SceneError(str(error)) from error

@@ -17,6 +17,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import qr
+from scipy.optimize import nnls
 
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 from fenics_gears.contact.newton import CONVERGED, CYCLED, SINGULAR
@@ -24,7 +26,6 @@ from fenics_gears.contact.newton import CONVERGED, CYCLED, SINGULAR
 MOST_PROGRAMMES = 100
 # From this programme on only half of each change of the bounds is taken, so that bounds that alternate converge.
 UNRELAXED = 20
-ACCURACY = {"show_progress": False, "abstol": 1e-13, "reltol": 1e-13, "feastol": 1e-11, "maxiters": 60}
 
 
 @dataclass(frozen=True)
@@ -75,42 +76,65 @@ def tresca(problem, status: np.ndarray, polish: Callable):
 
 def frozen_friction(problem, bounds: np.ndarray) -> Frozen | None:
     """The forces that minimise the energy with |p_t| <= `bounds` (n,), N; None where the programme has no solution."""
-    from cvxopt import matrix, solvers
-
     n, force = len(problem.gap), max(np.abs(problem.load).max(initial=0.0), 1e3 * problem.tolerance.force)
     soft = problem.compliance[0, 0]
-    # Bounds of zero leave the programme no interior: those tangents are left out.
+    # Tangents whose bounds are zero are left out.
     rubbing = np.flatnonzero(bounds > 1e-12 * force)
     rows = np.concatenate((np.arange(n), n + rubbing))
     root = _root(problem.stiffness * soft)
-    size, extra, tangents = len(rows), root.shape[1], len(rubbing)
-    energy = np.zeros((size + extra, size + extra))
+    size, tangents = len(rows), len(rubbing)
+    energy = np.eye(size + root.shape[1])
     energy[:size, :size] = problem.compliance[np.ix_(rows, rows)] / soft
-    energy[size:, size:] = np.eye(extra)
-    distance = np.concatenate((problem.gap, -problem.slip_before))[rows] / (force * soft)
-    limits = np.zeros((n + 2 * tangents, size + extra))
-    limits[:n, :n] = -np.eye(n)
-    limits[n : n + tangents, n:size], limits[n + tangents :, n:size] = np.eye(tangents), -np.eye(tangents)
-    allowed = np.concatenate((np.zeros(n), bounds[rubbing], bounds[rubbing])) / force
+    distance = np.zeros(len(energy))
+    distance[:size] = np.concatenate((problem.gap, -problem.slip_before))[rows] / (force * soft)
+    limits = np.zeros((n + 2 * tangents, len(energy)))
+    limits[:n, :n] = np.eye(n)
+    limits[n : n + tangents, n:size], limits[n + tangents :, n:size] = -np.eye(tangents), np.eye(tangents)
+    least = -np.concatenate((np.zeros(n), bounds[rubbing], bounds[rubbing])) / force
     balance = np.hstack((problem.jacobian[rows].T, root))
-    try:
-        found = solvers.coneqp(
-            matrix(energy), matrix(np.concatenate((distance, np.zeros(extra)))), matrix(limits), matrix(allowed),
-            A=matrix(balance), b=matrix(problem.load / force), options=ACCURACY,
-        )  # fmt: skip
-    except (ValueError, ArithmeticError):
+    found = _least(energy, distance, limits, least, balance, problem.load / force)
+    if found is None:
         return None
-    if found["x"] is None or not np.all(np.isfinite(np.array(found["x"]))):
-        return None
-    if found["status"] != "optimal" and not found["primal infeasibility"] < 1e-6:
-        return None
-    primal, pressed, slack = (np.array(found[name]).ravel() for name in ("x", "z", "s"))
+    minimiser, held, multipliers = found
     forces = np.zeros(len(problem.compliance))
-    forces[rows] = primal[:size] * force
-    # The equality's multiplier has the sign that adds it to the energy.
-    coordinates = -np.array(found["y"]).ravel() * force * soft
-    active = pressed > slack
-    return Frozen(forces, coordinates, _sets(problem, forces, coordinates, rubbing, active))
+    forces[rows] = minimiser[:size] * force
+    coordinates = multipliers * force * soft
+    return Frozen(forces, coordinates, _sets(problem, forces, coordinates, rubbing, held > 0.0))
+
+
+def _least(energy, linear, limits, least, balance, load) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
+    """The x that minimises 1/2 x^T `energy` x + `linear` . x with `limits` x >= `least` and `balance` x = `load`, and
+    the multipliers of both; None where no x obeys them.
+
+    The equalities are eliminated by an orthogonal basis of what they leave free. In y = U x + c, with U^T U the energy,
+    what is left is the least distance from the origin, whose dual is a least-squares problem with unknowns >= 0
+    (C. L. Lawson and R. J. Hanson, Solving Least Squares Problems, 1974, chapter 23): solved exactly, in finitely many
+    steps.
+    """
+    basis, triangle = qr(balance.T)
+    held, free = np.split(basis, [len(load)], axis=1)
+    start = held @ np.linalg.lstsq(triangle[: len(load)].T, load, rcond=None)[0]
+    values, vectors = np.linalg.eigh(free.T @ energy @ free)
+    # Columns of `free` in which the energy is the identity; nodes that elasticity cannot tell apart keep a little.
+    free = free @ (vectors / np.sqrt(np.maximum(values, 1e-15 * values.max(initial=0.0))))
+    shift = free.T @ (energy @ start + linear)
+    inner = limits @ free
+    rows = np.vstack((inner.T, least - limits @ start + inner @ shift))
+    lengths = np.linalg.norm(rows, axis=0)
+    lengths[lengths == 0.0] = 1.0
+    target = np.zeros(len(rows))
+    target[-1] = 1.0
+    try:
+        dual = nnls(rows / lengths, target, maxiter=30 * rows.shape[1])[0] / lengths
+    except RuntimeError:
+        return None
+    nearest = rows @ dual - target
+    if not nearest[-1] < 0.0:
+        return None
+    pressed = dual / -nearest[-1]
+    minimiser = start + free @ (nearest[:-1] / -nearest[-1] - shift)
+    slope = energy @ minimiser + linear - limits.T @ pressed
+    return minimiser, pressed, np.linalg.lstsq(balance.T, slope, rcond=None)[0]
 
 
 def _sets(problem, forces: np.ndarray, coordinates: np.ndarray, rubbing: np.ndarray, active: np.ndarray) -> np.ndarray:

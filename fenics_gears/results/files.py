@@ -10,8 +10,6 @@ from typing import BinaryIO
 import xarray as xr
 
 from fenics_gears.errors import ComputationError
-from fenics_gears.results.old_layout import upgraded
-from fenics_gears.system.copied_process import survives
 from fenics_gears.system.sealed import seal_of, unsealed
 
 
@@ -78,7 +76,7 @@ class NeverFull:
 
 
 def load(path: str | Path) -> xr.Dataset:
-    """Read a saved result into memory, one of an earlier layout as results are now. Raises ComputationError when the
+    """Read a saved result into memory. Raises ComputationError when the
     file is no result of this program, or damaged."""
     result = read(path)
     if "transmission_error" not in result or "scene" not in result.attrs:
@@ -86,27 +84,9 @@ def load(path: str | Path) -> xr.Dataset:
     # The contents' layout, imported here: writing a result does not need it.
     from fenics_gears.results.layout import mistake_in
 
-    result = upgraded(result)
     if mistake := mistake_in(result):
         raise ComputationError(f"{path}: is no whole result of this program: {mistake}. Run its scene again.")
     return result
-
-
-def check_readable(path: str | Path) -> None:
-    """Raise ComputationError where HDF5 would end this process at a file: where it is damaged below a seal that was
-    made anew."""
-    import h5py
-
-    from fenics_gears.results.netcdf import variables_in
-
-    def all_but_values() -> None:
-        with h5py.File(path) as file:
-            list(variables_in(file))
-
-    if not survives(all_but_values):
-        raise ComputationError(
-            f"{path}: cannot be read as a result: it is damaged, although its digest fits. Run its scene again."
-        )
 
 
 def read(path: str | Path) -> xr.Dataset:

@@ -3,6 +3,7 @@ stress."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -22,7 +23,6 @@ from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from fenics_gears.show.pressure import COLOURS as PRESSURE_COLOURS
 from fenics_gears.show.stress_picture import COLOURS, colour_bar, heading, rounded_up
 from fenics_gears.simulation.face_stresses import GearsInSpace, TeethInSpace
-from fenics_gears.system.virtual_display import ensure_display
 
 UNLOADED, EDGES = "#E4E7EA", "#5A6068"
 PIXELS = 150  # an inch
@@ -156,11 +156,14 @@ def _rendered(
     """The image of a panel."""
     try:
         import pyvista
-    except ImportError as error:
+
+        if pyvista.vtk_version_info[:2] < (9, 4) and not os.environ.get("DISPLAY"):
+            pyvista.start_xvfb(window_size=[1600, 1200])
+    except (ImportError, OSError) as error:
         raise ComputationError(
-            "a picture of gears in three dimensions needs pyvista, which is not installed"
+            "a picture of gears in three dimensions needs pyvista, and a version of VTK before 9.4 a display or Xvfb"
+            f" (Debian: xvfb): {error}"
         ) from error
-    ensure_display(pyvista.vtk_version_info)
     if hasattr(pyvista, "vtk_verbosity"):
         # Without a display VTK warns before it draws in memory; versions before 0.45 of pyvista leave it to its own.
         pyvista.vtk_verbosity("off")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import struct
 import textwrap
 import zlib
@@ -26,7 +25,6 @@ from fenics_gears.show.orders import OF_ERROR, order_spectrum
 from fenics_gears.show.panels import DARK, DOTS_PER_INCH, WARNING, styled
 from fenics_gears.show.pressure import pressure_maps
 from fenics_gears.show.run import Run, conditions
-from fenics_gears.system.copied_process import do_all
 from fenics_gears.system.output import written_aside
 
 
@@ -72,37 +70,24 @@ def _of_face(run: Run) -> dict[str, tuple[str, Callable[[Run], Iterable[Chart]]]
 ROWS_AT_ONCE = 16
 
 
-def draw_run(dataset: xr.Dataset, directory: str | Path, shared: bool = False) -> list[Path]:
+def draw_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
     """Draw all pictures for which the result has data, as PNG, and return the files.
 
-    They appear in ``directory`` together, when all are drawn. `shared`: with a copy of this process, see
-    `system.copied_process`. Raises ComputationError where fewer than two steps are stored, a variable's units do not
-    fit it, or the directory cannot be written.
+    They appear in ``directory`` together, when all are drawn. Raises ComputationError where fewer than two steps are
+    stored, a variable's units do not fit it, or the directory cannot be written.
     """
-    drawn, written = _drawn(dataset), []
-    with written_aside(Path(directory), written) as aside:
-        do_all([functools.partial(_draw, aside / name, *what) for name, what in drawn.items()], shared)
-    return written
+    return save_figures(run_figures(dataset), Path(directory))
 
 
 def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
     """The pictures of a result as figures, by file name. Raises ComputationError as ``draw_run`` does."""
-    return {name: picture(*what) for name, what in _drawn(dataset).items()}
-
-
-def _drawn(dataset: xr.Dataset) -> dict[str, tuple[str, list[Chart], str]]:
-    """Heading, charts and colour of each picture that there is, by file name."""
     run = Run(dataset)
     _check_steps(run)
-    drawn = {
-        name: (_heading(run, subject), list(charts(run)), DARK if run.complete else WARNING)
-        for name, (subject, charts) in (PICTURES | _of_face(run)).items()
+    subjects = {name: (subject, list(charts(run))) for name, (subject, charts) in (PICTURES | _of_face(run)).items()}
+    colour = DARK if run.complete else WARNING
+    return {
+        name: picture(_heading(run, subject), charts, colour) for name, (subject, charts) in subjects.items() if charts
     }
-    return {name: what for name, what in drawn.items() if what[1]}
-
-
-def _draw(file: Path, heading: str, charts: list[Chart], colour: str) -> None:
-    save_figure(picture(heading, charts, colour), file)
 
 
 def _heading(run: Run, subject: str) -> str:

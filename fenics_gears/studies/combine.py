@@ -20,7 +20,6 @@ from fenics_gears.results.pairs import shown_steps
 from fenics_gears.results.settled import settled_steps
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.studies.axis import Axis
-from fenics_gears.studies.kept_sizes import kept_sizes
 from fenics_gears.studies.study import Study
 from fenics_gears.system.output import write_whole
 
@@ -105,7 +104,6 @@ def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[
         fenics_gears_version=fenics_gears.__version__,
         cases=len(study.cases),
         cases_failed=len(failures),
-        remarks="\n".join(kept_sizes(study.axes, study.cases[0].scene.derived)),
         complete=int(len(records) == len(study.cases)),
         curves=why_not or ", ".join(name for name in CURVES if name in result),
     )

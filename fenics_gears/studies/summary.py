@@ -5,7 +5,6 @@ from __future__ import annotations
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.results.summary import MICROMETRES
 from fenics_gears.results.validity import NO_MEANING
-from fenics_gears.studies.kept_sizes import kept_sizes
 from fenics_gears.studies.run_study import Outcome
 
 MOST_FAILURES = 5
@@ -29,7 +28,6 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
         without_meaning = sum(NO_MEANING in record.warnings for record in records)
         if without_meaning:
             rows.append(("cases without meaning", f"{without_meaning}, see the variable meaningless", ""))
-    rows += [("remark", said, "") for said in kept_sizes(outcome.study.axes, outcome.study.cases[0].scene.derived)]
     return rows
 
 

@@ -65,7 +65,7 @@ def simulation(monkeypatch, tmp_path):
     stand_in.simulate = simulate
     plots = types.ModuleType("fenics_gears.show.plots")
 
-    def draw_run(dataset, directory, shared):
+    def draw_run(dataset, directory):
         picture = Path(directory) / "transmission_error.png"
         picture.write_bytes(b"picture")
         return [picture]

@@ -41,7 +41,7 @@ This page is written by `python -m tests.docs.write`, from `fenics_gears/effects
 PAIRS = """**Tooth pairs.** Variables over `time` cover all steps of the run. `pair_number` says which tooth pair a slot holds, 0 for none. Pairs are numbered from 1 in the order in which they
 enter. A pair reaches the theoretical start of contact at the mesh phase `pair_number` minus the attribute `number_at_phase_0` of that variable. Two functions of `fenics_gears.results`
 help ([in Python](python.md#tooth-pairs)): `by_pair(result["pair_normal_force"])` gives each pair its own curve, with the dimension `pair` in place of `slot`; `shown(result)` returns the
-last mesh cycles, which pictures show. The program also reads files of earlier versions, in the form described here.
+last mesh cycles, which pictures show.
 
 **Settled steps.** Numbers among the attributes are taken over the settled steps, from `settled_from` to the end. Steps are settled when the slowest vibration excited by the start has
 decreased to 1 %; without inertia all steps are. Where mesh cycles differ, whole common periods are taken: a common period is the number of mesh cycles after which every

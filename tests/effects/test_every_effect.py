@@ -37,7 +37,7 @@ METHODS = {
 RARE = {
     "eccentricity": {"fenics_gears.contact.wobble"},
     "inertia": {"fenics_gears.dynamics.mean_equilibrium"},
-    "friction": {"fenics_gears.contact.tresca", "cvxopt"},
+    "friction": {"fenics_gears.contact.tresca"},
 }
 
 
@@ -171,7 +171,6 @@ def test_a_bare_scene_loads_no_varying_gaps_no_second_solver_no_other_model_and_
         if name.startswith("fenics_gears.") and re.search("spring|stiffness_table|iso_6336", name)
     ]
     assert not {"fenics_gears.contact.deviating_cycle", *METHODS["corner_contact"]} & loaded[TEETH]
-    assert "cvxopt" not in loaded[TEETH]
     assert not {"dolfinx", "gmsh", "petsc4py", "fenics_gears.elasticity.ring"} & loaded["nothing"]
     # Otherwise nothing could be said of what was not loaded.
     assert "fenics_gears.contact.newton" in loaded[TEETH] and "fenics_gears.contact.rigid_cycle" in loaded["nothing"]

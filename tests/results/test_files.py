@@ -1,8 +1,6 @@
 """The file of a result against another program's."""
 
 import io
-import subprocess
-import sys
 
 import h5py
 import numpy as np
@@ -162,38 +160,3 @@ def test_a_result_whose_layout_is_not_one_is_refused_by_its_first_mistake(tmp_pa
     with pytest.raises(ComputationError) as refused:
         results.load(tmp_path / "run.nc")
     assert words in str(refused.value)
-
-
-# In a process of its own: where MPI is loaded no copy is made, and HDF5 ends this one.
-DAMAGE = """
-import os, random, signal, sys
-from pathlib import Path
-from fenics_gears.commands.shared import loaded_run
-from fenics_gears.errors import SceneError
-from fenics_gears.system.copied_process import survives
-from fenics_gears.system.sealed import seal
-file = Path(sys.argv[1])
-whole, refused, draw = file.read_bytes()[: -len(seal(b""))], 0, random.Random(5)
-for _ in range(12):
-    damaged = bytearray(whole)
-    for _ in range(16):
-        damaged[draw.randrange(len(damaged))] = draw.randrange(256)
-    file.write_bytes(damaged + seal(bytes(damaged)))
-    try:
-        loaded_run(file)
-    except SceneError as error:
-        refused += str(error).startswith(str(file))
-ended, failed = survives(lambda: os.kill(os.getpid(), signal.SIGSEGV)), survives(lambda: 1 / 0)
-print(refused, ended, failed)
-"""
-
-
-def test_bytes_damaged_under_a_digest_made_anew_end_in_words(tmp_path):
-    """Authority: house rule on errors; HDF5 itself ends the process at one of six such files, so that a copy of it
-    reads them first: a copy that a signal ends is told from one that fails."""
-    results.save(made_up_run(steps=400), tmp_path / "run.nc")
-    found = subprocess.run(
-        [sys.executable, "-c", DAMAGE, tmp_path / "run.nc"], capture_output=True, text=True, check=True
-    )
-    refused, ended, failed = found.stdout.split()
-    assert int(refused) > 2 and (ended, failed) == ("False", "True")

@@ -19,7 +19,7 @@ from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.results.energy_variables import energy_variables, work_variables
-from fenics_gears.results.pairs import contact_times, lives
+from fenics_gears.results.pairs import contact_times
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion, Output
 from fenics_gears.simulation.routes import prepared
@@ -41,9 +41,8 @@ def marched(paper_scene):
     return model, cycle, march.records, results.dataset(recorder, march)
 
 
-def in_old_layout(model, cycle, records) -> xr.Dataset:
-    """A result as versions before slots had it, by pair counted through the run, written out of the records one by one:
-    brute force."""
+def by_pair_number(model, cycle, records) -> xr.Dataset:
+    """A result by pair counted through the run, written out of the records one by one: brute force."""
     numbers = sorted(
         {int(cycle.pair_number(r.step, p.place.index)) for r in records for p in r.position.operator.pairs}
     )
@@ -72,28 +71,25 @@ def in_old_layout(model, cycle, records) -> xr.Dataset:
             ):
                 forces[name][i, row] = force.sum()
     fields.pop("coast_contact_offset"), forces.pop("unused")
-    steps = np.array([record.step for record in records])
     variables = {name: (("time", "pair"), force) for name, force in forces.items()}
     variables |= {name: (("time", "pair", "contact_node"), field) for name, field in fields.items()}
-    variables["transmission_error"] = ("time", np.cos(steps))
-    coordinates = {"time": steps * model.time_step, "mesh_phase": ("time", steps / cycle.steps), "pair": numbers}
-    return xr.Dataset(variables, coordinates, {"scene": "", "complete": 1})
+    return xr.Dataset(variables, {"pair": numbers})
 
 
 def test_slots_hold_what_pairs_held(marched):
     """Brute force: forces of all steps and fields of the last cycles, pair by pair, from the march's own records."""
     model, cycle, records, result = marched
-    old = in_old_layout(model, cycle, list(records))
+    pairs = by_pair_number(model, cycle, list(records))
     first = result["pair_number"].attrs["number_at_phase_0"]
     assert (
-        result["pair_number"].values.max() == old["pair"].values.max() + first
+        result["pair_number"].values.max() == pairs["pair"].values.max() + first
         and result["pair_number"].values[0].min() >= 0
     )
     assert 1 in result["pair_number"].values[0]
     for name in ("pair_normal_force", "pair_friction_force", "pair_coast_normal_force"):
         found = results.by_pair(result[name], absent=0.0)
         np.testing.assert_allclose(
-            found.values, old[name].sel(pair=found["pair"].values - first).values, rtol=1e-12, atol=1e-9
+            found.values, pairs[name].sel(pair=found["pair"].values - first).values, rtol=1e-12, atol=1e-9
         )
     assert (
         result.sizes["contact_time"]
@@ -102,29 +98,10 @@ def test_slots_hold_what_pairs_held(marched):
         < result.sizes["time"]
         == model.steps + 1
     )
-    for name in [name for name in old.data_vars if "contact_" in name]:
+    for name in [name for name in pairs.data_vars if "contact_" in name]:
         found = results.by_pair(result[name], absent=np.nan if name.endswith(("offset", "angle")) else 0.0)
-        expected = old[name].sel(pair=found["pair"].values - first).values[-model.contact_steps :]
+        expected = pairs[name].sel(pair=found["pair"].values - first).values[-model.contact_steps :]
         np.testing.assert_allclose(found.values, expected, rtol=1e-12)
-
-
-def test_a_file_of_before_slots_is_read_as_one_of_now(marched, tmp_path):
-    """Round trip: a file in the old layout, made by brute force, has the same curves and fields pair by pair when it is
-    read."""
-    model, cycle, records, result = marched
-    old = in_old_layout(model, cycle, list(records)[-model.contact_steps :])
-    results.save(old, tmp_path / "run.nc")
-    read = results.load(tmp_path / "run.nc")
-    assert "pair" not in read.dims and read.sizes["slot"] == result.sizes["slot"]
-    assert read["pair_number"].values.min(where=read["pair_number"].values > 0, initial=99) == 1
-    for name in set(old.data_vars) - {"transmission_error"}:
-        theirs = read[name].values, read["pair_number"].values
-        for life in lives(theirs[1]):
-            number = life.number - read["pair_number"].attrs["number_at_phase_0"]
-            np.testing.assert_array_equal(
-                theirs[0][life.steps, life.slot], old[name].sel(pair=number).values[life.steps]
-            )
-    np.testing.assert_array_equal(contact_times(read)["transmission_error"].values, old["transmission_error"].values)
 
 
 def test_the_account_goes_on_from_block_to_block(marched):

@@ -33,12 +33,6 @@ def test_a_picture_without_its_variable_is_not_written(tmp_path):
     assert {file.name for file in files} == OF_A_SHORT_RUN - {"contact_pressure.png"}
 
 
-def test_a_copy_of_the_process_draws_the_same(tmp_path):
-    """Authority: the pictures that one process draws, byte for byte."""
-    alone, shared = (draw_run(made_up_run(), tmp_path / str(shared), shared) for shared in (False, True))
-    assert [file.read_bytes() for file in shared] == [file.read_bytes() for file in alone]
-
-
 @pytest.mark.parametrize("steps", [0, 1])
 def test_too_few_steps_are_said_and_nothing_is_written(tmp_path, steps):
     """Authority: a curve needs two points."""

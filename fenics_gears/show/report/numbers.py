@@ -1,40 +1,33 @@
-"""The numbers of the run in tables: those that no tile and no spectrum has, and the points of the path of contact."""
+"""The numbers of the run in tables, and the points of the path of contact."""
 
 from __future__ import annotations
 
 import math
 
+from fenics_gears.results.summary import result_rows
 from fenics_gears.show.report.page import Beside, Facts, Section, Table, Words
 from fenics_gears.show.run import Run
 from fenics_gears.show.units import digits
 
-NUMBERS = {
+# What the summary that `gears run` prints leaves out.
+MORE = {
     "rms_transmission_error": ("transmission error without its mean, r.m.s.", "µm"),
     "rms_normal_force": ("mesh force without its mean, r.m.s.", "N"),
-    "mean_mesh_stiffness_tangent": ("mesh stiffness for small vibrations (tangent), mean", "N/(mm µm)"),
-    "single_pair_stiffness": ("stiffness of a single tooth pair c', largest", "N/(mm µm)"),
-    "largest_pair_force": ("largest force of a tooth pair", "N"),
     "quasi_static_pair_normal_force": ("largest force of a tooth pair without inertia", "N"),
     "peak_edge_pressure": ("largest pressure at a tip edge, which does not converge with the mesh", "MPa"),
     "quasi_static_root_stress": ("largest root stress without inertia", "MPa"),
-    "transverse_load_factor": (
-        "transverse load factor: largest share of a tooth pair in the mesh force over that of an even line load",
-        "",
-    ),
 }
 
 
 def numbers(run: Run) -> Section:
-    """Two tables side by side; the second is there where the result has the path of contact."""
+    """The summary that `gears run` prints, and more; beside it the path of contact where the result has it."""
     attributes = run.dataset.attrs
-    rows = [
+    rows = result_rows(run.dataset) if run.steps else []
+    rows += [
         (words, digits(attributes[name]), unit)
-        for name, (words, unit) in NUMBERS.items()
+        for name, (words, unit) in MORE.items()
         if name in attributes and not _round_off(name, attributes)
     ]
-    rows += (
-        [("dynamic factor", attributes["dynamic_factor_unknown"], "")] if "dynamic_factor_unknown" in attributes else []
-    )
     blocks = [Facts(rows, "Of the settled mesh cycles")] if rows else []
     if "specific_sliding" in run.dataset:
         blocks.append(_contact_points(run))

@@ -60,7 +60,7 @@ def _tiles(run: Run) -> Iterator[Tile]:
             note = f"{largest / nominal:.3f} × {digits(nominal)} N, the normal force of the torque without friction"
         yield Tile("Largest mesh force", digits(largest), "N", note)
     if "peak_contact_pressure" in attributes:
-        yield Tile("Peak contact pressure", digits(attributes["peak_contact_pressure"]), "MPa", _where(attributes))
+        yield Tile("Peak contact pressure", digits(attributes["peak_contact_pressure"]), "MPa")
     if "root_stress_maximum" in dataset:
         largest = dataset["root_stress_maximum"].max(["time", "slot"]).values
         yield Tile(
@@ -70,32 +70,15 @@ def _tiles(run: Run) -> Iterator[Tile]:
             f"pinion {digits(largest[0])}, wheel {digits(largest[1])}",
         )
     if "dynamic_factor_by_force" in attributes:
-        yield Tile("Dynamic factor", f"{attributes['dynamic_factor_by_force']:.3f}", "", _dynamic_factors(attributes))
+        yield Tile("Dynamic factor", f"{attributes['dynamic_factor_by_force']:.3f}", "", "by force of a tooth pair")
     if "friction_loss" in attributes:
-        lost = (
-            f"{digits(attributes['friction_power'])} W of {digits(1e-3 * attributes['input_power'])} kW"
-            if "friction_power" in attributes
-            else ""
-        )
-        words = lost if "mesh_efficiency" in attributes else "of wedged or locked teeth, which have no efficiency"
-        yield Tile("Friction loss", f"{100.0 * attributes['friction_loss']:.3g}", "%", words)
+        yield Tile("Friction loss", f"{100.0 * attributes['friction_loss']:.3g}", "%")
     if "mean_mesh_stiffness_tangent" in attributes:
-        secant = f"tangent, for dynamics; force over deflection {digits(attributes['mean_mesh_stiffness'])}"
-        yield Tile("Mesh stiffness, mean", digits(attributes["mean_mesh_stiffness_tangent"]), "N/(mm µm)", secant)
+        yield Tile("Mesh stiffness, mean", digits(attributes["mean_mesh_stiffness_tangent"]), "N/(mm µm)", "tangent")
     if run.pair is not None:
-        overlap = (
-            f"{run.pair.total_contact_ratio:.3f} with overlap ratio {run.pair.overlap_ratio:.3f}"
-            if run.pair.overlap_ratio
-            else ""
-        )
-        yield Tile("Contact ratio", f"{run.pair.contact_ratio:.3f}", "", overlap)
+        yield Tile("Contact ratio", f"{run.pair.contact_ratio:.3f}", "", "transverse" if run.pair.overlap_ratio else "")
     if "face_load_factor" in attributes:
-        yield Tile(
-            "Face load factor",
-            f"{attributes['face_load_factor']:.3f}",
-            "",
-            "of the line load averaged over the mesh cycle",
-        )
+        yield Tile("Face load factor", f"{attributes['face_load_factor']:.3f}")
     if attributes.get("contact_loss_count"):
         share = 100.0 * attributes["contact_loss_share"]
         wheel_drives = run.scene is not None and run.scene.load.wheel_torque < 0.0
@@ -107,39 +90,10 @@ def _tiles(run: Run) -> Iterator[Tile]:
         )
 
 
-def _dynamic_factors(attributes) -> str:
-    """What they compare: the same force or stress with inertia and without."""
-    forces = [
-        digits(attributes[name])
-        for name in ("largest_pair_force", "quasi_static_pair_normal_force")
-        if name in attributes
-    ]
-    stress = (
-        f"; {attributes['dynamic_factor_by_stress']:.3f} by root stress"
-        if "dynamic_factor_by_stress" in attributes
-        else ""
-    )
-    return f"largest force of a tooth pair: {' N over '.join(forces)} N without inertia{stress}"
-
-
 def _longest(run: Run) -> str:
     """The longest loss of contact, where the scene has a time."""
     timed = run.scene is not None and run.scene.motion.speed_given and "contact_loss_longest" in run.dataset.attrs
     return f", for up to {run.dataset.attrs['contact_loss_longest']:.3g} s" if timed else ""
-
-
-def _where(attributes) -> str:
-    """Where the peak of the contact pressure is, and that there is one at an edge too."""
-    if "peak_contact_pressure_diameter" not in attributes:
-        return "over five contact nodes"
-    at = f"at diameter {attributes['peak_contact_pressure_diameter']:.4g} mm of the pinion"
-    largest = attributes["peak_contact_pressure"]
-    more = [
-        words
-        for name, words in (("edge", "edges"), ("kink", "kinks of relief"))
-        if attributes.get(f"peak_{name}_pressure", 0.0) > largest
-    ]
-    return at + (f"; more at {' and '.join(more)}, see the warnings" if more else "")
 
 
 def _conditions(run: Run) -> Iterator[Tile]:

@@ -38,16 +38,18 @@ def rendered(page: Page) -> str:
     drawn = any(_has_chart(block) for section in page.sections for block in section.blocks)
     return environment.from_string(_own_file(TEMPLATE)).render(
         page=page, style=Markup(_own_file(STYLE)), script=Markup(_own_file(SCRIPT)),
-        library=Markup(plotly_library()) if drawn else "",
+        library=Markup(plotly_library()) if drawn else "", drawn=drawn,
     )  # fmt: skip
 
 
 @cache
 def plotly_library() -> str:
     """Plotly's browser library, gzip in base64: Debian ships it without white space removed, 9 MB, which a page should
-    not have."""
-    from plotly.offline import get_plotlyjs
-
+    not have. Empty where plotly is not installed: charts stay images then."""
+    try:
+        from plotly.offline import get_plotlyjs
+    except ImportError:
+        return ""
     # No time stamp, so that the same run gives the same page.
     return base64.b64encode(gzip.compress(get_plotlyjs().encode(), compresslevel=6, mtime=0)).decode()
 

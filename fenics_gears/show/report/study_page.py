@@ -8,13 +8,12 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from fenics_gears.results.summary import summary_rows
 from fenics_gears.show.cases import LISTED_CASES, STATES, Cases
 from fenics_gears.show.chart import Chart, Curve
 from fenics_gears.show.panels import PALETTE
 from fenics_gears.show.report.origin import made_by, scene_section, version_section
 from fenics_gears.show.report.overview import counted
-from fenics_gears.show.report.page import Block, Cell, Facts, Fold, Page, Section, Table, Tile, Tiles, Words
+from fenics_gears.show.report.page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words
 from fenics_gears.show.study_charts import effort_charts, result_charts
 from fenics_gears.show.units import digits
 from fenics_gears.system.progress import Progress, SilentProgress
@@ -85,8 +84,7 @@ def _summary(cases: Cases) -> Section:
         values = list(dict.fromkeys(field.words(case) for case in range(cases.count)))
         shown = ", ".join(values) if len(values) <= 8 else f"{', '.join(values[:3])}, … {values[-1]}"
         rows.append((field.called, f"{shown} {field.unit}".strip(), ""))
-    remarks = [Words(f"Remark: {said}.") for said in str(cases.dataset.attrs.get("remarks", "")).splitlines()]
-    return Section("summary", "Summary", [Tiles(tiles), Facts(rows, "Swept fields"), *remarks])
+    return Section("summary", "Summary", [Tiles(tiles), Facts(rows, "Swept fields")])
 
 
 def _failures(cases: Cases) -> Section:
@@ -135,7 +133,7 @@ def _results(cases: Cases) -> Section:
 
 
 def _standing_out(cases: Cases) -> Section:
-    """Transmission error of the cases with the least, the middle and the largest values, and the summary of each."""
+    """Transmission error of the cases with the least, the middle and the largest values, and their files."""
     heading, scale, unit = "Cases that stand out", *cases.error_scale
     chosen = [
         (case, why, run)
@@ -144,20 +142,14 @@ def _standing_out(cases: Cases) -> Section:
     ]
     if not chosen:
         return Section("outstanding", heading, [Words("There is no file of a case to show one from.")])
-    curves, folds = [], []
+    curves, links = [], []
     for (case, why, run), colour in zip(chosen, PALETTE):
         phase = run["mesh_phase"].values
         curves.append(
             Curve(f"case {case}", phase - np.floor(phase[0]), run["transmission_error"].values * scale, colour)
         )
-        file, link = cases.texts("case_file")[case], cases.link(case)
-        rows = Facts([(label.replace("WARNING", "warning"), value, each) for label, value, each in summary_rows(run)])
-        folds.append(
-            Fold(
-                f"Case {case}: {cases.words(case)} ({' and '.join(why)})",
-                [rows, Table(("File",), [(Cell(file, link=link),)])],
-            )
-        )
+        file = Cell(cases.texts("case_file")[case], link=cases.link(case))
+        links.append((str(case), cases.words(case), ", ".join(why), file))
     drawn = Chart(
         "Transmission error",
         curves,
@@ -165,15 +157,11 @@ def _standing_out(cases: Cases) -> Section:
         f"Transmission error ({unit})",
         height=360,
     )
-    said = Table(
-        ("Case", "Values", "Has the"),
-        [(str(case), cases.words(case), ", ".join(why)) for case, why, _ in chosen],
-        numbers=9,
-    )
+    said = Table(("Case", "Values", "Has the", "File"), links, numbers=9)
     command = Words(
         "`gears report DIR/cases/FILE.nc` makes a whole report on a case; the table of cases then leads to it."
     )
-    return Section("outstanding", heading, [said, drawn, *folds, command])
+    return Section("outstanding", heading, [said, drawn, command])
 
 
 def standing_out(cases: Cases) -> dict[int, list[str]]:

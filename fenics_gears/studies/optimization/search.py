@@ -27,7 +27,7 @@ def optimiser():
     except ImportError as error:
         raise ComputationError(
             f"`gears optimize` needs Optuna and cmaes, which cannot be loaded ({error}). Install them: pip install"
-            " optuna cmaes."
+            " 'fenics_gears[optimize]' (Debian: python3-optuna)."
         ) from error
     optuna.logging.set_verbosity(optuna.logging.ERROR)
     return optuna

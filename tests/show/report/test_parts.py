@@ -1,5 +1,6 @@
 """What curves, spectra and the drawing of a report are made of."""
 
+import sys
 from dataclasses import replace
 from math import asin, cos, pi, radians, sin
 
@@ -21,7 +22,9 @@ from fenics_gears.show.report.energy import energy
 from fenics_gears.show.report.geometry import geometry
 from fenics_gears.show.report.interactive import figure
 from fenics_gears.show.report.overview import counted, summary
+from fenics_gears.show.report.page import Page, Section
 from fenics_gears.show.report.pair_drawing import _on_line, drawings, gear_outline
+from fenics_gears.show.report.rendering import plotly_library, rendered
 from fenics_gears.show.report.solver import _extent
 from fenics_gears.show.run import Run, conditions
 from fenics_gears.show.thinning import thinned
@@ -308,3 +311,18 @@ def test_pairs_of_a_long_run_have_curves_where_they_are_seen():
     total = np.nansum([values for _, values, _ in curves], axis=0)
     np.testing.assert_allclose(total[run.in_window], run.dataset["normal_force"].values[run.in_window])
     assert not total[~run.in_window][:-1].any()
+
+
+def test_without_plotly_charts_stay_images_and_the_page_says_what_to_install(monkeypatch):
+    """Authority: the extra of pyproject.toml; with plotly there is the library and no such word."""
+    chart = Chart("A line", [Curve("one", np.arange(2.0), np.arange(2.0))], "x", "y")
+    page = Page("Report", "A title", "", [Section("charts", "Charts", [chart])])
+    assert 'id="library"' in rendered(page) and "[report]" not in rendered(page)
+    plotly_library.cache_clear()
+    monkeypatch.setitem(sys.modules, "plotly.offline", None)
+    try:
+        text = rendered(page)
+    finally:
+        plotly_library.cache_clear()
+    assert 'id="library"' not in text and "pip install 'fenics_gears[report]'" in text
+    assert "data:image/svg+xml;base64," in text
