@@ -3,10 +3,10 @@ single tooth contact."""
 
 from math import cos, radians, sqrt
 
+from fenics_gears.extensions.rating.root import tooth_form, virtual_gear
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.tooth_thickness import base_helix_angle
-from fenics_gears.rating.root import tooth_form, virtual_gear
 
 
 def form_and_stress_correction(gear: Gear, roll_angle: float) -> tuple[float, float]:

@@ -22,14 +22,9 @@ from fenics_gears.commands import (
     check,
     effects,
     export,
-    import_rexs,
-    listen,
-    map,
-    optimize,
     picture,
     plot,
     python,
-    rate,
     report,
     run,
     study,
@@ -37,6 +32,11 @@ from fenics_gears.commands import (
 )
 from fenics_gears.commands.shared import INTERRUPTED, NOBODY_READS
 from fenics_gears.errors import GearsError
+from fenics_gears.extensions.maps import command as map
+from fenics_gears.extensions.noise import command as listen
+from fenics_gears.extensions.optimization import command as optimize
+from fenics_gears.extensions.rating import command as rate
+from fenics_gears.extensions.rexs import command as import_rexs
 from fenics_gears.system import environment
 from fenics_gears.system.console import prepare_streams
 from fenics_gears.system.memory import MEMORY_VARIABLE

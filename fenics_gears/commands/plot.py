@@ -49,10 +49,10 @@ def plot(options: argparse.Namespace) -> int:
 
 def _noise(dataset, directory: Path, window: str) -> list[Path]:
     """The files of a run's noise figures."""
+    from fenics_gears.extensions.noise.charts import noise_charts
+    from fenics_gears.extensions.noise.figures import noise_figures
     from fenics_gears.results.curves_table import save_tables
-    from fenics_gears.results.noise import noise_figures
     from fenics_gears.show.drawing import picture
-    from fenics_gears.show.noise_charts import noise_charts
 
     found, drawing = noise_figures(dataset, None if window == AUTOMATIC else window), plots()
     words = drawing.heading("Noise figures", str(dataset.attrs.get("title", "")), f"Window: {found.attrs['window']}")

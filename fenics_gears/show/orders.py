@@ -9,8 +9,8 @@ from math import inf, lcm
 import numpy as np
 
 from fenics_gears.effects import common_period
+from fenics_gears.extensions.noise.figures import LEAST_VARIATION
 from fenics_gears.results.contact_variables import largest_normal_force, mesh_force
-from fenics_gears.results.noise import LEAST_VARIATION
 from fenics_gears.results.pairs import shown
 from fenics_gears.results.spectrum import (
     BOTH,

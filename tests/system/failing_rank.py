@@ -31,10 +31,10 @@ STAGES = {
     "a case": "studies.work:simulate",
     "writing a case": "studies.work:save_case",
     "combining": "studies.run_study:save_study",
-    "reading a design": "studies.optimization.optimize:load_design",
-    "a design's run": "studies.optimization.evaluations:simulate",
-    "keeping a run": "studies.optimization.run_lines:append",
-    "choosing": "studies.optimization.optimize:chosen",
+    "reading a design": "extensions.optimization.optimize:load_design",
+    "a design's run": "extensions.optimization.evaluations:simulate",
+    "keeping a run": "extensions.optimization.run_lines:append",
+    "choosing": "extensions.optimization.optimize:chosen",
 }
 ERRORS = {
     "refuses": SceneError(WORDS),

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from tests.extensions.optimization.test_optimization import FEWER, GOAL, RIGID, VARIABLES
 from tests.studies.conftest import ACCURACY, DEMO, environment, gears, mpirun
-from tests.studies.test_optimization import FEWER, GOAL, RIGID, VARIABLES
 from tests.system.failing_rank import WORDS
 
 from fenics_gears.results import load
