@@ -22,6 +22,7 @@ from fenics_gears.commands import (
     check,
     effects,
     export,
+    extensions,
     picture,
     plot,
     python,
@@ -32,11 +33,6 @@ from fenics_gears.commands import (
 )
 from fenics_gears.commands.shared import INTERRUPTED, NOBODY_READS
 from fenics_gears.errors import GearsError
-from fenics_gears.extensions.maps import command as map
-from fenics_gears.extensions.noise import command as listen
-from fenics_gears.extensions.optimization import command as optimize
-from fenics_gears.extensions.rating import command as rate
-from fenics_gears.extensions.rexs import command as import_rexs
 from fenics_gears.system import environment
 from fenics_gears.system.console import prepare_streams
 from fenics_gears.system.memory import MEMORY_VARIABLE
@@ -146,23 +142,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.set_defaults(verbose=False, quiet=False)
     parser.add_argument("--version", action="version", version=f"gears {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (
-        check,
-        run,
-        study,
-        map,
-        optimize,
-        effects,
-        accuracy,
-        plot,
-        picture,
-        report,
-        export,
-        listen,
-        rate,
-        import_rexs,
-        cache,
-    ):
+    for command in (check, run, study, effects, accuracy, plot, picture, report, export, cache, extensions):
         command.add(commands, shared)
     python.add(commands)
     tests.add(commands)

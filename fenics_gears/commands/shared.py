@@ -117,13 +117,10 @@ def checked_scene(path: Path):
 
     scene = load_scene(path)
     from fenics_gears.effects import check_files
-    from fenics_gears.geometry.pair import gear_pair
-    from fenics_gears.model.modification import corner, removals
+    from fenics_gears.model.modification import check_geometry
 
     try:
-        pair = gear_pair(scene.gears)
-        removals(scene, pair)
-        corner(scene, pair)
+        pair = check_geometry(scene)
     except GeometryError as error:
         raise GeometryError(f"{path}: {error}\nNothing was computed or written.") from error
     check_files(scene, pair)

@@ -7,12 +7,25 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from fenics_gears.extensions.noise.charts import stems
+from fenics_gears import spectrum
+from fenics_gears.charts import (
+    BAND,
+    DARK,
+    GREY,
+    LINES,
+    MARKED_LINES,
+    MARKERS,
+    PALETTE,
+    WORDS,
+    Chart,
+    Curve,
+    harris_map,
+    shades,
+    span,
+    stems,
+    words_apart,
+)
 from fenics_gears.results.key_numbers import HARMONIC_NAMES
-from fenics_gears.results.spectrum import level
-from fenics_gears.show.chart import BAND, LINES, MARKED_LINES, MARKERS, WORDS, Chart, Curve, span
-from fenics_gears.show.harris_map import harris_map, words_apart
-from fenics_gears.show.panels import DARK, GREY, PALETTE, shades
 
 MESH_ORDERS = 5
 SPEED, FREQUENCY = "Mesh frequency (Hz)", "Frequency (Hz)"
@@ -216,7 +229,7 @@ def waterfall(found: xr.Dataset) -> list[Chart]:
 
 def _waterfall(found: xr.Dataset, amplitudes: np.ndarray, signal: str, reference: str) -> Chart:
     speeds, orders = found["mesh_frequency"].values, found["order"].values
-    levels, widest = level(amplitudes), MESH_ORDERS * speeds[-1]
+    levels, widest = spectrum.level(amplitudes), MESH_ORDERS * speeds[-1]
     highest = float(np.nanmax(levels))
     high = STEPS_HIGH * float(np.median(np.diff(speeds)))
     curves = []

@@ -7,20 +7,21 @@ import argparse
 import sys
 from pathlib import Path
 
-from fenics_gears.commands.shared import (
+from fenics_gears import ComputationError
+from fenics_gears.command_line import (
     INTERRUPTED,
     add_memory_argument,
     add_processes_argument,
     add_scene_argument,
+    check_writable,
     checked_scene,
-    plots,
     positive_count,
     print_files,
+    print_rows,
+    seconds_in_words,
     shown_progress,
     under_mpirun,
 )
-from fenics_gears.errors import ComputationError
-from fenics_gears.system.output import check_writable
 
 MOST_RUNS = 1000
 
@@ -84,8 +85,6 @@ def _run(options: argparse.Namespace, team) -> int:
     from fenics_gears.extensions.maps.load_map import OVER_SPEED, QUASI_STATIC, load_map
     from fenics_gears.studies.run_study import run_with
     from fenics_gears.studies.summary import last_words, summary_rows
-    from fenics_gears.system.console import print_rows
-    from fenics_gears.system.progress import seconds_in_words
 
     scene = checked_scene(options.scene)
     wanted = load_map(options.scene, scene, options.loads, options.speeds, options.most_runs)
@@ -116,15 +115,11 @@ def _run(options: argparse.Namespace, team) -> int:
 
 def _written(found, directory: Path, scene) -> list[Path]:
     """The files of a map: dataset, tables and pictures."""
+    from fenics_gears import save_tables
+    from fenics_gears.charts import draw_charts
     from fenics_gears.extensions.maps.charts import map_pictures
-    from fenics_gears.results.curves_table import save_tables
-    from fenics_gears.show.drawing import picture
     from fenics_gears.show.run import design
 
-    drawing, supports = plots(), [name for name in ("shafts", "bearings") if getattr(scene, name) is not None]
+    supports = [name for name in ("shafts", "bearings") if getattr(scene, name) is not None]
     more = f"{design(scene)}{', elastic ' + ' and '.join(supports) if supports else ''}"
-    figures = {
-        name: picture(drawing.heading(subject, scene.title, more), charts)
-        for name, (subject, charts) in map_pictures(found).items()
-    }
-    return [*save_tables(found, directory, "map"), *drawing.save_figures(figures, directory)]
+    return [*save_tables(found, directory, "map"), *draw_charts(map_pictures(found), directory, scene.title, more)]

@@ -10,20 +10,17 @@ from math import isfinite, pi, sqrt
 from pathlib import Path
 from typing import Any
 
+from fenics_gears import Scene, SceneError, expected_cost, model_of, units
+from fenics_gears.command_line import seconds_in_words
 from fenics_gears.effects import common_period, effects_on
-from fenics_gears.errors import SceneError
-from fenics_gears.inputs import units
 from fenics_gears.inputs.tree import wheel_torque
 from fenics_gears.inputs.written import as_toml
-from fenics_gears.model.cost import expected_cost
-from fenics_gears.model.model import model_of
 from fenics_gears.results.settled import settling_time
-from fenics_gears.scene.data import LOAD_WORDS, Load, Scene
+from fenics_gears.scene.data import LOAD_WORDS, Load
 from fenics_gears.simulation.dynamic_factor import quasi_static
 from fenics_gears.studies.axis import AxisError, values_in_words
 from fenics_gears.studies.study import Study
 from fenics_gears.studies.study_file import study_of
-from fenics_gears.system.progress import seconds_in_words
 
 QUASI_STATIC, OVER_SPEED = "quasi_static", "over_speed"
 LOADS, SPEEDS = "--loads", "--speeds"

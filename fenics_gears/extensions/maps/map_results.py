@@ -9,17 +9,13 @@ import numpy as np
 import xarray as xr
 
 import fenics_gears
-from fenics_gears import results
+from fenics_gears import GearPair, Scene, mesh_force, model_of, of_settled, results
 from fenics_gears.dynamics.frequencies import Vibration, vibrations
 from fenics_gears.extensions.maps.load_map import LoadMap
-from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.drivetrain import mesh_stiffness
-from fenics_gears.model.model import model_of
-from fenics_gears.results.contact_variables import mesh_force
 from fenics_gears.results.key_numbers import HARMONIC_NAMES, MICROMETRE
-from fenics_gears.results.settled import of_settled
 from fenics_gears.results.spectrum import NO_WINDOW, order_lines
-from fenics_gears.scene.data import LOAD_WORDS, Load, Scene
+from fenics_gears.scene.data import LOAD_WORDS, Load
 from fenics_gears.studies.combine import load_combined
 from fenics_gears.studies.run_study import Outcome
 

@@ -1,4 +1,4 @@
-"""Charts of noise figures (`results.noise`): levels over mesh orders with their sidebands, mesh orders over a speed
+"""Charts of noise figures (`figures`): levels over mesh orders with their sidebands, mesh orders over a speed
 ramp."""
 
 from __future__ import annotations
@@ -6,9 +6,8 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from fenics_gears.charts import DARK, GREY, PALETTE, WORDS, Chart, Curve, stems
 from fenics_gears.extensions.noise.figures import SIGNALS
-from fenics_gears.show.chart import WORDS, Chart, Curve
-from fenics_gears.show.panels import DARK, GREY, PALETTE
 
 ORDERS_SHOWN, FOLLOWED, DECIBELS = 5.5, 5, 60.0
 # Sidebands with less of their line's energy are round-off.
@@ -65,13 +64,6 @@ def _levels(found: xr.Dataset, name: str) -> Chart:
         x_range=(0.0, ORDERS_SHOWN),
         y_range=(foot, top + 5.0),
     )
-
-
-def stems(places: np.ndarray, heights: np.ndarray, foot: float) -> tuple[np.ndarray, np.ndarray]:
-    """A line that goes up and down at each place (n,) from its foot."""
-    return np.repeat(places, 3), np.stack(
-        [np.full(len(places), foot), heights, np.full(len(places), foot)], axis=1
-    ).ravel()
 
 
 def _followed(found: xr.Dataset, name: str) -> Chart:

@@ -1,19 +1,23 @@
-"""``gears listen RUN``: a curve of a run as an audio file; an engineer hears orders."""
+"""``gears listen RUN``: a curve of a run as an audio file; an engineer hears orders. ``gears plot RUN --spectrum``: its
+noise figures."""
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
-from fenics_gears.commands.shared import add_run_argument, loaded_run, print_files, run_file
-from fenics_gears.errors import SceneError
-from fenics_gears.inputs import units
+from fenics_gears import SceneError
+from fenics_gears.command_line import add_run_argument, check_writable, loaded_run, print_files, run_file, write_whole
 
 SECONDS, LONGEST = 5.0, 600.0
+NOISE_FILES = "noise.png", "noise.nc"
+AUTOMATIC, WINDOWS = "auto", ("auto", "none", "hann", "flat-top")
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
+    """Add the command to the parser, and an option to the core's ``plot``."""
     command = commands.add_parser("listen", parents=[shared], help="write a curve of a run as sound (WAV)")
     add_run_argument(command)
     command.add_argument(
@@ -41,12 +45,18 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
         "-o", "--output", type=Path, metavar="FILE", help="file to write (default: CURVE.wav beside run.nc)"
     )
     command.set_defaults(command=listen)
+    pictures = commands.choices["plot"]
+    pictures.add_argument(
+        "--spectrum", nargs="?", choices=WINDOWS, const=AUTOMATIC, metavar="WINDOW",
+        help="draw and write levels in dB over mesh orders with the energy of their sidebands, of a speed ramp over "
+            "the speed: noise.png, noise.nc and tables; "
+        "WINDOW is none, hann or flat-top (default: none for whole mesh cycles, flat-top for a ramp)",
+    )  # fmt: skip
+    pictures.set_defaults(command=partial(plot, pictures.get_default("command")))
 
 
 def listen(options: argparse.Namespace) -> int:
     """Write the sound of a run."""
-    from fenics_gears.system.output import check_writable, write_whole
-
     file = run_file(options.run)
     output = options.output or file.parent / f"{options.curve}.wav"
     if output.suffix != ".wav":
@@ -74,6 +84,7 @@ def listen(options: argparse.Namespace) -> int:
 def _checked(result, options: argparse.Namespace) -> float | None:
     """The full scale in the curve's unit; None where none is given. Raises SceneError for a curve that is none, a run
     that is too slow to be heard, and a wrong unit."""
+    from fenics_gears import units
     from fenics_gears.extensions.noise.sound import LOWEST_HEARD
 
     curves = [name for name in result.data_vars if result[name].dims == ("time",) and result[name].dtype.kind == "f"]
@@ -99,3 +110,27 @@ def _checked(result, options: argparse.Namespace) -> float | None:
             f'--full-scale "{options.full_scale}": allowed is {wanted} greater than zero, such as "1 {unit}".'
         )
     return value
+
+
+def plot(core: Callable[[argparse.Namespace], int], options: argparse.Namespace) -> int:
+    """Write a run's noise figures; without --spectrum its pictures, as the `core` does."""
+    if options.spectrum is None:
+        return core(options)
+    file = run_file(options.run)
+    directory = options.output or file.parent
+    check_writable(directory, *NOISE_FILES)
+    print_files(_noise(loaded_run(file), directory, options.spectrum), options.quiet)
+    return 0
+
+
+def _noise(dataset, directory: Path, window: str) -> list[Path]:
+    """The files of a run's noise figures."""
+    from fenics_gears import save_tables
+    from fenics_gears.charts import draw_charts
+    from fenics_gears.extensions.noise.charts import noise_charts
+    from fenics_gears.extensions.noise.figures import noise_figures
+
+    found = noise_figures(dataset, None if window == AUTOMATIC else window)
+    picture = {"noise.png": ("Noise figures", noise_charts(found))}
+    title, more = str(dataset.attrs.get("title", "")), f"Window: {found.attrs['window']}"
+    return [*save_tables(found, directory, "noise"), *draw_charts(picture, directory, title, more)]

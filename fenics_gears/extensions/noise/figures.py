@@ -10,20 +10,13 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from fenics_gears.errors import ComputationError
-from fenics_gears.results.carried_scene import carried_scene
-from fenics_gears.results.contact_variables import largest_normal_force, mesh_force
-from fenics_gears.results.key_numbers import MICROMETRE
-from fenics_gears.results.settled import of_settled
-from fenics_gears.results.spectrum import FLAT_TOP, NO_WINDOW, WINDOWS, OrderLines, level, order_lines, sidebands
+from fenics_gears import ComputationError, carried_scene, of_settled, spectrum
 
 SIGNALS = {
     "transmission_error": ("um", "transmission error along the line of action"),
     "mesh_force": ("N", "mesh force"),
 }
-# Of the largest force. Without inertia and friction the load alone sets the mesh force; what varies of it then is
-# round-off.
-LEAST_VARIATION = 1e-6
+MICROMETRE = 1e-3  # mm
 HARMONICS, GEARS = np.arange(1, 11), ("pinion", "wheel")
 
 
@@ -42,8 +35,8 @@ def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
     ramp = "mesh_frequency" in result
     run = result if ramp else of_settled(result)
     cycles = float(np.ptp(run["mesh_phase"].values)) if run.sizes["time"] > 1 else 0.0
-    used = window or (FLAT_TOP if ramp else NO_WINDOW)
-    needed = window_cycles(used) if ramp or used != NO_WINDOW else 1
+    used = window or (spectrum.FLAT_TOP if ramp else spectrum.NO_WINDOW)
+    needed = window_cycles(used) if ramp or used != spectrum.NO_WINDOW else 1
     if cycles < needed - 1e-9:
         raise ComputationError(
             f'{cycles:.3g} settled mesh cycles are stored; a spectrum in the window "{used}" needs {needed}. Run more'
@@ -61,15 +54,14 @@ def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
 
 def signals(run: xr.Dataset) -> dict[str, np.ndarray]:
     """Transmission error (time,), um, and the mesh force (time,), N, where it varies."""
-    error, force = run["transmission_error"].values * run.attrs["base_radius_wheel"] / MICROMETRE, mesh_force(run)
-    return {"transmission_error": error} | (
-        {"mesh_force": force} if np.ptp(force) > LEAST_VARIATION * largest_normal_force(run) else {}
-    )
+    error = run["transmission_error"].values * run.attrs["base_radius_wheel"] / MICROMETRE
+    force = spectrum.varying_mesh_force(run)
+    return {"transmission_error": error} | ({} if force is None else {"mesh_force": force})
 
 
 def window_cycles(window: str) -> int:
     """Fewest mesh cycles whose spectrum in a window has neighbouring mesh orders apart."""
-    return 2 * len(WINDOWS[window])
+    return 2 * len(spectrum.WINDOWS[window])
 
 
 def _levels(name: str, dimensions: tuple[str, ...], amplitudes: np.ndarray) -> dict[str, tuple]:
@@ -78,7 +70,7 @@ def _levels(name: str, dimensions: tuple[str, ...], amplitudes: np.ndarray) -> d
         f"{name}_amplitude": (dimensions, amplitudes, {"units": unit, "long_name": f"amplitude of the {words}"}),
         f"{name}_level": (
             dimensions,
-            level(amplitudes),
+            spectrum.level(amplitudes),
             {"units": f"dB re 1 {unit}", "long_name": f"level of the amplitude of the {words}"},
         ),
     }
@@ -87,10 +79,10 @@ def _levels(name: str, dimensions: tuple[str, ...], amplitudes: np.ndarray) -> d
 def _steady(
     name: str, values: np.ndarray, cycles: float, teeth: tuple[int, int], window: str | None
 ) -> dict[str, tuple]:
-    lines, known = order_lines(values, cycles, teeth, window), True
+    lines, known = spectrum.order_lines(values, cycles, teeth, window), True
     if lines is None or not lines.exact and window is None:
         # Whole mesh cycles have exact mesh orders, though nothing that turns with a gear.
-        lines, known = order_lines(values, cycles, (1, 1), window), False
+        lines, known = spectrum.order_lines(values, cycles, (1, 1), window), False
     found = {
         "order": (("order",), lines.orders / (teeth[0] if known else 1), {"units": "1", "long_name": "mesh order"}),
         **_levels(name, ("order",), lines.amplitudes),
@@ -98,8 +90,8 @@ def _steady(
     return found | (_beside(name, lines, teeth) if known else {})
 
 
-def _beside(name: str, lines: OrderLines, teeth: tuple[int, int]) -> dict[str, tuple]:
-    each = [sidebands(lines, teeth, int(harmonic)) for harmonic in HARMONICS]
+def _beside(name: str, lines: spectrum.OrderLines, teeth: tuple[int, int]) -> dict[str, tuple]:
+    each = [spectrum.sidebands(lines, teeth, int(harmonic)) for harmonic in HARMONICS]
     energy = np.array([[np.nan, np.nan] if one is None else [one.pinion, one.wheel] for one in each])
     ratio = np.array([np.nan if one is None else one.ratio for one in each])
     return {
@@ -123,7 +115,9 @@ def _followed(name: str, values: np.ndarray, run: xr.Dataset, window: str) -> di
     phase, length = run["mesh_phase"].values, window_cycles(window)
     steps = round(1.0 / (phase[1] - phase[0]))
     starts = np.arange(0, len(values) - length * steps, length * steps // 2)
-    parts = [order_lines(values[start : start + length * steps + 1], length, (1, 1), window) for start in starts]
+    parts = [
+        spectrum.order_lines(values[start : start + length * steps + 1], length, (1, 1), window) for start in starts
+    ]
     orders = HARMONICS[HARMONICS <= parts[0].orders[-1]]
     speed = np.array([run["mesh_frequency"].values[start : start + length * steps + 1].mean() for start in starts])
     return {

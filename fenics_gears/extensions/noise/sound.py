@@ -12,7 +12,7 @@ from scipy.interpolate import CubicSpline
 from scipy.io import wavfile
 from scipy.signal import resample_poly
 
-from fenics_gears.results.settled import of_settled
+from fenics_gears import of_settled
 
 SAMPLE_RATE = 48_000
 # Hz; lower sounds are felt rather than heard.

@@ -8,16 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
+from fenics_gears import gear_pair
+from fenics_gears.charts import GREY, MARKED_LINES, MARKERS, PALETTE, Chart, Curve, draw_charts, harris_map
 from fenics_gears.extensions.optimization.design import QUANTILE, Goal, Variable
 from fenics_gears.extensions.optimization.evaluations import Evaluation
 from fenics_gears.extensions.optimization.optimize import Outcome, score
 from fenics_gears.extensions.optimization.result import harris_dataset
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.show.chart import MARKED_LINES, MARKERS, Chart, Curve
-from fenics_gears.show.drawing import picture
-from fenics_gears.show.harris_map import harris_map
-from fenics_gears.show.panels import GREY, PALETTE
-from fenics_gears.show.plots import heading, save_figures
 from fenics_gears.studies.study_file import scene_of_tree
 
 BEFORE, BEST = "before", "chosen design"
@@ -193,14 +189,8 @@ def write_pictures(outcome: Outcome) -> list[Path]:
         "variables": [variable_chart(outcome, variable, first) for variable in design.variables],
         "harris_map": harris_charts(outcome),
     }
-    return save_figures(
-        {
-            f"{name}.png": picture(heading("Optimisation", design.title), drawn)
-            for name, drawn in charts.items()
-            if drawn
-        },
-        outcome.directory,
-    )
+    pictures = {f"{name}.png": ("Optimisation", drawn) for name, drawn in charts.items() if drawn}
+    return draw_charts(pictures, outcome.directory, design.title)
 
 
 def goal_words(outcome: Outcome, goal: Goal, evaluation: Evaluation) -> str:

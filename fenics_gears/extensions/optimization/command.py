@@ -6,7 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from fenics_gears.commands.shared import (
+from fenics_gears.command_line import (
     INTERRUPTED,
     add_memory_argument,
     add_processes_argument,
@@ -64,7 +64,7 @@ def optimize(options: argparse.Namespace) -> int:
 
     files += [*write_pictures(outcome), write_page(outcome)]
     if not options.quiet:
-        from fenics_gears.system.console import print_rows
+        from fenics_gears.command_line import print_rows
 
         print_rows(outcome.design.title, summary_rows(outcome))
         print_rows("Files", [("", str(file), "") for file in files])

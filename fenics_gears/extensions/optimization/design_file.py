@@ -7,15 +7,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from fenics_gears.errors import SceneError
+from fenics_gears import Scene, SceneError, flank_tolerance, gear_pair, helix_tolerance
 from fenics_gears.extensions.optimization.conditions import FROM_ZERO, samples, scattered, value_of
 from fenics_gears.extensions.optimization.design import Design, Scatter
 from fenics_gears.extensions.optimization.goals import lacking
 from fenics_gears.extensions.optimization.sections import Sections
-from fenics_gears.geometry.flank_tolerance import flank_tolerance, helix_tolerance
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import name_of, parsed, text_of
 from fenics_gears.studies import fields
 from fenics_gears.studies.study_file import Changes, entries, left_out, scene_of_tree

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from fenics_gears.errors import ComputationError
+from fenics_gears import ComputationError
+from fenics_gears.command_line import check_writable
 from fenics_gears.extensions.optimization.conditions import samples
 from fenics_gears.extensions.optimization.design import Design
 from fenics_gears.extensions.optimization.design_file import load_design
@@ -25,7 +26,6 @@ from fenics_gears.studies.ranks import Alone, Together, ranks
 from fenics_gears.studies.run_study import condense_gears
 from fenics_gears.studies.study_file import scene_of_tree
 from fenics_gears.system.interruption import Interruption
-from fenics_gears.system.output import check_writable
 from fenics_gears.system.progress import Progress
 
 RESULT, TABLE, BEST = "optimization.nc", "designs.csv", "best.toml"

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from fenics_gears.command_line import write_whole
 from fenics_gears.extensions.optimization.charts import (
     BEFORE,
     called,
@@ -26,7 +27,6 @@ from fenics_gears.show.report.origin import made_by, scene_section
 from fenics_gears.show.report.overview import counted
 from fenics_gears.show.report.page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words
 from fenics_gears.show.report.rendering import rendered
-from fenics_gears.system.output import write_whole
 
 PAGE = "report.html"
 MOST_ROWS = 50

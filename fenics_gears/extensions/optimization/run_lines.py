@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from fenics_gears.errors import ComputationError
+from fenics_gears import ComputationError
 from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.system.job import communicator
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Sequence
 
-from fenics_gears.errors import ComputationError
+from fenics_gears import ComputationError
 from fenics_gears.extensions.optimization.design import Design
 from fenics_gears.extensions.optimization.evaluations import Evaluation
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from fenics_gears import load_scene, units
 from fenics_gears.extensions.optimization.design import (
     MEAN,
     QUANTILE,
@@ -20,11 +21,10 @@ from fenics_gears.extensions.optimization.design import (
     Variable,
 )
 from fenics_gears.extensions.optimization.goals import NAMES, unit_and_words
-from fenics_gears.inputs import units
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import line_numbers
 from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.read import load_scene, parsed
+from fenics_gears.scene.read import parsed
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import AxisError, factor_of, number_in, values_of
 from fenics_gears.studies.study_file import Mistakes, entries

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import csv
 from dataclasses import fields
 from math import isnan
 from pathlib import Path
 
-from fenics_gears.commands.shared import add_run_argument, loaded_run, run_file
-from fenics_gears.errors import SceneError
-from fenics_gears.inputs import units
+from fenics_gears import SceneError
+from fenics_gears.command_line import add_run_argument, check_writable, loaded_run, run_file, write_whole
 
 FILE = "rating.csv"
 # Options with a quantity: field of the finish, kind, factor from the program's unit, lowest, highest, meaning.
@@ -55,9 +53,8 @@ def _option(name: str) -> str:
 
 def rate(options: argparse.Namespace) -> int:
     """Print and write the table."""
+    from fenics_gears import carried_scene
     from fenics_gears.extensions.rating import rating
-    from fenics_gears.results.carried_scene import carried_scene
-    from fenics_gears.system.output import check_writable, write_whole
 
     file = run_file(options.run)
     output = options.output or file.parent / FILE
@@ -78,6 +75,7 @@ def rate(options: argparse.Namespace) -> int:
 
 def _finish(options: argparse.Namespace, scene):
     """Material, finish and oil of the options. Raises SceneError for values out of range."""
+    from fenics_gears import units
     from fenics_gears.extensions.rating.finish import Finish
 
     given = {}
@@ -108,6 +106,8 @@ def _finish(options: argparse.Namespace, scene):
 
 
 def _save(rows, path: Path) -> None:
+    import csv
+
     with open(path, "w", encoding="utf-8", newline="") as table:
         writer = csv.writer(table)
         writer.writerow(["quantity", "unit", "ISO 6336", "this run"])

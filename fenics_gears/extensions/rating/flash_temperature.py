@@ -12,8 +12,7 @@ from math import cos, pi
 
 import numpy as np
 
-from fenics_gears.geometry.gear_data import Material
-from fenics_gears.geometry.pair import GearPair
+from fenics_gears import GearPair, Material
 
 SEMI_ELLIPTIC = 0.80
 # Thermal contact coefficient of case-hardened steel, N/(mm s^0.5 K) (AGMA 925).

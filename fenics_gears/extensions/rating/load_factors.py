@@ -6,9 +6,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import cos, hypot, pi, sin, sqrt
 
+from fenics_gears import flank_tolerance, helix_tolerance
 from fenics_gears.extensions.rating.finish import Finish
 from fenics_gears.extensions.rating.operation import Operation
-from fenics_gears.geometry.flank_tolerance import flank_tolerance, helix_tolerance
 
 
 @dataclass(frozen=True)

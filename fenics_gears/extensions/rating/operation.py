@@ -6,10 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import pi, tan
 
-from fenics_gears.geometry.gear_data import Material
-from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
-from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.tooth_thickness import base_helix_angle
+from fenics_gears import GearPair, Material, base_helix_angle, mesh_factor, single_stiffness
 
 
 @dataclass(frozen=True)

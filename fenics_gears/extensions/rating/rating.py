@@ -9,17 +9,13 @@ from math import nan
 import numpy as np
 import xarray as xr
 
-from fenics_gears.errors import SceneError
+from fenics_gears import GearPair, Scene, SceneError, gear_pair, lumped_gears, of_settled
 from fenics_gears.extensions.rating.finish import Finish
 from fenics_gears.extensions.rating.flank import flank_stress
 from fenics_gears.extensions.rating.flash_temperature import flash_temperature, standard_share, transverse_line_force
 from fenics_gears.extensions.rating.load_factors import load_factors, mesh_misalignment
 from fenics_gears.extensions.rating.operation import Operation, solid_reduced_mass
 from fenics_gears.extensions.rating.root import root_stresses
-from fenics_gears.geometry.pair import GearPair, gear_pair
-from fenics_gears.model.drivetrain import lumped_gears
-from fenics_gears.results.settled import of_settled
-from fenics_gears.scene.data import Scene
 
 KILOGRAM = 1e3
 # Points along the path of contact at which the standard's flash temperature is taken.
@@ -99,7 +95,7 @@ def _misalignment(scene: Scene, pair: GearPair) -> float | None:
     sloped = leads is not None and any(own is not None and own.helix_slope for own in (leads.pinion, leads.wheel))
     if scene.misalignment is None and not sloped:
         return None
-    from fenics_gears.geometry.face import face_opening
+    from fenics_gears import face_opening
 
     z = np.linspace(*pair.common_face, POINTS)
     return 1e3 * pair.face_width * float(np.polyfit(z, face_opening(pair, leads, scene.misalignment, z), 1)[0])

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from fenics_gears.errors import GeometryError, SceneError
+from fenics_gears import GeometryError, SceneError
+from fenics_gears.command_line import check_writable, write_whole
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -45,8 +46,6 @@ def import_rexs(options: argparse.Namespace) -> int:
     choice = Choice(options.stage, options.load_case, options.wheel_torque, options.pinion_speed)
     imported = imported_scene(options.file, choice)
     _check_scene(imported, options.file, output)
-    from fenics_gears.system.output import write_whole
-
     write_whole(output, lambda path: path.write_text(imported.text, encoding="utf-8"))
     if not options.quiet:
         print(_summary(imported, output))
@@ -55,8 +54,6 @@ def import_rexs(options: argparse.Namespace) -> int:
 
 def _check_output(output: Path) -> None:
     """A scene is the user's own work: none is overwritten."""
-    from fenics_gears.system.output import check_writable
-
     check_writable(output.parent, output.name)
     if output.suffix != ".toml":
         raise SceneError(f"{output}: a scene is a .toml file; give --output such a name.")
@@ -69,14 +66,12 @@ def _check_output(output: Path) -> None:
 def _check_scene(imported, file: Path, output: Path) -> None:
     """What the file says makes a scene and gears that mesh. Raises SceneError, which also says what had to be
     assumed."""
-    from fenics_gears.geometry.pair import gear_pair
-    from fenics_gears.model.modification import removals
-    from fenics_gears.scene.read import scene_from_text
+    from fenics_gears import check_geometry, scene_from_text
 
     source = f"{file} as a scene"
     try:
         scene = scene_from_text(imported.text, output.stem, source=source, with_lines=False)
-        removals(scene, gear_pair(scene.gears))
+        check_geometry(scene)
     except SceneError as error:
         words = f"{source}: {error}\nNothing was written." if isinstance(error, GeometryError) else str(error)
         gears = f"The pinion is {imported.stage.pinion.gear}, the wheel {imported.stage.wheel.gear}."

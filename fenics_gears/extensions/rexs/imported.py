@@ -6,7 +6,7 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from fenics_gears.errors import SceneError
+from fenics_gears import SceneError, units
 from fenics_gears.extensions.rexs.attributes import Reading, first
 from fenics_gears.extensions.rexs.flanks import note_what_is_left_out, relief_sections, tolerance_class
 from fenics_gears.extensions.rexs.gears import Sections, gear_sections
@@ -17,8 +17,6 @@ from fenics_gears.extensions.rexs.read import read_model
 from fenics_gears.extensions.rexs.scene_text import scene_text
 from fenics_gears.extensions.rexs.stage import Stage, chosen_stage
 from fenics_gears.extensions.rexs.values import Value, ValueProblem
-from fenics_gears.inputs import units
-from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD
 
 # Options that stand in for what the file says, with an example each.
 TORQUE, SPEED = ("--wheel-torque", "437 N m"), ("--pinion-speed", "750 rpm")
@@ -117,7 +115,7 @@ def _error_sections(reading: Reading, stage: Stage, sections: Sections) -> Secti
         cycles = Value(1, "1", "quasi-static, so that all mesh cycles are alike", assumed=True)
         return {"motion": {**sections["motion"], "mesh_cycles": cycles}}
     cycles = Value(
-        0, f'"{HUNTING_TOOTH_PERIOD}"', "errors differ from tooth to tooth; so long until all have met", assumed=True
+        0, '"hunting tooth period"', "errors differ from tooth to tooth; so long until all have met", assumed=True
     )
     return {"motion": {**sections["motion"], "mesh_cycles": cycles}, "flank_errors": {"tolerance_class": tolerance}}
 

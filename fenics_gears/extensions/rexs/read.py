@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
-from fenics_gears.errors import SceneError
+from fenics_gears import SceneError, user_file
 from fenics_gears.extensions.rexs.model import Model, ModelError, model_of
-from fenics_gears.system import user_file
-from fenics_gears.system.user_file import LARGEST_REXS as LARGEST
 
+# Bytes: models of whole gearboxes have some hundred kilobytes, with results some megabytes.
+LARGEST = 200 * user_file.MEGABYTE
 ENDINGS = (".rexs", ".rexsj")
 PACKED = ".rexsz"
 

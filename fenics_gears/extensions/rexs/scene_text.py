@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+from fenics_gears import toml_value
 from fenics_gears.extensions.rexs.model import Model
 from fenics_gears.extensions.rexs.stage import Stage
 from fenics_gears.extensions.rexs.values import Value
-from fenics_gears.inputs.written import toml_value
 
 # Where the comments begin.
 COLUMN = 44
