@@ -15,17 +15,19 @@ __version__ = "0.3.0"
 _HOMES = {
     # A scene: read, checked, run.
     "Scene": "scene.data",
+    "Load": "scene.data",
     "load_scene": "scene.read",
     "build_scene": "scene.read",
     "scene_from_text": "scene.read",
+    "as_toml": "inputs.written",
     "toml_value": "inputs.written",
     "check_geometry": "model.modification",
     "simulate": "studies.simulate",
     # What follows from a scene without a run.
-    "Model": "model.model",
     "model_of": "model.model",
     "expected_cost": "model.cost",
     "lumped_gears": "model.drivetrain",
+    "mesh_stiffness": "model.drivetrain",
     # The gears.
     "Gear": "geometry.gear",
     "GearPair": "geometry.pair",
@@ -46,6 +48,8 @@ _HOMES = {
     "carried_scene": "results.carried_scene",
     "of_settled": "results.settled",
     "mesh_force": "results.contact_variables",
+    "HARMONIC_NAMES": "results.key_numbers",
+    "MICROMETRE": "results.key_numbers",
     # Errors, each with its exit code.
     "GearsError": "errors",
     "SceneError": "errors",

@@ -12,10 +12,11 @@ from fenics_gears.commands.shared import plots
 from fenics_gears.show.chart import BAND, BARS, LINES, MARKED_LINES, MARKERS, WORDS, Chart, Curve, span, stems
 from fenics_gears.show.harris_map import harris_map, words_apart
 from fenics_gears.show.panels import DARK, GREY, PALETTE, shades
+from fenics_gears.show.run import design
 
 __all__ = [
     "BAND", "BARS", "DARK", "GREY", "LINES", "MARKED_LINES", "MARKERS", "PALETTE", "WORDS", "Chart", "Curve",
-    "draw_charts", "harris_map", "shades", "span", "stems", "words_apart",
+    "design", "draw_charts", "harris_map", "shades", "span", "stems", "words_apart",
 ]  # fmt: skip
 
 

@@ -25,7 +25,10 @@ from fenics_gears.studies.study_file import load_study
 
 matplotlib.use("Agg")
 # Pages whose code is a module in pieces; these tests put them together and run them.
-RUN_ELSEWHERE = {"docs/adding_an_effect.md": "tests/effects/test_pages.py"}
+RUN_ELSEWHERE = {
+    "docs/adding_an_effect.md": "tests/effects/test_pages.py",
+    "docs/adding_an_extension.md": "tests/extensions/test_adding_an_extension.py",
+}
 PROMPT = ">>> "
 DEMO = (ROOT / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 # What stands for a number or a word in the pages' commands.

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from fenics_gears import spectrum
+from fenics_gears import HARMONIC_NAMES, spectrum
 from fenics_gears.charts import (
     BAND,
     DARK,
@@ -25,7 +25,6 @@ from fenics_gears.charts import (
     stems,
     words_apart,
 )
-from fenics_gears.results.key_numbers import HARMONIC_NAMES
 
 MESH_ORDERS = 5
 SPEED, FREQUENCY = "Mesh frequency (Hz)", "Frequency (Hz)"

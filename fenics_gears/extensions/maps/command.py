@@ -116,9 +116,8 @@ def _run(options: argparse.Namespace, team) -> int:
 def _written(found, directory: Path, scene) -> list[Path]:
     """The files of a map: dataset, tables and pictures."""
     from fenics_gears import save_tables
-    from fenics_gears.charts import draw_charts
+    from fenics_gears.charts import design, draw_charts
     from fenics_gears.extensions.maps.charts import map_pictures
-    from fenics_gears.show.run import design
 
     supports = [name for name in ("shafts", "bearings") if getattr(scene, name) is not None]
     more = f"{design(scene)}{', elastic ' + ' and '.join(supports) if supports else ''}"

@@ -10,13 +10,12 @@ from math import isfinite, pi, sqrt
 from pathlib import Path
 from typing import Any
 
-from fenics_gears import Scene, SceneError, expected_cost, model_of, units
+from fenics_gears import Load, Scene, SceneError, as_toml, expected_cost, model_of, units
 from fenics_gears.command_line import seconds_in_words
 from fenics_gears.effects import common_period, effects_on
 from fenics_gears.inputs.tree import wheel_torque
-from fenics_gears.inputs.written import as_toml
 from fenics_gears.results.settled import settling_time
-from fenics_gears.scene.data import LOAD_WORDS, Load
+from fenics_gears.scene.data import LOAD_WORDS
 from fenics_gears.simulation.dynamic_factor import quasi_static
 from fenics_gears.studies.axis import AxisError, values_in_words
 from fenics_gears.studies.study import Study

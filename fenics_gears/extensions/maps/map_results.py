@@ -9,13 +9,22 @@ import numpy as np
 import xarray as xr
 
 import fenics_gears
-from fenics_gears import GearPair, Scene, mesh_force, model_of, of_settled, results
+from fenics_gears import (
+    HARMONIC_NAMES,
+    MICROMETRE,
+    GearPair,
+    Load,
+    Scene,
+    load,
+    mesh_force,
+    mesh_stiffness,
+    model_of,
+    of_settled,
+    spectrum,
+)
 from fenics_gears.dynamics.frequencies import Vibration, vibrations
 from fenics_gears.extensions.maps.load_map import LoadMap
-from fenics_gears.model.drivetrain import mesh_stiffness
-from fenics_gears.results.key_numbers import HARMONIC_NAMES, MICROMETRE
-from fenics_gears.results.spectrum import NO_WINDOW, order_lines
-from fenics_gears.scene.data import LOAD_WORDS, Load
+from fenics_gears.scene.data import LOAD_WORDS
 from fenics_gears.studies.combine import load_combined
 from fenics_gears.studies.run_study import Outcome
 
@@ -134,7 +143,7 @@ def _spectra(outcome: Outcome, pair: GearPair, loads: int) -> Columns:
     frequencies = np.array([case.scene.motion.mesh_frequency for case in cases[: len(cases) // loads]])
     amplitudes = np.full((len(cases), 2, len(ORDERS)), np.nan)
     for index in outcome.records:
-        run = of_settled(results.load(outcome.file.parent / "cases" / f"{cases[index].name}.nc"))
+        run = of_settled(load(outcome.file.parent / "cases" / f"{cases[index].name}.nc"))
         amplitudes[index] = [
             _orders(run, curve)
             for curve in (run["transmission_error"].values * pair.wheel.base_radius / MICROMETRE, mesh_force(run))
@@ -164,7 +173,7 @@ def _orders(run: xr.Dataset, values: np.ndarray) -> np.ndarray:
     phase = run["mesh_phase"].values
     steps, cycles = round(1.0 / (phase[1] - phase[0])), int((phase[-1] - phase[0]) * (1.0 + 1e-9))
     whole = cycles - cycles % 2 or cycles
-    lines = order_lines(values[-whole * steps - 1 :], whole, (1, 1), NO_WINDOW) if whole else None
+    lines = spectrum.order_lines(values[-whole * steps - 1 :], whole, (1, 1), spectrum.NO_WINDOW) if whole else None
     if lines is None:
         return np.full(len(ORDERS), np.nan)
     known = (lines.orders[-1] >= ORDERS) & ((ORDERS % 1.0 == 0.0) | (whole > 1))

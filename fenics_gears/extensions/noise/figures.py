@@ -10,13 +10,12 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from fenics_gears import ComputationError, carried_scene, of_settled, spectrum
+from fenics_gears import MICROMETRE, ComputationError, carried_scene, of_settled, spectrum
 
 SIGNALS = {
     "transmission_error": ("um", "transmission error along the line of action"),
     "mesh_force": ("N", "mesh force"),
 }
-MICROMETRE = 1e-3  # mm
 HARMONICS, GEARS = np.arange(1, 11), ("pinion", "wheel")
 
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from fenics_gears import Scene
+from fenics_gears import HARMONIC_NAMES, Scene
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
-from fenics_gears.results.key_numbers import HARMONIC_NAMES
 from fenics_gears.studies.combine import NUMBERS
 
 ERROR = "peak_to_peak_transmission_error"
