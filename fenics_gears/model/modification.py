@@ -10,7 +10,12 @@ from fenics_gears.scene.data import Scene
 
 def check_geometry(scene: Scene) -> GearPair:
     """The pair of a scene whose gears mesh and have the flanks and tips that its effects ask for. Raises GeometryError
-    where they do not."""
+    where they do not.
+
+    >>> from fenics_gears import load_scene
+    >>> print(f'{check_geometry(load_scene("demos/lundvall2004.toml")).contact_ratio:.2f}')
+    1.47
+    """
     pair = gear_pair(scene.gears)
     removals(scene, pair)
     corner(scene, pair)
