@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterable
 from importlib import import_module
+from math import inf
 from os.path import exists, isdir
 from pathlib import Path
 from types import ModuleType
@@ -104,6 +105,25 @@ def _size(text: str) -> str:
     except SceneError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
     return text
+
+
+def number_of_option(option: str, text: str, unit: str, low: float = 0.0, high: float = inf) -> float:
+    """The number, in `unit`, of a quantity that an option gives in any unit of its kind.
+
+    Raises SceneError, naming the option, for another kind and for a number beyond `low` to `high`; without `high` it
+    must be greater than zero.
+    """
+    from fenics_gears.inputs import units
+
+    try:
+        (value, kind), (factor, wanted) = units.quantity(text), units.quantity(f"1 {unit}")
+    except units.QuantityError as error:
+        raise SceneError(f'{option} "{text}": {error}') from None
+    number = value / factor
+    if kind != wanted or not (low <= number <= high if high < inf else number > 0.0):
+        limits = f"from {low:g} {unit} to {high:g} {unit}" if high < inf else f'greater than zero, such as "1 {unit}"'
+        raise SceneError(f'{option} "{text}": allowed is {wanted} {limits}.')
+    return number
 
 
 def add_run_argument(command) -> None:

@@ -9,7 +9,15 @@ from functools import partial
 from pathlib import Path
 
 from fenics_gears import SceneError
-from fenics_gears.command_line import add_run_argument, check_writable, loaded_run, print_files, run_file, write_whole
+from fenics_gears.command_line import (
+    add_run_argument,
+    check_writable,
+    loaded_run,
+    number_of_option,
+    print_files,
+    run_file,
+    write_whole,
+)
 
 SECONDS, LONGEST = 5.0, 600.0
 NOISE_FILES = "noise.png", "noise.nc"
@@ -84,7 +92,6 @@ def listen(options: argparse.Namespace) -> int:
 def _checked(result, options: argparse.Namespace) -> float | None:
     """The full scale in the curve's unit; None where none is given. Raises SceneError for a curve that is none, a run
     that is too slow to be heard, and a wrong unit."""
-    from fenics_gears import units
     from fenics_gears.extensions.noise.sound import LOWEST_HEARD
 
     curves = [name for name in result.data_vars if result[name].dims == ("time",) and result[name].dtype.kind == "f"]
@@ -97,19 +104,8 @@ def _checked(result, options: argparse.Namespace) -> float | None:
             f"{options.run}: has a mesh frequency of {fastest:.3g} Hz, too low to hear (from {LOWEST_HEARD:g} Hz). Give"
             " the scene a motion.mesh_frequency or motion.pinion_speed."
         )
-    if options.full_scale is None:
-        return None
     unit = result[options.curve].attrs["units"]
-    try:
-        value, kind = units.quantity(options.full_scale)
-        wanted = units.quantity(f"1 {unit}")[1]
-    except units.QuantityError as error:
-        raise SceneError(f'--full-scale "{options.full_scale}": {error}') from None
-    if kind != wanted or not value > 0.0:
-        raise SceneError(
-            f'--full-scale "{options.full_scale}": allowed is {wanted} greater than zero, such as "1 {unit}".'
-        )
-    return value
+    return None if options.full_scale is None else number_of_option("--full-scale", options.full_scale, unit)
 
 
 def plot(core: Callable[[argparse.Namespace], int], options: argparse.Namespace) -> int:

@@ -8,15 +8,22 @@ from math import isnan
 from pathlib import Path
 
 from fenics_gears import SceneError
-from fenics_gears.command_line import add_run_argument, check_writable, loaded_run, run_file, write_whole
+from fenics_gears.command_line import (
+    add_run_argument,
+    check_writable,
+    loaded_run,
+    number_of_option,
+    run_file,
+    write_whole,
+)
 
 FILE = "rating.csv"
-# Options with a quantity: field of the finish, kind, factor from the program's unit, lowest, highest, meaning.
+# Options with a quantity: field of the finish, unit, lowest, highest, meaning.
 _QUANTITIES = {
-    "flank_limit": ("MPa", 1.0, 100.0, 3000.0, "endurance limit sigma_Hlim of the flank"),
-    "root_limit": ("MPa", 1.0, 20.0, 1000.0, "endurance limit sigma_Flim of the root"),
-    "flank_roughness": ("um", 1e3, 0.1, 100.0, "roughness Rz of the flanks"),
-    "root_roughness": ("um", 1e3, 0.1, 100.0, "roughness Rz of the roots"),
+    "flank_limit": ("MPa", 100.0, 3000.0, "endurance limit sigma_Hlim of the flank"),
+    "root_limit": ("MPa", 20.0, 1000.0, "endurance limit sigma_Flim of the root"),
+    "flank_roughness": ("um", 0.1, 100.0, "roughness Rz of the flanks"),
+    "root_roughness": ("um", 0.1, 100.0, "roughness Rz of the roots"),
 }
 _NUMBERS = {
     "tolerance_class": (1, 11, "flank tolerance class of ISO 1328-1 (default: that of [flank_errors], else 6)"),
@@ -75,23 +82,15 @@ def rate(options: argparse.Namespace) -> int:
 
 def _finish(options: argparse.Namespace, scene):
     """Material, finish and oil of the options. Raises SceneError for values out of range."""
-    from fenics_gears import units
     from fenics_gears.extensions.rating.finish import Finish
 
     given = {}
     if scene.flank_errors is not None and scene.flank_errors.tolerance_class is not None:
         given["tolerance_class"] = scene.flank_errors.tolerance_class
-    for name, (unit, factor, low, high, _) in _QUANTITIES.items():
+    for name, (unit, low, high, _) in _QUANTITIES.items():
         text = getattr(options, name)
-        if text is None:
-            continue
-        try:
-            (value, kind), wanted = units.quantity(text), units.quantity(f"1 {unit}")[1]
-        except units.QuantityError as error:
-            raise SceneError(f'{_option(name)} "{text}": {error}') from None
-        if kind != wanted or not low <= value * factor <= high:
-            raise SceneError(f'{_option(name)} "{text}": allowed is {wanted} from {low:g} {unit} to {high:g} {unit}.')
-        given[name] = value * factor
+        if text is not None:
+            given[name] = number_of_option(_option(name), text, unit, low, high)
     for name, (low, high, _) in _NUMBERS.items():
         value = getattr(options, name)
         if value is None:
