@@ -32,7 +32,6 @@ from fenics_gears.results.carried_scene import carried_scene as carried_scene
 from fenics_gears.results.contact_variables import mesh_force as mesh_force
 from fenics_gears.results.curves_table import save_tables as save_tables
 from fenics_gears.results.files import load as load
-from fenics_gears.results.files import save as save
 from fenics_gears.results.key_numbers import HARMONIC_NAMES as HARMONIC_NAMES
 from fenics_gears.results.key_numbers import MICROMETRE as MICROMETRE
 from fenics_gears.results.settled import of_settled as of_settled

@@ -32,7 +32,7 @@ def _levels(found: xr.Dataset, name: str) -> Chart:
     orders = found["order"].values[found["order"].values <= ORDERS_SHOWN]
     levels = found[f"{name}_level"].values[: len(orders)]
     mesh, top = np.abs(orders - np.round(orders)) < 1e-6, float(levels.max())
-    seen, foot = levels > top - DECIBELS, top - DECIBELS
+    shown, foot = levels > top - DECIBELS, top - DECIBELS
     caption, title = _titles(name)
     if f"{name}_sideband_ratio" in found:
         ratios = found[f"{name}_sideband_ratio"].sel(harmonic=slice(1, ORDERS_SHOWN))
@@ -43,16 +43,16 @@ def _levels(found: xr.Dataset, name: str) -> Chart:
         ]
         caption += f"; energy of the sidebands over that of their mesh order: {', '.join(beside)}" if beside else ""
     curves = [
-        Curve("between mesh orders", *stems(orders[seen & ~mesh], levels[seen & ~mesh], foot - 1.0), GREY, width=0.8),
-        Curve("mesh orders", *stems(orders[seen & mesh], levels[seen & mesh], foot - 1.0), PALETTE[0], width=2.6),
+        Curve("between mesh orders", *stems(orders[shown & ~mesh], levels[shown & ~mesh], foot - 1.0), GREY, width=0.8),
+        Curve("mesh orders", *stems(orders[shown & mesh], levels[shown & mesh], foot - 1.0), PALETTE[0], width=2.6),
         Curve(
             "levels",
-            orders[seen & mesh],
-            levels[seen & mesh],
+            orders[shown & mesh],
+            levels[shown & mesh],
             DARK,
             mode=WORDS,
             listed=False,
-            words=[f"{each:.1f} dB" for each in levels[seen & mesh]],
+            words=[f"{each:.1f} dB" for each in levels[shown & mesh]],
         ),
     ]
     return Chart(

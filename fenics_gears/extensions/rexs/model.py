@@ -163,7 +163,7 @@ class Model(_Node):
         return self.model_copy(update={"components": loaded})
 
 
-def model_of(tree: Any) -> Model:
+def checked_model(tree: Any) -> Model:
     """The model of a file's tree, as JSON has it. Raises ModelError where it is none: of another shape, with numbers
     that are there twice
     or lead nowhere, or of a version that is not known."""

@@ -13,7 +13,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from fenics_gears import SceneError, user_file
-from fenics_gears.extensions.rexs.model import Model, ModelError, model_of
+from fenics_gears.extensions.rexs.model import Model, ModelError, checked_model
 
 # Bytes: models of whole gearboxes have some hundred kilobytes, with results some megabytes.
 LARGEST = 200 * user_file.MEGABYTE
@@ -45,7 +45,7 @@ def _model(content: bytes) -> Model:
     start = _start(content)
     if not start:
         raise ModelError("is empty")
-    return model_of(_of_json(content) if start in b"{[" else _of_xml(content))
+    return checked_model(_of_json(content) if start in b"{[" else _of_xml(content))
 
 
 def _is_archive(content: bytes) -> bool:
