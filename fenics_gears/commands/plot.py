@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
-from fenics_gears.commands.shared import add_run_argument, loaded_run, plots, print_files, run_file
+from fenics_gears.commands.shared import add_output_argument, add_run_argument, loaded_run, plots, print_files, run_file
 from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
 
 
@@ -13,9 +12,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("plot", parents=[shared], help="draw the pictures of a run again")
     add_run_argument(command)
-    command.add_argument(
-        "-o", "--output", type=Path, metavar="DIR", help="folder to write into (default: beside run.nc)"
-    )
+    add_output_argument(command, "beside run.nc")
     command.set_defaults(command=plot)
 
 

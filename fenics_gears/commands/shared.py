@@ -37,15 +37,11 @@ def add_scene_argument(command) -> None:
     command.add_argument("scene", type=Path, metavar="SCENE", help="a scene file (TOML)")
 
 
-def add_output_argument(command) -> None:
-    """The option --output of a command that writes a scene's results."""
-    command.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="DIR",
-        help="folder to write into (default: results/<name of the scene file>)",
-    )
+def add_output_argument(
+    command, default: str = "results/<name of the scene file>", what: str = "folder to write into", metavar: str = "DIR"
+) -> None:
+    """The option --output of a command that writes something; `default`: in words, for the help."""
+    command.add_argument("-o", "--output", type=Path, metavar=metavar, help=f"{what} (default: {default})")
 
 
 def add_memory_argument(command) -> None:

@@ -11,6 +11,7 @@ from fenics_gears import ComputationError
 from fenics_gears.command_line import (
     INTERRUPTED,
     add_memory_argument,
+    add_output_argument,
     add_processes_argument,
     add_scene_argument,
     check_writable,
@@ -45,13 +46,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
         help='mesh frequencies or speeds of the pinion, such as "200 Hz", "100 .. 3000 rpm in 30" or "50 .. 1000 Hz '
             'in 24, logarithmic"; needs [inertia] (default: quasi-static only)',
     )  # fmt: skip
-    command.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="DIR",
-        help="folder to write into (default: results/<name of the scene file>_map)",
-    )
+    add_output_argument(command, "results/<name of the scene file>_map")
     command.add_argument(
         "--most-runs",
         type=positive_count,

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from fenics_gears import SceneError
 from fenics_gears.command_line import (
+    add_output_argument,
     add_run_argument,
     check_writable,
     loaded_run,
@@ -49,9 +50,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
             " (default: from the loudest sample)"
         ),
     )
-    command.add_argument(
-        "-o", "--output", type=Path, metavar="FILE", help="file to write (default: CURVE.wav beside run.nc)"
-    )
+    add_output_argument(command, "CURVE.wav beside run.nc", "file to write", "FILE")
     command.set_defaults(command=listen)
     pictures = commands.choices["plot"]
     pictures.add_argument(

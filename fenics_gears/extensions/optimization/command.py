@@ -9,6 +9,7 @@ from pathlib import Path
 from fenics_gears.command_line import (
     INTERRUPTED,
     add_memory_argument,
+    add_output_argument,
     add_processes_argument,
     shown_progress,
     under_mpirun,
@@ -26,13 +27,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
         ),
     )
     command.add_argument("design", type=Path, metavar="DESIGN", help="a design file (TOML)")
-    command.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="DIR",
-        help="folder to write into (default: results/<name of the design file>)",
-    )
+    add_output_argument(command, "results/<name of the design file>")
     command.add_argument(
         "-y",
         "--yes",

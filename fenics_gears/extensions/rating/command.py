@@ -9,6 +9,7 @@ from pathlib import Path
 
 from fenics_gears import SceneError
 from fenics_gears.command_line import (
+    add_output_argument,
     add_run_argument,
     check_writable,
     loaded_run,
@@ -48,9 +49,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     for name, (*_, meaning) in _NUMBERS.items():
         default = "" if "default" in meaning else f" (default: {defaults[name]:g})"
         command.add_argument(_option(name), type=float, metavar="N", help=meaning + default)
-    command.add_argument(
-        "-o", "--output", type=Path, metavar="FILE", help=f"table to write (default: {FILE} beside run.nc)"
-    )
+    add_output_argument(command, f"{FILE} beside run.nc", "table to write", "FILE")
     command.set_defaults(command=rate)
 
 

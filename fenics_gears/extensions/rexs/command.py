@@ -6,20 +6,14 @@ import argparse
 from pathlib import Path
 
 from fenics_gears import GeometryError, SceneError
-from fenics_gears.command_line import check_writable, write_whole
+from fenics_gears.command_line import add_output_argument, check_writable, write_whole
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
     command = commands.add_parser("import", parents=[shared], help="write a gear pair of a REXS file as a scene")
     command.add_argument("file", type=Path, metavar="FILE", help="a REXS file: .rexs, .rexsj or .rexsz")
-    command.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="SCENE",
-        help="scene file to write (default: name of FILE with .toml, in the current folder)",
-    )
+    add_output_argument(command, "name of FILE with .toml, in the current folder", "scene file to write", "SCENE")
     command.add_argument(
         "--stage", type=int, metavar="ID", help="number of the component of the stage, if the file has several stages"
     )
