@@ -1,31 +1,34 @@
 """Spur and helical gear pairs as flexible multi-body systems with frictional contact.
 
 ``load_scene`` reads a scene file and ``build_scene`` takes its sections as dictionaries; ``simulate`` runs a scene and
-returns an ``xarray.Dataset``.
+returns an ``xarray.Dataset``. ``__all__`` is all that programs and extensions may rely on: these names, and the modules
+``units``, ``user_file``, ``spectrum``, ``charts`` and ``command_line``. Everything is in N, mm, s and rad unless it
+says otherwise.
 """
 
 import importlib
+import re
 
 __version__ = "0.4.0"
-__all__ = ["__version__", "build_scene", "load_scene", "simulate"]
 
-# Loaded when first asked for, so that `gears --help` does not wait for the finite element stack.
-_HOMES = {
-    "build_scene": "fenics_gears.scene.read",
-    "load_scene": "fenics_gears.scene.read",
-    "simulate": "fenics_gears.studies.simulate",
-}
+# The names are listed in `__init__.pyi`, which editors and type checkers read as well. Each is loaded when first asked
+# for, so that `gears --help` does not wait for the finite element stack.
+with open(f"{__file__}i", encoding="utf-8") as _stub:
+    _HOMES = {name: home for home, name in re.findall(r"^from (\S+) import (\w+)", _stub.read(), re.MULTILINE)}
+__all__ = ["__version__", *_HOMES]
 
 
 def __getattr__(name: str):
-    """Load ``build_scene``, ``load_scene`` or ``simulate`` on first use."""
+    """Load a name of ``__all__`` on first use."""
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     # What BLAS, MPI and VTK read from the environment must stand there before they are loaded.
     importlib.import_module("fenics_gears.system.environment").prepare()
-    return getattr(importlib.import_module(_HOMES[name]), name)
+    resolve_name = importlib.import_module("pkgutil").resolve_name
+    found = globals()[name] = resolve_name(f"{_HOMES[name]}.{name}")
+    return found
 
 
 def __dir__() -> list[str]:
     """What is loaded on first use too."""
-    return sorted({*globals(), *__all__} - {"importlib"})
+    return sorted({*globals(), *__all__} - {"importlib", "re"})

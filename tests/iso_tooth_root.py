@@ -3,10 +3,16 @@ single tooth contact."""
 
 from math import cos, radians, sqrt
 
+import pytest
+
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.tooth_thickness import base_helix_angle
-from fenics_gears.rating.root import tooth_form, virtual_gear
+
+
+def rated():
+    """The formulas of the extension that rates; a test that compares with them is skipped where it is not there."""
+    return pytest.importorskip("fenics_gears.extensions.rating.root")
 
 
 def form_and_stress_correction(gear: Gear, roll_angle: float) -> tuple[float, float]:
@@ -16,7 +22,7 @@ def form_and_stress_correction(gear: Gear, roll_angle: float) -> tuple[float, fl
     Y_F = 6 h cos(alpha_Fen) / (s^2 cos(alpha)), lengths in modules, s the chord and h the arm at the 30 degree
     tangents; Y_S = (1.2 + 0.13 s/h) (s / 2 rho)^(1 / (1.21 + 2.3 h/s)).
     """
-    tooth = tooth_form(gear, roll_angle)
+    tooth = rated().tooth_form(gear, roll_angle)
     return tooth.form, tooth.stress_correction
 
 
@@ -39,7 +45,7 @@ def helical_form_and_stress_correction(pair: GearPair, name: str) -> tuple[float
     """Y_F, Y_S of the "pinion" or the "wheel" with load at the outer point of single contact of the virtual gears, and
     their contact ratio epsilon_alphan."""
     gear = getattr(pair, name)
-    virtual, contact_ratio = virtual_gear(gear), pair.contact_ratio / cos(base_helix_angle(gear)) ** 2
+    virtual, contact_ratio = rated().virtual_gear(gear), pair.contact_ratio / cos(base_helix_angle(gear)) ** 2
     roll = virtual.tip_roll_angle - (contact_ratio - 1.0) * virtual.angular_pitch
     return *form_and_stress_correction(virtual, roll), contact_ratio
 

@@ -22,14 +22,10 @@ from fenics_gears.commands import (
     check,
     effects,
     export,
-    import_rexs,
-    listen,
-    map,
-    optimize,
+    extensions,
     picture,
     plot,
     python,
-    rate,
     report,
     run,
     study,
@@ -146,23 +142,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.set_defaults(verbose=False, quiet=False)
     parser.add_argument("--version", action="version", version=f"gears {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (
-        check,
-        run,
-        study,
-        map,
-        optimize,
-        effects,
-        accuracy,
-        plot,
-        picture,
-        report,
-        export,
-        listen,
-        rate,
-        import_rexs,
-        cache,
-    ):
+    for command in (check, run, study, effects, accuracy, plot, picture, report, export, cache, extensions):
         command.add(commands, shared)
     python.add(commands)
     tests.add(commands)

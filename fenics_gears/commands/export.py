@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
-from fenics_gears.commands.shared import add_run_argument, loaded_run, print_files, run_file
+from fenics_gears.commands.shared import add_output_argument, add_run_argument, loaded_run, print_files, run_file
 from fenics_gears.errors import SceneError
 
 CURVES_FILE = "curves.csv"
@@ -17,9 +16,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
         "export", parents=[shared], help="write the curves of a run as a table (CSV) for spreadsheets"
     )
     add_run_argument(command)
-    command.add_argument(
-        "-o", "--output", type=Path, metavar="FILE", help=f"file to write (default: {CURVES_FILE} beside run.nc)"
-    )
+    add_output_argument(command, f"{CURVES_FILE} beside run.nc", "file to write", "FILE")
     command.set_defaults(command=export)
 
 

@@ -8,7 +8,14 @@ from contextlib import closing
 from functools import partial
 from pathlib import Path
 
-from fenics_gears.commands.shared import add_run_argument, loaded_run, print_files, run_file, shown_progress
+from fenics_gears.commands.shared import (
+    add_output_argument,
+    add_run_argument,
+    loaded_run,
+    print_files,
+    run_file,
+    shown_progress,
+)
 from fenics_gears.errors import SceneError
 from fenics_gears.system.printable import printable
 
@@ -34,13 +41,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
         metavar="N",
         help="displacements are drawn N times as large (default: the largest suitable scale; in three dimensions 1)",
     )
-    command.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="FILE",
-        help=f"file to write (default: {PICTURE_FILE} or {ANIMATION_FILE} beside run.nc)",
-    )
+    add_output_argument(command, f"{PICTURE_FILE} or {ANIMATION_FILE} beside run.nc", "file to write", "FILE")
     command.add_argument(
         "--animate",
         action="store_true",

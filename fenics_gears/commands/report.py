@@ -12,6 +12,7 @@ from fenics_gears.commands.shared import (
     JOURNAL,
     RUN_FILE,
     STUDY_FILE,
+    add_output_argument,
     loaded_run,
     print_files,
     run_or_journal,
@@ -34,13 +35,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
         metavar="RUN",
         help="folder of a run or its run.nc, folder of a study, or file of one of its cases",
     )
-    command.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="FILE|DIR",
-        help=f"file or folder to write (default: {REPORT_FILE} beside {RUN_FILE})",
-    )
+    add_output_argument(command, f"{REPORT_FILE} beside {RUN_FILE}", "file or folder to write", "FILE|DIR")
     command.add_argument(
         "--at",
         type=float,

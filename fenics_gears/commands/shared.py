@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterable
 from importlib import import_module
+from math import inf
 from os.path import exists, isdir
 from pathlib import Path
 from types import ModuleType
@@ -36,15 +37,11 @@ def add_scene_argument(command) -> None:
     command.add_argument("scene", type=Path, metavar="SCENE", help="a scene file (TOML)")
 
 
-def add_output_argument(command) -> None:
-    """The option --output of a command that writes a scene's results."""
-    command.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="DIR",
-        help="folder to write into (default: results/<name of the scene file>)",
-    )
+def add_output_argument(
+    command, default: str = "results/<name of the scene file>", what: str = "folder to write into", metavar: str = "DIR"
+) -> None:
+    """The option --output of a command that writes something; `default`: in words, for the help."""
+    command.add_argument("-o", "--output", type=Path, metavar=metavar, help=f"{what} (default: {default})")
 
 
 def add_memory_argument(command) -> None:
@@ -106,6 +103,25 @@ def _size(text: str) -> str:
     return text
 
 
+def number_of_option(option: str, text: str, unit: str, low: float = 0.0, high: float = inf) -> float:
+    """The number, in `unit`, of a quantity that an option gives in any unit of its kind.
+
+    Raises SceneError, naming the option, for another kind and for a number beyond `low` to `high`; without `high` it
+    must be greater than zero.
+    """
+    from fenics_gears.inputs import units
+
+    try:
+        (value, kind), (factor, wanted) = units.quantity(text), units.quantity(f"1 {unit}")
+    except units.QuantityError as error:
+        raise SceneError(f'{option} "{text}": {error}') from None
+    number = value / factor
+    if kind != wanted or not (low <= number <= high if high < inf else number > 0.0):
+        limits = f"from {low:g} {unit} to {high:g} {unit}" if high < inf else f'greater than zero, such as "1 {unit}"'
+        raise SceneError(f'{option} "{text}": allowed is {wanted} {limits}.')
+    return number
+
+
 def add_run_argument(command) -> None:
     """The argument RUN of a command that reads a finished run."""
     command.add_argument("run", type=Path, metavar="RUN", help="folder of a run or its run.nc")
@@ -117,13 +133,10 @@ def checked_scene(path: Path):
 
     scene = load_scene(path)
     from fenics_gears.effects import check_files
-    from fenics_gears.geometry.pair import gear_pair
-    from fenics_gears.model.modification import corner, removals
+    from fenics_gears.model.modification import check_geometry
 
     try:
-        pair = gear_pair(scene.gears)
-        removals(scene, pair)
-        corner(scene, pair)
+        pair = check_geometry(scene)
     except GeometryError as error:
         raise GeometryError(f"{path}: {error}\nNothing was computed or written.") from error
     check_files(scene, pair)

@@ -10,6 +10,7 @@ from pathlib import Path
 from fenics_gears.commands.shared import (
     INTERRUPTED,
     add_memory_argument,
+    add_output_argument,
     add_processes_argument,
     plots,
     shown_progress,
@@ -26,13 +27,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
         help="run a parameter study and draw it, alone or under mpirun; a stopped study is continued",
     )
     command.add_argument("study", type=Path, metavar="STUDY", help="a study file (TOML)")
-    command.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="DIR",
-        help="folder to write into (default: results/<name of the study file>)",
-    )
+    add_output_argument(command, "results/<name of the study file>")
     add_processes_argument(command)
     add_memory_argument(command)
     command.set_defaults(command=study)

@@ -21,6 +21,11 @@ def face_opening(
 
     Removed material makes it positive; misalignment has either sign. `position` (mm from T1, of z's shape): of the
     contact on the line of action, on which the gap of misaligned helical gears depends; the pitch point unless given.
+
+    >>> from fenics_gears import gear_pair, load_scene
+    >>> scene = load_scene("demos/misaligned_spur/misaligned.toml")
+    >>> face_opening(gear_pair(scene.gears), scene.lead_modifications, scene.misalignment, [0.0, 10.0]).round(4)
+    array([0.    , 0.0133])
     """
     z = np.asarray(z, dtype=float)
     opening = np.zeros_like(z)

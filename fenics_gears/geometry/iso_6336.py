@@ -20,7 +20,12 @@ FULL_LINE_LOAD = 100.0
 
 
 def single_stiffness(gears: GearPairData) -> tuple[float, float]:
-    """c'th and c' (N/(mm um)) of one pair at its stiffest position, above 100 N/mm."""
+    """c'th and c' (N/(mm um)) of one pair at its stiffest position, above 100 N/mm.
+
+    >>> from fenics_gears import load_scene
+    >>> print("c'th {:.1f}, c' {:.1f}".format(*single_stiffness(load_scene("demos/lundvall2004.toml").gears)))
+    c'th 15.7, c' 12.4
+    """
     beta = gears.helix_angle
     # Of the spur gears that the teeth of helical ones are like: z / (cos(beta_b)^2 cos(beta)).
     of_virtual = (1.0 - (sin(beta) * cos(gears.pressure_angle)) ** 2) * cos(beta)

@@ -264,6 +264,11 @@ def gear_pair(data: GearPairData) -> GearPair:
     """The pair that a scene describes, checked.
 
     Raises GeometryError, which names what is wrong, on which gear, by how much, and what to change.
+
+    >>> from fenics_gears import load_scene
+    >>> pair = gear_pair(load_scene("demos/lundvall2004.toml").gears)
+    >>> print(f"{pair.contact_ratio:.2f}, backlash {pair.backlash:.2f} mm")
+    1.47, backlash 0.10 mm
     """
     pinion, wheel = (
         transverse_gear(gear, data.module, data.pressure_angle, data.helix_angle) for gear in (data.pinion, data.wheel)

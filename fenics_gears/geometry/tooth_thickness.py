@@ -16,7 +16,12 @@ from fenics_gears.geometry.involute import inverse_involute, involute_function
 
 
 def base_helix_angle(gear: Gear) -> float:
-    """Helix angle at the base cylinder: tan(beta_b) = tan(beta) cos(alpha_t)."""
+    """Helix angle at the base cylinder: tan(beta_b) = tan(beta) cos(alpha_t).
+
+    >>> from fenics_gears import gear_pair, load_scene
+    >>> base_helix_angle(gear_pair(load_scene("demos/lundvall2004.toml").gears).pinion)
+    0.0
+    """
     return atan(tan(gear.helix_angle) * cos(gear.pressure_angle))
 
 

@@ -38,7 +38,12 @@ def as_written(value: Any) -> str:
 
 def as_toml(tree: Mapping[str, Any]) -> str:
     """A parsed scene as the text of a scene file; entries that are None are left out. Raises TypeError for what no file
-    can hold."""
+    can hold.
+
+    >>> print(as_toml({"load": {"wheel_torque": "437 N m"}}), end="")
+    [load]
+    wheel_torque = "437 N m"
+    """
     return "\n".join(_section_lines(tree, ())).strip() + "\n"
 
 
@@ -61,7 +66,11 @@ def _toml_name(name: Any) -> str:
 
 def toml_value(value: Any) -> str:
     """A value, a table of values included, in TOML's spelling on one line. Raises TypeError for a value that no TOML
-    file can hold."""
+    file can hold.
+
+    >>> toml_value(["1 mm", 2.5, True])
+    '["1 mm", 2.5, true]'
+    """
     if hasattr(value, "tolist"):
         # Of numpy, which from version 2 on spells itself np.float64(0.1).
         value = value.tolist()

@@ -133,7 +133,12 @@ def flank_bytes(unknowns: Number) -> Number:
 
 
 def expected_cost(model: Model, ranks: int = 1) -> ExpectedCost:
-    """What a run of a scene costs, gears not being in the cache; on each of some MPI ranks, where they share it."""
+    """What a run of a scene costs, gears not being in the cache; on each of some MPI ranks, where they share it.
+
+    >>> from fenics_gears import load_scene, model_of
+    >>> expected_cost(model_of(load_scene("demos/lundvall2004.toml"))).marching < 60.0  # s
+    True
+    """
     resolution, scene = model.resolution, model.scene
     if scene.tooth_elasticity is None or resolution.element not in SECTOR_UNKNOWNS:
         return ExpectedCost(None, _marching(model, 0.0), PROGRAM + model.stored_bytes)

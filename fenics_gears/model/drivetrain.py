@@ -26,14 +26,25 @@ def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
 
 
 def mesh_stiffness(scene: Scene) -> float:
-    """Rough stiffness (N/mm) of one tooth pair along the line of action; infinite if rigid."""
+    """Rough stiffness (N/mm) of one tooth pair along the line of action; infinite if rigid.
+
+    >>> from fenics_gears import load_scene
+    >>> mesh_stiffness(load_scene("demos/lundvall2004.toml"))
+    210000.0
+    """
     return (
         inf if scene.tooth_elasticity is None else rough_pair_stiffness(scene.tooth_elasticity, scene.gears.face_width)
     )
 
 
 def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:
-    """What "pinion" and "wheel" of a scene with inertia are in the equations of motion."""
+    """What "pinion" and "wheel" of a scene with inertia are in the equations of motion.
+
+    >>> from fenics_gears import gear_pair, load_scene
+    >>> scene = load_scene("demos/lundvall2004.toml")
+    >>> lumped_gears(scene, gear_pair(scene.gears))["wheel"].moment_of_inertia  # N mm s^2
+    24.5
+    """
     from fenics_gears.dynamics.gear_inertia import lumped
 
     return lumped(scene.inertia, pair, lambda name: _section(scene, pair, name))

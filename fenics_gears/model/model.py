@@ -238,6 +238,10 @@ def model_of(scene: Scene) -> Model:
 
     Raises GeometryError for impossible gears, SceneError for a result too large to be held, for layers that turn too
     far, or for files that do not fit the scene.
+
+    >>> from fenics_gears import load_scene
+    >>> model_of(load_scene("demos/lundvall2004.toml")).resolution.steps_per_mesh_cycle
+    100
     """
     pair = gear_pair(scene.gears)
     check_files(scene, pair)

@@ -70,7 +70,11 @@ def largest_normal_force(result: xr.Dataset, steps: slice = slice(None)) -> floa
 
 
 def mesh_force(result: xr.Dataset) -> np.ndarray:
-    """Force (time,), N, of the drive flanks less that of the coast flanks."""
+    """Force (time,), N, of the drive flanks less that of the coast flanks.
+
+    >>> mesh_force(xr.Dataset({"normal_force": ("time", [3.0, 4.0]), "coast_normal_force": ("time", [0.0, 1.0])}))
+    array([3., 3.])
+    """
     return result["normal_force"].values - (
         result["coast_normal_force"].values if "coast_normal_force" in result else 0.0
     )

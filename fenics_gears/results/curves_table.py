@@ -31,6 +31,12 @@ def save_tables(dataset: xr.Dataset, directory: Path, stem: str) -> list[Path]:
     combination of their coordinates.
 
     A table is called by its dimensions, `map_over_load_and_mesh_phase.csv`. Returns the files.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     files = save_tables(xr.Dataset({"force": ("load", [1.0, 2.0])}), Path(folder), "map")
+    >>> [file.name for file in files]
+    ['map.nc', 'map_over_load.csv']
     """
     save(dataset, directory / f"{stem}.nc")
     every = dict.fromkeys(each.dims for each in dataset.data_vars.values() if each.dims)

@@ -71,7 +71,11 @@ def settled_steps(result: xr.Dataset) -> slice:
 
 
 def of_settled(result: xr.Dataset) -> xr.Dataset:
-    """A result with its settled steps only; contact fields stay as they are."""
+    """A result with its settled steps only; contact fields stay as they are.
+
+    >>> of_settled(xr.Dataset(coords={"time": [0.0, 0.1, 0.2]}, attrs={"settled_from": 0.1})).sizes["time"]
+    2
+    """
     steps = settled_steps(result)
     return result if not steps.start else result.isel(time=steps)
 

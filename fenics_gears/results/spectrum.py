@@ -11,7 +11,9 @@ from dataclasses import dataclass
 from math import lcm
 
 import numpy as np
+import xarray as xr
 
+from fenics_gears.results.contact_variables import largest_normal_force, mesh_force
 from fenics_gears.scene.data import Scene
 
 MESH, PINION, WHEEL, BOTH, HUNTING = (
@@ -31,6 +33,9 @@ WINDOWS = {
 }
 # Sidebands on either side of a mesh harmonic that count.
 SIDEBANDS = 6
+# Of the largest force. Without inertia and friction the load alone sets the mesh force; what varies of it then is
+# round-off.
+LEAST_VARIATION = 1e-6
 
 
 @dataclass(frozen=True)
@@ -169,3 +174,12 @@ def known_orders(scene: Scene) -> list[tuple[float, str]]:
         if waves is not None:
             found.append((waves.waves * turns, f"ghost order: {waves.waves} waves on the {name}"))
     return found
+
+
+def varying_mesh_force(result: xr.Dataset) -> np.ndarray | None:
+    """The mesh force (time,), N, of a result; None where it has none, or where it varies by round-off alone."""
+    if "normal_force" not in result:
+        return None
+    force = mesh_force(result)
+    varies = force.size and np.ptp(force) > LEAST_VARIATION * largest_normal_force(result)
+    return force if varies else None

@@ -105,6 +105,10 @@ def scene_from_text(
     with_lines: whether messages say in which line of the text a mistake is.
 
     Raises SceneError, naming every mistake at once.
+
+    >>> scene = load_scene("demos/lundvall2004.toml")
+    >>> scene_from_text(scene.text).gears == scene.gears
+    True
     """
     source = source or name
     tree = parsed(text, source)

@@ -183,3 +183,10 @@ def span(curves: Sequence[tuple[str, np.ndarray, str]]) -> float:
     return (
         LEAST_SHARE * max(float(np.abs(values[np.isfinite(values)]).max(initial=0.0)) for _, values, _ in curves) or 1.0
     )
+
+
+def stems(places: np.ndarray, heights: np.ndarray, foot: float) -> tuple[np.ndarray, np.ndarray]:
+    """A line that goes up and down at each place (n,) from its foot."""
+    return np.repeat(places, 3), np.stack(
+        [np.full(len(places), foot), heights, np.full(len(places), foot)], axis=1
+    ).ravel()

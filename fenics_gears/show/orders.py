@@ -9,8 +9,6 @@ from math import inf, lcm
 import numpy as np
 
 from fenics_gears.effects import common_period
-from fenics_gears.results.contact_variables import largest_normal_force, mesh_force
-from fenics_gears.results.noise import LEAST_VARIATION
 from fenics_gears.results.pairs import shown
 from fenics_gears.results.spectrum import (
     BOTH,
@@ -22,6 +20,7 @@ from fenics_gears.results.spectrum import (
     known_orders,
     order_lines,
     origin,
+    varying_mesh_force,
 )
 from fenics_gears.show.chart import BARS, Chart, Curve, Flag
 from fenics_gears.show.motion import error_values
@@ -54,10 +53,9 @@ class Spectrum:
 def signals_of(run: Run) -> dict[str, tuple[np.ndarray, str]]:
     """Values (time,) and units of the analysed curves."""
     signals = {ERROR: error_values(run)}
-    if "normal_force" in run.dataset and largest_normal_force(run.dataset):
-        force = mesh_force(run.dataset)
-        if np.ptp(force) > LEAST_VARIATION * largest_normal_force(run.dataset):
-            signals[FORCE] = (force, "N")
+    force = varying_mesh_force(run.dataset)
+    if force is not None:
+        signals[FORCE] = (force, "N")
     return signals
 
 

@@ -13,7 +13,6 @@ MEGABYTE = 1_000_000
 # Largest sizes, some ten times what the largest sensible file of a kind has.
 LARGEST_SCENE = 10 * MEGABYTE  # lists of deviations of a thousand teeth are 0.1 MB; 10 MB take ten seconds to parse
 LARGEST_TABLE = 200 * MEGABYTE  # measured curves of a thousand teeth with a thousand points each are 20 to 40 MB
-LARGEST_REXS = 200 * MEGABYTE  # models of whole gearboxes have some hundred kilobytes, with results some megabytes
 LARGEST_MESH = 1000 * MEGABYTE  # a plane mesh of a million nodes has 100 MB
 
 

@@ -31,8 +31,8 @@ def every(tmp_path_factory):
         )
         (folder / f"{name}.toml").write_text(text + COARSE, encoding="utf-8")
         with pytest.MonkeyPatch.context() as few:
-            few.setattr("fenics_gears.studies.optimization.optimize.VALUES", 2)
-            few.setattr("fenics_gears.studies.optimization.optimize.TORQUES", (1.0,))
+            few.setattr("fenics_gears.extensions.optimization.optimize.VALUES", 2)
+            few.setattr("fenics_gears.extensions.optimization.optimize.TORQUES", (1.0,))
             found[name] = compared(
                 folder / f"{name}.toml", folder / name, np.linspace(15.0, 45.0, 4), np.linspace(4.5, 7.5, 4)
             )

@@ -16,16 +16,19 @@ from tests.docs.blocks import PAGES, ROOT, blocks, in_text, name_of
 from tests.docs.commands_page import commands, parser
 
 from fenics_gears import results
+from fenics_gears.extensions.optimization.design_file import load_design
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.optimization.design_file import load_design
 from fenics_gears.studies.study_file import load_study
 
 matplotlib.use("Agg")
 # Pages whose code is a module in pieces; these tests put them together and run them.
-RUN_ELSEWHERE = {"docs/adding_an_effect.md": "tests/effects/test_pages.py"}
+RUN_ELSEWHERE = {
+    "docs/adding_an_effect.md": "tests/effects/test_pages.py",
+    "docs/adding_an_extension.md": "tests/extensions/test_adding_an_extension.py",
+}
 PROMPT = ">>> "
 DEMO = (ROOT / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 # What stands for a number or a word in the pages' commands.

@@ -31,10 +31,6 @@ STAGES = {
     "a case": "studies.work:simulate",
     "writing a case": "studies.work:save_case",
     "combining": "studies.run_study:save_study",
-    "reading a design": "studies.optimization.optimize:load_design",
-    "a design's run": "studies.optimization.evaluations:simulate",
-    "keeping a run": "studies.optimization.run_lines:append",
-    "choosing": "studies.optimization.optimize:chosen",
 }
 ERRORS = {
     "refuses": SceneError(WORDS),
@@ -56,7 +52,7 @@ def main(stage: str, rank: str, how: str, victim: str, *arguments: str) -> int:
         raise ERRORS[how]
 
     if int(rank) == OWN:
-        module, _, name = STAGES[stage].partition(":")
+        module, _, name = STAGES.get(stage, stage).partition(":")
         home, found = importlib.import_module(f"fenics_gears.{module}"), name.split(".")
         setattr(getattr(home, found[0]) if found[1:] else home, found[-1], failure)
     return cli.main(arguments)

@@ -11,7 +11,6 @@ from pathlib import Path
 
 import pytest
 from tests.studies.conftest import ACCURACY, DEMO, environment, gears, mpirun
-from tests.studies.test_optimization import FEWER, GOAL, RIGID, VARIABLES
 from tests.system.failing_rank import WORDS
 
 from fenics_gears.results import load
@@ -29,44 +28,38 @@ FACE = (
     '= "3 mm"\ncontact_nodes = 9\nsteps_per_mesh_cycle = 4\n'
 )
 STUDY = 'scene = "pair.toml"\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz", "300 Hz"]\n'
+# Arguments and files of each command.
 COMMANDS = {
-    "plane": (["run", "pair.toml", "--no-pictures"], PLANE),
-    "every step": (["run", "pair.toml", "--no-pictures"], EVERY_STEP),
-    "face": (["run", "pair.toml", "--no-pictures"], FACE),
-    "study": (["study", "study.toml"], PLANE),
-    "optimize": (["optimize", "design.toml"], PLANE),
+    "plane": (["run", "pair.toml", "--no-pictures"], {"pair.toml": PLANE}),
+    "every step": (["run", "pair.toml", "--no-pictures"], {"pair.toml": EVERY_STEP}),
+    "face": (["run", "pair.toml", "--no-pictures"], {"pair.toml": FACE}),
+    "study": (["study", "study.toml"], {"pair.toml": PLANE, "study.toml": STUDY}),
 }
 # Stages that every rank comes to; to the others comes rank 0 alone.
-SHARED = {
-    "section mesh",
-    "condensing",
-    "ring",
-    "remeshing",
-    "condensing for a study",
-    "a case",
-    "writing a case",
-    "a design's run",
-    "keeping a run",
-}
+SHARED = {"section mesh", "condensing", "ring", "remeshing", "condensing for a study", "a case", "writing a case"}
 OF_A_RUN = ("reading", "model", "positions", "march", "writing")
 STAGES_OF = {
     "plane": ("plane sections", "march"),
     "every step": (*OF_A_RUN, "remeshing"),
     "face": (*OF_A_RUN, "plane sections", "section mesh", "condensing", "ring"),
     "study": ("reading a study", "condensing for a study", "a case", "writing a case", "combining"),
-    "optimize": ("reading a design", "a design's run", "keeping a run", "choosing"),
 }
 CODES = {"refuses": 2, "fails": 3, "breaks": 3, "interrupted": 130, "killed": 128 + signal.SIGKILL}
-# A run of an optimisation that fails is a design without numbers.
-GOES_ON = {"a design's run", "keeping a run"}
-MATRIX = [
-    (command, stage, rank, how)
-    for command, stages in STAGES_OF.items()
-    for stage in stages
-    for rank in (0, 1)
-    for how in ("fails", "killed")
-    if not (how == "fails" and (stage in GOES_ON or rank == 1 and stage not in SHARED))
-] + [
+
+
+def failures(stages, shared=SHARED, goes_on=()):
+    """Stage, rank and way of each failure of a command; a failure at a stage of `goes_on` ends nothing, unless the
+    process is killed."""
+    return [
+        (stage, rank, how)
+        for stage in stages
+        for rank in (0, 1)
+        for how in ("fails", "killed")
+        if not (how == "fails" and (stage in goes_on or rank == 1 and stage not in shared))
+    ]
+
+
+MATRIX = [(command, *each) for command, stages in STAGES_OF.items() for each in failures(stages)] + [
     ("face", "condensing", 1, "breaks"),
     ("face", "reading", 0, "refuses"),
     ("face", "ring", 0, "interrupted"),
@@ -86,12 +79,12 @@ class End:
     left: list[int]
 
 
-def ended(folder: Path, command: str, stage: str, rank: int, how: str, *more: str) -> End:
-    """A command of two ranks of which one fails at a stage, until its end."""
-    arguments, scene = COMMANDS[command]
-    for name, text in (("pair.toml", scene), ("study.toml", STUDY), ("design.toml", RIGID + VARIABLES + GOAL + FEWER)):
+def ended(folder: Path, command, stage: str, rank: int, how: str, *more: str, shared=SHARED) -> End:
+    """A command of two ranks, its arguments and files, of which one rank fails at a stage, until its end."""
+    arguments, files = command
+    for name, text in files.items():
         (folder / name).write_text(text, encoding="utf-8")
-    comes = rank if stage in SHARED else 0
+    comes = rank if stage in shared else 0
     call = [
         *mpirun(2),
         sys.executable,
@@ -132,7 +125,11 @@ def ended(folder: Path, command: str, stage: str, rank: int, how: str, *more: st
 def test_an_error_of_a_rank_ends_all(tmp_path, command, stage, rank, how):
     """Hard case 28 and the exit codes of the command line: no rank waits for ever, none is left behind, and the error
     is said once with its exit code."""
-    end = ended(tmp_path, command, stage, rank, how)
+    check_end(ended(tmp_path, COMMANDS[command], stage, rank, how), how)
+
+
+def check_end(end, how):
+    """The exit code is that of the failure, which is said, and no process is left."""
     assert end.code == CODES[how], end.told
     assert not end.left
     assert {"killed": "", "interrupted": "Interrupted"}.get(how, WORDS) in end.told
@@ -157,10 +154,11 @@ def test_ranks_share_a_run_whose_settings_are_chosen_by_a_target(tmp_path):
 
 
 if __name__ == "__main__":
-    for each in MATRIX:
+    for command, *each in MATRIX:
         with tempfile.TemporaryDirectory() as place:
-            end = ended(Path(place), *each)
+            end = ended(Path(place), COMMANDS[command], *each)
         print(
+            command,
             *each,
             end.code,
             f"{end.seconds:.1f} s",

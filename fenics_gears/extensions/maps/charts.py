@@ -1,0 +1,282 @@
+"""Charts of a map over loads and speeds: Harris map, numbers over load and over speed, Campbell diagram, waterfalls."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears import HARMONIC_NAMES, spectrum
+from fenics_gears.charts import (
+    BAND,
+    DARK,
+    GREY,
+    LINES,
+    MARKED_LINES,
+    MARKERS,
+    PALETTE,
+    WORDS,
+    Chart,
+    Curve,
+    harris_map,
+    shades,
+    span,
+    stems,
+    words_apart,
+)
+
+MESH_ORDERS = 5
+SPEED, FREQUENCY = "Mesh frequency (Hz)", "Frequency (Hz)"
+# Of a waterfall: decibels from the base line to the highest line, which is as high as so many steps of the speed.
+DECIBELS, STEPS_HIGH = 40.0, 2.5
+# Room right of and above the lines of a Campbell diagram for their words, in parts of the axes.
+BESIDE = 1.12
+# Natural frequencies that differ by less between loads are drawn as one line.
+ALIKE = 0.005
+# Least distance of words, in parts of the second axis.
+WORDS_APART = 0.035
+# A vibration that is damped more has no resonance: its response falls from standstill on.
+MOST_DAMPED = 0.5**0.5
+
+
+def map_pictures(found: xr.Dataset) -> dict[str, tuple[str, list[Chart]]]:
+    """Subject and charts of each picture of a map (`map_results`), by file name; those for which it has
+    data."""
+    several = found.sizes["load"] > 1
+    pictures: dict[str, tuple[str, list[Chart]]] = {}
+    if "transmission_error" in found:
+        error = found["transmission_error"]
+        captions = (
+            f"Transmission error by {found['load'].attrs['long_name']}",
+            "The same, each curve without its mean",
+        )
+        both = zip(captions, (error, error - error.mean("mesh_phase")))
+        pictures["harris_map.png"] = (
+            "Harris map",
+            [harris_map(each.assign_attrs(error.attrs), caption) for caption, each in both],
+        )
+    if several:
+        pictures["over_load.png"] = ("Quasi-static, over the load", over_load(found))
+    if "mesh_frequency" in found.coords:
+        if found.sizes["mesh_frequency"] > 1:
+            pictures["over_speed.png"] = ("Steady speeds", over_speed(found))
+        pictures["campbell.png"] = ("Campbell diagram", [campbell(found)])
+        unit = found["load"].attrs["units"]
+        for load in found["load"].values if found.sizes["mesh_frequency"] > 1 else ():
+            pictures[f"waterfall_{load:g}_{unit.replace(' ', '_')}.png"] = (
+                f"Waterfall at {load:g} {unit}",
+                waterfall(found.sel(load=load)),
+            )
+    return pictures
+
+
+def over_load(found: xr.Dataset) -> list[Chart]:
+    """Transmission error peak to peak, its harmonics and the mesh stiffness over the load."""
+    found = found.sortby("load")
+    harmonics = {f"{number} × mesh": found[name] for number, name in enumerate(HARMONIC_NAMES, 1) if name in found}
+    stiffness = {
+        words: found[name]
+        for name, words in (("mean_mesh_stiffness", "secant"), ("mean_mesh_stiffness_tangent", "tangent"))
+        if name in found
+    }
+    kinds = (
+        ({"": found["peak_to_peak_transmission_error"]}, "Transmission error, peak to peak", "Peak to peak (µm)"),
+        (harmonics, "Harmonics of the transmission error", "Amplitude (µm)"),
+        (stiffness, "Mesh stiffness over the face width, mean of the mesh cycle", "N/(mm µm)"),
+    )
+    axis = f"{found['load'].attrs['long_name'].capitalize()} ({found['load'].attrs['units']})"
+    return [_curves(curves, "load", axis, *titles) for curves, *titles in kinds if curves]
+
+
+def over_speed(found: xr.Dataset) -> list[Chart]:
+    """Dynamic factor, transmission error and mesh force over the speed, a curve for each load."""
+    found = found.sortby(["load", "mesh_frequency"])
+    kinds = {
+        "dynamic_factor_by_force": (
+            "Dynamic factor: largest force of a tooth pair over that without inertia",
+            "Dynamic factor",
+        ),
+        "dynamic_peak_to_peak_transmission_error": ("Transmission error, peak to peak", "Peak to peak (µm)"),
+        "dynamic_rms_transmission_error": ("Transmission error without its mean, r.m.s.", "R.m.s. (µm)"),
+        "dynamic_rms_normal_force": ("Mesh force without its mean, r.m.s.", "R.m.s. (N)"),
+    }
+    of_loads = {
+        name: {f"{load:g} {found['load'].attrs['units']}": found[name].sel(load=load) for load in found["load"].values}
+        for name in kinds
+        if name in found
+    }
+    return [
+        _curves(curves, "mesh_frequency", _speed(found), *kinds[name], shades(len(curves)))
+        for name, curves in of_loads.items()
+    ]
+
+
+def _curves(
+    curves: dict[str, xr.DataArray],
+    over: str,
+    x_title: str,
+    caption: str,
+    y_title: str,
+    colours: Sequence[str] = PALETTE,
+) -> Chart:
+    drawn = [
+        Curve(name, values[over].values, values.values, colour, mode=MARKED_LINES)
+        for (name, values), colour in zip(curves.items(), colours)
+    ]
+    return Chart(caption, drawn, x_title, y_title, height=270, least=span([(each.name, each.y, "") for each in drawn]))
+
+
+def _speed(found: xr.Dataset) -> str:
+    """The axis of the speed, with what it is of the pinion."""
+    return (
+        f"{SPEED}; 100 Hz are {100.0 * float(found['pinion_speed'][0] / found['mesh_frequency'][0]):.4g} rpm of the"
+        " pinion"
+    )
+
+
+def campbell(found: xr.Dataset) -> Chart:
+    """Frequency over speed: the mesh orders as lines from the origin, natural frequencies level, marked where an order
+    meets one that contact excites."""
+    fastest, largest = float(found["mesh_frequency"].max()), float(np.nanmax(found["natural_frequency"], initial=0.0))
+    top, orders = max(1.1 * fastest, min(MESH_ORDERS * fastest, 1.2 * largest)), np.arange(1, MESH_ORDERS + 1)
+    ends = np.minimum(fastest, top / orders)
+    curves = [
+        Curve("mesh orders", np.array([0.0, end]), np.array([0.0, order * end]), PALETTE[0], listed=order == 1)
+        for order, end in zip(orders, ends)
+    ]
+    curves.append(
+        Curve(
+            "orders",
+            ends,
+            orders * ends,
+            DARK,
+            mode=WORDS,
+            listed=False,
+            words=[f"{order} ×" for order in orders],
+            beside="right",
+        )
+    )
+    modes = (
+        found[["natural_frequency", "damping_ratio", "excited", "motion"]]
+        .dropna("load")
+        .isel(mode=found["natural_frequency"].min("load").values < top)
+    )
+    low, high = modes["natural_frequency"].min("load").values, modes["natural_frequency"].max("load").values
+    middle, spread, excited = 0.5 * (low + high), high > (1.0 + ALIKE) * low, modes["excited"].values.astype(bool)
+    for mode in range(len(low)):
+        name, colour = ("natural frequencies", PALETTE[1]) if excited[mode] else ("not excited by contact", GREY)
+        values = np.array([[low[mode]] * 2, [high[mode]] * 2]) if spread[mode] else np.full(2, middle[mode])
+        kind, dash = (BAND, "solid") if spread[mode] else (LINES, "dash")
+        curves.append(
+            Curve(
+                name,
+                np.array([0.0, fastest]),
+                values,
+                colour,
+                dash,
+                mode=kind,
+                listed=name not in [curve.name for curve in curves],
+            )
+        )
+    words = [
+        f"{low[mode]:.0f} to {high[mode]:.0f} Hz" if spread[mode] else f"{middle[mode]:.0f} Hz"
+        for mode in range(len(low))
+    ]
+    # Modes of one frequency are named once.
+    said = {
+        each: ", ".join(
+            dict.fromkeys(
+                [each, *(motion for own, motion in zip(words, modes["motion"].values) if own == each and motion)]
+            )
+        )
+        for each in words
+    }
+    curves += (
+        [
+            words_apart(
+                [(0.0, height, said[each]) for each, height in dict(zip(words, high)).items()],
+                WORDS_APART * top,
+                "top right",
+            )
+        ]
+        if said
+        else []
+    )
+    resonant = middle[excited & (modes["damping_ratio"].min("load").values < MOST_DAMPED)]
+    x, y = resonant[:, None] / orders, np.outer(resonant, np.ones(len(orders)))
+    if (x <= fastest).any():
+        curves.append(Curve("resonances", x[x <= fastest], y[x <= fastest], PALETTE[1], mode=MARKERS))
+    return Chart(
+        "", curves, _speed(found), FREQUENCY, height=560, x_range=(0.0, BESIDE * fastest), y_range=(0.0, 1.06 * top)
+    )
+
+
+def waterfall(found: xr.Dataset) -> list[Chart]:
+    """Spectra of transmission error and mesh force one above the other by speed, at one load."""
+    signals = {
+        "transmission_error_amplitude": ("Transmission error", "1 µm"),
+        "mesh_force_amplitude": ("Mesh force", "1 N"),
+    }
+    found = found.sortby("mesh_frequency")
+    return [
+        _waterfall(found, found[name].transpose("mesh_frequency", "order").values, *words)
+        for name, words in signals.items()
+        if np.nanmax(found[name], initial=0.0) > 0.0
+    ]
+
+
+def _waterfall(found: xr.Dataset, amplitudes: np.ndarray, signal: str, reference: str) -> Chart:
+    speeds, orders = found["mesh_frequency"].values, found["order"].values
+    levels, widest = spectrum.level(amplitudes), MESH_ORDERS * speeds[-1]
+    highest = float(np.nanmax(levels))
+    high = STEPS_HIGH * float(np.median(np.diff(speeds)))
+    curves = []
+    for speed, own, colour in zip(speeds, levels, shades(len(speeds))[::-1]):
+        seen = np.isfinite(own) & (own > highest - DECIBELS) & (orders * speed <= widest)
+        x, y = stems(
+            np.concatenate([[0.0], orders[seen] * speed, [widest]]),
+            np.concatenate([[speed], speed + high * (1.0 + (own[seen] - highest) / DECIBELS), [speed]]),
+            speed,
+        )
+        curves.append(Curve(f"{speed:g} Hz", x, y, colour, width=1.2, listed=False))
+    for natural in np.unique(np.round(np.nan_to_num(found["natural_frequency"].values), 1)):
+        if 0.0 < natural < widest:
+            curves.append(
+                Curve(
+                    "natural frequencies",
+                    np.full(2, natural),
+                    np.array([0.0, speeds[-1] + high]),
+                    PALETTE[1],
+                    "dash",
+                    1.0,
+                    listed=False,
+                )
+            )
+    rays = np.arange(1, MESH_ORDERS + 1)
+    top = speeds[-1] + 1.1 * high
+    curves.append(
+        Curve(
+            "orders",
+            rays * speeds[-1],
+            np.full(len(rays), top),
+            DARK,
+            mode=WORDS,
+            listed=False,
+            words=[f"{ray} × mesh" for ray in rays],
+            beside="top left",
+        )
+    )
+    caption = (
+        f"{signal}: base lines stand at their speed; height is the level of the amplitude, {DECIBELS:g} dB up to the"
+        f" highest line, {highest:.1f} dB re {reference}; dashed: natural frequencies"
+    )
+    return Chart(
+        caption,
+        curves,
+        FREQUENCY,
+        SPEED,
+        height=480,
+        x_range=(0.0, widest),
+        y_range=(max(0.0, speeds[0] - 0.3 * high), top + 0.5 * high),
+    )

@@ -1,0 +1,119 @@
+"""``gears map SCENE``: transmission error, mesh stiffness and vibration of a pair over loads and speeds, as pictures
+and tables."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from fenics_gears import ComputationError
+from fenics_gears.command_line import (
+    INTERRUPTED,
+    add_memory_argument,
+    add_output_argument,
+    add_processes_argument,
+    add_scene_argument,
+    check_writable,
+    checked_scene,
+    positive_count,
+    print_files,
+    print_rows,
+    seconds_in_words,
+    shown_progress,
+    under_mpirun,
+)
+
+MOST_RUNS = 1000
+
+
+def add(commands, shared: argparse.ArgumentParser) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser(
+        "map", parents=[shared],
+        help="run a scene over loads and speeds; draw its Harris map, Campbell diagram and waterfalls, alone or under "
+            "mpirun; a stopped map is continued",
+    )  # fmt: skip
+    add_scene_argument(command)
+    command.add_argument(
+        "--loads", nargs="+", metavar="TORQUE", default=[],
+        help='torques on the wheel, such as "100 N m" "200 N m"; or ranges, "50 .. 500 N m in 10", "50 .. 500 N m by '
+            '50 N m"; torques on the pinion, or powers such as "15 kW", if the scene gives its load so (default: that '
+            'of the scene)',
+    )  # fmt: skip
+    command.add_argument(
+        "--speeds", nargs="+", metavar="SPEED", default=[],
+        help='mesh frequencies or speeds of the pinion, such as "200 Hz", "100 .. 3000 rpm in 30" or "50 .. 1000 Hz '
+            'in 24, logarithmic"; needs [inertia] (default: quasi-static only)',
+    )  # fmt: skip
+    add_output_argument(command, "results/<name of the scene file>_map")
+    command.add_argument(
+        "--most-runs",
+        type=positive_count,
+        metavar="N",
+        default=MOST_RUNS,
+        help=f"number of runs that are allowed (default: {MOST_RUNS})",
+    )
+    add_processes_argument(command)
+    add_memory_argument(command)
+    command.set_defaults(command=draw_map)
+
+
+def draw_map(options: argparse.Namespace) -> int:
+    """Run what is missing of a map and draw it."""
+    if options.processes is not None:
+        values = [
+            word
+            for name in ("loads", "speeds")
+            if getattr(options, name)
+            for word in (f"--{name}", *getattr(options, name))
+        ]
+        return under_mpirun(options, ["map", str(options.scene), *values, "--most-runs", str(options.most_runs)])
+    from fenics_gears.studies.ranks import ranks
+
+    with ranks() as team:
+        return 0 if team is None else _run(options, team)
+
+
+def _run(options: argparse.Namespace, team) -> int:
+    """The stages of a map, on rank 0."""
+    from fenics_gears.extensions.maps.load_map import OVER_SPEED, QUASI_STATIC, load_map
+    from fenics_gears.studies.run_study import run_with
+    from fenics_gears.studies.summary import last_words, summary_rows
+
+    scene = checked_scene(options.scene)
+    wanted = load_map(options.scene, scene, options.loads, options.speeds, options.most_runs)
+    directory, outcomes = options.output or Path("results") / f"{scene.name}_map", {}
+    check_writable(directory, "map.nc", "harris_map.png", "over_load.png", "over_speed.png", "campbell.png")
+    studies = wanted.studies
+    if not options.quiet:
+        print(
+            f"{scene.title}: {wanted.count} runs, about {seconds_in_words(wanted.expected_seconds)} on one core of an"
+            " idle machine.",
+            file=sys.stderr,
+            flush=True,
+        )
+    for name, study in studies.items():
+        outcome = outcomes[name] = run_with(team, study, directory / name, shown_progress(options.quiet), options.quiet)
+        if not options.quiet:
+            print_rows(study.title, summary_rows(outcome))
+        if words := last_words(outcome, "the map"):
+            print(words, file=sys.stderr)
+        if outcome.interrupted:
+            return INTERRUPTED
+    from fenics_gears.extensions.maps.map_results import map_dataset
+
+    found = map_dataset(wanted, outcomes[QUASI_STATIC], outcomes.get(OVER_SPEED))
+    print_files(_written(found, directory, scene), options.quiet)
+    return ComputationError.exit_code if any(outcome.failures for outcome in outcomes.values()) else 0
+
+
+def _written(found, directory: Path, scene) -> list[Path]:
+    """The files of a map: dataset, tables and pictures."""
+    from fenics_gears import save_tables
+    from fenics_gears.charts import design, draw_charts
+    from fenics_gears.extensions.maps.charts import map_pictures
+
+    supports = [name for name in ("shafts", "bearings") if getattr(scene, name) is not None]
+    more = f"{design(scene)}{', elastic ' + ' and '.join(supports) if supports else ''}"
+    return [*save_tables(found, directory, "map"), *draw_charts(map_pictures(found), directory, scene.title, more)]

@@ -1,0 +1,76 @@
+"""Charts of noise figures (`figures`): levels over mesh orders with their sidebands, mesh orders over a speed
+ramp."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.charts import DARK, GREY, PALETTE, WORDS, Chart, Curve, stems
+from fenics_gears.extensions.noise.figures import SIGNALS
+
+ORDERS_SHOWN, FOLLOWED, DECIBELS = 5.5, 5, 60.0
+# Sidebands with less of their line's energy are round-off.
+LEAST_RATIO = 1e-8
+
+
+def noise_charts(found: xr.Dataset) -> list[Chart]:
+    """A chart for each signal."""
+    return [
+        _followed(found, name) if "part" in found.dims else _levels(found, name)
+        for name in SIGNALS
+        if f"{name}_level" in found
+    ]
+
+
+def _titles(name: str) -> tuple[str, str]:
+    unit, words = SIGNALS[name]
+    return words[0].upper() + words[1:], f"Level of the amplitude (dB re 1 {unit.replace('um', 'µm')})"
+
+
+def _levels(found: xr.Dataset, name: str) -> Chart:
+    orders = found["order"].values[found["order"].values <= ORDERS_SHOWN]
+    levels = found[f"{name}_level"].values[: len(orders)]
+    mesh, top = np.abs(orders - np.round(orders)) < 1e-6, float(levels.max())
+    shown, foot = levels > top - DECIBELS, top - DECIBELS
+    caption, title = _titles(name)
+    if f"{name}_sideband_ratio" in found:
+        ratios = found[f"{name}_sideband_ratio"].sel(harmonic=slice(1, ORDERS_SHOWN))
+        beside = [
+            f"{int(ratio['harmonic'])}\u00a0×\u00a0{10.0 * np.log10(float(ratio)):+.1f}\u00a0dB"
+            for ratio in ratios
+            if ratio > LEAST_RATIO
+        ]
+        caption += f"; energy of the sidebands over that of their mesh order: {', '.join(beside)}" if beside else ""
+    curves = [
+        Curve("between mesh orders", *stems(orders[shown & ~mesh], levels[shown & ~mesh], foot - 1.0), GREY, width=0.8),
+        Curve("mesh orders", *stems(orders[shown & mesh], levels[shown & mesh], foot - 1.0), PALETTE[0], width=2.6),
+        Curve(
+            "levels",
+            orders[shown & mesh],
+            levels[shown & mesh],
+            DARK,
+            mode=WORDS,
+            listed=False,
+            words=[f"{each:.1f} dB" for each in levels[shown & mesh]],
+        ),
+    ]
+    return Chart(
+        caption,
+        [curve for curve in curves if len(curve.x)],
+        "Mesh order",
+        title,
+        height=420,
+        x_range=(0.0, ORDERS_SHOWN),
+        y_range=(foot, top + 5.0),
+    )
+
+
+def _followed(found: xr.Dataset, name: str) -> Chart:
+    caption, title = _titles(name)
+    colours = (*PALETTE, DARK)
+    curves = [
+        Curve(f"{order} × mesh", found["mesh_frequency"].values, found[f"{name}_level"].sel(order=order).values, colour)
+        for order, colour in zip(found["order"].values[:FOLLOWED], colours)
+    ]
+    return Chart(caption, curves, "Mesh frequency (Hz)", title, height=420)

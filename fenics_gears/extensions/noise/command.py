@@ -1,0 +1,131 @@
+"""``gears listen RUN``: a curve of a run as an audio file; an engineer hears orders. ``gears plot RUN --spectrum``: its
+noise figures."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from fenics_gears import SceneError
+from fenics_gears.command_line import (
+    add_output_argument,
+    add_run_argument,
+    check_writable,
+    loaded_run,
+    number_of_option,
+    print_files,
+    run_file,
+    write_whole,
+)
+
+SECONDS, LONGEST = 5.0, 600.0
+NOISE_FILES = "noise.png", "noise.nc"
+AUTOMATIC, WINDOWS = "auto", ("auto", "none", "hann", "flat-top")
+
+
+def add(commands, shared: argparse.ArgumentParser) -> None:
+    """Add the command to the parser, and an option to the core's ``plot``."""
+    command = commands.add_parser("listen", parents=[shared], help="write a curve of a run as sound (WAV)")
+    add_run_argument(command)
+    command.add_argument(
+        "--curve",
+        default="normal_force",
+        metavar="NAME",
+        help="variable over time to hear (default: normal_force, the mesh force)",
+    )
+    command.add_argument(
+        "--seconds",
+        type=float,
+        default=SECONDS,
+        metavar="N",
+        help=f"length of a steady run's sound (default: {SECONDS:g}); a speed ramp is heard once",
+    )
+    command.add_argument(
+        "--full-scale",
+        metavar="VALUE",
+        help=(
+            'value of the curve at which the file is full, such as "500 N", so that two runs can be compared by ear'
+            " (default: from the loudest sample)"
+        ),
+    )
+    add_output_argument(command, "CURVE.wav beside run.nc", "file to write", "FILE")
+    command.set_defaults(command=listen)
+    pictures = commands.choices["plot"]
+    pictures.add_argument(
+        "--spectrum", nargs="?", choices=WINDOWS, const=AUTOMATIC, metavar="WINDOW",
+        help="draw and write levels in dB over mesh orders with the energy of their sidebands, of a speed ramp over "
+            "the speed: noise.png, noise.nc and tables; "
+        "WINDOW is none, hann or flat-top (default: none for whole mesh cycles, flat-top for a ramp)",
+    )  # fmt: skip
+    pictures.set_defaults(command=partial(plot, pictures.get_default("command")))
+
+
+def listen(options: argparse.Namespace) -> int:
+    """Write the sound of a run."""
+    file = run_file(options.run)
+    output = options.output or file.parent / f"{options.curve}.wav"
+    if output.suffix != ".wav":
+        raise SceneError(f"{output}: the sound is a .wav file; give --output such a name.")
+    if not 0.1 <= options.seconds <= LONGEST:
+        raise SceneError(f"--seconds {options.seconds:g}: allowed are 0.1 to {LONGEST:g} seconds.")
+    check_writable(output.parent, output.name)
+    result = loaded_run(file)
+    full_scale = _checked(result, options)
+    from fenics_gears.extensions.noise.sound import save_sound, sound
+
+    try:
+        heard = sound(result, options.curve, options.seconds, full_scale)
+    except ValueError as error:
+        raise SceneError(
+            f"--curve {options.curve}: {error} in this run, so there is nothing to hear. A quasi-static run without"
+            " friction has a constant force; its transmission error is heard with --curve transmission_error."
+        ) from None
+    print_files([write_whole(output, lambda path: save_sound(heard, path))], options.quiet)
+    if not options.quiet:
+        print(f"full scale {heard.full_scale:.4g} {result[options.curve].attrs['units']}")
+    return 0
+
+
+def _checked(result, options: argparse.Namespace) -> float | None:
+    """The full scale in the curve's unit; None where none is given. Raises SceneError for a curve that is none, a run
+    that is too slow to be heard, and a wrong unit."""
+    from fenics_gears.extensions.noise.sound import LOWEST_HEARD
+
+    curves = [name for name in result.data_vars if result[name].dims == ("time",) and result[name].dtype.kind == "f"]
+    if options.curve not in curves:
+        raise SceneError(f"--curve {options.curve}: is no curve of this run. Allowed: {', '.join(curves)}.")
+    phase, time = result["mesh_phase"].values, result["time"].values
+    fastest = abs(phase[-1] - phase[0]) / (time[-1] - time[0]) if len(time) > 1 else 0.0
+    if fastest < LOWEST_HEARD:
+        raise SceneError(
+            f"{options.run}: has a mesh frequency of {fastest:.3g} Hz, too low to hear (from {LOWEST_HEARD:g} Hz). Give"
+            " the scene a motion.mesh_frequency or motion.pinion_speed."
+        )
+    unit = result[options.curve].attrs["units"]
+    return None if options.full_scale is None else number_of_option("--full-scale", options.full_scale, unit)
+
+
+def plot(core: Callable[[argparse.Namespace], int], options: argparse.Namespace) -> int:
+    """Write a run's noise figures; without --spectrum its pictures, as the `core` does."""
+    if options.spectrum is None:
+        return core(options)
+    file = run_file(options.run)
+    directory = options.output or file.parent
+    check_writable(directory, *NOISE_FILES)
+    print_files(_noise(loaded_run(file), directory, options.spectrum), options.quiet)
+    return 0
+
+
+def _noise(dataset, directory: Path, window: str) -> list[Path]:
+    """The files of a run's noise figures."""
+    from fenics_gears import save_tables
+    from fenics_gears.charts import draw_charts
+    from fenics_gears.extensions.noise.charts import noise_charts
+    from fenics_gears.extensions.noise.figures import noise_figures
+
+    found = noise_figures(dataset, None if window == AUTOMATIC else window)
+    picture = {"noise.png": ("Noise figures", noise_charts(found))}
+    title, more = str(dataset.attrs.get("title", "")), f"Window: {found.attrs['window']}"
+    return [*save_tables(found, directory, "noise"), *draw_charts(picture, directory, title, more)]

@@ -1,0 +1,243 @@
+"""Pictures and the summary of an optimisation: how the search went, the Pareto front, each variable and each tolerance,
+Harris maps."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from fenics_gears import gear_pair
+from fenics_gears.charts import GREY, MARKED_LINES, MARKERS, PALETTE, Chart, Curve, draw_charts, harris_map
+from fenics_gears.extensions.optimization.design import QUANTILE, Goal, Variable
+from fenics_gears.extensions.optimization.evaluations import Evaluation
+from fenics_gears.extensions.optimization.optimize import Outcome, score
+from fenics_gears.extensions.optimization.result import harris_dataset
+from fenics_gears.studies.study_file import scene_of_tree
+
+BEFORE, BEST = "before", "chosen design"
+MOST_TIMES = 3.0
+"""Goals above this many times the larger of before and chosen are left out of pictures, which they would flatten."""
+
+
+def called(name: str) -> str:
+    """A variable or goal in words."""
+    return name.replace(".", " ").replace("_", " ")
+
+
+def title(name: str, unit: str) -> str:
+    """That with its unit, for an axis."""
+    words, unit = sentence(called(name)), unit.replace("um", "µm")
+    return f"{words} ({unit})" if unit not in ("", "1") else words
+
+
+def sentence(words: str) -> str:
+    """The words with a capital."""
+    return words[:1].upper() + words[1:]
+
+
+def goals_of(evaluations, goal: Goal) -> np.ndarray:
+    """A goal of evaluations (n,), not a number where one failed."""
+    return np.array([each.goals.get(goal.name, np.nan) for each in evaluations])
+
+
+def _shown(outcome: Outcome, goal: Goal, values: np.ndarray) -> np.ndarray:
+    ends = [
+        each
+        for each in (outcome.before.goals.get(goal.name, np.nan), outcome.chosen.goals[goal.name])
+        if np.isfinite(each)
+    ]
+    return np.where(values <= MOST_TIMES * max(ends), values, np.nan)
+
+
+def search_chart(outcome: Outcome, goal: Goal) -> Chart:
+    """A goal of all designs in the order in which they were tried, the least so far, and what it is before."""
+    every, numbers = goals_of(outcome.tried, goal), np.arange(1, len(outcome.tried) + 1)
+    allowed = np.where([each.allowed for each in outcome.tried], every, np.nan)
+    least = np.fmin.accumulate(np.where(np.isfinite(allowed), allowed, np.inf))
+    curves = [
+        Curve("designs", numbers, _shown(outcome, goal, every), GREY, mode=MARKERS),
+        Curve("least so far", numbers, _shown(outcome, goal, least), PALETTE[0], width=2.2),
+        *_before_line(outcome, goal, numbers[[0, -1]]),
+    ]
+    return Chart(
+        f"{sentence(called(goal.name))} of the designs",
+        curves,
+        "Design, in the order in which they were tried",
+        title(goal.name, goal.unit),
+        _note(outcome),
+    )
+
+
+def _before_line(outcome: Outcome, goal: Goal, ends) -> list[Curve]:
+    value = outcome.before.goals.get(goal.name)
+    return (
+        [] if value is None else [Curve(BEFORE, np.asarray(ends, dtype=float), np.full(2, value), PALETTE[1], "dash")]
+    )
+
+
+def _note(outcome: Outcome) -> str:
+    failed = sum(bool(each.failure) for each in outcome.tried)
+    return f"{failed} of {len(outcome.tried)} designs failed and are not drawn." if failed else ""
+
+
+def front_chart(outcome: Outcome) -> Chart:
+    """The first two goals of all designs against each other, and the Pareto front."""
+    one, other = outcome.design.goals[:2]
+    x, y = (_shown(outcome, goal, goals_of(outcome.tried, goal)) for goal in (one, other))
+    order = np.array(sorted(outcome.front, key=lambda place: x[place]))
+    curves = [
+        Curve("designs", x, y, GREY, mode=MARKERS),
+        Curve("Pareto front", x[order], y[order], PALETTE[0], mode=MARKED_LINES),
+        Curve(BEST, x[[outcome.best]], y[[outcome.best]], PALETTE[2], mode=MARKERS),
+    ]
+    if outcome.before.goals:
+        curves.append(
+            Curve(
+                BEFORE,
+                np.array([outcome.before.goals[one.name]]),
+                np.array([outcome.before.goals[other.name]]),
+                PALETTE[1],
+                mode=MARKERS,
+            )
+        )
+    return Chart(
+        "Goals against each other",
+        curves,
+        title(one.name, one.unit),
+        title(other.name, other.unit),
+        _note(outcome),
+        380,
+    )
+
+
+def variable_chart(outcome: Outcome, variable: Variable, goal: Goal) -> Chart:
+    """A goal over a variable: of all designs, and of the chosen one with this variable alone changed."""
+    places, evaluations = outcome.along[variable.name]
+    x = np.array([each.values[variable.name] for each in outcome.tried])
+    scatters = " without scatter" if outcome.design.tolerances.scatters else ""
+    curves = [
+        Curve("designs", x, _shown(outcome, goal, goals_of(outcome.tried, goal)), GREY, mode=MARKERS),
+        Curve(
+            f"{BEST}{scatters}, this variable alone changed",
+            np.array(places),
+            goals_of(evaluations, goal),
+            PALETTE[0],
+            mode=MARKERS if variable.words else MARKED_LINES,
+        ),
+        Curve(
+            BEST,
+            np.array([outcome.chosen.values[variable.name]]),
+            np.array([outcome.chosen.goals[goal.name]]),
+            PALETTE[2],
+            mode=MARKERS,
+        ),
+    ]
+    return Chart(
+        f"{sentence(called(goal.name))} over {called(variable.name)}",
+        curves,
+        title(variable.name, variable.unit),
+        title(goal.name, goal.unit),
+    )
+
+
+def tolerance_rows(outcome: Outcome, goal: Goal) -> list[tuple[str, str, str, str, str]]:
+    """Of each scatter its limit, and the goal of the chosen design at the lower limit, without scatter, at the upper
+    one; the largest change first."""
+    rows = []
+    for scatter in outcome.design.tolerances.scatters if outcome.limits else ():
+        low, nominal, high = outcome.limits[scatter.name][goal.name]
+        rows.append(
+            (
+                max(abs(low - nominal), abs(high - nominal)),
+                (
+                    called(scatter.name),
+                    f"± {scatter.limit:.4g} {scatter.unit}".strip(),
+                    f"{low:.4g}",
+                    f"{nominal:.4g}",
+                    f"{high:.4g}",
+                ),
+            )
+        )
+    return [row for _, row in sorted(rows, key=lambda each: -each[0])]
+
+
+def harris_charts(outcome: Outcome) -> list[Chart]:
+    """The Harris maps before and after, to the same scale; none where a run failed."""
+    found = harris_dataset(outcome)
+    if "transmission_error" not in found:
+        return []
+    scene, _ = scene_of_tree("", outcome.design.before, outcome.design.directory)
+    found.attrs["base_radius_wheel"] = gear_pair(scene.gears).wheel.base_radius
+    charts = [
+        harris_map(found.sel(choice=choice).drop_vars("choice"), f"Harris map, {words}")
+        for choice, words in (("before", BEFORE), ("best", BEST))
+    ]
+    every = np.concatenate([curve.y for chart in charts for curve in chart.curves])
+    room = 0.04 * np.ptp(every)
+    return [replace(chart, y_range=(float(every.min() - room), float(every.max() + room))) for chart in charts]
+
+
+def write_pictures(outcome: Outcome) -> list[Path]:
+    """Draw the search or the Pareto front, the variables and the Harris maps as PNG, and return the files."""
+    design, first = outcome.design, outcome.design.goals[0]
+    charts = {"search": [search_chart(outcome, goal) for goal in design.goals]} | (
+        {"pareto_front": [front_chart(outcome)]} if len(design.goals) > 1 else {}
+    )
+    charts |= {
+        "variables": [variable_chart(outcome, variable, first) for variable in design.variables],
+        "harris_map": harris_charts(outcome),
+    }
+    pictures = {f"{name}.png": ("Optimisation", drawn) for name, drawn in charts.items() if drawn}
+    return draw_charts(pictures, outcome.directory, design.title)
+
+
+def goal_words(outcome: Outcome, goal: Goal, evaluation: Evaluation) -> str:
+    """A goal of an evaluation in words, with mean and quantile where there are tolerances."""
+    if evaluation.failure:
+        return f"none: {evaluation.failure}"
+    tolerances = outcome.design.tolerances
+    if not tolerances.scatters:
+        return f"{evaluation.goals[goal.name]:.4g}"
+    values = evaluation.of_samples[goal.name]
+    mean, quantile = (
+        f"mean {np.mean(values):.4g}",
+        f"{100 * tolerances.quantile:g} % below {np.quantile(values, tolerances.quantile):.4g}",
+    )
+    return ", ".join((quantile, mean) if tolerances.judged == QUANTILE else (mean, quantile))
+
+
+def no_gain(outcome: Outcome) -> str:
+    """A warning where the chosen design is not better than what is before; empty where it is."""
+    before, design = outcome.before, outcome.design
+    if before.failure or score(design, before, outcome.chosen) < score(design, before, before):
+        return ""
+    return "The chosen design is not better than the scene before: try more designs, other variables or wider ranges."
+
+
+def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
+    """Rows of label, value, unit: what was tried and computed, the goals before and after, and the chosen values."""
+    failed = sum(bool(each.failure) for each in outcome.tried)
+    rate = f", {outcome.computed / outcome.seconds:.3g} runs per second" if outcome.computed and outcome.seconds else ""
+    rows = [
+        ("designs", f"{len(outcome.tried)}" + (f", {failed} failed" if failed else ""), ""),
+        ("runs", f"{outcome.computed} computed{rate}, {outcome.kept} kept from before", ""),
+    ]
+    compared = {f", {BEFORE}": outcome.before, f", {BEST}": outcome.chosen} | dict(
+        zip((f" under new samples, {BEFORE}", f" under new samples, {BEST}"), outcome.fresh)
+    )
+    rows += [
+        (f"{called(goal.name)}{words}", goal_words(outcome, goal, each), goal.unit.removeprefix("1"))
+        for goal in outcome.design.goals
+        for words, each in compared.items()
+    ]
+    rows += [
+        (
+            called(each.name),
+            f"{outcome.chosen.values[each.name]}" if each.words else f"{outcome.chosen.values[each.name]:.4g}",
+            each.unit,
+        )
+        for each in outcome.design.variables
+    ]
+    return [*rows, ("remark", no_gain(outcome), "")] if no_gain(outcome) else rows

@@ -1,0 +1,66 @@
+"""``gears optimize DESIGN``: the modification of a pair that makes its results best over loads and tolerances."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from fenics_gears.command_line import (
+    INTERRUPTED,
+    add_memory_argument,
+    add_output_argument,
+    add_processes_argument,
+    shown_progress,
+    under_mpirun,
+)
+
+
+def add(commands, shared: argparse.ArgumentParser) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser(
+        "optimize",
+        parents=[shared],
+        help=(
+            "search the best modification of a pair over loads and tolerances, alone or under mpirun; a stopped search"
+            " is continued"
+        ),
+    )
+    command.add_argument("design", type=Path, metavar="DESIGN", help="a design file (TOML)")
+    add_output_argument(command, "results/<name of the design file>")
+    command.add_argument(
+        "-y",
+        "--yes",
+        action="store_true",
+        help="start whatever time is expected (else: refused where it is more than 8 h)",
+    )
+    add_processes_argument(command)
+    add_memory_argument(command)
+    command.set_defaults(command=optimize)
+
+
+def optimize(options: argparse.Namespace) -> int:
+    """Search, write and draw."""
+    if options.processes is not None:
+        return under_mpirun(options, ["optimize", str(options.design), *(["--yes"] if options.yes else [])])
+    from fenics_gears.extensions.optimization.optimize import optimize
+    from fenics_gears.extensions.optimization.result import write_result
+
+    try:
+        outcome = optimize(options.design, options.output, shown_progress(options.quiet), options.quiet, options.yes)
+    except KeyboardInterrupt:
+        print("Interrupted. Finished runs are kept; the same command goes on from there.", file=sys.stderr)
+        return INTERRUPTED
+    if outcome is None:
+        return 0
+    files = write_result(outcome)
+    from fenics_gears.extensions.optimization.charts import summary_rows, write_pictures
+    from fenics_gears.extensions.optimization.page import write_page
+
+    files += [*write_pictures(outcome), write_page(outcome)]
+    if not options.quiet:
+        from fenics_gears.command_line import print_rows
+
+        print_rows(outcome.design.title, summary_rows(outcome))
+        print_rows("Files", [("", str(file), "") for file in files])
+    return 0

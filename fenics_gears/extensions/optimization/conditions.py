@@ -1,0 +1,66 @@
+"""The scenes of a design: one for each operating point and each sample of what scatters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from fenics_gears.extensions.optimization.design import Design, Scatter
+from fenics_gears.inputs.tree import GEARS, value_at
+from fenics_gears.studies import fields
+from fenics_gears.studies.axis import factor_of, number_in
+
+FRESH = 4
+FROM_ZERO = ("profile_modifications", "lead_modifications")
+
+
+def samples(design: Design, fresh: bool = False) -> np.ndarray:
+    """Deviations (samples, scatters) in parts of their limits, -1 to 1, by Sobol's scrambled sequence: the same for all
+    designs, so that these
+    are compared under the same deviations. Without tolerances one sample of none. `fresh`: other ones, and `FRESH`
+    times as many."""
+    count = len(design.tolerances.scatters)
+    if not count:
+        return np.zeros((1, 0))
+    from scipy.stats import qmc
+
+    sequence, number = (
+        qmc.Sobol(count, scramble=True, seed=design.search.seed + fresh),
+        design.tolerances.samples * (FRESH if fresh else 1),
+    )
+    return 2.0 * sequence.random_base2(number.bit_length() - 1) - 1.0
+
+
+def value_of(tree: Mapping[str, Any], path: fields.Path) -> Any:
+    """What a parsed scene has at a path; of one gear, where it has nothing of its own, what both gears have."""
+    own = value_at(tree, *path)
+    return value_at(tree, path[0], *path[2:]) if own is None and path[1] in GEARS else own
+
+
+def scattered(tree: Mapping[str, Any], scatters: Sequence[Scatter], deviations: np.ndarray) -> dict[str, Any]:
+    """A parsed scene with deviations (scatters,), in parts of the limits; a modification that is not there deviates
+    from zero, another field
+    that is not there does not deviate."""
+    changed = dict(tree)
+    for scatter, deviation in zip(scatters, deviations):
+        written = value_of(tree, scatter.path)
+        if written is None and scatter.path[0] not in FROM_ZERO:
+            continue
+        factor = factor_of(scatter.unit)
+        nominal = 0.0 if written is None else number_in(written, scatter.unit)
+        number = float(np.clip(nominal + deviation * scatter.limit, scatter.lowest / factor, scatter.highest / factor))
+        changed = fields.changed(changed, scatter.path, f"{number:.10g} {scatter.unit}" if scatter.unit else number)
+    return changed
+
+
+def trees_of(design: Design, tree: Mapping[str, Any], deviations: np.ndarray) -> list[dict[str, Any]]:
+    """Parsed scenes of a design's tree: for each operating point all samples (samples, scatters)."""
+    found = []
+    for point in design.loads.points:
+        loaded = dict(tree)
+        for path, value in point.items():
+            loaded = fields.changed(loaded, path, value)
+        found += [scattered(loaded, design.tolerances.scatters, each) for each in deviations]
+    return found

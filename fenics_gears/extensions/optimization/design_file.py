@@ -1,0 +1,173 @@
+"""Reads a design file into a `Design` and refuses, before anything is computed, what no design of it could have."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from fenics_gears import Scene, SceneError, flank_tolerance, gear_pair, helix_tolerance
+from fenics_gears.extensions.optimization.conditions import FROM_ZERO, samples, scattered, value_of
+from fenics_gears.extensions.optimization.design import Design, Scatter
+from fenics_gears.extensions.optimization.goals import lacking
+from fenics_gears.extensions.optimization.sections import Sections
+from fenics_gears.inputs.tree import GEARS
+from fenics_gears.scene.read import name_of, parsed, text_of
+from fenics_gears.studies import fields
+from fenics_gears.studies.study_file import Changes, entries, left_out, scene_of_tree
+
+
+def load_design(path: str | Path) -> Design:
+    """Read a design file and its scene. Raises SceneError, naming every mistake at once, before anything is
+    computed."""
+    path = Path(path)
+    text = text_of(path, "design")
+    tree = parsed(text, str(path))
+    if "variables" not in tree and ("gears" in tree or "sweep" in tree):
+        kind, command = ("a study", "study") if "sweep" in tree else ("a scene", "run")
+        raise SceneError(
+            f"{path}: is {kind}, not a design file; `gears {command} {path}` runs it. Nothing was computed or written."
+        )
+    sections = Sections(path, text, tree)
+    sections.check_keys()
+    base, directory = sections.scene()
+    variables, loads, goals, bounds, search = (
+        sections.variables(),
+        sections.loads(),
+        sections.goals(),
+        sections.bounds(),
+        sections.search(),
+    )
+    tolerances, tolerance_class = sections.tolerances()
+    without, fixed = left_out(tree, sections.mistakes), dict(entries(tree, "set", sections.mistakes))
+    sections.mistakes.check()
+    varied = {variable.path[0] for variable in variables}
+    before = {place: value for place, value in fixed.items() if place[0] not in varied}
+    scene_tree, before_tree = (Changes(without, changes, (), "product").apply(base, ()) for changes in (fixed, before))
+    name = name_of(path)
+    design = Design(
+        name,
+        tree.get("title", name),
+        scene_tree,
+        before_tree,
+        directory,
+        variables,
+        loads,
+        goals,
+        tolerances,
+        bounds,
+        search,
+        text,
+    )
+    scene = _checked_ranges(design, sections)
+    design = _with_class(design, scene, tolerance_class)
+    _check_scatter(design, sections)
+    return design
+
+
+def _checked_ranges(design: Design, sections: Sections) -> Scene:
+    """The scene in the middle of all ranges. Raises SceneError where it is none, where ends of a range, operating
+    points or what is before make none, or
+    where it has no such results as are wanted."""
+    middle, mistakes = _middle(design), sections.mistakes
+    _try(design, sections, design.before, ("scene",), "the scene before any change")
+    scene = _try(
+        design, sections, design.scene_tree(middle), ("variables",), "with all variables in the middle of their ranges"
+    )
+    mistakes.check()
+    for variable in design.variables:
+        for end in variable.words or (variable.low, variable.high):
+            where = f"at {variable.written(end)}, the other variables in the middle of their ranges"
+            _try(
+                design, sections, design.scene_tree(middle | {variable.name: end}), ("variables", variable.name), where
+            )
+    for point in design.loads.points:
+        tree = design.scene_tree(middle)
+        for path, value in point.items():
+            tree = fields.changed(tree, path, value)
+            if path[0] == "motion" and "inertia" not in tree:
+                sections.wrong(
+                    "loads", ".".join(path), value, "has no effect on a scene without [inertia]. Leave it out."
+                )
+            if path in [each.path for each in design.variables]:
+                sections.wrong(
+                    "variables", ".".join(path), "", "is a field of the operating points too. Leave one out."
+                )
+        _try(
+            design,
+            sections,
+            tree,
+            ("loads",),
+            f"at {', '.join(f'{path[-1]} = {value}' for path, value in point.items())}",
+        )
+    for table, goals in (("goals", design.goals), ("constraints", [bound.goal for bound in design.bounds])):
+        for goal in goals:
+            if needs := lacking(goal.name, scene):
+                sections.wrong(table, goal.name, "", f"is no result of this scene. It needs {needs}.")
+    mistakes.check()
+    return scene
+
+
+def _middle(design: Design) -> dict[str, Any]:
+    """The middle of every range, and the first of words."""
+    return {each.name: each.words[0] if each.words else 0.5 * (each.low + each.high) for each in design.variables}
+
+
+def _try(
+    design: Design, sections: Sections, tree: Mapping[str, Any], place: tuple[str, ...], where: str
+) -> Scene | None:
+    """The scene of a tree; None, with its mistakes noted at a place of the design file, where it is none."""
+    scene, problems = scene_of_tree(design.name, tree, design.directory)
+    for problem in problems:
+        said = (
+            f"{'.'.join(problem.path)} {problem.message}"
+            if problem.path and ".".join(problem.path) != place[-1]
+            else problem.message
+        )
+        sections.mistakes.add(place, problem.written or "", f"{said} ({where})")
+    return scene
+
+
+def _with_class(design: Design, scene: Scene, tolerance_class: int | None) -> Design:
+    """The design with the scatter that a flank tolerance class allows slopes and forms of the profiles, and over a face
+    slopes of the helix."""
+    if tolerance_class is None:
+        return design
+    pair, found = gear_pair(scene.gears), list(design.tolerances.scatters)
+    for name, width in zip(GEARS, pair.face_widths):
+        gear = getattr(pair, name)
+        limits = flank_tolerance(2.0 * gear.reference_radius, gear.normal_module, tolerance_class)
+        amounts = {
+            ("profile_modifications", name, "slope"): limits.profile_slope,
+            ("profile_modifications", name, "crowning"): limits.profile_form,
+        }
+        if scene.three_dimensional:
+            amounts["lead_modifications", name, "helix_slope"] = helix_tolerance(
+                2.0 * gear.reference_radius, width, tolerance_class
+            ).slope
+        named = {each.path for each in found}
+        found += [
+            Scatter(path, 1e3 * amount, "um", *fields.allowed_at(path)[1:])
+            for path, amount in amounts.items()
+            if path not in named
+        ]
+    return replace(design, tolerances=replace(design.tolerances, scatters=tuple(found)))
+
+
+def _check_scatter(design: Design, sections: Sections) -> None:
+    """Raise SceneError where something scatters that the scene does not have, or to where there is no scene."""
+    tree, scatters = design.scene_tree(_middle(design)), design.tolerances.scatters
+    for scatter in scatters:
+        if scatter.path[0] not in FROM_ZERO and value_of(tree, scatter.path) is None:
+            sections.wrong(
+                "tolerances",
+                scatter.name,
+                "",
+                'is not in the scene, so that it cannot scatter. Give it a value below [set], such as "0'
+                f' {scatter.unit}".',
+            )
+    sections.mistakes.check()
+    for sample in samples(design)[:2] if scatters else ():
+        _try(design, sections, scattered(tree, scatters, sample), ("tolerances",), "at a sample of the tolerances")
+    sections.mistakes.check()

@@ -1,0 +1,89 @@
+"""How many runs an optimisation takes, and how long they take: said before it starts, refused where it is a day's work
+that nobody has agreed to."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import dataclass
+
+from fenics_gears import GeometryError, SceneError, expected_cost, model_of
+from fenics_gears.command_line import seconds_in_words
+from fenics_gears.extensions.optimization.conditions import FRESH
+from fenics_gears.extensions.optimization.design import Design
+from fenics_gears.studies.gear_store import operators_key
+from fenics_gears.studies.study import Case
+from fenics_gears.studies.study_file import scene_of_tree
+from fenics_gears.studies.work import gear_tasks
+
+MOST_HOURS = 8.0
+# Of a run beside its march: seconds, and positions whose operators extremes between steps take (measured on the paper's
+# pair and on a helical one).
+TIME_OF_A_RESULT, EXTREMES = 0.03, 22
+# Values of a variable at which the chosen design's goals are evaluated, over its whole range.
+VALUES = 9
+# Torques of the Harris map where the operating points have one, in parts of it.
+TORQUES = (0.25, 0.5, 0.75, 1.0, 1.25, 1.5)
+
+
+@dataclass(frozen=True)
+class Work:
+    """Runs of an optimisation that are not kept yet, at most; seconds on one core of an idle machine, None where its
+    scenes are none at the ends of the variables."""
+
+    runs: int
+    seconds: float | None
+
+    def words(self, processes: int) -> str:
+        """For people."""
+        by = f" by {processes} processes" if processes > 1 else ""
+        about = (
+            ""
+            if self.seconds is None
+            else f", about {seconds_in_words(self.seconds / processes)}{by} on an idle machine"
+        )
+        return f"up to {self.runs} runs{about}"
+
+    def check(self, title: str, processes: int) -> None:
+        """Raise SceneError where it takes too long."""
+        if self.seconds is not None and self.seconds / processes > 3600.0 * MOST_HOURS:
+            raise SceneError(
+                f"{title}: {self.words(processes)}. Allowed without being asked for: {MOST_HOURS:g} h. Nothing was"
+                " computed. Take fewer evaluations, samples or operating points, coarser settings or more processes;"
+                " or add --yes."
+            )
+
+
+def expected_work(design: Design, kept: int) -> Work:
+    """Of a design file of which so many runs are kept."""
+    points, samples, scatters = len(design.loads.points), design.tolerances.samples, len(design.tolerances.scatters)
+    designs = 1 + design.search.evaluations
+    along = sum(len(each.words) or VALUES + 1 for each in design.variables)
+    around = 2 * FRESH * samples + 1 + 2 * scatters if scatters else 0
+    runs = max(points * (designs * samples + along + around) + 2 * len(TORQUES) - kept, 0)
+    cases = at_ends(design)
+    if not cases:
+        return Work(runs, None)
+    models = [model_of(case.scene) for case in cases]
+    costs = [expected_cost(model) for model in models]
+    marching, building, condensing = (
+        sum(getattr(cost, name) or 0.0 for cost in costs) / len(costs)
+        for name in ("marching", "building", "condensing")
+    )
+    shared = len({operators_key(model) for model in models}) == 1
+    position = building / models[0].resolution.steps_per_mesh_cycle
+    each = TIME_OF_A_RESULT + EXTREMES * position + marching - (building if shared else 0.0)
+    bodies = 1 if len(gear_tasks(cases)) == len(gear_tasks(cases[:1])) else designs
+    return Work(runs, runs * each + (bodies * condensing if runs else 0.0))
+
+
+def at_ends(design: Design) -> list[Case]:
+    """The scenes with all variables at the beginning and at the end of their ranges, where they are scenes."""
+    found = []
+    for end in (0, -1):
+        values = {each.name: (each.words or (each.low, each.high))[end] for each in design.variables}
+        scene, _ = scene_of_tree(design.name, design.scene_tree(values), design.directory)
+        # All variables at their ends together may be gears that cannot be.
+        with suppress(GeometryError):
+            if scene is not None and model_of(scene):
+                found.append(Case(len(found), {}, scene, ""))
+    return found

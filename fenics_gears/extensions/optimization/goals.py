@@ -1,0 +1,45 @@
+"""The numbers of a result that goals and constraints may name, and what a scene needs to have them."""
+
+from __future__ import annotations
+
+from fenics_gears import HARMONIC_NAMES, Scene
+from fenics_gears.results.attributes import RESULT_ATTRIBUTES
+from fenics_gears.studies.combine import NUMBERS
+
+ERROR = "peak_to_peak_transmission_error"
+ROOT = ("largest_root_stress_pinion", "largest_root_stress_wheel")
+OVER_FACE = ("face_load_factor", "largest_line_load_factor", "edge_line_load_factor", "transverse_load_factor")
+NAMES = (
+    ERROR, *HARMONIC_NAMES, "max_normal_force", "largest_pair_force", "dynamic_factor_by_force",
+    "dynamic_factor_by_stress", "peak_contact_pressure",
+    *ROOT, "friction_loss", *OVER_FACE,
+)  # fmt: skip
+
+
+def unit_and_words(name: str) -> tuple[str, str]:
+    """Unit and meaning of a number; transmission errors are lengths along the line of action."""
+    if name == ERROR:
+        return "um", NUMBERS[ERROR][1]
+    if name in NUMBERS:
+        return NUMBERS[name]
+    found = next(each for each in RESULT_ATTRIBUTES if each.name == name)
+    return found.units, found.meaning
+
+
+def lacking(name: str, scene: Scene) -> str:
+    """What the scene lacks to have this number, completing "needs ..."; empty where it has it."""
+    if scene.speed_ramp is not None and name in HARMONIC_NAMES:
+        return "a constant speed: leave [speed_ramp] out"
+    if name.startswith("dynamic_factor") and scene.inertia is None:
+        return "[inertia]"
+    if (name in ROOT or name == "dynamic_factor_by_stress") and not (
+        scene.output.root_stress and scene.resolves_contact
+    ):
+        return "elastic teeth and [output] root_stress = true"
+    if name == "peak_contact_pressure" and not scene.resolves_contact:
+        return 'elastic teeth and accuracy.model = "elastic"'
+    if name == "friction_loss" and scene.friction is None:
+        return "[friction]"
+    if name in OVER_FACE and not scene.three_dimensional:
+        return "flanks that are resolved over the face, such as by [misalignment] or [lead_modifications]"
+    return ""

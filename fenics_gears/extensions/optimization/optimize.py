@@ -1,0 +1,206 @@
+"""An optimisation from its design file to its result: the stages, in order."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fenics_gears import ComputationError
+from fenics_gears.command_line import check_writable
+from fenics_gears.extensions.optimization.conditions import samples
+from fenics_gears.extensions.optimization.design import Design
+from fenics_gears.extensions.optimization.design_file import load_design
+from fenics_gears.extensions.optimization.evaluations import Evaluation, Evaluator
+from fenics_gears.extensions.optimization.expected import TORQUES, VALUES, Work, at_ends, expected_work
+from fenics_gears.extensions.optimization.search import front, optimiser, search
+from fenics_gears.inputs.tree import Tree
+from fenics_gears.studies import fields
+from fenics_gears.studies.axis import number_in
+from fenics_gears.studies.case_files import sole_writer
+from fenics_gears.studies.ranks import Alone, Together, ranks
+from fenics_gears.studies.run_study import condense_gears
+from fenics_gears.studies.study_file import scene_of_tree
+from fenics_gears.system.interruption import Interruption
+from fenics_gears.system.progress import Progress
+
+RESULT, TABLE, BEST = "optimization.nc", "designs.csv", "best.toml"
+NOT_IN_A_HARRIS_MAP = ("inertia", "damping", "motion", "speed_ramp", "torque_ripple")
+
+
+@dataclass
+class Outcome:
+    """What an optimisation found.
+
+    `before`: the scene before, `tried`: all designs in their order, `best`: the place of the chosen one, `front`:
+        places of the Pareto front.
+    `fresh`: the scene before and the chosen design under samples that the search did not know, where there are
+        tolerances.
+    `along`: by variable its values and the chosen design's evaluations there, without scatter; `limits`: by scatter the
+        evaluations of the
+    chosen design at the lower limit, without scatter and at the upper limit; nothing where one failed. `harris`:
+    torques (loads,), N m, and of the scene before and the chosen one curves (2, steps) of mesh phase and transmission
+    error, rad.
+    """
+
+    design: Design
+    directory: Path
+    before: Evaluation
+    tried: list[Evaluation]
+    best: int
+    front: list[int]
+    fresh: list[Evaluation] = field(default_factory=list)
+    along: dict[str, tuple[list[float | str], list[Evaluation]]] = field(default_factory=dict)
+    limits: dict[str, dict[str, np.ndarray]] = field(default_factory=dict)
+    harris: tuple[np.ndarray, list[list[np.ndarray | None]]] = (np.zeros(0), [])
+    computed: int = 0
+    kept: int = 0
+    seconds: float = 0.0
+
+    @property
+    def chosen(self) -> Evaluation:
+        """The chosen design."""
+        return self.tried[self.best]
+
+
+def optimize(
+    path: Path, output: Path | None, progress: Progress, quiet: bool = False, any_time: bool = False
+) -> Outcome | None:
+    """Search the best design and look at it from all sides; None on every rank of an MPI job but 0. Finished runs are
+    kept in `runs` of the directory.
+
+    output: the directory, `results/<name of the design file>` where None. Raises SceneError, before anything is
+        computed or written, where the design
+    file is wrong or the work takes more than `expected.MOST_HOURS`, unless `any_time`; ComputationError where the
+    directory cannot be used or no design keeps the constraints; KeyboardInterrupt at Ctrl-C.
+    """
+    with ranks() as team:
+        if team is None:
+            return None
+        design = load_design(path)
+        directory = output or Path("results") / design.name
+        check_writable(directory, RESULT, TABLE, BEST)
+        optimiser()
+        with sole_writer(directory, "runs"), Interruption(progress) as interruption:
+            return _run(design, directory, team, interruption, quiet, any_time)
+
+
+def _run(
+    design: Design, directory: Path, team: Alone | Together, progress: Interruption, quiet: bool, any_time: bool
+) -> Outcome:
+    evaluator, deviations = Evaluator(design, directory / "runs", team, progress), samples(design)
+    work = expected_work(design, evaluator.kept)
+    if not any_time:
+        work.check(design.title, team.size)
+    if not quiet:
+        print(_opening(design, len(deviations), evaluator, work, team.size), file=sys.stderr, flush=True)
+    condense_gears(at_ends(design)[-1:], team, progress)
+    progress.stage("before")
+    (before,) = evaluator.of_trees([design.before], [{}], deviations)
+    progress.stage("search")
+
+    def report(count: int) -> None:
+        evaluator.designs = count, design.search.evaluations
+        progress.update(*evaluator.designs)
+
+    tried = search(design, lambda designs: evaluator.of_designs(designs, deviations), report)
+    evaluator.designs = 0, 0
+    best = chosen(design, before, tried)
+    outcome = Outcome(design, directory, before, tried, best, front(tried, [goal.name for goal in design.goals]))
+    progress.stage("sensitivity")
+    _look_around(outcome, evaluator)
+    progress.stage("Harris map")
+    outcome.harris = _harris(design, evaluator, outcome.chosen)
+    outcome.computed, outcome.kept, outcome.seconds = evaluator.computed, evaluator.kept, evaluator.seconds
+    return outcome
+
+
+def _opening(design: Design, count: int, evaluator: Evaluator, work: Work, size: int) -> str:
+    """One line on how much there is to do."""
+    runs = len(design.loads.points) * count
+    kept = f" {evaluator.kept} runs are kept from before." if evaluator.kept else ""
+    kept += (
+        f" {evaluator.others} runs of a version of the program with other numbers are not used."
+        if evaluator.others
+        else ""
+    )
+    return (
+        f"{design.title}: {design.search.evaluations} designs of {len(design.variables)} variables, {runs} runs each,"
+        f" and around them; {work.words(size)}.{kept}"
+    )
+
+
+def chosen(design: Design, before: Evaluation, tried: Sequence[Evaluation]) -> int:
+    """The place of the design with the least weighted sum of its goals, each in parts of what it is before. Raises
+    ComputationError without any allowed one."""
+    allowed = [place for place, each in enumerate(tried) if each.allowed]
+    if not allowed:
+        failed = [each.failure for each in tried if each.failure]
+        why = (
+            f"{len(failed)} failed, the first since: {failed[0]}"
+            if failed
+            else f"the nearest one breaks the bounds by {min(each.violation for each in tried):.3g} of them"
+        )
+        raise ComputationError(
+            f"None of {len(tried)} designs keeps the constraints: {why}. Widen ranges or bounds; the runs are kept."
+        )
+    reference = tried[allowed[0]] if before.failure else before
+    return min(allowed, key=lambda place: score(design, reference, tried[place]))
+
+
+def score(design: Design, before: Evaluation, evaluation: Evaluation) -> float:
+    """The weighted sum of the goals, each in parts of what it is before."""
+    return sum(
+        goal.weight * evaluation.goals[goal.name] / (abs(before.goals.get(goal.name, 0.0)) or 1.0)
+        for goal in design.goals
+    )
+
+
+def _look_around(outcome: Outcome, evaluator: Evaluator) -> None:
+    """The chosen design with each variable over its range, and at both limits of each scatter."""
+    design, values = outcome.design, outcome.chosen.values
+    count = len(design.tolerances.scatters)
+    nominal = np.zeros((1, count))
+    for variable in design.variables:
+        places = list(variable.words) or sorted(
+            {*map(variable.at, np.linspace(0.0, 1.0, VALUES)), values[variable.name]}
+        )
+        outcome.along[variable.name] = (
+            places,
+            evaluator.of_designs([values | {variable.name: place} for place in places], nominal),
+        )
+    if not count:
+        return
+    trees = [design.before, design.scene_tree(values)]
+    outcome.fresh = evaluator.of_trees(trees, [{}, values], samples(design, fresh=True))
+    deviations = np.concatenate([nominal, -np.eye(count), np.eye(count)])
+    (found,) = evaluator.of_designs([values], deviations)
+    for place, scatter in enumerate(design.tolerances.scatters if not found.failure else ()):
+        at = [1 + place, 0, 1 + count + place]
+        outcome.limits[scatter.name] = {name: numbers[at] for name, numbers in found.of_samples.items()}
+
+
+def _torque_of(design: Design, tree: Tree) -> float:
+    """The torque (N m) on the wheel of a scene that names it, the pinion's or a power."""
+    scene, _ = scene_of_tree(design.name, tree, design.directory)
+    return 1e-3 * scene.load.wheel_torque
+
+
+def _harris(design: Design, evaluator: Evaluator, best: Evaluation) -> tuple[np.ndarray, list[list[np.ndarray | None]]]:
+    """Quasi-static transmission errors over the torque of the scene before and of the chosen design."""
+    path = ("load", "wheel_torque")
+    trees = [design.before, design.scene_tree(best.values)]
+    torques = sorted({number_in(point[path], "N m") for point in design.loads.points if path in point})
+    if len(torques) < 2:
+        torques = [part * (torques or [_torque_of(design, trees[1])])[0] for part in TORQUES]
+    loaded: list[Any] = []
+    for tree in trees:
+        for section in NOT_IN_A_HARRIS_MAP:
+            tree = fields.changed(tree, (section,), fields.ABSENT)
+        loaded += [fields.changed(tree, path, f"{torque:.9g} N m") for torque in torques]
+    curves = evaluator.curves(loaded)
+    return np.array(torques), [curves[: len(torques)], curves[len(torques) :]]

@@ -1,0 +1,157 @@
+"""The page of an optimisation: the chosen design, how it was found, its sensitivity, and Harris maps before and
+after."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from fenics_gears.command_line import write_whole
+from fenics_gears.extensions.optimization.charts import (
+    BEFORE,
+    called,
+    front_chart,
+    goal_words,
+    goals_of,
+    harris_charts,
+    no_gain,
+    search_chart,
+    sentence,
+    summary_rows,
+    tolerance_rows,
+    variable_chart,
+)
+from fenics_gears.extensions.optimization.charts import BEST as CHOSEN
+from fenics_gears.extensions.optimization.optimize import Outcome
+from fenics_gears.extensions.optimization.result import BEST, TABLE, best_scene
+from fenics_gears.show.report.origin import made_by, scene_section
+from fenics_gears.show.report.overview import counted
+from fenics_gears.show.report.page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words
+from fenics_gears.show.report.rendering import rendered
+
+PAGE = "report.html"
+MOST_ROWS = 50
+
+
+def write_page(outcome: Outcome) -> Path:
+    """Write the page beside the result and return its file."""
+    text = rendered(optimization_page(outcome))
+    return write_whole(outcome.directory / PAGE, lambda path: path.write_text(text, encoding="utf-8"))
+
+
+def optimization_page(outcome: Outcome) -> Page:
+    """The page of what an optimisation found."""
+    design = outcome.design
+    maps = harris_charts(outcome) or [Words("A run of the Harris maps failed.", warns=True)]
+    sections = [
+        _summary(outcome),
+        Section(
+            "harris",
+            "Harris maps before and after",
+            [Words("Quasi-static transmission error over two mesh cycles, a curve for each torque."), *maps],
+        ),
+        Section(
+            "variables",
+            "Each variable alone",
+            [variable_chart(outcome, variable, goal) for variable in design.variables for goal in design.goals],
+        ),
+        _designs(outcome),
+    ]
+    if design.tolerances.scatters:
+        sections.append(_tolerances(outcome))
+    sections += [
+        scene_section(best_scene(outcome), f"Chosen design ({BEST})"),
+        scene_section(design.text, "Design file", "design"),
+    ]
+    numbers = (
+        counted(len(each), words)
+        for each, words in (
+            (outcome.tried, "design"),
+            (design.variables, "variable"),
+            (design.loads.points, "operating point"),
+        )
+    )
+    subtitle = "{} of {} at {}".format(*numbers)
+    return Page("Gear pair: optimisation", design.title, subtitle, sections, made_by(), no_gain(outcome))
+
+
+def _summary(outcome: Outcome) -> Section:
+    tiles = []
+    for goal in outcome.design.goals:
+        note = f"before: {goal_words(outcome, goal, outcome.before)}"
+        tiles.append(
+            Tile(
+                sentence(called(goal.name)),
+                f"{outcome.chosen.goals[goal.name]:.4g}",
+                goal.unit.replace("um", "µm").removeprefix("1"),
+                note,
+            )
+        )
+    # Goals before and after are on the tiles, where there are no tolerances, of which the rows have more.
+    said = (
+        set()
+        if outcome.design.tolerances.scatters
+        else {f"{called(goal.name)}, {words}" for goal in outcome.design.goals for words in (BEFORE, CHOSEN)}
+    )
+    return Section(
+        "summary", "Summary", [Tiles(tiles), Facts([row for row in summary_rows(outcome) if row[0] not in said])]
+    )
+
+
+def _designs(outcome: Outcome) -> Section:
+    design = outcome.design
+    blocks: list[Block] = [search_chart(outcome, goal) for goal in design.goals]
+    listed, words = (
+        sorted(
+            (place for place, each in enumerate(outcome.tried) if each.allowed),
+            key=lambda place: goals_of([outcome.tried[place]], design.goals[0])[0],
+        ),
+        "best",
+    )
+    if len(design.goals) > 1:
+        blocks.insert(0, front_chart(outcome))
+        listed, words = [place for place in listed if place in outcome.front], "designs of the Pareto front"
+    headings = [
+        "Design",
+        *(f"{called(each.name)} ({each.unit})" if each.unit else called(each.name) for each in design.variables),
+        *(f"{called(goal.name)} ({goal.unit})" for goal in design.goals),
+    ]
+    rows = []
+    for place in listed[:MOST_ROWS]:
+        numbers = [outcome.tried[place].values[each.name] for each in design.variables] + [
+            outcome.tried[place].goals[goal.name] for goal in design.goals
+        ]
+        rows.append(
+            [
+                Cell(f"{place}{' (chosen)' if place == outcome.best else ''}", float(place)),
+                *(Cell(each) if isinstance(each, str) else Cell(f"{each:.4g}", each) for each in numbers),
+            ]
+        )
+    failures = [
+        (str(place), Cell(each.failure, warns=True)) for place, each in enumerate(outcome.tried) if each.failure
+    ]
+    blocks += [Words(f"The {len(rows)} {words}; `{TABLE}` has all designs."), Table(headings, rows, sortable=True)]
+    blocks += (
+        [Words(f"{len(failures)} designs failed."), Table(("Design", "Why"), failures[:MOST_ROWS], numbers=9)]
+        if failures
+        else []
+    )
+    return Section("designs", "Designs", blocks)
+
+
+def _tolerances(outcome: Outcome) -> Section:
+    blocks: list[Block] = []
+    for goal in outcome.design.goals:
+        heads = ("Tolerance", "Limit", "At the lower limit", "Without scatter", "At the upper limit")
+        blocks.append(
+            Table(
+                heads,
+                tolerance_rows(outcome, goal),
+                f"{sentence(called(goal.name))} ({goal.unit.replace('um', 'µm')}) of the chosen design",
+            )
+        )
+    words = (
+        "One deviation at its limit, all others zero; the largest change first."
+        if outcome.limits
+        else "A run with a deviation at its limit failed."
+    )
+    return Section("tolerances", "Each tolerance alone", [Words(words, warns=not outcome.limits), *blocks])

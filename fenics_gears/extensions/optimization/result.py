@@ -1,0 +1,136 @@
+"""The files of an optimisation: all designs as a dataset and as a table, and the chosen one as a scene."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+import xarray as xr
+
+import fenics_gears
+from fenics_gears import as_toml
+from fenics_gears.command_line import write_whole
+from fenics_gears.extensions.optimization.design import QUANTILE
+from fenics_gears.extensions.optimization.optimize import BEST, RESULT, TABLE, Outcome
+from fenics_gears.inputs.fields import AllowedFile
+from fenics_gears.inputs.tree import value_at
+from fenics_gears.results.files import save
+from fenics_gears.scene.schema import known_paths
+from fenics_gears.studies import fields
+
+
+def write_result(outcome: Outcome) -> list[Path]:
+    """Write the dataset, the table and the scene, and return their files. Raises ComputationError where they cannot be
+    written."""
+    result, directory = dataset(outcome), outcome.directory
+    columns = result.drop_dims([name for name in result.dims if name != "design"]).to_dataframe()
+    titled = columns.rename(
+        columns={name: f"{name} ({unit})" for name in columns if (unit := result[name].attrs.get("units", "1")) != "1"}
+    )
+    return [
+        write_whole(directory / BEST, lambda aside: aside.write_text(best_scene(outcome), encoding="utf-8")),
+        write_whole(directory / TABLE, lambda aside: titled.to_csv(aside)),
+        write_whole(directory / RESULT, lambda aside: save(result, aside)),
+    ]
+
+
+def dataset(outcome: Outcome) -> xr.Dataset:
+    """All designs over the dimension `design`: variables by their paths, goals, constraints, whether allowed, on the
+    front, and why they failed.
+
+    Goals are what designs are judged by; over `sample` they are also there one by one, over `point` as mean at each
+    operating point. The transmission errors of the Harris map are over `choice` ("before", "best"), `load` and
+    `mesh_phase`.
+    """
+    design, tried = outcome.design, outcome.tried
+    result = xr.Dataset(
+        coords={
+            "design": ("design", np.arange(len(tried)), {"long_name": "design, in the order in which they were tried"})
+        }
+    )
+    for variable in design.variables:
+        values = np.array([each.values[variable.name] for each in tried], dtype=object if variable.words else float)
+        result[variable.name] = "design", values, {"units": variable.unit or "1", "long_name": variable.name}
+    judged = f"{design.tolerances.quantile:g} quantile" if design.tolerances.judged == QUANTILE else "mean"
+    for goal in design.goals:
+        words = f"{goal.words}, {judged} over the tolerances" if design.tolerances.scatters else goal.words
+        result[goal.name] = (
+            "design",
+            np.array([each.goals.get(goal.name, np.nan) for each in tried]),
+            {"units": goal.unit, "long_name": words},
+        )
+    for name, unit in {
+        each.name: each.unit for each in (*design.goals, *(bound.goal for bound in design.bounds))
+    }.items():
+        for dimension, values in (
+            ("sample", [each.of_samples.get(name) for each in tried]),
+            ("point", [each.at_points.get(name) for each in tried]),
+        ):
+            known = next((each for each in values if each is not None), None)
+            if known is not None and len(known) > 1:
+                filled = np.array([np.full(len(known), np.nan) if each is None else each for each in values])
+                result[f"{name}_at_{dimension}"] = (
+                    ("design", dimension),
+                    filled,
+                    {"units": unit, "long_name": name.replace("_", " ")},
+                )
+    result["violation"] = (
+        "design",
+        np.array([each.violation for each in tried]),
+        {"units": "1", "long_name": "how far bounds are broken, in parts of them"},
+    )
+    for name, places, words in (
+        ("on_front", outcome.front, "on the Pareto front"),
+        ("best", [outcome.best], "the chosen design"),
+    ):
+        result[name] = "design", np.isin(np.arange(len(tried)), places).astype(int), {"units": "1", "long_name": words}
+    result["failure"] = (
+        "design",
+        np.array([each.failure for each in tried], dtype=object),
+        {"long_name": "why the design has no numbers"},
+    )
+    result = result.merge(harris_dataset(outcome))
+    before = {f"before: {name}": value for name, value in outcome.before.goals.items()}
+    return result.assign_attrs(
+        title=design.title, design=design.text, fenics_gears_version=fenics_gears.__version__, **before
+    )
+
+
+def harris_dataset(outcome: Outcome) -> xr.Dataset:
+    """The transmission errors before and after over load and mesh phase; empty where a run of them failed."""
+    torques, curves = outcome.harris
+    every = [each for of_choice in curves for each in of_choice]
+    if not every or any(each is None or each.shape != every[0].shape for each in every):
+        return xr.Dataset()
+    values = np.array([[each[1] for each in of_choice] for of_choice in curves])
+    return xr.Dataset(
+        {
+            "transmission_error": (
+                ("choice", "load", "mesh_phase"),
+                values,
+                {"units": "rad", "long_name": "transmission error"},
+            )
+        },
+        coords={
+            "choice": np.array(["before", "best"], dtype=object),
+            "load": ("load", torques, {"units": "N m", "long_name": "torque on the wheel"}),
+            "mesh_phase": ("mesh_phase", every[0][0], {"units": "1", "long_name": "mesh cycles"}),
+        },
+    )
+
+
+def best_scene(outcome: Outcome) -> str:
+    """The chosen design as the text of a scene file beside the result."""
+    tree = outcome.design.scene_tree(outcome.chosen.values)
+    for path, is_section in known_paths().items():
+        name = None if is_section else value_at(tree, *path)
+        if isinstance(name, str) and isinstance(fields.allowed_at(path)[0], AllowedFile):
+            tree = fields.changed(
+                tree, path, os.path.relpath((outcome.design.directory / name).resolve(), outcome.directory.resolve())
+            )
+    goals = ", ".join(f"{name} = {value:.5g}" for name, value in outcome.chosen.goals.items())
+    return (
+        f"# Chosen by `gears optimize` from {len(outcome.tried)} designs of {outcome.design.name}:"
+        f" {goals}.\n\n{as_toml(tree)}"
+    )

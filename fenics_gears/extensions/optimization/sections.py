@@ -1,0 +1,342 @@
+"""The sections of a design file, read one by one; mistakes are noted by their names."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from fenics_gears import load_scene, units
+from fenics_gears.extensions.optimization.design import (
+    MEAN,
+    QUANTILE,
+    WORST,
+    Bound,
+    Goal,
+    Loads,
+    Scatter,
+    Search,
+    Tolerances,
+    Variable,
+)
+from fenics_gears.extensions.optimization.goals import NAMES, unit_and_words
+from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.problem import line_numbers
+from fenics_gears.inputs.written import as_written
+from fenics_gears.scene.read import parsed
+from fenics_gears.studies import fields
+from fenics_gears.studies.axis import AxisError, factor_of, number_in, values_of
+from fenics_gears.studies.study_file import Mistakes, entries
+
+KEYS = ("title", "scene", "without", "set", "variables", "loads", "goals", "tolerances", "constraints", "search")
+EXAMPLES = {"variables": 'tip_relief.depth = ["5 um", "60 um"]', "goals": "peak_to_peak_transmission_error = 1"}
+OWN_OF_LOADS, OWN_OF_TOLERANCES = ("weights", "combine"), ("samples", "quantile", "judged", "tolerance_class")
+# Whole numbers with their least and largest values.
+WHOLE = {
+    "evaluations": (1, 100_000),
+    "population": (4, 1000),
+    "seed": (0, 2**31 - 1),
+    "samples": (1, 4096),
+    "tolerance_class": (1, 11),
+}
+
+
+class Sections:
+    """A parsed design file and its mistakes so far; each method reads a section."""
+
+    def __init__(self, path: Path, text: str, tree: Mapping[str, Any]):
+        self.path, self.tree = path, tree
+        lines = {
+            (name[0], ".".join(name[1:])) if len(name) > 1 else name: line for name, line in line_numbers(text).items()
+        }
+        self.mistakes = Mistakes(str(path), lines)
+
+    def table(self, name: str) -> Mapping[str, Any]:
+        """A section of the file; empty where there is none."""
+        return self.tree.get(name, {})
+
+    def wrong(self, table: str, name: str, value: Any, message: str) -> None:
+        """Note a mistake in a field of a section; `value`: "" to leave it out."""
+        self.mistakes.add((table, name), as_written(value) if value != "" else "", message)
+
+    def check_keys(self) -> None:
+        """Raise SceneError where the file has other sections than it may have, or lacks one that it must have."""
+        for key, value in self.tree.items():
+            if key not in KEYS:
+                self.mistakes.add(
+                    (key,),
+                    as_written(value),
+                    f"is not known in a design file.{did_you_mean(key, KEYS)} Known: {', '.join(KEYS)}.",
+                )
+            elif key not in ("title", "scene", "without") and not isinstance(value, Mapping):
+                self.mistakes.add((key,), as_written(value), f"is not a section. Write a line [{key}].")
+        if not isinstance(self.tree.get("title", ""), str):
+            self.mistakes.add(("title",), as_written(self.tree["title"]), "is not a text.")
+        if not isinstance(self.tree.get("scene"), str | Mapping):
+            self.mistakes.add(
+                ("scene",),
+                None,
+                'is missing. Allowed: the file of the scene, such as "lundvall2004.toml", or its sections below'
+                " [scene].",
+            )
+        for key, example in EXAMPLES.items():
+            if not self.tree.get(key):
+                self.mistakes.add(
+                    (key,), None, f"is missing. Add the section [{key}] with at least one line, such as {example}."
+                )
+        self.mistakes.check()
+
+    def scene(self) -> tuple[Mapping[str, Any], Path]:
+        """The parsed scene, and the folder from which it names files. A scene in a file is found right by itself."""
+        named = self.tree["scene"]
+        if isinstance(named, Mapping):
+            return named, self.path.parent
+        file = self.path.parent / named
+        return parsed(load_scene(file).text, str(file)), file.parent
+
+    def variables(self) -> tuple[Variable, ...]:
+        """The fields that vary, with their ranges or words."""
+        found = []
+        for path, written in entries(self.tree, "variables", self.mistakes):
+            name = ".".join(path)
+            if fields.is_section(path):
+                self.wrong(
+                    "variables",
+                    name,
+                    written,
+                    "is a section. Allowed: one of its fields, with the two ends of its range.",
+                )
+            elif not isinstance(written, list) or len(written) < 2:
+                self.wrong(
+                    "variables",
+                    name,
+                    written,
+                    'is not a range. Allowed: its two ends, such as ["5 um", "60 um"], or for a choice its words.',
+                )
+            elif fields.is_numeric(path):
+                found += self._range(path, name, written)
+            elif all(isinstance(each, str) for each in written) and len({*written}) == len(written):
+                found.append(Variable(path, words=tuple(written)))
+            else:
+                self.wrong(
+                    "variables",
+                    name,
+                    written,
+                    "takes no numbers between two ends. Allowed: a list of different words to choose from.",
+                )
+        return tuple(found)
+
+    def _range(self, path: fields.Path, name: str, written: list) -> list[Variable]:
+        """The variable between two ends; none, with a mistake noted, where they are wrong."""
+        numbers, unit = self._numbers("variables", path, written)
+        if not numbers:
+            return []
+        allowed, lowest, highest = fields.allowed_at(path)
+        ends = f"goes from {as_written(written[0])} to {as_written(written[-1])}."
+        # A depth of exactly nothing is no relief; the least depth is as good.
+        low, high = lowest / factor_of(unit) if numbers[0] == 0.0 < lowest else numbers[0], numbers[-1]
+        if len(numbers) > 2 or not low < high:
+            self.wrong("variables", name, written, f"{ends} Allowed: two ends, the lower one first.")
+        elif not lowest <= low * factor_of(unit) * (1 + 1e-12) or not high * factor_of(unit) <= highest:
+            self.wrong("variables", name, written, f"{ends} Allowed for this field: {allowed.description}.")
+        else:
+            return [Variable(path, low, high, unit)]
+        return []
+
+    def _numbers(self, table: str, path: fields.Path, written: list) -> tuple[list[float], str]:
+        """Numbers of a field's values, in the unit of the first one, and that unit; none, with a mistake noted, where
+        they are none of its kind."""
+        allowed, *_ = fields.allowed_at(path)
+        kinds, shown = [*getattr(allowed, "ranges", {})] or [allowed.kind], written if len(written) > 1 else written[0]
+        unit = units.unit_of(written[0]) if isinstance(written[0], str) else ""
+        try:
+            found = [
+                units.of_kind(each, *kinds)[1] if isinstance(each, str) and allowed.kind else None for each in written
+            ]
+        except units.QuantityError as error:
+            self.wrong(table, ".".join(path), shown, f"has an entry that {error} Allowed: {allowed.description}.")
+            return [], ""
+        numbers = [number_in(each, unit) for each in written]
+        if (
+            len({*found}) > 1
+            or (found[0] is None) != (allowed.kind is None)
+            or not all(each is not None and math.isfinite(each) for each in numbers)
+        ):
+            self.wrong(table, ".".join(path), shown, f"is not of this field. Allowed: {allowed.description}.")
+            return [], ""
+        return numbers, unit
+
+    def loads(self) -> Loads:
+        """The operating points."""
+        table, swept = self.table("loads"), {}
+        for path, written in entries(self.tree, "loads", self.mistakes, OWN_OF_LOADS):
+            try:
+                swept[path] = values_of(path, written)
+            except AxisError as error:
+                self.wrong("loads", ".".join(path), written, str(error))
+        lengths = {len(values) for values in swept.values()} or {1}
+        if len(lengths) > 1:
+            listed = ", ".join(f"{'.'.join(path)} has {len(values)}" for path, values in swept.items())
+            self.mistakes.add(("loads",), "", f"needs a value of each field for each operating point: {listed}.")
+        combine, weights = self._word("loads", "combine", MEAN, WORST), table.get("weights")
+        if weights is not None and combine == WORST:
+            self.wrong(
+                "loads",
+                "weights",
+                weights,
+                'stands beside combine = "worst", where all operating points count alike. Leave one out.',
+            )
+        sound = (
+            isinstance(weights, list)
+            and len(weights) in lengths
+            and all(is_number(each) and each >= 0 for each in weights)
+            and sum(weights) > 0
+        )
+        if weights is not None and not sound:
+            self.wrong(
+                "loads",
+                "weights",
+                weights,
+                f"is not a list of {max(lengths)} numbers of 0 and above. Allowed: a weight for each operating point.",
+            )
+        points = tuple(dict(zip(swept, values)) for values in zip(*swept.values())) or ({},)
+        return Loads(points, tuple(map(float, weights)) if sound else (1.0,) * len(points), combine)
+
+    def goals(self) -> tuple[Goal, ...]:
+        """The numbers that are to be small."""
+        found = []
+        for name, weight in self.table("goals").items():
+            if not (is_number(weight) and weight > 0):
+                self.wrong(
+                    "goals",
+                    name,
+                    weight,
+                    "is not a weight. Allowed: a number above 0; it counts where several goals are weighed up.",
+                )
+            elif self._is_result("goals", name, weight):
+                found.append(Goal(name, *unit_and_words(name), float(weight)))
+        return tuple(found)
+
+    def _is_result(self, table: str, name: str, value: Any) -> bool:
+        if name not in NAMES:
+            self.wrong(
+                table,
+                name,
+                value,
+                f"is no number of a result that can be a goal.{did_you_mean(name, NAMES)} Known: {', '.join(NAMES)}.",
+            )
+        return name in NAMES
+
+    def bounds(self) -> tuple[Bound, ...]:
+        """The constraints, in the units of results."""
+        found = []
+        for name, written in self.table("constraints").items():
+            if not self._is_result("constraints", name, written):
+                continue
+            unit, words = unit_and_words(name)
+            ends = (
+                {key: _in_unit(value, unit) for key, value in written.items() if key in ("at_least", "at_most")}
+                if isinstance(written, Mapping)
+                else {}
+            )
+            if not ends or None in ends.values() or len(ends) != len(written):
+                example = "1.2" if unit == "1" else f'"20 {unit}"'
+                self.wrong(
+                    "constraints",
+                    name,
+                    written,
+                    f"is no bound. Allowed: {{ at_most = {example} }}, and at_least likewise.",
+                )
+            else:
+                found.append(Bound(Goal(name, unit, words), **ends))
+        return tuple(found)
+
+    def tolerances(self) -> tuple[Tolerances, int | None]:
+        """What scatters, and the flank tolerance class."""
+        table, found = self.table("tolerances"), []
+        for path, written in entries(self.tree, "tolerances", self.mistakes, OWN_OF_TOLERANCES):
+            if fields.is_section(path) or not fields.is_numeric(path):
+                self.wrong("tolerances", ".".join(path), written, "is no field of a number that could scatter.")
+                continue
+            numbers, unit = self._numbers("tolerances", path, [written])
+            if numbers and not numbers[0] > 0.0:
+                self.wrong(
+                    "tolerances",
+                    ".".join(path),
+                    written,
+                    "is not above zero. Allowed: the limit of the scatter on either side.",
+                )
+            elif numbers:
+                found.append(Scatter(path, numbers[0], unit, *fields.allowed_at(path)[1:]))
+        tolerance_class = self._whole("tolerances", "tolerance_class", None)
+        if table and not found and tolerance_class is None:
+            self.mistakes.add(
+                ("tolerances",),
+                "",
+                "has nothing that scatters. Add tolerance_class, or a field with its limit, such as tip_relief.depth ="
+                ' "4 um".',
+            )
+        number, quantile = self._whole("tolerances", "samples", 32), table.get("quantile", 0.9)
+        if number & (number - 1):
+            self.wrong(
+                "tolerances",
+                "samples",
+                number,
+                "is no power of two, as Sobol's sequence needs. Allowed: 8, 16, 32, 64, ...",
+            )
+        if not (is_number(quantile) and 0.5 <= quantile < 1.0):
+            self.wrong(
+                "tolerances",
+                "quantile",
+                quantile,
+                "is not allowed. Allowed: a number from 0.5 to below 1, such as 0.9.",
+            )
+        return (
+            Tolerances(
+                tuple(found), number if table else 1, quantile, self._word("tolerances", "judged", MEAN, QUANTILE)
+            ),
+            tolerance_class,
+        )
+
+    def search(self) -> Search:
+        """How long is searched, and from which seed."""
+        defaults = {"evaluations": 200, "population": 8, "seed": 1}
+        for key, value in self.table("search").items():
+            if key not in defaults:
+                self.wrong(
+                    "search", key, value, f"is not known.{did_you_mean(key, defaults)} Known: {', '.join(defaults)}."
+                )
+        return Search(*(self._whole("search", name, default) for name, default in defaults.items()))
+
+    def _word(self, table: str, name: str, *words: str) -> str:
+        value = self.table(table).get(name, words[0])
+        if value not in words:
+            self.wrong(table, name, value, f"is not known. Allowed: {', '.join(map(as_written, words))}.")
+        return value
+
+    def _whole(self, table: str, name: str, default: int | None) -> int | None:
+        value, (lowest, highest) = self.table(table).get(name, default), WHOLE[name]
+        if value is default or type(value) is int and lowest <= value <= highest:
+            return value
+        self.wrong(table, name, value, f"is not allowed. Allowed: a whole number from {lowest} to {highest}.")
+        return default
+
+
+def is_number(value: Any) -> bool:
+    """Whether a value is a finite number without unit."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _in_unit(value: Any, unit: str) -> float | None:
+    """A bound in the unit of a result; None where it is of another kind."""
+    if unit == "1":
+        return value if is_number(value) else None
+    try:
+        return (
+            units.of_kind(value, units.quantity(f"1 {unit}")[1])[0] / factor_of(unit)
+            if isinstance(value, str)
+            else None
+        )
+    except units.QuantityError:
+        return None

@@ -1,0 +1,124 @@
+"""Dynamic, face and transverse load factors of ISO 6336-1:2006: K_v and K_Halpha by method B, K_Hbeta by method C
+without shaft deflection."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, hypot, pi, sin, sqrt
+
+from fenics_gears import flank_tolerance, helix_tolerance
+from fenics_gears.extensions.rating.finish import Finish
+from fenics_gears.extensions.rating.operation import Operation
+
+
+@dataclass(frozen=True)
+class LoadFactors:
+    """K_v, K_Hbeta, K_Fbeta, K_Halpha, K_Falpha."""
+
+    dynamic: float
+    face: float
+    face_root: float
+    transverse: float
+    transverse_root: float
+
+
+@dataclass(frozen=True)
+class _Deviations:
+    """Of the worse gear, um: base pitch f_pb, profile form f_fa, and what running-in leaves of both."""
+
+    base_pitch: float
+    base_pitch_left: float
+    profile_form_left: float
+
+
+def load_factors(operation: Operation, finish: Finish) -> LoadFactors:
+    """The standard's factors of a pair whose case-hardened flanks run in by 7.5 % of their deviations."""
+    deviations = _deviations(operation, finish)
+    dynamic = _dynamic(operation, finish, deviations)
+    face = _face(operation, finish, dynamic)
+    height = max(gear.tip_radius - gear.root_radius for gear in (operation.pair.pinion, operation.pair.wheel))
+    part = min(height / operation.face_width, 1.0 / 3.0)
+    transverse = _transverse(operation, finish, deviations, dynamic * face)
+    total, alpha = operation.pair.total_contact_ratio, operation.pair.contact_ratio
+    highest = total / (alpha * contact_ratio_factor(operation) ** 2), total / (0.25 * alpha + 0.75)
+    return LoadFactors(
+        dynamic, face, face ** (1.0 / (1.0 + part + part**2)), *(min(max(transverse, 1.0), most) for most in highest)
+    )
+
+
+def _deviations(operation: Operation, finish: Finish) -> _Deviations:
+    pair, tolerances = operation.pair, []
+    for gear in (pair.pinion, pair.wheel):
+        tolerances.append(flank_tolerance(2.0 * gear.reference_radius, gear.normal_module, finish.tolerance_class))
+    base_pitch = 1e3 * max(each.single_pitch for each in tolerances) * cos(pair.pinion.pressure_angle)
+    form = 1e3 * max(each.profile_form for each in tolerances)
+    return _Deviations(base_pitch, base_pitch - _run_in(base_pitch), form - _run_in(form))
+
+
+def _run_in(deviation: float) -> float:
+    """y_alpha (um) of case-hardened and nitrided gears, section 8.3.2."""
+    return min(0.075 * deviation, 3.0)
+
+
+def _dynamic(operation: Operation, finish: Finish, deviations: _Deviations) -> float:
+    """K_v by method B, section 6.5: below, in and above the main resonance."""
+    line_load = finish.application_factor * operation.tangential_force / operation.face_width
+    relief = operation.tip_relief or (finish.flank_limit / 97.0 - 18.45) ** 2 / 18.0 + 1.5
+    stiffness, total = operation.single_stiffness, operation.pair.total_contact_ratio
+    pitch, form, modified = (
+        stiffness * deviations.base_pitch_left / line_load, stiffness * deviations.profile_form_left / line_load,
+        abs(1.0 - stiffness * relief / line_load),
+    )  # fmt: skip
+    c1, c5 = 0.32, 0.47
+    if total <= 2.0:
+        c2, c3, c4, c6 = 0.34, 0.23, 0.90, 0.47
+    else:
+        c2, c3, c4, c6 = (
+            0.57 / (total - 0.3),
+            0.096 / (total - 1.56),
+            (0.57 - 0.05 * total) / (total - 1.44),
+            0.12 / (total - 1.74),
+        )
+    c7 = 0.75 if total <= 1.5 else 0.125 * sin(pi * (total - 2.0)) + 0.875 if total <= 2.5 else 1.0
+    resonance = 30e3 / (pi * operation.pair.pinion.teeth) * sqrt(operation.mesh_stiffness / operation.reduced_mass)
+    ratio = operation.pinion_speed / resonance
+    main = 0.85 if line_load >= 100.0 else 0.5 + 0.35 * sqrt(line_load / 100.0)
+    at_resonance, above = c1 * pitch + c2 * form + c4 * modified + 1.0, c5 * pitch + c6 * form + c7
+    if ratio <= main:
+        return 1.0 + ratio * (c1 * pitch + c2 * form + c3 * modified)
+    if ratio <= 1.15:
+        return at_resonance
+    return above + (at_resonance - above) * max(1.5 - ratio, 0.0) / 0.35
+
+
+def _face(operation: Operation, finish: Finish, dynamic: float) -> float:
+    """K_Hbeta by method C, section 7.6, of `mesh_misalignment`."""
+    misalignment = mesh_misalignment(operation, finish)
+    left = misalignment - min(0.15 * misalignment, 6.0)
+    line_load = finish.application_factor * dynamic * operation.tangential_force / operation.face_width
+    unevenness = 0.5 * left * 0.85 * operation.mesh_stiffness / line_load
+    return 1.0 + unevenness if unevenness < 1.0 else 2.0 * sqrt(unevenness)
+
+
+def mesh_misalignment(operation: Operation, finish: Finish) -> float:
+    """F_betax (um) over the face, from manufacture alone (f_sh = 0): the scene's own, else helix slopes of both gears
+    within their class."""
+    if operation.misalignment is not None:
+        return abs(operation.misalignment)
+    gears = operation.pair.pinion, operation.pair.wheel
+    face, grade = operation.face_width, finish.tolerance_class
+    return 1e3 * hypot(*(helix_tolerance(2.0 * gear.reference_radius, face, grade).slope for gear in gears))
+
+
+def _transverse(operation: Operation, finish: Finish, deviations: _Deviations, before: float) -> float:
+    """K_Halpha by method B, section 8.3.2, before its limits; `before`: K_v K_Hbeta."""
+    line_load = finish.application_factor * before * operation.tangential_force / operation.face_width
+    term = 0.4 * operation.mesh_stiffness * deviations.base_pitch_left / line_load
+    total = operation.pair.total_contact_ratio
+    return 0.5 * total * (0.9 + term) if total <= 2.0 else 0.9 + term * sqrt(2.0 * (total - 1.0) / total)
+
+
+def contact_ratio_factor(operation: Operation) -> float:
+    """Z_eps, ISO 6336-2:2006 section 8."""
+    alpha, beta = operation.pair.contact_ratio, min(operation.pair.overlap_ratio, 1.0)
+    return sqrt((4.0 - alpha) / 3.0 * (1.0 - beta) + beta / alpha)

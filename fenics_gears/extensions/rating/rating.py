@@ -1,0 +1,160 @@
+"""A run's load capacity, row by row: by the standard's own formulas from the nominal load, and from the loads and
+stresses that the run has computed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import nan
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears import GearPair, Scene, SceneError, gear_pair, lumped_gears, of_settled
+from fenics_gears.extensions.rating.finish import Finish
+from fenics_gears.extensions.rating.flank import flank_stress
+from fenics_gears.extensions.rating.flash_temperature import flash_temperature, standard_share, transverse_line_force
+from fenics_gears.extensions.rating.load_factors import load_factors, mesh_misalignment
+from fenics_gears.extensions.rating.operation import Operation, solid_reduced_mass
+from fenics_gears.extensions.rating.root import root_stresses
+
+KILOGRAM = 1e3
+# Points along the path of contact at which the standard's flash temperature is taken.
+POINTS = 201
+
+
+@dataclass(frozen=True)
+class Row:
+    """One quantity: symbol with its meaning, unit, value by the standard, and from the run; nan where one of them has
+    none."""
+
+    name: str
+    unit: str
+    standard: float
+    computed: float
+
+
+def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[Row]:
+    """The rows of a run. Raises SceneError for a scene without speed, load or elastic teeth."""
+    operation = _operation(scene)
+    factors, found = load_factors(operation, finish), result.attrs
+    flank, roots = flank_stress(operation, finish, factors), root_stresses(operation, finish, factors)
+    rows = [
+        Row("K_v, dynamic factor", "1", factors.dynamic, found.get("dynamic_factor_by_force", nan)),
+        _misalignment_row(operation, finish, scene),
+        Row("K_Hbeta, face load factor", "1", factors.face, found.get("face_load_factor", nan)),
+        Row("K_Halpha, transverse load factor", "1", factors.transverse, found.get("transverse_load_factor", nan)),
+    ]
+    pressure = found.get("peak_contact_pressure", nan)
+    for name, stress in zip(("pinion", "wheel"), flank.stress):
+        rows.append(Row(f"sigma_H, contact stress of the {name}", "MPa", stress, pressure))
+        rows.append(
+            Row(f"S_H, safety against pitting of the {name}", "1", flank.limit / stress, flank.limit / pressure)
+        )
+    for name, root in zip(("pinion", "wheel"), roots):
+        computed = found.get(f"largest_root_stress_{name}", nan)
+        rows.append(Row(f"sigma_F, root stress of the {name}", "MPa", root.stress, computed))
+        rows.append(
+            Row(
+                f"S_F, safety against tooth breakage of the {name}",
+                "1",
+                root.limit / root.stress,
+                root.limit / computed,
+            )
+        )
+    return rows + _flash(operation, finish, result)
+
+
+def _operation(scene: Scene) -> Operation:
+    """What the standard rates: the steady load and the nominal speed of the scene."""
+    if scene.gears.materials is None:
+        raise SceneError("a rating needs elastic teeth: the scene has no [gears.material].")
+    if not scene.load.wheel_torque > 0.0:
+        raise SceneError("a rating needs a torque that the pinion drives: load.wheel_torque is not above zero.")
+    if not scene.motion.speed_given:
+        raise SceneError("a rating needs a speed: give the scene motion.pinion_speed or motion.mesh_frequency.")
+    pair = gear_pair(scene.gears)
+    return Operation(
+        pair=pair,
+        materials=scene.gears.materials,
+        pinion_torque=scene.load.wheel_torque * pair.pinion.teeth / pair.wheel.teeth,
+        pinion_speed=60.0 * scene.motion.mesh_frequency / pair.pinion.teeth,
+        tip_relief=_tip_relief(scene),
+        reduced_mass=_reduced_mass(scene, pair),
+        gears=scene.gears,
+        misalignment=_misalignment(scene, pair),
+    )
+
+
+def _misalignment(scene: Scene, pair: GearPair) -> float | None:
+    """Misalignment (um) over the common face of the scene's axes and helix slopes, in the plane of action; None of a
+    scene that names neither.
+
+    It is the straight part of the gap between the unloaded flanks along the face, in which crowning and end relief
+    have none."""
+    leads = scene.lead_modifications
+    sloped = leads is not None and any(own is not None and own.helix_slope for own in (leads.pinion, leads.wheel))
+    if scene.misalignment is None and not sloped:
+        return None
+    from fenics_gears import face_opening
+
+    z = np.linspace(*pair.common_face, POINTS)
+    return 1e3 * pair.face_width * float(np.polyfit(z, face_opening(pair, leads, scene.misalignment, z), 1)[0])
+
+
+def _misalignment_row(operation: Operation, finish: Finish, scene: Scene) -> Row:
+    """That which K_Hbeta counts; a run in the plane has none."""
+    computed = abs(operation.misalignment or 0.0) if scene.three_dimensional else nan
+    return Row("F_betax, misalignment over the face", "um", mesh_misalignment(operation, finish), computed)
+
+
+def of_misalignment(scene: Scene, finish: Finish) -> str:
+    """A sentence on the misalignment that the standard's K_Hbeta counts, and whether the run has the same."""
+    if _misalignment(scene, gear_pair(scene.gears)) is not None:
+        which = "the scene's misalignment and helix slopes (method C, less running-in)"
+        return f"K_Hbeta of ISO 6336 is of {which}; shafts do not bend in it."
+    own = ", which this run has not" if scene.three_dimensional else ""
+    which = f"helix slopes of tolerance class {finish.tolerance_class} (method C)"
+    return f"K_Hbeta of ISO 6336 is of {which}{own}: the scene has no misalignment."
+
+
+def _tip_relief(scene: Scene) -> float:
+    """C_a, um: the smaller depth of both gears; 0 without relief, where running-in makes one."""
+    relief = scene.tip_relief
+    depths = [] if relief is None else [0.0 if own is None else own.depth for own in (relief.pinion, relief.wheel)]
+    return 1e3 * min(depths, default=0.0)
+
+
+def _reduced_mass(scene: Scene, pair: GearPair) -> float:
+    """kg/mm: of the scene's moments of inertia, or of solid steel gears."""
+    if scene.inertia is None:
+        return solid_reduced_mass(pair)
+    gears = zip(lumped_gears(scene, pair).values(), (pair.pinion, pair.wheel))
+    first, second = (KILOGRAM * each.moment_of_inertia / gear.base_radius**2 / pair.face_width for each, gear in gears)
+    return first * second / (first + second)
+
+
+def _flash(operation: Operation, finish: Finish, result: xr.Dataset) -> list[Row]:
+    """The largest flash temperature of a run with friction, by the standard's load share and by the computed forces of
+    the tooth pairs."""
+    friction = result.attrs.get("friction_coefficient")
+    if friction is None:
+        return []
+    pair, settled = operation.pair, of_settled(result)
+    path = np.linspace(pair.path_start, pair.path_end, POINTS)
+    whole = finish.application_factor * transverse_line_force(pair, operation.tangential_force)
+    standard = flash_temperature(
+        pair, operation.materials, path, whole * standard_share(pair, path), friction, operation.pinion_speed
+    )
+    forces = settled["pair_normal_force"].transpose("time", "slot").values
+    since = settled["mesh_phase"].values[:, None] - (
+        settled["pair_number"].transpose("time", "slot").values - settled["pair_number"].attrs["number_at_phase_0"]
+    )
+    places = pair.path_start + since * pair.base_pitch
+    # Teeth that bend touch a little before and after the path of contact, where the formula's speeds are not theirs.
+    on_path = (places >= pair.path_start) & (places <= pair.path_end) & np.isfinite(forces)
+    # The standard's line force is in the transverse section; those of the run are along the contact normal.
+    transverse = pair.cosine * forces[on_path] / pair.face_width
+    computed = flash_temperature(
+        pair, operation.materials, places[on_path], transverse, friction, operation.pinion_speed
+    )
+    return [Row("flash temperature", "K", float(standard.max()), float(computed.max(initial=0.0)))]

@@ -1,0 +1,85 @@
+"""``gears import FILE.rexs``: a pair of a REXS file, written as a scene that names the origin of every value."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from fenics_gears import GeometryError, SceneError
+from fenics_gears.command_line import add_output_argument, check_writable, write_whole
+
+
+def add(commands, shared: argparse.ArgumentParser) -> None:
+    """Add the command to the parser."""
+    command = commands.add_parser("import", parents=[shared], help="write a gear pair of a REXS file as a scene")
+    command.add_argument("file", type=Path, metavar="FILE", help="a REXS file: .rexs, .rexsj or .rexsz")
+    add_output_argument(command, "name of FILE with .toml, in the current folder", "scene file to write", "SCENE")
+    command.add_argument(
+        "--stage", type=int, metavar="ID", help="number of the component of the stage, if the file has several stages"
+    )
+    command.add_argument("--load-case", metavar="ID", help="number of the load case, if the file has several")
+    command.add_argument(
+        "--wheel-torque",
+        metavar="TORQUE",
+        help='torque on the driven gear in place of that of the file, such as "437 N m"',
+    )
+    command.add_argument(
+        "--pinion-speed",
+        metavar="SPEED",
+        help='speed of the driving gear in place of that of the file, such as "750 rpm"',
+    )
+    command.set_defaults(command=import_rexs)
+
+
+def import_rexs(options: argparse.Namespace) -> int:
+    """Write the scene, once it is found right, and say what was assumed and left out."""
+    output = options.output or Path((options.file.stem.removesuffix(".rexs") or "scene") + ".toml")
+    _check_output(output)
+    from fenics_gears.extensions.rexs.imported import Choice, imported_scene
+
+    choice = Choice(options.stage, options.load_case, options.wheel_torque, options.pinion_speed)
+    imported = imported_scene(options.file, choice)
+    _check_scene(imported, options.file, output)
+    write_whole(output, lambda path: path.write_text(imported.text, encoding="utf-8"))
+    if not options.quiet:
+        print(_summary(imported, output))
+    return 0
+
+
+def _check_output(output: Path) -> None:
+    """A scene is the user's own work: none is overwritten."""
+    check_writable(output.parent, output.name)
+    if output.suffix != ".toml":
+        raise SceneError(f"{output}: a scene is a .toml file; give --output such a name.")
+    if output.exists():
+        raise SceneError(
+            f"{output} exists already; nothing was written. Name another file with --output SCENE, or remove it."
+        )
+
+
+def _check_scene(imported, file: Path, output: Path) -> None:
+    """What the file says makes a scene and gears that mesh. Raises SceneError, which also says what had to be
+    assumed."""
+    from fenics_gears import check_geometry, scene_from_text
+
+    source = f"{file} as a scene"
+    try:
+        scene = scene_from_text(imported.text, output.stem, source=source, with_lines=False)
+        check_geometry(scene)
+    except SceneError as error:
+        words = f"{source}: {error}\nNothing was written." if isinstance(error, GeometryError) else str(error)
+        gears = f"The pinion is {imported.stage.pinion.gear}, the wheel {imported.stage.wheel.gear}."
+        assumed = "".join(f"\n    assumed: {each}" for each in imported.assumed if each.startswith("gears."))
+        raise SceneError(f"{words}\n{gears}{assumed}") from error
+
+
+def _summary(imported, output: Path) -> str:
+    """What the user should look at, and what comes next."""
+    parts = [(f"{output}: {imported.stage.pinion.gear} drives {imported.stage.wheel.gear}.", ())]
+    parts += [
+        (heading, listed)
+        for heading, listed in (("Assumed:", imported.assumed), ("Left out:", imported.left_out))
+        if listed
+    ]
+    lines = [line for heading, listed in parts for line in (heading, *(f"    {each}" for each in listed))]
+    return "\n".join([*lines, f"Next: gears check {output}"])

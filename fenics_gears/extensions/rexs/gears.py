@@ -1,0 +1,265 @@
+"""The gears of a stage: teeth, circles and material, given by the file, computed from it, or taken from the
+standard."""
+
+from __future__ import annotations
+
+from functools import partial
+from math import acos, atan, cos, isclose, tan
+
+from fenics_gears import RACKS
+from fenics_gears.extensions.rexs.attributes import Reading, every, first, given, needed
+from fenics_gears.extensions.rexs.stage import GearParts, Stage
+from fenics_gears.extensions.rexs.values import Value, ValueProblem, agreed, bare, computed, place, together
+
+# By the section of a scene ("gears.pinion"), its fields; None for what was not found, which is among the reading's
+# problems.
+Sections = dict[str, dict[str, Value | None]]
+STANDARD = "ISO 53 A"
+ADDENDUM, DEDENDUM, _ = RACKS[STANDARD]
+# A gear without a known bore: the rim is thick enough not to matter.
+BORE = 0.4
+MATERIAL = ("youngs_modulus", "poissons_ratio")
+# Rounding that is allowed where the file repeats module, teeth or shifts, in modules.
+ROUNDED = 1e-3
+# Helix angle, rad, of gears that are spur.
+NO_HELIX = 1e-9
+
+
+def gear_sections(reading: Reading, stage: Stage) -> Sections:
+    """``[gears]`` and the sections below it."""
+    helix = reading.attempt(_helix, stage) or {}
+    beta = helix["helix_angle"].number if helix else 0.0
+    module = reading.attempt(_of_both, stage, "module", "The gears have different modules")
+    angle, distance = reading.attempt(_pressure_angle, stage), reading.attempt(needed, stage, "centre_distance")
+    teeth = [reading.attempt(needed, part, "teeth") for part in stage.gears]
+    shifts = _profile_shifts(reading, stage, module, angle, distance, teeth, beta)
+    gears = [_gear_section(reading, part, beta, module, *own) for part, *own in zip(stage.gears, teeth, shifts)]
+    for part, count in zip(stage.gears, teeth):
+        reading.attempt(_check_reference_diameter, part, beta, module, count)
+    reading.attempt(_check_sum_of_shifts, stage, *shifts)
+    pair, widths = (
+        {"module": module, "pressure_angle": angle, **helix, "centre_distance": distance},
+        reading.attempt(_face_widths, stage) or [None],
+    )
+    if len(widths) == 1:
+        pair["face_width"] = widths[0]
+    else:
+        gears = [{**gear, "face_width": width} for gear, width in zip(gears, widths)]
+    rack = {
+        "profile": Value(
+            0.0,
+            f'"{STANDARD}"',
+            "no tip radius of the tool; that of ISO 53, or what has room on the rack's tip",
+            assumed=True,
+        )
+    }
+    racks = {
+        f"gears.{name}.rack": rack for name, gear in zip(("pinion", "wheel"), gears) if "rack_tip_radius" not in gear
+    }
+    return {
+        "gears": pair,
+        "gears.pinion": gears[0],
+        "gears.wheel": gears[1],
+        **racks,
+        **(reading.attempt(_materials, stage) or {}),
+    }
+
+
+def _of_both(stage: Stage, asked: str, different: str) -> Value:
+    return agreed([needed(part, asked) for part in stage.gears], different)
+
+
+def _helix(stage: Stage) -> dict[str, Value | None]:
+    """Helix angle and hand of the pinion; empty for spur gears. A positive angle is a right-hand helix (ISO 21771)."""
+    found = [first(part, "helix_angle") for part in stage.gears]
+    there = [angle for angle in found if angle is not None]
+    if not any(abs(angle.number) > NO_HELIX for angle in there):
+        return {}
+    if len(there) == 2 and abs(there[0].number + there[1].number) > ROUNDED * abs(there[0].number):
+        raise ValueProblem(
+            f"{stage.stage}: {there[0].origin} is {there[0].words}, {there[1].origin} is {there[1].words}. "
+            "Allowed on parallel axes: the same angle with opposite signs."
+        )
+    pinion, wheel = found
+    angle = there[0]
+    right = pinion.number > 0.0 if pinion is not None else wheel is not None and wheel.number < 0.0
+    origin = together(each.origin for each in there)
+    return {
+        "helix_angle": Value(abs(angle.number), angle.written.replace('"-', '"'), origin),
+        "pinion_hand": Value(0.0, '"right"' if right else '"left"', f"the sign of {origin}"),
+    }
+
+
+def transverse_angle(angle: float, beta: float) -> float:
+    """Pressure angle (rad) of the transverse section: tan(alpha_t) = tan(alpha_n)/cos(beta)."""
+    return atan(tan(angle) / cos(beta)) if beta else angle
+
+
+def _pressure_angle(stage: Stage) -> Value:
+    angles = []
+    for part in stage.gears:
+        own = agreed(every(part, "pressure_angle"), "The flanks and tools of a gear have different pressure angles")
+        angles.append(own or needed(part, "pressure_angle"))
+    return agreed(angles, "The gears have different pressure angles")
+
+
+def _face_widths(stage: Stage) -> list[Value]:
+    """The width of both gears, or of each where they differ."""
+    common = first(stage, "common_face_width")
+    if common is not None:
+        return [common]
+    widths = [needed(part, "face_width") for part in stage.gears]
+    return [agreed(widths, "")] if isclose(widths[0].number, widths[1].number) else widths
+
+
+def _profile_shifts(
+    reading: Reading, stage: Stage, module, angle, distance, teeth: list[Value | None], beta: float
+) -> list[Value | None]:
+    """The shift of both gears, as the file gives them, or as the centre distance leaves one of them."""
+    shifts = [reading.attempt(partial(_stated_shift, part, module)) for part in stage.gears]
+    unsaid = [number for number, part in enumerate(stage.gears) if not given(part, "profile_shift")]
+    if len(unsaid) == 2:
+        reading.attempt(_refuse_both_missing, stage)
+    elif unsaid:
+        shifts[unsaid[0]] = reading.attempt(
+            _remaining_shift, stage, beta, shifts[1 - unsaid[0]], module, angle, distance, *teeth
+        )
+    return shifts
+
+
+def _stated_shift(part: GearParts, module: Value | None) -> Value | None:
+    """The shift that the tooth's thickness follows from; the sides of a tooth have one each, which must agree."""
+    return agreed(every(part, "profile_shift", module), f"{part.gear} has contradictory profile shifts")
+
+
+def _refuse_both_missing(stage: Stage) -> None:
+    pinion, name = place(stage.pinion.gear, "addendum_modification_coefficient"), stage.wheel.gear.id
+    raise ValueProblem(f"{pinion} is missing, for its flanks too, and so is that of component {name}.")
+
+
+def _remaining_shift(
+    stage: Stage, beta: float, known: Value, module: Value, angle: Value, distance: Value, *teeth: Value
+) -> Value:
+    """What is left of the sum of both shifts that leaves no backlash (ISO 21771)."""
+    count, transverse = sum(each.number for each in teeth), transverse_angle(angle.number, beta)
+    cosine = 0.5 * module.number * count * cos(transverse) / cos(beta) / distance.number
+    if not cosine < 1.0:
+        name = place(stage.stage, "center_distance")
+        raise ValueProblem(
+            f"{name} = {distance.number:.6g} mm is too small for {count:g} teeth of module {module.number:g} mm."
+        )
+    operating = acos(cosine)
+    total = 0.5 * count * (tan(operating) - operating - tan(transverse) + transverse) / tan(angle.number)
+    why = (
+        "no addendum_modification_coefficient; what that of the other gear and the centre distance leave it, without"
+        " backlash"
+    )
+    return bare(round(total - known.number, 9), why, assumed=True)
+
+
+def _gear_section(
+    reading: Reading, part: GearParts, beta: float, module: Value | None, teeth: Value | None, shift: Value | None
+) -> dict[str, Value | None]:
+    tip = (
+        reading.attempt(needed, part, "tip_diameter")
+        if given(part, "tip_diameter")
+        else reading.attempt(_tip_diameter, part, beta, module, teeth, shift)
+    )
+    stated = given(part, "root_diameter")
+    root = (
+        reading.attempt(needed, part, "root_diameter")
+        if stated
+        else reading.attempt(_root_diameter, part, beta, module, teeth, shift, tip)
+    )
+    radius = reading.attempt(_of_tool, part, module, "rack_tip_radius")
+    return {
+        "teeth": teeth,
+        "profile_shift": shift,
+        "tip_diameter": tip,
+        "root_diameter": root,
+        "bore_diameter": reading.attempt(_bore_diameter, part, root),
+        **({"rack_tip_radius": radius} if radius is not None else {}),
+    }
+
+
+def _tip_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shift: Value) -> Value:
+    """What the addendum of the flanks gives, or the standard's."""
+    addendum = first(part, "addendum")
+    modules = ADDENDUM if addendum is None else addendum.number
+    source = (
+        f"the addendum of ISO 53, {modules} modules" if addendum is None else f"{addendum.origin}, {modules} modules"
+    )
+    number = module.number * (teeth.number / cos(beta) + 2.0 * (shift.number + modules))
+    return computed(
+        number, 1.0, "mm", f"no tip_diameter; from teeth, profile shift and {source}", assumed=addendum is None
+    )
+
+
+def _root_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shift: Value, tip: Value) -> Value:
+    """What the depth of the teeth gives, or what the rack cuts: its addendum deep, at the shift of its generating where
+    that is given."""
+    depth = first(part, "tooth_depth")
+    if depth is not None:
+        return computed(
+            tip.number - 2.0 * depth.number, 1.0, "mm", f"no root_diameter; tip diameter less twice {depth.origin}"
+        )
+    generated, addendum = first(part, "generated_shift"), _of_tool(part, module, "tool_addendum")
+    at = "profile shift" if generated is None else generated.origin
+    modules = DEDENDUM if addendum is None else addendum.number
+    number = module.number * (teeth.number / cos(beta) + 2.0 * ((generated or shift).number - modules))
+    source = (
+        f"the dedendum of ISO 53, {modules} modules" if addendum is None else f"{addendum.origin}, {modules} modules"
+    )
+    return computed(number, 1.0, "mm", f"no root_diameter; from teeth, {at} and {source}", assumed=addendum is None)
+
+
+def _of_tool(part: GearParts, module: Value, asked: str) -> Value | None:
+    """A measure of the tool that made the root, in modules."""
+    agreed([module, *every(part, "tool_module")], "The tool has another module than the gear")
+    return agreed(every(part, asked, module), f"{part.tool[0]} contradicts itself") if part.tool else None
+
+
+def _bore_diameter(part: GearParts, root: Value) -> Value:
+    bore = first(part, "bore_diameter")
+    if bore is not None and bore.number < 0.0:
+        raise ValueProblem(f"{place(*given(part, 'bore_diameter')[0][:2])} = {bore.words} is negative.")
+    if bore is not None and bore.number > 0.0:
+        return bore
+    why = "no inner_diameter" if bore is None else f"{bore.origin} is 0, a solid gear"
+    return computed(BORE * root.number, 1.0, "mm", f"{why}; {BORE} of the root diameter, held rigidly", assumed=True)
+
+
+def _materials(stage: Stage) -> Sections:
+    """The material of both gears, or of each where they differ."""
+    found = {
+        name: {asked: needed(part, asked) for asked in MATERIAL}
+        for name, part in zip(("pinion", "wheel"), stage.gears)
+        if part.material
+    }
+    if not found:
+        why = "no material; that of steel (ISO 6336-1)"
+        return {"gears.material": {"name": Value(0.0, '"steel"', why, assumed=True)}}
+    try:
+        return {"gears.material": {asked: agreed([each[asked] for each in found.values()], "") for asked in MATERIAL}}
+    except ValueProblem:
+        return {f"gears.{name}.material": each for name, each in found.items()}
+
+
+def _check_reference_diameter(part: GearParts, beta: float, module: Value, teeth: Value) -> None:
+    """A reference diameter, where the file repeats it, is that of module and teeth."""
+    diameter = module.number * teeth.number / cos(beta)
+    for stated, where in zip(every(part, "reference_diameter"), given(part, "reference_diameter")):
+        if abs(stated.number - diameter) > ROUNDED * module.number:
+            raise ValueProblem(
+                f"{place(*where[:2])} = {stated.words} contradicts its module and its {teeth.number} teeth, "
+                f"which give {diameter:.6g} mm."
+            )
+
+
+def _check_sum_of_shifts(stage: Stage, pinion: Value, wheel: Value) -> None:
+    for stated, where in zip(every(stage, "sum_of_shifts"), given(stage, "sum_of_shifts")):
+        if abs(stated.number - pinion.number - wheel.number) > ROUNDED:
+            raise ValueProblem(
+                f"{place(*where[:2])} = {stated.written} contradicts the profile shifts of its gears, "
+                f"{pinion.written} and {wheel.written}."
+            )

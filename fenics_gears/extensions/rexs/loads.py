@@ -1,0 +1,108 @@
+"""Torque on the driven gear and speed of the driving one, looked up at the gears, the stage and the shafts."""
+
+from __future__ import annotations
+
+from fenics_gears.extensions.rexs.attributes import every, first
+from fenics_gears.extensions.rexs.model import Component, Model
+from fenics_gears.extensions.rexs.stage import GearParts, Stage
+from fenics_gears.extensions.rexs.values import Value, ValueProblem, computed, together, value_of, word_of
+
+RPM = 0.10471975511965977  # rad/s
+ASSUMED_SPEED = 100.0
+# Of a load on a shaft.
+TORQUE = "torque_around_u_axis"
+
+
+def loaded_model(model: Model, case: str | None) -> Model:
+    """The model in a load case, or in the only one. Raises ValueProblem, which lists the cases, where it is not clear
+    which."""
+    listed = ", ".join(model.load_cases)
+    if case is None and len(model.load_cases) > 1:
+        raise ValueProblem(
+            f"has {len(model.load_cases)} load cases; a scene has one. Choose it with --load-case: {listed}."
+        )
+    if case is not None and case not in model.load_cases:
+        raise ValueProblem(f'has no load case "{case}". It has: {listed or "none"}.')
+    return model.under_load(case or listed) if model.load_cases else model
+
+
+def wheel_torque(model: Model, stage: Stage, ratio: float) -> Value:
+    """The torque on the driven gear; ``ratio``: its teeth over those of the driving one. Raises ValueProblem where the
+    file gives none."""
+    for part, factor in ((stage.wheel, 1.0), (stage.pinion, ratio)):
+        torque = first(part, "torque") or _shaft_torque(model, stage, part)
+        if torque is not None:
+            return _scaled(torque, factor, 1e3, "N m", "the ratio of teeth")
+    why = (
+        "its planets share the torque of their shafts"
+        if stage.in_planetary
+        else "no shaft with this gear alone bears external loads that are all known"
+    )
+    raise ValueProblem(
+        f"{stage.stage}: no torque. Its gears, {stage.pinion.gear.id} and {stage.wheel.gear.id}, have none in their"
+        " stage data, "
+        f'and {why}. Give that of the driven gear: --wheel-torque "437 N m".'
+    )
+
+
+def pinion_speed(stage: Stage, ratio: float) -> Value:
+    """The speed of the driving gear, against its carrier where it has one; a slow one where the file gives none. Raises
+    ValueProblem."""
+    for part, factor in ((stage.pinion, 1.0), (stage.wheel, ratio)):
+        speeds = every(part, "speed_in_mesh") + ([] if stage.in_planetary else every(part, "speed"))
+        for speed in speeds:
+            if speed.number != 0.0:
+                return _scaled(speed, factor, RPM, "rpm", "the ratio of teeth")
+    return computed(
+        ASSUMED_SPEED * RPM,
+        RPM,
+        "rpm",
+        "no rotational_speed; without [inertia] it sets the scale of time only",
+        assumed=True,
+    )
+
+
+def _scaled(value: Value, factor: float, unit: float, name: str, why: str) -> Value:
+    """The value without its sign, as written where it stays what it is."""
+    if factor == 1.0 and value.number >= 0.0:
+        return value
+    return computed(
+        abs(value.number) * factor, unit, name, value.origin if factor == 1.0 else f"{value.origin} by {why}"
+    )
+
+
+def _shaft_torque(model: Model, stage: Stage, part: GearParts) -> Value | None:
+    """The sum of the external torques on a gear's shaft, where all of it goes through this mesh; None where it may
+    not."""
+    if stage.in_planetary or len(part.shafts) != 1 or not _is_alone(model, part):
+        return None
+    loads = [
+        each
+        for each in model.partners("assembly", "part", assembly=part.shafts[0])
+        if each.type == "external_load" and _is_torque(each)
+    ]
+    torques = [value_of(load, TORQUE, "N m") for load in loads if TORQUE in load.attributes]
+    if not torques or len(torques) < len(loads):
+        return None
+    total = sum(torque.number for torque in torques)
+    if len(torques) == 1:
+        return torques[0]
+    return computed(total, 1e3, "N m", together(torque.origin for torque in torques))
+
+
+def _is_torque(load: Component) -> bool:
+    """Whether a load is more than a force across the shaft: it says so, or has a torque."""
+    said = word_of(load, "transmits_torque").lower() if "transmits_torque" in load.attributes else ""
+    return said == "true" or TORQUE in load.attributes and said != "false"
+
+
+def _is_alone(model: Model, part: GearParts) -> bool:
+    """Whether the gear meshes once, and its shaft bears no other gear."""
+    meshes = sum(
+        part.gear.id in (each.roles.get("gear_1"), each.roles.get("gear_2")) for each in model.related("stage")
+    )
+    in_stages = {
+        number for each in model.related("stage") for role, number in each.roles.items() if role in ("gear_1", "gear_2")
+    }
+    on_shaft = [each for each in model.partners("assembly", "part", assembly=part.shafts[0]) if each.id in in_stages]
+    return meshes == 1 and len(on_shaft) == 1

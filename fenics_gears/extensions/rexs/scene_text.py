@@ -1,0 +1,63 @@
+"""A scene's values as TOML, each with its origin in a comment behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from fenics_gears import toml_value
+from fenics_gears.extensions.rexs.model import Model
+from fenics_gears.extensions.rexs.stage import Stage
+from fenics_gears.extensions.rexs.values import Value
+
+# Where the comments begin.
+COLUMN = 44
+
+
+def scene_text(
+    file: str,
+    model: Model,
+    stage: Stage,
+    sections: Mapping[str, Mapping[str, Value]],
+    notes: Mapping[str, Iterable[str]],
+) -> str:
+    """The TOML text of a scene; ``file`` is the name of the REXS file it is made from, ``notes`` are lists under a
+    heading each."""
+    named = stage.stage.name or f"stage {stage.stage.id}"
+    text = _head(file, model, stage, notes) + f"\ntitle = {toml_value(_one_line(f'{named} of {file}')[:500])}\n"
+    for section, fields in sections.items():
+        text += f"\n[{section}]\n" + "".join(_line(name, value) for name, value in fields.items())
+    return text
+
+
+def _head(file: str, model: Model, stage: Stage, notes: Mapping[str, Iterable[str]]) -> str:
+    lines = [
+        (
+            f"Made by gears import from {file} (REXS {model.version},"
+            f" {f'{model.applicationId} {model.applicationVersion}'.strip() or 'by a program not named'},"
+            f" {model.date or 'without a date'})."
+        ),
+        f"The pair is {stage.stage}: {stage.pinion.gear} drives {stage.wheel.gear}.",
+        "Behind every value stands where it is from. This is a scene like any other: change what you know better.",
+        *(line for heading, items in notes.items() for line in _listed(heading, items)),
+        "",
+        (
+            "Sections that may be added (docs/effects.md): [friction], [shafts], [bearings], [inertia], [damping],"
+            " [coast_flanks] and more."
+        ),
+    ]
+    return "".join(f"# {_one_line(line)}".rstrip() + "\n" for line in lines)
+
+
+def _listed(heading: str, items: Iterable[str]) -> list[str]:
+    items = list(items)
+    return ["", heading, *(f"  {item}" for item in items)] if items else []
+
+
+def _line(name: str, value: Value) -> str:
+    assumed = "assumed: " if value.assumed else ""
+    return f"{f'{name} = {value.written}':<{COLUMN}}# {assumed}{_one_line(value.origin)}\n"
+
+
+def _one_line(text: str) -> str:
+    """A comment may have no control characters, which a file's name might have."""
+    return "".join(each if each.isprintable() else "?" for each in text)

@@ -1,0 +1,180 @@
+"""The pair that is meant in a REXS model, and the components that describe it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from fenics_gears.extensions.rexs.model import Component, Model, Relation
+from fenics_gears.extensions.rexs.values import COUNT, ValueProblem, value_of, word_of
+
+CYLINDRICAL, EXTERNAL, INTERNAL = "cylindrical_stage", "cylindrical_gear", "ring_gear"
+RACK_TOOL = "rack_shaped_tool"
+
+
+@dataclass(frozen=True)
+class GearParts:
+    """The components of one gear of a stage: itself, its flanks by their side and what modifies them, its tools and how
+    they were set,
+    bodies, materials and shafts, and its data in this stage. Lists are empty where the file has none."""
+
+    gear: Component
+    flanks: dict[str, Component]
+    modifications: dict[str, list[Component]]
+    tools: list[Component]
+    settings: list[Component]
+    bodies: list[Component]
+    materials: list[Component]
+    shafts: list[Component]
+    stage_data: list[Component]
+
+    @property
+    def tool(self) -> list[Component]:
+        """The tool that made the root, the first one."""
+        return self.tools[:1]
+
+    @property
+    def material(self) -> list[Component]:
+        """The material that counts, the first one."""
+        return self.materials[:1]
+
+    @property
+    def loaded_sides(self) -> list[str]:
+        """The side of the teeth that is loaded, both where the file does not say which."""
+        said = [
+            word_of(data, "loaded_tooth_flank") for data in self.stage_data if "loaded_tooth_flank" in data.attributes
+        ]
+        return [side for side in self.flanks if not said or side == said[0]]
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A pair of gears; ``in_planetary``: it is a part of a planetary stage."""
+
+    stage: Component
+    pinion: GearParts
+    wheel: GearParts
+    in_planetary: bool
+
+    @property
+    def gears(self) -> tuple[GearParts, GearParts]:
+        """The driving gear, and the one it drives."""
+        return self.pinion, self.wheel
+
+
+def chosen_stage(model: Model, wanted: int | None) -> Stage:
+    """The stage with the wanted number, or the only one. Raises ValueProblem, which lists the stages, where it is not
+    clear which."""
+    relations = {
+        each.roles["stage"]: each
+        for each in model.related("stage")
+        if {"stage", "gear_1", "gear_2"} <= set(each.roles) and _is_cylindrical(model, each)
+    }
+    if not relations:
+        raise ValueProblem(_no_stage(model))
+    listed = "\n".join(
+        f"    --stage {number}    {_described(model, relation)}" for number, relation in relations.items()
+    )
+    if wanted is None and len(relations) > 1:
+        raise ValueProblem(f"has {len(relations)} pairs of cylindrical gears; a scene has one. Choose it:\n{listed}")
+    number = next(iter(relations)) if wanted is None else wanted
+    if number not in relations:
+        raise ValueProblem(f"has no stage of cylindrical gears with the number {number}. There are:\n{listed}")
+    return _stage(model, relations[number])
+
+
+def _is_cylindrical(model: Model, relation: Relation) -> bool:
+    return model.components[relation.roles["stage"]].type == CYLINDRICAL
+
+
+def _no_stage(model: Model) -> str:
+    others = sorted(
+        {model.components[each.roles["stage"]].type for each in model.related("stage") if "stage" in each.roles}
+    )
+    besides = f" Its stages are: {', '.join(others)}." if others else ""
+    return (
+        'has no pair of cylindrical gears: no relation "stage" with a cylindrical_stage, a gear_1 and a'
+        f" gear_2.{besides}"
+    )
+
+
+def _described(model: Model, relation: Relation) -> str:
+    gears = [model.components[relation.roles[role]] for role in ("gear_1", "gear_2")]
+    named = model.components[relation.roles["stage"]].name
+    return f"{named + ': ' if named else ''}{' and '.join(map(_with_teeth, gears))}"
+
+
+def _with_teeth(gear: Component) -> str:
+    teeth = gear.attributes.get("number_of_teeth")
+    count = str(teeth.value).removesuffix(".0") if teeth else "?"
+    return f"{gear.type} {gear.id} ({count} teeth)"
+
+
+def _stage(model: Model, relation: Relation) -> Stage:
+    stage = model.components[relation.roles["stage"]]
+    parts = [_parts(model, stage, model.components[relation.roles[role]]) for role in ("gear_1", "gear_2")]
+    for part in parts:
+        _check_external(part.gear)
+    pinion, wheel = parts if _first_drives(*parts) else parts[::-1]
+    holders = model.partners("assembly", "assembly", part=stage)
+    return Stage(stage, pinion, wheel, any(each.type == "planetary_stage" for each in holders))
+
+
+def _parts(model: Model, stage: Component, gear: Component) -> GearParts:
+    sides = next(iter(model.related("flank", gear=gear)), None)
+    flanks = (
+        {}
+        if sides is None
+        else {side: model.components[sides.roles[side]] for side in ("left", "right") if side in sides.roles}
+    )
+    steps = [step for flank in flanks.values() for step in model.related("manufacturing_step", workpiece=flank)]
+    tools = {step.roles["tool"]: step for step in steps if "tool" in step.roles}
+    # Up to version 1.2 a gear refers to its tools; from 1.3 on its flanks do, each with how the tool was set.
+    referred = model.partners("ordered_reference", "referenced", origin=gear) + [
+        model.components[number] for number in tools
+    ]
+    settings = [
+        model.components[step.roles["manufacturing_settings"]]
+        for step in steps
+        if "manufacturing_settings" in step.roles
+    ]
+    return GearParts(
+        gear,
+        flanks,
+        {side: model.partners("reference", "referenced", origin=flank) for side, flank in flanks.items()},
+        [each for each in referred if each.type == RACK_TOOL],
+        list({each.id: each for each in settings}.values()),
+        [each for each in model.partners("assembly", "part", assembly=gear) if each.type == "gear_body"],
+        [each for each in model.partners("reference", "referenced", origin=gear) if each.type == "material"],
+        [each for each in model.partners("assembly", "assembly", part=gear) if each.type == "shaft"],
+        model.partners("stage_gear_data", "stage_gear_data", stage=stage, gear=gear),
+    )
+
+
+def _check_external(gear: Component) -> None:
+    if (
+        gear.type == INTERNAL
+        or "number_of_teeth" in gear.attributes
+        and value_of(gear, "number_of_teeth", COUNT).number < 0
+    ):
+        raise ValueProblem(f"{gear} is an internal gear; pairs of external gears are computed only.")
+    if gear.type != EXTERNAL:
+        raise ValueProblem(f"{gear} is no cylindrical gear.")
+
+
+def _first_drives(first: GearParts, second: GearParts) -> bool:
+    """Whether the first gear is the scene's pinion, which drives: as the file says, or the one with fewer teeth."""
+    says = [_drives(part) for part in (first, second)]
+    if says[0] != says[1]:
+        return says[0] is True or says[1] is False
+    # Programs also write that neither drives, or both.
+    teeth = [
+        value_of(part.gear, "number_of_teeth", COUNT).number
+        for part in (first, second)
+        if "number_of_teeth" in part.gear.attributes
+    ]
+    return len(teeth) < 2 or teeth[0] <= teeth[1]
+
+
+def _drives(part: GearParts) -> bool | None:
+    data = next((each for each in part.stage_data if "is_driving_gear" in each.attributes), None)
+    return None if data is None else word_of(data, "is_driving_gear").lower() == "true"

@@ -1,0 +1,180 @@
+"""Values of REXS attributes with their units, as numbers and as a scene writes them."""
+
+from __future__ import annotations
+
+import base64
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import isclose
+
+import numpy as np
+
+from fenics_gears import units
+from fenics_gears.extensions.rexs.model import Attribute, Component
+
+# REXS's own spellings, as scenes write them. A frequency of REXS counts turns: where a speed is asked for, and only
+# there, "1 / min" is one.
+SPELLINGS = {"none": "", "°": "deg", "mum": "um", "mus": "us", "kg / dm^3": "g / cm^3"}
+TURNS = {"1 / min": "rpm", "1 / s": "rev / s", "Hz": "rev / s"}
+# Kinds of values that are no quantity: a number, a whole number, and a length that a scene has in modules.
+NUMBER, COUNT, MODULES, SPEED = "", "whole number", "in modules", "rpm"
+# Arrays in binary form: little-endian, in base64, from REXS 1.3 on.
+CODES = {"float32": "<f4", "float64": "<f8", "int32": "<i4"}
+# Values that a program rounded before it wrote them in two places differ by less, relatively.
+SAME = 1e-6
+_WHOLE, _NUMBER = re.compile(r"[+-]?\d{1,15}(\.0*)?"), re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_OF_COMPONENTS = re.compile(r"(\w+) of components? (\d+(?:, \d+)*)")
+
+
+class ValueProblem(ValueError):
+    """A value that cannot be used, in whole sentences that name component and attribute."""
+
+
+@dataclass(frozen=True)
+class Value:
+    """A number in N, mm, s, rad; how a scene writes it (TOML); where it is from; whether the file does not say it."""
+
+    number: float
+    written: str
+    origin: str
+    assumed: bool = False
+
+    @property
+    def words(self) -> str:
+        """As messages write it."""
+        return self.written.strip('"')
+
+
+def place(component: Component, name: str) -> str:
+    """How a message begins: the component and the attribute."""
+    return f"{component}: {name}"
+
+
+def value_of(component: Component, name: str, unit: str, module: Value | None = None) -> Value:
+    """The value of an attribute: a quantity of the kind of ``unit``, or one of the kinds above; ``module``: for lengths
+    in modules.
+
+    Raises ValueProblem.
+    """
+    if unit == MODULES:
+        length = value_of(component, name, "mm")
+        return bare(length.number / module.number, f"{length.origin}, over the module")
+    text, written = word_of(component, name), component.attributes[name].unit
+    spelt = TURNS.get(written, written) if unit == SPEED else written
+    spelt, said = SPELLINGS.get(spelt, spelt), f"{place(component, name)} = {text} {written}".rstrip()
+    origin = f"{name} of component {component.id}"
+    if unit == COUNT:
+        if spelt or not _WHOLE.fullmatch(text):
+            raise ValueProblem(
+                f"{said if spelt else f'{place(component, name)} = {text}'} is not a whole"
+                f" number{' without unit' if spelt else ''}."
+            )
+        return Value(int(text.partition(".")[0]), text.partition(".")[0], origin)
+    if unit == NUMBER:
+        if spelt not in ("", "%"):
+            raise ValueProblem(f'{said} has the unit "{written}". Allowed: "none" or "%".')
+        if not _NUMBER.fullmatch(text) or not math.isfinite(float(text)):
+            raise ValueProblem(f"{said} is not a finite number.")
+        return bare(float(text) * (0.01 if spelt else 1.0), origin)
+    return Value(_quantity(said, text, spelt, unit), f'"{text} {spelt}"', origin)
+
+
+def _quantity(said: str, text: str, spelt: str, unit: str) -> float:
+    if not spelt:
+        raise ValueProblem(f"{said} has no unit. Allowed: a unit of the kind of {unit}.")
+    try:
+        number, _ = units.of_kind(f"{text} {spelt}", units.quantity(f"1 {unit}")[1])
+    except units.QuantityError as error:
+        raise ValueProblem(f"{said} {error} Allowed: a number with a unit of the kind of {unit}.") from None
+    if not math.isfinite(number):
+        raise ValueProblem(f"{said} is not a finite number.")
+    return number
+
+
+def word_of(component: Component, name: str) -> str:
+    """The text of an attribute that has one value, of an array with one entry too. Raises ValueProblem."""
+    entries = _entries(component, name)
+    if len(entries) != 1:
+        raise ValueProblem(f"{place(component, name)} is an array of {len(entries)} values. Allowed: one value.")
+    return entries[0]
+
+
+def in_words(component: Component, name: str) -> str:
+    """An attribute's value, or how many an array has and from where to where they go, with its unit."""
+    entries, unit = (
+        _entries(component, name),
+        SPELLINGS.get(component.attributes[name].unit, component.attributes[name].unit),
+    )
+    try:
+        numbers = [float(each) for each in entries]
+        text = entries[0] if len(entries) == 1 else f"{len(entries)} values from {min(numbers):g} to {max(numbers):g}"
+    except ValueError:
+        text = ", ".join(entries)[:100]
+    return f"{text} {unit}".rstrip()
+
+
+def _entries(component: Component, name: str) -> list[str]:
+    """All values of an attribute as texts."""
+    value = component.attributes[name].value
+    if isinstance(value, dict):
+        return _decoded(component, component.attributes[name])
+    if not isinstance(value, list):
+        return [str(value)]
+    if any(isinstance(each, (list, dict)) for each in value):
+        raise ValueProblem(f"{place(component, name)} is a matrix. Allowed: one value.")
+    return [str(each) for each in value]
+
+
+def _decoded(component: Component, attribute: Attribute) -> list[str]:
+    code, text = (str(attribute.value.get(name, "")) for name in ("code", "value"))
+    if code not in CODES:
+        raise ValueProblem(
+            f'{place(component, attribute.id)} is an array with the code "{code}". Allowed: {", ".join(CODES)}.'
+        )
+    try:
+        # Programs also leave out the padding at the end.
+        numbers = np.frombuffer(base64.b64decode(text + "=" * (-len(text) % 4), validate=True), CODES[code])
+    except ValueError as error:
+        raise ValueProblem(f"{place(component, attribute.id)} is no array of {code} in base64: {error}.") from None
+    return [str(number) for number in numbers]
+
+
+def bare(number: float, origin: str, *, assumed: bool = False) -> Value:
+    """A number without unit."""
+    return Value(number, repr(float(number)), origin, assumed)
+
+
+def computed(number: float, factor: float, unit: str, origin: str, *, assumed: bool = False) -> Value:
+    """A value that follows from others; ``factor``: how many N, mm, s, rad the unit is."""
+    return Value(number, f'"{number / factor:.12g} {unit}"', origin, assumed)
+
+
+def agreed(values: Iterable[Value | None], what: str) -> Value | None:
+    """The one value that several places give; None where none does. Raises ValueProblem where they contradict each
+    other."""
+    there = [value for value in values if value is not None]
+    for other in there[1:]:
+        if not isclose(other.number, there[0].number, rel_tol=SAME, abs_tol=1e-12):
+            raise ValueProblem(
+                f"{what}: {there[0].origin} is {there[0].words}, but {other.origin} is {other.words}. "
+                "Allowed: the same value."
+            )
+    if not there:
+        return None
+    return Value(
+        there[0].number,
+        there[0].written,
+        together(value.origin for value in there),
+        any(value.assumed for value in there),
+    )
+
+
+def together(origins: Iterable[str]) -> str:
+    """Origins in one text; the same attribute of several components is named once."""
+    origins = list(dict.fromkeys(origins))
+    found = [_OF_COMPONENTS.fullmatch(origin) for origin in origins]
+    if len(origins) > 1 and None not in found and len({each[1] for each in found}) == 1:
+        return f"{found[0][1]} of components {', '.join(each[2] for each in found)}"
+    return " and ".join(origins)

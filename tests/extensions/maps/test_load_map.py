@@ -1,0 +1,233 @@
+"""A map over loads and speeds: what a user writes, the numbers of its runs, natural frequencies, and a map that goes on
+after a stop."""
+
+from dataclasses import replace
+from math import pi, sqrt
+from pathlib import Path
+
+import numpy as np
+import pandas
+import pytest
+import xarray as xr
+from tests.studies.conftest import DEMO, gears, stamps
+
+from fenics_gears import results
+from fenics_gears.commands.cli import main
+from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings, Inertia, Shafts
+from fenics_gears.errors import SceneError
+from fenics_gears.extensions.maps.load_map import OVER_SPEED, QUASI_STATIC, load_map, shared_accuracy
+from fenics_gears.extensions.maps.map_results import frequencies_over_load
+from fenics_gears.model.model import model_of
+from fenics_gears.results.settled import settling_time
+from fenics_gears.scene.data import Accuracy, Load, Motion
+from fenics_gears.scene.read import load_scene
+from fenics_gears.simulation.dynamic_factor import quasi_static
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.studies.axis import AxisError, values_in_words
+
+
+def mapped(loads=(), speeds=(), most=1000, **changes):
+    """The map of the paper's scene."""
+    return load_map(DEMO, replace(load_scene(DEMO), **changes), loads, speeds, most)
+
+
+@pytest.mark.parametrize(
+    "written, values",
+    [
+        ("437 N m", ["437 N m"]),
+        ("100 .. 300 N m in 3", ["100 N m", "200 N m", "300 N m"]),
+        ("100 N m..0.3 kNm by 100 N m", ["100 N m", "200 N m", "300 N m"]),
+        ("10 .. 1000 Hz in 3, logarithmic", ["10 Hz", "100 Hz", "1000 Hz"]),
+        ("-200 .. 200 N m by 200", ["-200 N m", "0 N m", "200 N m"]),
+    ],
+)
+def test_ranges_in_words_are_those_of_studies(written, values):
+    """Arithmetic: both ends included."""
+    assert list(values_in_words(written)) == values
+
+
+@pytest.mark.parametrize(
+    "load, loads, other",
+    [('pinion_torque = "200 N m"', ("200 N m",), "20 kW"), ('power = "20 kW"', ("20 kW",), "200 N m")],
+)
+def test_a_map_sweeps_the_load_that_the_scene_names(tmp_path, load, loads, other):
+    """Authority: T_2 = T_1 z_2/z_1 and T_2 = P/(2 pi n_2), a power being the same at every speed; and the scene's own
+    field, in words and in the sweep."""
+    file = tmp_path / "pair.toml"
+    file.write_text(load_scene(DEMO).text.replace('wheel_torque = "437 N m"', load), encoding="utf-8")
+    wanted = load_map(file, load_scene(file), (), ("100 Hz", "400 Hz"), 10)
+    assert wanted.loads == loads and wanted.numbers == [float(loads[0].split()[0])]
+    cases = {name: [case.scene for case in study.cases] for name, study in wanted.studies.items()}
+    for scene in (*cases[QUASI_STATIC], *cases[OVER_SPEED]):
+        by_power = 20e6 / (2.0 * pi * scene.motion.mesh_frequency / 24)
+        assert scene.load.wheel_torque == pytest.approx(by_power if "power" in load else 200e3 * 24 / 16)
+    assert [scene.motion.mesh_frequency for scene in cases[OVER_SPEED]] == [100.0, 400.0]
+    with pytest.raises(SceneError, match="The scene gives its load as"):
+        load_map(file, load_scene(file), (other,), (), 10)
+
+
+@pytest.mark.parametrize(
+    "written, message",
+    [
+        ("1 .. 5 Hz", "number of its values"),
+        ("1 .. 5 Hz in 1", "from 2 to"),
+        ("5 .. 5 Hz in 3", "starts where it stops"),
+        ("1 .. 5 Hz by 1 N", "mixes"),
+    ],
+)
+def test_ranges_that_are_none_say_why(written, message):
+    """Authority: the messages of a study's ranges."""
+    with pytest.raises(AxisError, match=message):
+        values_in_words(written)
+
+
+@pytest.mark.parametrize(
+    "arguments, changes, message",
+    [
+        ({}, {}, "neither --loads nor --speeds is given"),
+        ({"loads": ["100 N m", "-50 N m"]}, {}, r"--loads -50 N m: a negative torque .* no section \[coast_flanks\]"),
+        (
+            {"speeds": ["100 Hz"]},
+            {"inertia": None, "damping": None},
+            r"--speeds: without inertia nothing depends on the speed, .* no section \[inertia\]",
+        ),
+        ({"speeds": ["100 Hz", "3000 rpm"]}, {}, "both speeds of the pinion and mesh frequencies"),
+        ({"loads": ["100"]}, {}, "number without unit, not a torque. Each value stands in quotes with its unit"),
+        ({"loads": ["100 N"]}, {}, "is a force, not a torque"),
+        ({"speeds": ["100 N m"]}, {}, "is a torque, not a frequency"),
+        ({"loads": ["100 N m", "0.1 kNm"]}, {}, '"0.1 kNm" is given twice'),
+        ({"loads": ["inf N m"]}, {}, "not a finite number"),
+        (
+            {"loads": ["1 .. 100 N m in 20"], "speeds": ["10 .. 1000 Hz in 50"]},
+            {},
+            r"20 loads with 50 speeds each, and at rest, are 1020 runs, about \d.* on one core of an idle machine. "
+            r"Allowed: up to 1000.*--most-runs 1020",
+        ),
+    ],
+)
+def test_what_cannot_be_mapped_is_refused_by_name(arguments, changes, message):
+    """Authority: rule 7 of the house: what, where, the value, what is allowed, the remedy."""
+    with pytest.raises(SceneError, match=message) as refusal:
+        mapped(**arguments, **changes)
+    assert "Nothing was computed or written." in str(refusal.value)
+
+
+def test_the_studies_of_a_map():
+    """Definition: quasi-static without what needs inertia; steady speeds long enough for the start to die down;
+    settings that depend on the load the same for all."""
+    scene, found = load_scene(DEMO), mapped(["50 N m", "400 N m"], ["750 rpm", "1500 rpm"]).studies
+    still, moving = found[QUASI_STATIC].cases, found[OVER_SPEED].cases
+    assert len(still) == 2 and len(moving) == 4
+    assert all(
+        case.scene.inertia is None and case.scene.damping is None and case.scene.motion.mesh_cycles == 2
+        for case in still
+    )
+    assert [case.scene.motion.mesh_frequency for case in moving] == pytest.approx([200.0, 400.0] * 2)
+    longest = settling_time(model_of(scene))
+    assert all(
+        (case.scene.motion.mesh_cycles - 2) / case.scene.motion.mesh_frequency >= longest * (1.0 - 1e-3)
+        for case in moving
+    )
+
+
+def test_settings_that_the_scene_leaves_open_are_the_same_for_all_loads():
+    """Definition: gears and contact operators are shared, so elements are those of the geometric mean of the loads,
+    here 200 N m, the window that of the largest."""
+    scene = replace(load_scene(DEMO), accuracy=Accuracy())
+    middle, largest = (
+        model_of(quasi_static(replace(scene, load=Load(torque)))).resolution for torque in (200e3, 400e3)
+    )
+    wanted = load_map(DEMO, scene, ["100 N m", "400 N m"], [], 10)
+    assert shared_accuracy(wanted) == {
+        "accuracy.flank_element_size": f"{middle.flank_element_size:.6g} mm",
+        "accuracy.contact_length": f"{largest.contact_grid.length:.6g} mm",
+    }
+    assert shared_accuracy(mapped(["100 N m"])) == {}
+
+
+def test_natural_frequencies_are_those_of_two_inertias(paper_scene, paper_pair):
+    """Exact: two bodies that turn freely against a spring between their base circles vibrate at sqrt(k (rb1^2/J1 +
+    rb2^2/J2))/2 pi."""
+    scene = replace(
+        paper_scene, bearings=None, friction=None, damping=None, shafts=Shafts(1e-5), inertia=Inertia(4.9e-3, 24.5)
+    )
+    tangents = xr.DataArray([14.0, 17.0], dims="load")
+    found = frequencies_over_load(scene, np.array([100.0, 400.0]), tangents, paper_pair)
+    for value, frequencies in zip(tangents.values, found["natural_frequency"][1]):
+        stiffness = value * paper_pair.face_width * 1e3
+        expected = sqrt(stiffness * (paper_pair.pinion.base_radius**2 + paper_pair.wheel.base_radius**2) / 24.5) / (
+            2.0 * pi
+        )
+        assert frequencies == pytest.approx([expected], rel=1e-8)
+    assert found["excited"][1].tolist() == [1]
+
+
+def test_gears_that_tilt_have_natural_frequencies_too(paper_scene, paper_pair):
+    """Authority: a rigid disc on a shaft with bearings at +-a of the stiffness k in all tilts at sqrt(k a^2/J_t)/2 pi
+    where the mesh is soft."""
+    places = BearingPlaces((-1.0, 1.0), (-200.0, 200.0))
+    scene = replace(paper_scene, damping=None, bearings=Bearings(1e6, places=places), inertia=Inertia(4.9e-3, 24.5))
+    found = frequencies_over_load(scene, np.array([400.0]), xr.DataArray([1e-6], dims="load"), paper_pair)
+    words, frequencies = found["motion"][1].tolist(), found["natural_frequency"][1][0]
+    tilting = model_of(scene).drivetrain
+    place = tilting.coordinates.index("tilt_x1")
+    inertia = tilting.mass[place, place] * tilting.radii[place] ** 2
+    assert frequencies[words.index("pinion tilts")] == pytest.approx(
+        sqrt(1e6 * 1.0**2 / inertia) / (2.0 * pi), rel=1e-3
+    )
+
+
+def test_a_map_is_what_runs_of_its_scenes_give(folder, capsys):
+    """Authority: exact identity with a run of each scene alone; tables read by pandas; a second call computes
+    nothing."""
+    call = ["map", "pair.toml", "--loads", "100 N m", "200 N m", "--speeds", "300 Hz", "600 Hz", "--output", "out"]
+    assert main(call) == 0
+    written = {Path(line).name for line in capsys.readouterr().out.splitlines()}
+    assert {
+        "map.nc",
+        "harris_map.png",
+        "over_load.png",
+        "over_speed.png",
+        "campbell.png",
+        "waterfall_100_N_m.png",
+        "waterfall_200_N_m.png",
+    } <= written
+    found, scene = results.files.read(Path("out/map.nc")), load_scene("pair.toml")
+    length = found.attrs["base_radius_wheel"] / 1e-3
+    for load in (100.0, 200.0):
+        still = simulate(replace(quasi_static(scene), load=Load(1e3 * load), motion=Motion(200.0, 2, 2)))
+        at = found.sel(load=load)
+        np.testing.assert_array_equal(at["transmission_error"], still["transmission_error"].values * length)
+        assert float(at["peak_to_peak_transmission_error"]) == still.attrs["peak_to_peak_transmission_error"] * length
+        assert float(at["mean_mesh_stiffness_tangent"]) == still.attrs["mean_mesh_stiffness_tangent"]
+    table = pandas.read_csv("out/map_over_load_and_mesh_frequency.csv")
+    assert (
+        table["load [N m]"].tolist() == [100.0, 100.0, 200.0, 200.0]
+        and table["mesh_frequency [Hz]"].tolist() == [300.0, 600.0] * 2
+    )
+    np.testing.assert_allclose(table["pinion_speed [rpm]"], np.array([300.0, 600.0] * 2) * 60.0 / 16.0)
+    case = next(iter(sorted(Path("out/over_speed/cases").glob("0001*.nc"))))
+    moving = results.load(case)
+    assert (
+        float(found["dynamic_factor_by_force"].sel(load=100.0, mesh_frequency=600.0))
+        == moving.attrs["dynamic_factor_by_force"]
+    )
+    amplitudes = found["transmission_error_amplitude"].sel(load=100.0, mesh_frequency=600.0)
+    assert float(amplitudes.sel(order=1.0)) == pytest.approx(moving.attrs["transmission_error_harmonic_1"], rel=1e-2)
+    # Parseval: all lines together are the mean square.
+    assert 0.5 * float((amplitudes**2).sum()) == pytest.approx(moving.attrs["rms_transmission_error"] ** 2, rel=2e-2)
+    before = stamps("out/quasi_static") | stamps("out/over_speed")
+    assert main([*call, "--quiet"]) == 0
+    assert stamps("out/quasi_static") | stamps("out/over_speed") == before
+
+
+@pytest.mark.nightly
+@pytest.mark.ranks
+def test_two_processes_write_the_same_map(folder):
+    """Authority: exact identity; who computes a case changes no digit."""
+    call = ["map", "pair.toml", "--loads", "100 N m", "200 N m", "--quiet", "--output"]
+    assert main([*call, "alone"]) == 0
+    finished = gears(folder, *call, "together", ranks=2)
+    assert finished.returncode == 0, finished.stderr
+    for name in ("map_over_load.csv", "map_over_load_and_mesh_phase.csv"):
+        assert Path("alone", name).read_text() == Path("together", name).read_text()

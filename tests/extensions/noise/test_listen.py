@@ -1,0 +1,114 @@
+"""gears listen: what is heard are the curve's own frequencies at their own loudness."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.io import wavfile
+from scipy.signal import hilbert
+
+from fenics_gears import results
+from fenics_gears.commands.cli import main
+from fenics_gears.extensions.noise.sound import HEADROOM, SAMPLE_RATE, sound
+
+MESH = 400.0
+
+
+def run(values, time, phase=None, **attributes):
+    """A result with one curve."""
+    return xr.Dataset(
+        {
+            "normal_force": ("time", values, {"units": "N", "long_name": "mesh force"}),
+            "transmission_error": ("time", 1e-7 * values, {"units": "rad", "long_name": "transmission error"}),
+        },
+        {
+            "time": ("time", time, {"units": "s"}),
+            "mesh_phase": ("time", MESH * time if phase is None else phase, {"units": "1"}),
+        },
+        {"complete": 1, "scene": "title = 'synthetic'", **attributes},
+    )
+
+
+def steady(*tones, cycles=3, steps=300):
+    """Tones (frequency, amplitude) over whole mesh cycles, on a mean of 5000 N."""
+    time = np.arange(cycles * steps + 1) / (steps * MESH)
+    return run(
+        5000.0 + sum(amplitude * np.cos(2.0 * np.pi * frequency * time + 0.3) for frequency, amplitude in tones), time
+    )
+
+
+def lines(samples):
+    """Amplitudes by frequency in Hz, of samples that last a second; the middle, without the fading ends."""
+    middle = samples[SAMPLE_RATE // 2 : SAMPLE_RATE // 2 + SAMPLE_RATE]
+    return 2.0 * np.abs(np.fft.rfft(middle)) / len(middle)
+
+
+def test_tones_are_heard_at_their_frequency_and_amplitude():
+    """Exact: two harmonics of the mesh, whose cycles are repeated without a seam, and nothing else, the mean among it.
+    The filter's passband is even
+    within 0.02 dB, 0.2 %."""
+    amplitudes = lines(sound(steady((MESH, 100.0), (12 * MESH, 10.0)), "normal_force", 2.0).samples)
+    assert amplitudes[400] == pytest.approx(100.0, rel=2e-3) and amplitudes[4800] == pytest.approx(10.0, rel=2e-3)
+    amplitudes[[400, 4800]] = 0.0
+    assert amplitudes.max() < 0.01
+
+
+def test_what_the_file_cannot_hold_is_filtered_out():
+    """Exact: a tone of 30 kHz, above half the rate of 48 kHz, would be heard at 18 kHz; it is 54 dB down, and a tone of
+    2 kHz beside it is not changed."""
+    amplitudes = lines(sound(steady((5 * MESH, 10.0), (75 * MESH, 10.0), steps=3000), "normal_force", 2.0).samples)
+    assert amplitudes[2000] == pytest.approx(10.0, rel=2e-3) and amplitudes[18000] < 0.02
+
+
+def test_a_ramp_is_heard_as_it_runs():
+    """Exact: a mesh frequency that rises evenly from 200 to 1000 Hz in 2 s; the frequency at an instant is the phase's
+    derivative."""
+    phase = np.arange(0.0, 1200.0 + 1e-9, 1.0 / 80.0)
+    time = (-200.0 + np.sqrt(200.0**2 + 2.0 * 400.0 * phase)) / 400.0
+    heard = sound(run(3000.0 + 50.0 * np.sin(2.0 * np.pi * phase), time, phase), "normal_force", 0.5).samples
+    assert len(heard) == pytest.approx(2.0 * SAMPLE_RATE, abs=2)
+    instant = np.gradient(np.unwrap(np.angle(hilbert(heard)))) * SAMPLE_RATE / (2.0 * np.pi)
+    at = np.arange(len(heard)) / SAMPLE_RATE
+    inside = (at > 0.2) & (at < 1.8)
+    assert instant[inside] == pytest.approx(200.0 + 400.0 * at[inside], rel=0.02)
+
+
+def test_the_file_plays_at_the_scale_that_is_said(tmp_path, capsys):
+    """Definition: 16 bits at 48 kHz; the loudest sample has 0.9 of the file, or what the given full scale makes it."""
+    results.save(steady((MESH, 100.0)), tmp_path / "run.nc")
+    assert main(["listen", str(tmp_path), "--seconds", "1"]) == 0
+    assert "full scale 111.1 N" in capsys.readouterr().out
+    rate, samples = wavfile.read(tmp_path / "normal_force.wav")
+    assert (rate, len(samples), samples.dtype) == (SAMPLE_RATE, SAMPLE_RATE, np.int16)
+    assert samples.max() == pytest.approx(HEADROOM * (2**15 - 1), abs=1)
+    assert main(["listen", str(tmp_path), "--full-scale", "0.4 kN", "-o", str(tmp_path / "quiet.wav"), "-q"]) == 0
+    assert wavfile.read(tmp_path / "quiet.wav")[1].max() == pytest.approx(0.25 * (2**15 - 1), abs=3)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (
+            ["--curve", "loudness"],
+            "--curve loudness: is no curve of this run. Allowed: normal_force, transmission_error.",
+        ),
+        (["--full-scale", "3 mm"], "allowed is a force greater than zero"),
+        (["--full-scale", "3 parrots"], "parrots"),
+        (["--seconds", "0"], "allowed are 0.1 to 600 seconds"),
+        (["-o", "sound.mp3"], "the sound is a .wav file"),
+    ],
+)
+def test_wrong_calls_write_nothing(tmp_path, capsys, options, said):
+    """The interface: exit code 2, what is allowed, and no file."""
+    results.save(steady((MESH, 100.0)), tmp_path / "run.nc")
+    assert main(["listen", str(tmp_path), *options]) == 2
+    assert said in capsys.readouterr().err and [each.name for each in tmp_path.iterdir()] == ["run.nc"]
+
+
+def test_silence_and_what_is_too_slow_are_refused(tmp_path, capsys):
+    """The interface: a constant curve has no sound; a run without a speed has one mesh cycle a second."""
+    results.save(steady((MESH, 1e-7)), tmp_path / "run.nc")
+    assert main(["listen", str(tmp_path)]) == 2 and "does not fluctuate" in capsys.readouterr().err
+    slow = steady((MESH, 100.0))
+    slow["time"] = ("time", slow.time.values * MESH, {"units": "s"})
+    results.save(slow, tmp_path / "run.nc")
+    assert main(["listen", str(tmp_path)]) == 2 and "mesh frequency of 1 Hz, too low to hear" in capsys.readouterr().err

@@ -1,0 +1,34 @@
+"""`gears optimize` that is killed in its middle:
+python -m tests.extensions.optimization.stopped_optimization RUNS ARGUMENTS OF THE COMMAND.
+
+The process kills itself by SIGKILL when it has computed so many runs, in the middle of the line of the last one; alone,
+so that it has no mpi4py.
+"""
+
+import os
+import signal
+import sys
+
+if "OMPI_COMM_WORLD_RANK" not in os.environ:
+    sys.modules["mpi4py"] = None
+
+from fenics_gears.commands import cli
+from fenics_gears.extensions.optimization import run_lines
+
+done, append = 0, run_lines.append
+
+
+def killed_in_time(directory, line):
+    """As the program does; the last line is cut short."""
+    global done
+    done += 1
+    append(directory, line)
+    if done == int(sys.argv[1]):
+        file = directory / "0.jsonl"
+        os.truncate(file, file.stat().st_size - 20)
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+if __name__ == "__main__":
+    run_lines.append = killed_in_time
+    sys.exit(cli.main(sys.argv[2:]))

@@ -1,0 +1,486 @@
+"""`gears optimize`: its search against brute force, what it keeps, resumes and refuses, and its files."""
+
+import csv
+import json
+import signal
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.studies.conftest import CHECKOUT, command, environment
+
+from fenics_gears.commands.cli import main
+from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.extensions.optimization import evaluations, run_lines
+from fenics_gears.extensions.optimization import optimize as optimization
+from fenics_gears.extensions.optimization.conditions import samples, scattered
+from fenics_gears.extensions.optimization.design import QUANTILE, WORST, Bound, Goal, Loads, Tolerances
+from fenics_gears.extensions.optimization.design_file import load_design
+from fenics_gears.extensions.optimization.evaluations import Evaluation, Evaluator
+from fenics_gears.extensions.optimization.expected import expected_work
+from fenics_gears.extensions.optimization.optimize import chosen, optimize
+from fenics_gears.extensions.optimization.search import front
+from fenics_gears.geometry.flank_tolerance import flank_tolerance, helix_tolerance
+from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.results.files import read
+from fenics_gears.scene.read import build_scene, load_scene
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.studies.combine import record_of
+from fenics_gears.studies.fields import changed
+from fenics_gears.studies.ranks import Alone
+from fenics_gears.system.interruption import Interruption
+from fenics_gears.system.progress import SilentProgress
+
+ERROR = "peak_to_peak_transmission_error"
+STILL = 'scene = "pair.toml"\nwithout = ["inertia", "damping", "motion", "friction", "shafts", "bearings"]\n'
+VARIABLES = '[variables]\ntip_relief.depth = ["0 um", "60 um"]\ntip_relief.length_on_path = ["3 mm", "9 mm"]\n'
+GOAL = f"[goals]\n{ERROR} = 1\n"
+FEW = "[search]\nevaluations = 8\n"
+FEWER = "[search]\nevaluations = 4\npopulation = 4\n"
+# Rigid teeth, which are computed fastest, where only the way of the runs is tested.
+RIGID = (
+    'scene = "pair.toml"\nwithout = ["inertia", "damping", "motion", "friction", "shafts", "bearings",'
+    ' "accuracy"]\n[set]\naccuracy = { model = "rigid teeth", steps_per_mesh_cycle = 20 }\n'
+)
+OVER_LOADS = '[loads]\nload.wheel_torque = ["300 N m", "437 N m"]\nweights = [1, 3]\n'
+SCATTER = (
+    '[tolerances]\ntolerance_class = 6\ntip_relief.depth = "4 um"\nsamples = 4\njudged = "quantile"\nquantile = 0.75\n'
+)
+
+
+def write(folder, text, name="design.toml"):
+    """A design file in a folder."""
+    path = Path(folder) / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.fixture(autouse=True)
+def few(monkeypatch):
+    """Few runs around the chosen design, which are not what is tested."""
+    monkeypatch.setattr(optimization, "VALUES", 2)
+    monkeypatch.setattr(optimization, "TORQUES", (1.0,))
+
+
+@pytest.fixture
+def unwritten(monkeypatch):
+    """Pictures and page, which take longer than the runs, are not made."""
+    monkeypatch.setattr("fenics_gears.extensions.optimization.charts.write_pictures", lambda outcome: [])
+    monkeypatch.setattr("fenics_gears.extensions.optimization.page.write_page", lambda outcome: Path("none"))
+
+
+def found(path, output=None):
+    """The outcome of a design file."""
+    return optimize(path, output, SilentProgress(), quiet=True)
+
+
+def lines(directory):
+    """All whole lines of all processes."""
+    return [
+        json.loads(line)
+        for file in sorted(Path(directory, "runs").glob("*.jsonl"))
+        for line in file.read_text().splitlines()
+        if line.startswith("{") and line.endswith("}")
+    ]
+
+
+def test_the_search_finds_what_brute_force_finds(folder):
+    """Authority: brute force; no relief of a grid of 6 by 6 over both variables is better than the one found by 40
+    trials, and it is the least of its designs."""
+    outcome = found(write(folder, STILL + VARIABLES + GOAL + "[search]\nevaluations = 40\n"))
+    with Interruption(SilentProgress()) as interruption:
+        evaluator = Evaluator(outcome.design, folder / "grid", Alone(), interruption)
+        (folder / "grid").mkdir()
+        grid = [
+            {"tip_relief.depth": depth, "tip_relief.length_on_path": length}
+            for depth in np.linspace(1.0, 60.0, 6)
+            for length in np.linspace(3.0, 9.0, 6)
+        ]
+        every = evaluator.of_designs(grid, np.zeros((1, 0)))
+    least = min(every, key=lambda each: each.goals[ERROR])
+    assert outcome.chosen.goals[ERROR] <= least.goals[ERROR] < 0.5 * outcome.before.goals[ERROR]
+    assert outcome.chosen.goals[ERROR] == min(each.goals[ERROR] for each in outcome.tried)
+
+
+@pytest.mark.usefixtures("unwritten")
+def test_the_chosen_design_is_a_scene_that_gives_its_goal(folder):
+    """Authority: identity; a run of best.toml alone, without anything shared, has the numbers of the design that was
+    chosen."""
+    path = write(folder, STILL + VARIABLES + GOAL + FEW)
+    assert main(["optimize", str(path), "--quiet"]) == 0
+    scene = load_scene("results/design/best.toml")
+    result, designs = simulate(scene), read("results/design/optimization.nc")
+    best = designs.isel(design=int(designs["best"].values.argmax()))
+    assert result.attrs[ERROR] * 1e3 * gear_pair(scene.gears).wheel.base_radius == pytest.approx(
+        float(best[ERROR]), rel=1e-14
+    )
+    assert 1e3 * scene.tip_relief.pinion.depth == pytest.approx(float(best["tip_relief.depth"]), rel=1e-12)
+    assert float(best[ERROR]) == float(designs[ERROR].min())
+    with open("results/design/designs.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert [float(row[f"{ERROR} (um)"]) for row in rows] == designs[ERROR].values.tolist()
+    quasi_static = designs["transmission_error"].sel(choice="best", load=437.0)
+    assert (
+        0.9 * result.attrs[ERROR] < np.ptp(quasi_static.values) <= result.attrs[ERROR]
+    )  # the peaks may lie between steps
+
+
+def test_goals_over_loads_and_tolerances_are_those_of_single_runs(folder):
+    """Authority: numpy on runs of each scene alone: weighted mean over loads, then the quantile over samples."""
+    design = load_design(write(folder, STILL + VARIABLES + OVER_LOADS + GOAL + SCATTER + FEW))
+    deviations, values = samples(design), {"tip_relief.depth": 25.0, "tip_relief.length_on_path": 6.0}
+    assert deviations.shape == (4, 5)
+    with Interruption(SilentProgress()) as interruption:
+        (folder / "runs").mkdir()
+        (evaluation,) = Evaluator(design, folder / "runs", Alone(), interruption).of_designs([values], deviations)
+    alone = []
+    for torque in (300.0, 437.0):
+        tree = design.scene_tree(values)
+        tree["load"] = {"wheel_torque": f"{torque} N m"}
+        for each in deviations:
+            scene = build_scene(scattered(tree, design.tolerances.scatters, each))
+            alone.append(simulate(scene).attrs[ERROR] * 1e3 * gear_pair(scene.gears).wheel.base_radius)
+    of_samples = np.average(np.reshape(alone, (2, 4)), axis=0, weights=[1, 3])
+    assert evaluation.of_samples[ERROR] == pytest.approx(of_samples, rel=1e-12)
+    assert evaluation.goals[ERROR] == pytest.approx(np.quantile(of_samples, 0.75), rel=1e-12)
+
+
+def test_operating_points_statistics_and_bounds():
+    """Authority: definitions, by hand."""
+    values = np.array([[1.0, 4.0], [3.0, 2.0]])
+    assert Loads(({}, {}), (1.0, 3.0)).combined(values).tolist() == [2.5, 2.5]
+    assert Loads(({}, {}), (1.0, 1.0), WORST).combined(values).tolist() == [3.0, 4.0]
+    assert Tolerances((), 4, 0.75, QUANTILE).statistic(np.array([4.0, 1.0, 2.0, 3.0])) == 3.25
+    bound = Bound(Goal(ERROR, "um", ""), at_least=2.0, at_most=10.0)
+    assert [bound.violation(value) for value in (1.0, 2.0, 10.0, 15.0)] == [0.5, 0.0, 0.0, 0.5]
+
+
+def test_the_front_is_that_of_every_pair_compared():
+    """Authority: by hand; a design that breaks a bound or failed is on no front, and one that is tried twice is there
+    once."""
+    goals = [(1.0, 5.0), (2.0, 2.0), (2.0, 3.0), (5.0, 1.0), (0.5, 0.5), (0.1, 9.0), (2.0, 2.0)]
+    tried = [
+        Evaluation(
+            {"x": min(place, 5) if place != 6 else 1}, {"a": one, "b": other}, violation=1.0 if place == 4 else 0.0
+        )
+        for place, (one, other) in enumerate(goals)
+    ]
+    tried.append(Evaluation({"x": 9}, failure="broke"))
+    assert front(tried, ["a", "b"]) == [0, 1, 3, 5]
+
+
+def test_a_flank_class_scatters_within_the_standards_tolerances(folder):
+    """Authority: ISO 1328-1, by the function that is tested against it; Sobol's sequence fills both halves of every
+    range equally."""
+    design = load_design(write(folder, STILL + VARIABLES + GOAL + "[tolerances]\ntolerance_class = 6\nsamples = 64\n"))
+    limits = {each.name: each.limit for each in design.tolerances.scatters}
+    for gear, teeth in (("pinion", 16), ("wheel", 24)):
+        allowed = flank_tolerance(4.5 * teeth, 4.5, 6)
+        assert limits[f"profile_modifications.{gear}.slope"] == pytest.approx(1e3 * allowed.profile_slope)
+        assert limits[f"profile_modifications.{gear}.crowning"] == pytest.approx(1e3 * allowed.profile_form)
+    deviations = samples(design)
+    assert deviations.shape == (64, 4) and np.abs(deviations).max() <= 1.0
+    assert ((deviations > 0.0).sum(axis=0) == 32).all()
+
+
+def test_over_the_face_helix_slopes_scatter_too(folder):
+    """Authority: ISO 1328-1, by the function that is tested against it."""
+    text = (
+        STILL + '[variables]\nlead_modifications.pinion.crowning = ["0 um", "10 um"]\n[set]\nmisalignment.in_plane = "5'
+        ' um"\n[goals]\nface_load_factor = 1\n'
+    )
+    design = load_design(write(folder, text + '[tolerances]\ntolerance_class = 6\nmisalignment.in_plane = "8 um"\n'))
+    limits = {each.name: each.limit for each in design.tolerances.scatters}
+    assert limits["lead_modifications.wheel.helix_slope"] == pytest.approx(1e3 * helix_tolerance(108.0, 15.0, 6).slope)
+    assert limits["misalignment.in_plane"] == 8.0 and design.variables[0].low == 0.0
+
+
+def test_speeds_are_operating_points_of_a_scene_with_inertia(folder):
+    """Authority: runs of each scene alone; the worst of both speeds counts."""
+    text = (
+        'scene = "pair.toml"\n[variables]\ntip_relief.depth = ["10 um", "40 um"]\n[set]\ntip_relief.start = "HPSTC"\n'
+    )
+    text += '[loads]\nmotion.mesh_frequency = ["150 Hz", "400 Hz"]\ncombine = "worst"\n[goals]\nmax_normal_force = 1\n'
+    design = load_design(write(folder, text))
+    with Interruption(SilentProgress()) as interruption:
+        (folder / "runs").mkdir()
+        (evaluation,) = Evaluator(design, folder / "runs", Alone(), interruption).of_designs(
+            [{"tip_relief.depth": 25.0}], np.zeros((1, 0))
+        )
+    alone = []
+    for frequency in ("150 Hz", "400 Hz"):
+        tree = design.scene_tree({"tip_relief.depth": 25.0})
+        alone.append(
+            record_of(
+                simulate(build_scene(changed(tree, ("motion", "mesh_frequency"), frequency))).assign_attrs(
+                    wall_time=0.0
+                )
+            ).numbers["max_normal_force"]
+        )
+    assert alone[0] != alone[1] and evaluation.at_points["max_normal_force"] == pytest.approx(alone, rel=1e-12)
+    assert evaluation.goals["max_normal_force"] == pytest.approx(max(alone), rel=1e-12)
+
+
+def test_a_scatter_stays_within_what_the_field_allows(folder):
+    """Authority: the scene's bounds; a relief cannot be less than none."""
+    text = STILL + VARIABLES + GOAL + '[tolerances]\ntip_relief.pinion.depth = "20 um"\n'
+    design = load_design(write(folder, text))
+    tree = design.scene_tree({"tip_relief.depth": 5.0, "tip_relief.length_on_path": 6.0})
+    depths = [
+        scattered(tree, design.tolerances.scatters, np.array([each]))["tip_relief"]["pinion"]["depth"]
+        for each in (-1.0, 0.5)
+    ]
+    assert depths == ["1e-06 um", "15 um"]
+
+
+@pytest.mark.usefixtures("unwritten")
+def test_a_killed_search_repeats_nothing(folder):
+    """Authority: the search that was not stopped. SIGKILL in the middle of a line; then each run is there once, but for
+    that line's, and the result is the same."""
+    path = write(folder, RIGID + VARIABLES + GOAL + FEW)
+    whole = found(path, folder / "whole")
+    killed = subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "tests.extensions.optimization.stopped_optimization",
+            "6",
+            "optimize",
+            str(path),
+            "--output",
+            str(folder / "killed"),
+            "--quiet",
+        ],
+        env={**environment(), "PYTHONPATH": str(CHECKOUT)},
+        cwd=CHECKOUT,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert killed.returncode == -signal.SIGKILL, killed.stderr
+    assert len(run_lines.kept(folder / "killed" / "runs")[0]) == 5
+    resumed = found(path, folder / "killed")
+    assert (resumed.kept, resumed.computed) == (5, whole.computed - 5)
+    keys = [line["key"] for line in lines(folder / "killed")]
+    assert len(keys) == len({*keys}) == whole.computed
+    assert [(each.values, each.goals) for each in resumed.tried] == [(each.values, each.goals) for each in whole.tried]
+    again = found(path, folder / "killed")
+    assert (again.kept, again.computed, again.best) == (whole.computed, 0, whole.best)
+
+
+@pytest.mark.nightly
+@pytest.mark.ranks
+def test_any_number_of_processes_gives_the_same_result(folder):
+    """Authority: exact identity with one process."""
+    path = write(folder, RIGID + VARIABLES + GOAL + FEWER)
+    alone = found(path, folder / "alone")
+    done = subprocess.run(
+        command("optimize", path, "--output", folder / "two", ranks=2),
+        cwd=folder,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    designs = read(folder / "two" / "optimization.nc")
+    assert designs[ERROR].values.tolist() == [each.goals[ERROR] for each in alone.tried]
+    keys = [line["key"] for line in lines(folder / "two")]
+    assert len(keys) == len({*keys}) and {*run_lines.kept(folder / "alone" / "runs")[0]} <= {*keys}
+    assert {"search.png", "variables.png", "harris_map.png", "report.html", "best.toml", "designs.csv"} <= {
+        each.name for each in (folder / "two").iterdir()
+    }
+    page = (folder / "two" / "report.html").read_text(encoding="utf-8")
+    assert all(
+        heading in page
+        for heading in ("Summary", "Designs", "Each variable alone", "Harris map, before", "Harris map, chosen design")
+    )
+
+
+def test_the_number_of_runs_and_their_time_are_said_before_they_start(folder, monkeypatch, capsys, unwritten):
+    """Brute force: the runs that are computed, fewer only by those that two designs share. More time than is allowed is
+    refused, by its name, unless agreed to;
+    what is kept is not counted."""
+    monkeypatch.setattr("fenics_gears.extensions.optimization.expected.VALUES", 2)
+    monkeypatch.setattr("fenics_gears.extensions.optimization.expected.TORQUES", (1.0,))
+    path = write(folder, RIGID + VARIABLES + GOAL + OVER_LOADS + FEWER)
+    work = expected_work(load_design(path), 0)
+    monkeypatch.setattr("fenics_gears.extensions.optimization.expected.MOST_HOURS", 0.5 * work.seconds / 3600.0)
+    with pytest.raises(SceneError, match=rf"up to {work.runs} runs, about .* on an idle machine. Allowed.*--yes"):
+        found(path, folder / "here")
+    assert not list((folder / "here" / "runs").iterdir())
+    assert main(["optimize", str(path), "--output", str(folder / "here"), "--yes"]) == 0
+    computed = len(run_lines.kept(folder / "here" / "runs")[0])
+    assert f"up to {work.runs} runs, about" in capsys.readouterr().err and 0.8 * work.runs <= computed <= work.runs
+    assert expected_work(load_design(path), computed).runs == work.runs - computed
+
+
+def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):
+    """Authority: the promise of the page; a design whose run fails has no numbers and the reason, is not chosen, and is
+    not tried again."""
+
+    def failing(scene, **arguments):
+        if scene.tip_relief is not None and scene.tip_relief.pinion.depth > 0.025:
+            raise ComputationError("deep reliefs fail here")
+        return simulate(scene, **arguments)
+
+    monkeypatch.setattr(evaluations, "simulate", failing)
+    path = write(folder, STILL + VARIABLES + GOAL + FEW)
+    outcome = found(path)
+    failed = [each for each in outcome.tried if each.failure]
+    assert failed and len(failed) < len(outcome.tried)
+    assert all(each.failure == "deep reliefs fail here" and not each.goals for each in failed)
+    assert outcome.chosen.values["tip_relief.depth"] <= 25.0 and not outcome.chosen.failure
+    monkeypatch.setattr(evaluations, "simulate", None)
+    again = found(path)
+    assert again.computed == 0 and [each.failure for each in again.tried] == [each.failure for each in outcome.tried]
+
+
+def test_bounds_are_kept_and_refused_where_nothing_keeps_them(folder):
+    """Authority: the constraint itself; the best of what it allows, and an error in words where it allows nothing."""
+    text = STILL + VARIABLES + GOAL + FEW + '[constraints]\ntransmission_error_harmonic_2 = {{ at_most = "{} um" }}\n'
+    reached = [
+        each.at_points["transmission_error_harmonic_2"][0]
+        for each in found(write(folder, text.format(1e6)), folder / "wide").tried
+    ]
+    outcome = found(write(folder, text.format(float(np.mean(reached)))), folder / "half")
+    assert outcome.chosen.allowed and outcome.chosen.at_points["transmission_error_harmonic_2"][0] <= np.mean(reached)
+    assert any(each.violation > 0.0 for each in outcome.tried)
+    with pytest.raises(ComputationError, match="None of 8 designs keeps the constraints"):
+        found(write(folder, text.format(1e-6)), folder / "none")
+
+
+def test_several_goals_give_a_front_and_weights_choose_from_it(folder):
+    """Authority: definition; the chosen design has the least weighted sum of goals in parts of those before, and lies
+    on the front."""
+    outcome = found(write(folder, STILL + VARIABLES + GOAL + "peak_contact_pressure = 2\n" + FEW))
+    assert outcome.best in outcome.front
+
+    def summed(each):
+        return sum(
+            weight * each.goals[name] / outcome.before.goals[name]
+            for name, weight in ((ERROR, 1.0), ("peak_contact_pressure", 2.0))
+        )
+
+    assert summed(outcome.chosen) == min(map(summed, outcome.tried))
+    only = [replace(outcome.tried[0], violation=1.0)]
+    with pytest.raises(ComputationError, match="the nearest one breaks the bounds by 1"):
+        chosen(outcome.design, outcome.before, only)
+
+
+def test_words_and_single_gears_may_vary(folder):
+    """Authority: the design file; each tried design has one of the words, and the gears have their own depths."""
+    outcome = found(
+        write(
+            folder,
+            STILL + '[variables]\ntip_relief.pinion.depth = ["1 um", "40 um"]\ntip_relief.shape = ["linear",'
+            ' "parabolic"]\n[set]\ntip_relief.start = "HPSTC"\n' + GOAL + FEW,
+        )
+    )
+    assert {each.values["tip_relief.shape"] for each in outcome.tried} == {"linear", "parabolic"}
+    assert "tip_relief" not in outcome.design.before
+    assert outcome.along["tip_relief.shape"][0] == ["linear", "parabolic"]
+
+
+def test_a_cut_line_harms_no_other(tmp_path):
+    """Authority: the promise of run_lines; what is cut short is no run, and the next line begins below it."""
+    run_lines.append(tmp_path, {"key": "one"})
+    with open(tmp_path / "0.jsonl", "ab") as file:
+        file.write(b'{"key": "two", "numb')
+    run_lines.append(tmp_path, {"key": "three"})
+    found, others = run_lines.kept(tmp_path)
+    assert [*found] == ["one", "three"] and others == 0
+
+
+def test_lines_of_other_numbers_are_not_used(tmp_path, monkeypatch):
+    """Definition of the version: runs with other numbers are no runs of this program; they are counted."""
+    run_lines.append(tmp_path, {"key": "one"})
+    monkeypatch.setattr(run_lines, "NUMBERS_VERSION", run_lines.NUMBERS_VERSION + 1)
+    run_lines.append(tmp_path, {"key": "two"})
+    assert run_lines.kept(tmp_path) == ({"two": {"numbers_version": run_lines.NUMBERS_VERSION, "key": "two"}}, 1)
+
+
+REFUSED = {
+    "an unknown field": (
+        '[variables]\ntip_relief.dept = ["1 um", "2 um"]\n' + GOAL,
+        'variables.tip_relief.dept = a list\n    is no section or field of a scene. Did you mean "tip_relief.depth"?',
+    ),
+    "ends the wrong way round": (
+        '[variables]\ntip_relief.depth = ["60 um", "2 um"]\n' + GOAL,
+        "Allowed: two ends, the lower one first.",
+    ),
+    "an end that the field does not allow": (
+        "[variables]\ntip_relief.exponent = [1, 30]\n" + GOAL,
+        "goes from 1 to 30. Allowed for this field: a number from 1 up to 10",
+    ),
+    "another kind": ('[variables]\ntip_relief.depth = ["1 N", "2 N"]\n' + GOAL, "is a force, not a length"),
+    "a range without units": (
+        "[variables]\ntip_relief.depth = [1, 2]\n" + GOAL,
+        "is not of this field. Allowed: a length",
+    ),
+    "a section": (
+        '[variables]\nfriction = ["absent", "present"]\n' + GOAL,
+        "variables.friction = a list\n    is a section.",
+    ),
+    "an end that no flank has": (
+        '[variables]\ntip_relief.length_on_path = ["3 mm", "30 mm"]\n[set]\ntip_relief.depth = "20 um"\n' + GOAL,
+        "its involute runs from",
+    ),
+    "an unknown goal": (VARIABLES + "[goals]\npeak_to_peak_transmission_eror = 1\n", f'Did you mean "{ERROR}"?'),
+    "a goal that the scene cannot give": (
+        VARIABLES + "[goals]\ndynamic_factor_by_force = 1\n",
+        "goals.dynamic_factor_by_force]\n    is no result of this scene. It needs [inertia].",
+    ),
+    "a goal without friction": (VARIABLES + "[goals]\nfriction_loss = 1\n", "It needs [friction]."),
+    "a goal over the face": (
+        VARIABLES + "[goals]\nface_load_factor = 1\n",
+        "It needs flanks that are resolved over the face",
+    ),
+    "a weight": (VARIABLES + f"[goals]\n{ERROR} = 0\n", "is not a weight. Allowed: a number above 0"),
+    "a bound of another kind": (
+        VARIABLES + GOAL + '[constraints]\npeak_contact_pressure = { at_most = "3 mm" }\n',
+        'is no bound. Allowed: { at_most = "20 MPa" }',
+    ),
+    "a scatter of nothing": (
+        VARIABLES + GOAL + "[tolerances]\nfriction.coefficient = 0.02\n",
+        "is not in the scene, so that it cannot scatter",
+    ),
+    "a scatter of no width": (VARIABLES + GOAL + '[tolerances]\ntip_relief.depth = "0 um"\n', "is not above zero"),
+    "samples": (VARIABLES + GOAL + "[tolerances]\ntolerance_class = 6\nsamples = 12\n", "is no power of two"),
+    "operating points of different number": (
+        VARIABLES + GOAL + '[loads]\nload.wheel_torque = ["1 N m", "2 N m"]\nweights = [1]\n',
+        "is not a list of 2 numbers",
+    ),
+    "a speed without inertia": (
+        VARIABLES + GOAL + '[loads]\nmotion.mesh_frequency = ["10 Hz", "20 Hz"]\n',
+        "has no effect on a scene without [inertia]",
+    ),
+    "an unknown word of the search": (VARIABLES + GOAL + "[search]\nevaluation = 3\n", 'Did you mean "evaluations"?'),
+    "no variables": (GOAL, "variables\n    is missing. Add the section [variables]"),
+}
+
+
+@pytest.mark.parametrize("what", REFUSED)
+def test_what_no_design_could_have_is_refused_by_name(folder, what):
+    """Authority: docs/optimize.md; nothing is computed or written."""
+    text, words = REFUSED[what]
+    with pytest.raises(SceneError) as refusal:
+        load_design(write(folder, STILL + text))
+    assert words in str(refusal.value) and "Nothing was computed or written" in str(refusal.value)
+
+
+def test_other_files_are_called_by_their_kind(folder):
+    """Authority: the words of `gears study` on the same mistake."""
+    with pytest.raises(SceneError, match="is a scene, not a design file; `gears run"):
+        load_design(folder / "pair.toml")
+
+
+def test_a_missing_optimiser_is_said_before_anything_is_computed(folder, monkeypatch):
+    """Authority: the words themselves; no run is there."""
+    monkeypatch.setitem(sys.modules, "optuna", None)
+    with pytest.raises(ComputationError, match="needs Optuna and cmaes"):
+        found(write(folder, RIGID + VARIABLES + GOAL + FEWER))
+    assert not (folder / "results").exists()

@@ -1,0 +1,506 @@
+"""Where a file does not give a value itself: what it follows from, what is assumed, and which of several parts is
+meant."""
+
+import base64
+from math import cos, radians, sqrt
+
+import numpy as np
+import pytest
+from tests.extensions.rexs import paper_model as rexs
+from tests.extensions.rexs.test_paper_pair import imported
+
+from fenics_gears.errors import SceneError
+from fenics_gears.extensions.rexs.imported import Choice
+from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.model.modification import removals
+from fenics_gears.scene.data import Motion
+from fenics_gears.scene.read import scene_from_text
+
+GEARS = (rexs.PINION, rexs.WHEEL)
+
+
+def scene_of(tmp_path, model, **choice):
+    """The scene of a model, and what was assumed and left out."""
+    return imported(tmp_path, rexs.as_xml(model), choice=Choice(**choice))
+
+
+def assumed_fields(found):
+    """The fields that were assumed, without how long the run takes."""
+    return {each.split(" = ")[0] for each in found.assumed} - {"motion.mesh_cycles"}
+
+
+def changed(*changes):
+    """The paper's model with values set."""
+    return rexs.with_values(rexs.paper_model(), *changes)
+
+
+def refused(tmp_path, model, **choice):
+    """What is said of a model that is refused."""
+    with pytest.raises(SceneError) as raised:
+        scene_of(tmp_path, model, **choice)
+    return str(raised.value)
+
+
+def test_root_diameter_follows_from_the_tool(tmp_path):
+    """d_f = m (z + 2 x - 2 h_aP0*), the cut of a rack; with the generating shift where the file has one (ISO 21771)."""
+    model = changed(
+        (rexs.PINION, "root_diameter", None), (rexs.PINION_TOOL, "addendum_coefficient_reference_profile", 1.4)
+    )
+    scene, found = scene_of(tmp_path, model)
+    assert scene.gears.pinion.root_diameter == pytest.approx(4.5 * (16 + 2 * 0.196 - 2 * 1.4), rel=1e-12)
+    assert not assumed_fields(found)
+    scene, _ = scene_of(
+        tmp_path, rexs.with_value(model, rexs.SETTINGS, "generated_addendum_modification_coefficient", 0.15)
+    )
+    assert scene.gears.pinion.root_diameter == pytest.approx(4.5 * (16 + 2 * 0.15 - 2 * 1.4), rel=1e-12)
+    assert scene.gears.pinion.profile_shift == 0.196
+
+
+def test_lengths_of_the_tool_stand_for_its_coefficients(tmp_path):
+    """The tool's measures in mm are those in modules times the module; those of version 2 have other names."""
+    model = changed(
+        (rexs.PINION, "root_diameter", None), (rexs.PINION_TOOL, "addendum_coefficient_reference_profile", None),
+        (rexs.PINION_TOOL, "addendum_reference_profile", 4.5 * 1.3, "mm"),
+        (rexs.PINION_TOOL, "tip_radius_factor", None),
+        (rexs.PINION_TOOL, "tip_radius", 900.0, "mum"), (rexs.WHEEL_TOOL, "tip_radius_factor", None),
+        (rexs.WHEEL_TOOL, "tip_corner_radius_factor_reference_profile", 0.25),
+    )  # fmt: skip
+    scene, found = scene_of(tmp_path, model)
+    assert scene.gears.pinion.root_diameter == pytest.approx(4.5 * (16 + 2 * 0.196 - 2 * 1.3), rel=1e-12)
+    assert (
+        scene.gears.pinion.rack_tip_radius == pytest.approx(0.2, rel=1e-12)
+        and scene.gears.wheel.rack_tip_radius == 0.25
+    )
+    assert not assumed_fields(found)
+
+
+def test_tooth_depth_gives_the_root(tmp_path):
+    """Root diameter = tip diameter - 2 h."""
+    scene, _ = scene_of(tmp_path, changed((rexs.WHEEL, "root_diameter", None), (rexs.WHEEL, "tooth_depth", 10.0, "mm")))
+    assert scene.gears.wheel.root_diameter == pytest.approx(98.64, rel=1e-12)
+
+
+def test_what_no_part_says_is_of_the_standard_and_told(tmp_path):
+    """ISO 53, basic rack A: addendum 1, dedendum 1.25, tip radius 0.38 modules; steel of ISO 6336-1; each is told as
+    assumed."""
+    model = rexs.paper_model()
+    names = ("tip_diameter", "root_diameter", "inner_diameter", "helix_angle_reference_diameter")
+    model = rexs.with_values(
+        model, *((gear, name, None) for gear in GEARS for name in names), (rexs.SHAFT, "rotational_speed", None)
+    )
+    kept = [each for each in model["model"]["relations"] if each["type"] not in ("reference", "manufacturing_step")]
+    model["model"]["relations"] = kept
+    scene, found = scene_of(tmp_path, model)
+    pinion = scene.gears.pinion
+    assert pinion.tip_diameter == pytest.approx(4.5 * (16 + 2 * 0.196 + 2), rel=1e-12)
+    assert pinion.root_diameter == pytest.approx(4.5 * (16 + 2 * 0.196 - 2.5), rel=1e-12)
+    assert pinion.rack_tip_radius == 0.38
+    assert (scene.gears.material.youngs_modulus, scene.gears.material.poissons_ratio) == (206e3, 0.3)
+    fields = {
+        f"gears.{gear}.{name}"
+        for gear in ("pinion", "wheel")
+        for name in ("tip_diameter", "root_diameter", "bore_diameter", "rack.profile")
+    }
+    assert assumed_fields(found) == fields | {"gears.material.name", "motion.pinion_speed"}
+    assert found.text.count("# assumed: ") == len(found.assumed)
+
+
+def test_basic_profile_gives_the_tip(tmp_path):
+    """d_a = m (z + 2 x + 2 h_aP*) with the addendum that the flank has."""
+    model = changed(
+        (rexs.PINION, "tip_diameter", None),
+        *((flank, "addendum_coefficient_basic_profile", 0.9) for flank in rexs.PINION_FLANKS),
+    )
+    scene, found = scene_of(tmp_path, model)
+    assert scene.gears.pinion.tip_diameter == pytest.approx(
+        4.5 * (16 + 2 * 0.196 + 1.8), rel=1e-12
+    ) and not assumed_fields(found)
+
+
+def test_missing_shift_follows_from_the_centre_distance(paper_pair, tmp_path):
+    """At the centre distance without backlash, which geometry.pair computes its own way, the other gear's shift comes
+    out."""
+    shifts = [(flank, "addendum_modification_coefficient", None) for flank in rexs.WHEEL_FLANKS]
+    scene, found = scene_of(
+        tmp_path, changed(*shifts, (rexs.STAGE, "center_distance", paper_pair.centre_distance_without_backlash, "mm"))
+    )
+    assert scene.gears.wheel.profile_shift == pytest.approx(0.125, abs=1e-8)
+    assert "gears.wheel.profile_shift" in assumed_fields(found)
+
+
+def test_shift_as_a_length(tmp_path):
+    """x m over the module."""
+    changes = [(flank, "addendum_modification_coefficient", None) for flank in rexs.PINION_FLANKS]
+    changes += [(flank, "addendum_modification", 0.882, "mm") for flank in rexs.PINION_FLANKS]
+    assert scene_of(tmp_path, changed(*changes))[0].gears.pinion.profile_shift == pytest.approx(0.196, rel=1e-14)
+
+
+def test_narrower_gear_and_common_width(tmp_path):
+    """Only the common width is in contact."""
+    model = changed((rexs.PINION, "face_width", 17.0, "mm"))
+    assert scene_of(tmp_path, model)[0].gears.face_width == 15.0
+    assert (
+        scene_of(tmp_path, rexs.with_value(model, rexs.STAGE, "common_face_width", 14.0, "mm"))[0].gears.face_width
+        == 14.0
+    )
+
+
+def test_solid_gear_and_bore_of_its_body(tmp_path):
+    """A bore of 0 is told as assumed; that of the gear's body is found."""
+    scene, found = scene_of(
+        tmp_path, changed((rexs.PINION, "inner_diameter", 0.0, "mm"), (rexs.WHEEL, "inner_diameter", None))
+    )
+    assert scene.gears.pinion.bore_diameter == pytest.approx(25.0) and "gears.wheel.bore_diameter" in assumed_fields(
+        found
+    )
+    model = changed((rexs.WHEEL, "inner_diameter", None))
+    model = rexs.with_component(
+        model, 30, "gear_body", ("inner_diameter", 44.0, "mm"), assembly={"assembly": rexs.WHEEL, "part": 30}
+    )
+    scene, found = scene_of(tmp_path, model)
+    assert scene.gears.wheel.bore_diameter == 44.0 and not assumed_fields(found)
+
+
+def test_densities_are_offered(tmp_path):
+    """Authority: the scene's own section; with what the comment offers written out, both gears have the mass of a body
+    of that density."""
+    _, found = scene_of(tmp_path, rexs.paper_model())
+    assert '#   [inertia.pinion] density = "7.85 g / cm^3", density of component 11' in found.text
+    scene = scene_from_text(
+        found.text + '\n[inertia.pinion]\ndensity = "7.85 g / cm^3"\n\n[inertia.wheel]\ndensity = "7.85 g / cm^3"\n',
+        "inert",
+    )
+    assert scene.inertia.pinion.density == pytest.approx(7.85e-9)
+
+
+def test_each_gear_has_its_own_material_and_width(tmp_path):
+    """Where they differ; where they do not, it is the pair's."""
+    model = rexs.with_component(
+        changed((rexs.PINION, "face_width", 17.0, "mm")),
+        21,
+        "material",
+        ("elastic_modulus", 70.0, "GPa"),
+        ("poisson_ratio", 0.33),
+    )
+    reference = next(
+        each
+        for each in model["model"]["relations"]
+        if each["type"] == "reference" and each["refs"][0]["id"] == rexs.WHEEL
+    )
+    reference["refs"][1]["id"] = 21
+    gears = scene_of(tmp_path, model)[0].gears
+    assert [(each.youngs_modulus, each.poissons_ratio) for each in gears.materials] == [(206e3, 0.3), (70e3, 0.33)]
+    assert gears.face_widths == (17.0, 15.0) and gears.face_width == 15.0
+
+
+@pytest.mark.parametrize("version", ["1.0", "1.1", "1.2"])
+def test_older_versions_name_parts_otherwise(paper_scene, tmp_path, version):
+    """Up to 1.2 flanks are flank_geometry, gears refer to their tools themselves, and is_driving_gear says which gear
+    drives."""
+    model = rexs.paper_model()
+    model["model"]["version"] = version
+    for each in model["model"]["components"]:
+        each["type"] = {
+            "cylindrical_gear_flank": "flank_geometry",
+            "cylindrical_stage_gear_data": "stage_gear_data",
+        }.get(each["type"], each["type"])
+    kept = [each for each in model["model"]["relations"] if each["type"] != "manufacturing_step"]
+    tools = [
+        {
+            "id": 90 + tool,
+            "type": "ordered_reference",
+            "order": 1,
+            "refs": [{"id": gear, "role": "origin"}, {"id": tool, "role": "referenced"}],
+        }
+        for gear, tool in ((rexs.PINION, rexs.PINION_TOOL), (rexs.WHEEL, rexs.WHEEL_TOOL))
+    ]
+    model["model"]["relations"] = kept + tools
+    model = rexs.with_value(model, rexs.PINION_TOOL, "tip_radius_factor", 0.3)
+    scene, _ = scene_of(tmp_path, model)
+    assert scene.gears.pinion.rack_tip_radius == 0.3 and scene.gears.wheel == paper_scene.gears.wheel
+    scene, _ = scene_of(
+        tmp_path,
+        rexs.with_values(
+            model, (rexs.PINION_DATA, "is_driving_gear", False), (rexs.WHEEL_DATA, "is_driving_gear", True)
+        ),
+    )
+    assert (scene.gears.pinion.teeth, scene.gears.wheel.teeth) == (24, 16)
+
+
+def test_pinion_is_the_gear_with_fewer_teeth_whichever_stands_first(paper_scene, tmp_path):
+    """Where the file does not say which gear drives; programs also write that neither does."""
+    model = changed((rexs.PINION_DATA, "is_driving_gear", False), (rexs.WHEEL_DATA, "is_driving_gear", False))
+    stage = next(each for each in model["model"]["relations"] if each["type"] == "stage")
+    stage["refs"] = [
+        {"id": rexs.STAGE, "role": "stage"},
+        {"id": rexs.WHEEL, "role": "gear_1"},
+        {"id": rexs.PINION, "role": "gear_2"},
+    ]
+    assert scene_of(tmp_path, model)[0].gears == paper_scene.gears
+
+
+def two_stages():
+    """The paper's pair and a further one, whose pinion is on the paper's output shaft."""
+    model = rexs.with_component(
+        rexs.paper_model(),
+        31,
+        "cylindrical_gear",
+        ("number_of_teeth", 20),
+        assembly={"assembly": rexs.OUTPUT_SHAFT, "part": 31},
+    )
+    model = rexs.with_component(model, 32, "cylindrical_gear", ("number_of_teeth", 30))
+    return rexs.with_component(model, 33, "cylindrical_stage", stage={"stage": 33, "gear_1": 31, "gear_2": 32})
+
+
+def test_several_stages_are_listed_and_one_is_chosen(paper_scene, tmp_path):
+    """The message has what to type."""
+    words = refused(tmp_path, two_stages())
+    assert (
+        "--stage 4    test stage: cylindrical_gear 5 (16 teeth) and cylindrical_gear 6 (24 teeth)" in words
+        and "--stage 33    " in words
+    )
+    assert "no stage of cylindrical gears with the number 5" in refused(tmp_path, two_stages(), stage=5)
+    # The output shaft bears two gears: its torque is not the mesh's.
+    assert "--wheel-torque" in refused(tmp_path, two_stages(), stage=4)
+    assert scene_of(tmp_path, two_stages(), stage=4, wheel_torque="437 N m")[0].gears == paper_scene.gears
+
+
+def test_planets_take_no_load_of_their_shafts(tmp_path):
+    """A shaft's torque is shared by the planets and its speed is not against the carrier: both are asked for, or of the
+    mesh itself."""
+    model = rexs.with_component(
+        rexs.paper_model(), 34, "planetary_stage", assembly={"assembly": 34, "part": rexs.STAGE}
+    )
+    assert "planets share the torque" in refused(tmp_path, model)
+    model = rexs.with_values(
+        model, (rexs.WHEEL_DATA, "torque", 145.0, "N m"), (rexs.WHEEL, "rolling_rotational_speed", -300.0, "1 / min")
+    )
+    scene, _ = scene_of(tmp_path, model)
+    assert scene.load.wheel_torque == 145e3 and scene.motion.mesh_frequency == pytest.approx(300.0 * 24 / 60, rel=1e-12)
+
+
+def test_torque_of_the_pinion_s_shaft_is_multiplied_and_of_the_stage_comes_first(tmp_path):
+    """M2 = M1 z2/z1; the sign is that of the shaft's axis and says nothing here; stage data say it of the mesh
+    itself."""
+    model = rexs.with_component(
+        changed((rexs.LOAD, "torque_around_u_axis", None), (rexs.LOAD, "transmits_torque", False)),
+        35,
+        "external_load",
+        ("torque_around_u_axis", 200.0, "N m"),
+        assembly={"assembly": rexs.SHAFT, "part": 35},
+    )
+    assert scene_of(tmp_path, model)[0].load.wheel_torque == pytest.approx(300e3, rel=1e-12)
+    model = rexs.with_value(model, rexs.PINION_DATA, "torque", -150.0, "N m")
+    assert scene_of(tmp_path, model)[0].load.wheel_torque == pytest.approx(225e3, rel=1e-12)
+
+
+def test_torques_of_a_shaft_are_summed_once_all_are_known(tmp_path):
+    """Two brakes on the output shaft; one whose torque is not known leaves the sum unknown."""
+    place = {"assembly": rexs.OUTPUT_SHAFT, "part": 36}
+    two = rexs.with_component(
+        rexs.paper_model(), 36, "external_load", ("torque_around_u_axis", -63.0, "N m"), assembly=place
+    )
+    assert scene_of(tmp_path, two)[0].load.wheel_torque == 500e3
+    unknown = rexs.with_component(rexs.paper_model(), 36, "external_load", ("transmits_torque", True), assembly=place)
+    assert "no torque" in refused(tmp_path, unknown)
+
+
+def with_load_cases(*torques):
+    """The paper's model with a load spectrum."""
+    model = changed((rexs.LOAD, "torque_around_u_axis", None), (rexs.SHAFT, "rotational_speed", None))
+    cases = [
+        {"id": number, "components": [
+            {"id": rexs.LOAD, "attributes": [rexs.attribute("torque_around_u_axis", torque, "N m")]},
+            {"id": rexs.SHAFT, "attributes": [rexs.attribute("rotational_speed", 100.0 * number, "1 / min")]},
+        ]}
+        for number, torque in enumerate(torques, start=1)
+    ]  # fmt: skip
+    model["model"]["load_spectrum"] = {"id": 1, "load_cases": cases}
+    return model
+
+
+@pytest.mark.parametrize("form", [rexs.as_xml, rexs.as_json])
+def test_load_cases(tmp_path, form):
+    """The only case is taken; of several one is chosen; a call that says torque and speed needs none."""
+    scene, _ = imported(tmp_path, form(with_load_cases(300.0)))
+    assert (scene.load.wheel_torque, scene.motion) == (300e3, Motion(pytest.approx(100 / 60 * 16), 1, 1))
+    with pytest.raises(SceneError, match="2 load cases; a scene has one. Choose it with --load-case: 1, 2"):
+        imported(tmp_path, form(with_load_cases(300.0, 200.0)))
+    with pytest.raises(SceneError, match='no load case "3". It has: 1, 2'):
+        imported(tmp_path, form(with_load_cases(300.0, 200.0)), choice=Choice(load_case="3"))
+    scene, _ = imported(tmp_path, form(with_load_cases(300.0, 200.0)), choice=Choice(load_case="2"))
+    assert (scene.load.wheel_torque, scene.motion.mesh_frequency) == (200e3, pytest.approx(200 / 60 * 16))
+    scene, _ = imported(
+        tmp_path, form(with_load_cases(300.0, 200.0)), choice=Choice(wheel_torque="1 kN m", pinion_speed="10 rev/s")
+    )
+    assert (scene.load.wheel_torque, scene.motion.mesh_frequency) == (1e6, pytest.approx(160.0))
+
+
+def with_relief(kind="tip_relief", sides=(0, 1), gear_flanks=rexs.PINION_FLANKS, **values):
+    """The paper's model with a relief on a gear's flanks."""
+    attributes = {"depth": (31.0, "mum"), "datum_diameter": (79.0, "mm"), **values}
+    given = [
+        (name if name.startswith(("shape", "specify")) else f"{kind}_{name}", *value)
+        for name, value in attributes.items()
+    ]
+    model = rexs.with_component(rexs.paper_model(), 40, kind, *given)
+    for side in sides:
+        model["model"]["relations"].append(
+            {
+                "id": 400 + side,
+                "type": "reference",
+                "refs": [{"id": gear_flanks[side], "role": "origin"}, {"id": 40, "role": "referenced"}],
+            }
+        )
+    return model
+
+
+def test_reliefs(tmp_path):
+    """Depth, start and shape are those of the file; the other gear has none."""
+    scene, found = scene_of(tmp_path, with_relief())
+    assert (scene.tip_relief.pinion.depth, scene.tip_relief.pinion.start_diameter, scene.tip_relief.pinion.shape) == (
+        pytest.approx(0.031),
+        79.0,
+        "linear",
+    )
+    assert (
+        scene.tip_relief.wheel is None
+        and scene.root_relief is None
+        and "tip_relief.pinion.shape" in assumed_fields(found)
+    )
+    values = {"depth": (12.0, "mum"), "datum_diameter": (107.0, "mm"), "shape_of_relief": ("parabolic",)}
+    scene, found = scene_of(tmp_path, with_relief("root_relief", gear_flanks=rexs.WHEEL_FLANKS, **values))
+    relief = scene.root_relief.wheel
+    assert (relief.depth, relief.start_diameter, relief.shape) == (
+        pytest.approx(0.012),
+        107.0,
+        "parabolic",
+    ) and scene.tip_relief is None
+    assert not assumed_fields(found)
+    assert scene_of(tmp_path, with_relief(depth=(0.0, "mm")))[0].tip_relief is None
+
+
+@pytest.mark.parametrize("shape, power", [("linear", 1), ("parabolic", 2)])
+def test_relief_given_below_the_tip_is_extended_to_it(tmp_path, shape, power):
+    """depth ((v - v0)/(v1 - v0))^power with roll angles v = sqrt(d^2/db^2 - 1), the scene's own law, has the file's
+    depth where it says."""
+    scene, _ = scene_of(tmp_path, with_relief(evaluation_reference=(81.0, "mm"), shape_of_relief=(shape,)))
+    base = 72.0 * cos(radians(20.0))
+    start, there, tip = (sqrt((diameter / base) ** 2 - 1.0) for diameter in (79.0, 81.0, 82.64))
+    assert scene.tip_relief.pinion.depth * ((there - start) / (tip - start)) ** power == pytest.approx(0.031, rel=1e-10)
+
+
+def test_reliefs_by_their_length_of_roll(tmp_path):
+    """L_C of ISO 21771 is the scene's own length on the path of contact: where the relief of a tip starts, geometry
+    computes its own way; beside
+    the diameter that it gives the length says nothing new; the depth at another diameter is extended from that
+    start."""
+    base = 36.0 * cos(radians(20.0))
+    length = sqrt(41.32**2 - base**2) - sqrt(39.5**2 - base**2)
+    scene, _ = scene_of(tmp_path, with_relief(datum_length=(length, "mm")))
+    assert scene.tip_relief.pinion.start_diameter == 79.0 and scene.tip_relief.pinion.length_on_path is None
+    values = {"datum_length": (length * 1e3, "mum"), "evaluation_reference": (81.0, "mm")}
+    scene, _ = scene_of(tmp_path, rexs.with_value(with_relief(**values), 40, "tip_relief_datum_diameter", None))
+    assert scene.tip_relief.pinion.length_on_path == pytest.approx(length)
+    start, there, tip = (sqrt((0.5 * diameter / base) ** 2 - 1.0) for diameter in (79.0, 81.0, 82.64))
+    assert scene.tip_relief.pinion.depth * (there - start) / (tip - start) == pytest.approx(0.031, rel=1e-9)
+    curve = removals(scene, gear_pair(scene.gears))[0]
+    assert curve(start * (1 - 1e-9)) == 0.0 and 0.0 < curve(start * (1 + 1e-4)) < 1e-3
+    scene, _ = scene_of(
+        tmp_path,
+        rexs.with_value(with_relief("root_relief", datum_length=(1.5, "mm")), 40, "root_relief_datum_diameter", None),
+    )
+    assert scene.root_relief.pinion.length_on_path == 1.5
+
+
+@pytest.mark.parametrize("form", [rexs.as_xml, rexs.as_json])
+@pytest.mark.parametrize("dtype, code", [("<f4", "float32"), ("<f8", "float64")])
+def test_arrays(paper_scene, tmp_path, form, dtype, code):
+    """Authority: numpy's bytes. An array of one entry, plain or coded, with padding or without, is that entry; a longer
+    one that no scene has a
+    place for is told with its range."""
+    amounts = np.array([-2.5, 0.25, 12.0], dtype)
+    coded = {"code": code, "value": base64.b64encode(amounts.tobytes()).decode().rstrip("=")}
+    one = {"code": code, "value": base64.b64encode(np.array([4.5], dtype).tobytes()).decode()}
+    model = changed((rexs.WHEEL, "normal_module", [4.5], "mm"))
+    module = next(each for each in rexs.component(model, rexs.PINION)["attributes"] if each["id"] == "normal_module")
+    del module["floating_point"]
+    module["floating_point_array_coded"] = one
+    flank = rexs.component(model, rexs.PINION_FLANKS[0])
+    flank["attributes"].append(
+        {"id": "topographical_deviation_amounts", "unit": "mum", "floating_point_array_coded": coded}
+    )
+    scene, found = imported(tmp_path, form(model))
+    assert scene.gears == paper_scene.gears
+    assert found.left_out == (
+        "component 7 (cylindrical_gear_flank): topographical_deviation_amounts = 3 values from -2.5 to 12 um",
+    )
+
+
+def test_loaded_flank_decides_where_flanks_differ(tmp_path):
+    """A relief of the left flank only: which flank is loaded must be known."""
+    model = with_relief(sides=(0,))
+    assert "does not say which one is loaded" in refused(tmp_path, model)
+    assert (
+        scene_of(tmp_path, rexs.with_value(model, rexs.PINION_DATA, "loaded_tooth_flank", "left"))[0].tip_relief
+        is not None
+    )
+    assert (
+        scene_of(tmp_path, rexs.with_value(model, rexs.PINION_DATA, "loaded_tooth_flank", "right"))[0].tip_relief
+        is None
+    )
+
+
+def test_what_a_scene_has_no_place_for_is_told(tmp_path):
+    """Other modifications, tolerances of thickness and protuberances are in the scene's comment, zeros are not."""
+    model = changed(
+        (rexs.PINION, "tooth_thickness_deviation_tolerance_series_din_3967_1978", "c25"),
+        (rexs.PINION_TOOL, "protuberance_amount", 0.1, "mm"),
+        (rexs.WHEEL, "runout_tolerance", 0.0, "mm"),
+    )
+    model = rexs.with_component(
+        model, 41, "profile_crowning", reference={"origin": rexs.WHEEL_FLANKS[1], "referenced": 41}
+    )
+    _, found = scene_of(tmp_path, model)
+    assert len(found.left_out) == 3 and all(f"#   {each}" in found.text for each in found.left_out)
+    for words in (
+        "component 41 (profile_crowning) of the right flank of component 6",
+        "= c25",
+        "protuberance_amount = 0.1 mm",
+    ):
+        assert any(words in each for each in found.left_out)
+
+
+def test_tolerance_class(tmp_path):
+    """The class of both gears, the coarser of two, under its names of 1.3 and of 2.0; one that ISO 1328-1:2013 lacks is
+    left out."""
+    first, later = "tolerance_class_according_to_iso_1328_2013", "global_tolerance_class_iso_1328_2013"
+    scene, _ = scene_of(tmp_path, changed((rexs.PINION, first, "6"), (rexs.WHEEL, first, "6")))
+    assert scene.flank_errors.tolerance_class == 6 and scene.motion.mesh_cycles == 48
+    scene, found = scene_of(tmp_path, changed((rexs.PINION, later, "6"), (rexs.WHEEL, later, "7")))
+    assert scene.flank_errors.tolerance_class == 7 and "the coarser of the two gears" in found.text
+    scene, found = scene_of(tmp_path, changed((rexs.PINION, first, "12"), (rexs.WHEEL, first, "0")))
+    assert scene.flank_errors is None and len(found.left_out) == 2
+
+
+def test_names_of_a_file_stay_in_comments(paper_scene, tmp_path):
+    """A name with a line break and TOML in it adds nothing to the scene."""
+    model = rexs.paper_model()
+    for number in (rexs.STAGE, rexs.PINION):
+        rexs.component(model, number)["name"] = 'x"\n[friction]\ncoefficient = 0.5\n"""'
+    scene, _ = imported(tmp_path, rexs.as_json(model), name="na\nme.rexsj")
+    assert scene.friction is None and scene.gears == paper_scene.gears
+
+
+def test_load_case_may_turn_the_drive_round(tmp_path):
+    """A load case in which the other gear drives: pinion, wheel, torque and speed change places together."""
+    model = with_load_cases(300.0)
+    data = [
+        {"id": number, "attributes": [rexs.attribute("is_driving_gear", number == rexs.WHEEL_DATA)]}
+        for number in (rexs.PINION_DATA, rexs.WHEEL_DATA)
+    ]
+    model["model"]["load_spectrum"]["load_cases"][0]["components"] += data
+    scene, _ = scene_of(tmp_path, model)
+    assert (scene.gears.pinion.teeth, scene.gears.wheel.teeth) == (24, 16)
+    assert scene.load.wheel_torque == pytest.approx(300e3 * 16 / 24)
+    assert scene.motion.mesh_frequency == pytest.approx(100 / 60 * 16)

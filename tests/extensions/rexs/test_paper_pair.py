@@ -1,0 +1,169 @@
+"""The paper's pair from REXS: every form of the file and every unit give the scene that the demo is.
+
+Authority: demos/lundvall2004.toml, read by the scene's own reader.
+"""
+
+from dataclasses import astuple, replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.extensions.rexs import paper_model as rexs
+from tests.random_pairs import valid_pairs
+
+from fenics_gears.extensions.rexs.imported import Choice, imported_scene
+from fenics_gears.scene.read import scene_from_text
+
+
+def imported(tmp_path, content, name="file.rexs", choice=Choice()):
+    """The scene of a file's content, and what was assumed and left out."""
+    path = tmp_path / name
+    path.write_bytes(content)
+    found = imported_scene(path, choice)
+    return scene_from_text(found.text, "imported"), found
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        "XML",
+        "JSON",
+        "XML in ZIP",
+        "JSON in ZIP",
+        "XML with namespace",
+        "XML with byte-order mark",
+        "JSON with byte-order mark",
+    ],
+)
+def test_every_form_gives_the_paper_s_pair(paper_scene, tmp_path, form):
+    """All gear fields are equal to the last digit, and so is the load; the speed is, once rpm are mesh cycles a
+    second."""
+    model = rexs.paper_model()
+    xml, json = rexs.as_xml(model), rexs.as_json(model)
+    content = {
+        "XML": xml,
+        "JSON": json,
+        # What macOS adds to an archive, and what a model may refer to.
+        "XML in ZIP": rexs.as_zip(("model.rexs", xml), ("__MACOSX/._model.rexs", b"\0"), ("gear.gde", b"")),
+        "JSON in ZIP": rexs.as_zip(("model.rexsj", json)),
+        "XML with namespace": rexs.as_xml(model, namespace="https://www.rexs.info/schema/rexs-file"),
+        "XML with byte-order mark": b"\xef\xbb\xbf" + xml,
+        "JSON with byte-order mark": b"\xef\xbb\xbf" + json,
+    }[form]
+    scene, found = imported(tmp_path, content)
+    assert scene.gears == paper_scene.gears
+    assert scene.load == paper_scene.load
+    assert scene.motion.mesh_frequency == pytest.approx(paper_scene.motion.mesh_frequency, rel=1e-14)
+    assert [each.split(" = ")[0] for each in found.assumed] == ["motion.mesh_cycles"] and not found.left_out
+
+
+def test_demo_file_is_the_paper_s_pair(paper_scene, tmp_path):
+    """demos/lundvall2004.rexs, which the documentation takes, gives the gears, load and speed of
+    demos/lundvall2004.toml."""
+    from tests.conftest import DEMOS
+
+    scene, _ = imported(tmp_path, (DEMOS / "lundvall2004.rexs").read_bytes())
+    assert (scene.gears, scene.load) == (paper_scene.gears, paper_scene.load)
+    assert scene.motion.mesh_frequency == pytest.approx(paper_scene.motion.mesh_frequency, rel=1e-14)
+
+
+# Units a REXS file may have, and how many N, mm, s, rad (kg/dm^3 for the density) each is: from their definitions.
+LENGTHS = {"mm": 1.0, "m": 1000.0, "cm": 10.0, "mum": 1e-3, "µm": 1e-3, "in": 25.4}
+ANGLES = {"deg": 1.0, "°": 1.0, "rad": 57.29577951308232, "mrad": 0.05729577951308232}
+SPEEDS = {"1 / min": 1.0, "rpm": 1.0, "1 / s": 60.0, "rad / s": 9.549296585513721, "Hz": 60.0}
+TORQUES = {"N m": 1.0, "Nm": 1.0, "N mm": 1e-3, "kN m": 1e3}
+STRESSES = {"N / mm^2": 1.0, "MPa": 1.0, "GPa": 1e3, "Pa": 1e-6}
+RATIOS = {"none": 1.0, "": 1.0, "%": 0.01}
+QUANTITIES = [
+    (
+        LENGTHS,
+        [
+            (rexs.PINION, name)
+            for name in ("normal_module", "tip_diameter", "root_diameter", "inner_diameter", "face_width")
+        ],
+    ),
+    (
+        LENGTHS,
+        [
+            (rexs.STAGE, "center_distance"),
+            (rexs.WHEEL, "normal_module"),
+            (rexs.WHEEL, "tip_diameter"),
+            (rexs.WHEEL, "face_width"),
+        ],
+    ),
+    (ANGLES, [(flank, "normal_pressure_angle") for flank in rexs.PINION_FLANKS + rexs.WHEEL_FLANKS]),
+    (SPEEDS, [(rexs.SHAFT, "rotational_speed")]),
+    (TORQUES, [(rexs.LOAD, "torque_around_u_axis")]),
+    (STRESSES, [(rexs.MATERIAL, "elastic_modulus")]),
+    (
+        RATIOS,
+        [
+            (rexs.MATERIAL, "poisson_ratio"),
+            *((flank, "addendum_modification_coefficient") for flank in rexs.PINION_FLANKS),
+        ],
+    ),
+]
+
+
+@given(data=st.data())
+def test_units_do_not_matter(paper_scene, tmp_path_factory, data):
+    """Property: whatever units the file has, the scene is the same, to rounding in the conversion written here."""
+    model = rexs.paper_model()
+    for units, places in QUANTITIES:
+        for number, name in places:
+            written = next(each for each in rexs.component(model, number)["attributes"] if each["id"] == name)
+            unit = data.draw(st.sampled_from(sorted(units)))
+            written["floating_point"], written["unit"] = written["floating_point"] / units[unit], unit
+    content = data.draw(st.sampled_from([rexs.as_xml, rexs.as_json]))(model)
+    scene, _ = imported(tmp_path_factory.mktemp("units"), content)
+    assert_same_gears(scene.gears, paper_scene.gears)
+    assert scene.load.wheel_torque == pytest.approx(437e3, rel=1e-13)
+    assert scene.motion.mesh_frequency == pytest.approx(200.0, rel=1e-13)
+
+
+def assert_same_gears(found, expected):
+    """All fields of both gears and of the pair, to rounding."""
+    for each, other in (
+        (found.pinion, expected.pinion),
+        (found.wheel, expected.wheel),
+        (found.material, expected.material),
+    ):
+        assert astuple(each) == pytest.approx(astuple(other), rel=1e-12)
+    plain = [astuple(replace(gears, pinion=None, wheel=None, material=None))[:4] for gears in (found, expected)]
+    assert plain[0] == pytest.approx(plain[1], rel=1e-12)
+
+
+@given(pair=valid_pairs(), form=st.sampled_from([rexs.as_xml, rexs.as_json]))
+def test_any_pair_comes_back(pair, form, tmp_path_factory):
+    """Property: gears of any proportions, written as REXS, are the ones that the scene has; the one with fewer teeth is
+    the pinion."""
+    model = rexs.with_value(rexs.paper_model(), rexs.STAGE, "center_distance", pair.centre_distance, "mm")
+    parts = (
+        (pair.pinion, rexs.PINION, rexs.PINION_FLANKS, rexs.PINION_TOOL),
+        (pair.wheel, rexs.WHEEL, rexs.WHEEL_FLANKS, rexs.WHEEL_TOOL),
+    )
+    for gear, number, flanks, tool in parts:
+        diameters = {
+            "tip_diameter": gear.tip_radius,
+            "root_diameter": gear.root_radius,
+            "inner_diameter": gear.bore_radius,
+        }
+        changes = [(number, name, 2.0 * radius, "mm") for name, radius in diameters.items()]
+        changes += [
+            (number, "normal_module", gear.module, "mm"),
+            (number, "number_of_teeth", gear.teeth),
+            (tool, "tip_radius_factor", gear.rack_tip_radius / gear.module),
+        ]
+        changes += [(flank, "normal_pressure_angle", gear.pressure_angle, "rad") for flank in flanks]
+        changes += [(flank, "addendum_modification_coefficient", gear.profile_shift) for flank in flanks]
+        model = rexs.with_values(model, *changes)
+    scene, _ = imported(tmp_path_factory.mktemp("pairs"), form(model))
+    expected = sorted((pair.pinion, pair.wheel), key=lambda gear: gear.teeth)
+    for found, gear in zip((scene.gears.pinion, scene.gears.wheel), expected):
+        diameters = (2.0 * gear.tip_radius, 2.0 * gear.root_radius, 2.0 * gear.bore_radius)
+        assert (found.teeth, found.profile_shift) == (gear.teeth, gear.profile_shift)
+        assert (found.tip_diameter, found.root_diameter, found.bore_diameter) == diameters
+        assert found.rack_tip_radius == pytest.approx(gear.rack_tip_radius / gear.module, rel=1e-14)
+    assert (
+        scene.gears.pressure_angle == pair.pinion.pressure_angle and scene.gears.centre_distance == pair.centre_distance
+    )

@@ -1,0 +1,114 @@
+"""How extensions are found: the worked example of the guide, extensions that fail, and what all of them may use."""
+
+import inspect
+import os
+import re
+import subprocess
+import sys
+
+import pytest
+from tests.docs.blocks import ROOT, blocks
+from tests.studies.conftest import DEMO
+
+import fenics_gears
+from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.scene.read import load_scene
+
+GUIDE = ROOT / "docs" / "adding_an_extension.md"
+MODULE = next(block.code for block in blocks(GUIDE) if block.language == "python")
+ENTRY_POINTS = next(block.code for block in blocks(GUIDE) if "entry-points" in block.code)
+GROUP = "fenics_gears.extensions"
+
+
+@pytest.fixture
+def install(tmp_path):
+    """Puts a module where pip puts a package, with its entry points in that group."""
+
+    def put(name, code, **entry_points):
+        (tmp_path / f"{name}.py").write_text(code, encoding="utf-8")
+        metadata = tmp_path / f"{name}-1.0.dist-info"
+        metadata.mkdir()
+        (metadata / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n", encoding="utf-8")
+        lines = [f"[{GROUP}]", *(f"{entry} = {module}" for entry, module in entry_points.items())]
+        (metadata / "entry_points.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        return tmp_path
+
+    return put
+
+
+def gears(folder, *arguments):
+    """Run `gears` with the packages of a folder installed."""
+    return subprocess.run(
+        [sys.executable, "-P", "-m", "fenics_gears", *map(str, arguments)],
+        env={**os.environ, "PYTHONPATH": f"{ROOT}{os.pathsep}{folder}"},
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+
+
+def test_the_guides_extension_runs(install):
+    """Authority: the guide; the pair's own clearances."""
+    entry, module = re.search(rf'entry-points\."{GROUP}"\]\n(\w+) = "(\w+)"', ENTRY_POINTS).groups()
+    folder, pair = install(module, MODULE, **{entry: module}), gear_pair(load_scene(DEMO).gears)
+    assert "clearances   print backlash" in gears(folder, "--help").stdout
+    done = gears(folder, "clearances", DEMO)
+    assert (done.returncode, done.stderr) == (0, "")
+    numbers = [float(each) for each in re.findall(r"(\d+\.\d+) mm", done.stdout)]
+    assert numbers == pytest.approx([pair.backlash, *pair.tip_clearances], abs=5e-4)
+    assert gears(folder, "clearances", DEMO, "--least", "9 mm", "--quiet").returncode == 1
+    wrong = gears(folder, "clearances", folder / "none.toml")
+    assert wrong.returncode == 2 and "there is no such file" in wrong.stderr
+
+
+def test_one_that_fails_is_left_out_and_named(install):
+    """Authority: house rule on errors; the other commands work. A module that is not there, one without `add`, one
+    whose command's name is taken."""
+    taken = "def add(commands, shared):\n    commands.add_parser('map')\n"
+    folder = install("taken", taken, absent="no_such_module", second="taken", third="math")
+    done = gears(folder, "cache")
+    assert done.returncode == 0 and "cache" in done.stdout.lower()
+    lines = done.stderr.splitlines()
+    said = re.compile(r"The extension (\w+ \(\w+\)) cannot be loaded and is left out: ")
+    assert [said.match(each)[1] for each in lines] == ["absent (no_such_module)", "second (taken)", "third (math)"]
+    assert "No module named 'no_such_module'" in lines[0] and "conflicting subparser: map" in lines[1]
+    assert "has no attribute 'add'" in lines[2]
+
+
+def test_a_help_does_not_load_numerics():
+    """Authority: `gears --help` is there at once. Modules of commands load at their top what is quick."""
+    script = (
+        "import sys\nfrom fenics_gears.commands.cli import main\ntry:\n    main(['--help'])\nexcept SystemExit:\n"
+        "    print(sorted({'numpy', 'matplotlib', 'xarray', 'pydantic', 'importlib.metadata'} & set(sys.modules)))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-P", "-c", script],
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+    )
+    assert done.stdout.splitlines()[-1] == "[]", done.stderr
+
+
+@pytest.mark.parametrize("name", [name for name in fenics_gears.__all__ if name != "__version__"])
+def test_what_everybody_may_use_is_documented(name):
+    """Authority: docs/adding_an_extension.md; a constant is documented beside its definition. Names of modules that are
+    offered have docstrings too."""
+    found = getattr(fenics_gears, name)
+    if inspect.ismodule(found):
+        names = getattr(found, "__all__", [each for each in vars(found) if not each.startswith("_")])
+        inside = [getattr(found, each) for each in names]
+        own = [each for each in inside if getattr(each, "__module__", "").startswith("fenics_gears")]
+        assert found.__doc__ and own and all(each.__doc__ for each in own)
+    elif callable(found):
+        assert found.__doc__ and len(found.__doc__) > 30
+
+
+def test_names_of_the_guide_are_offered():
+    """Authority: `fenics_gears.__all__` and the modules in it."""
+    table = re.search(r"\| for \| take \|\n(.*)", GUIDE.read_text(encoding="utf-8"), re.S)[1]
+    for name in re.findall(r"`([\w.]+)`", table):
+        first, *rest = name.split(".")
+        assert first in fenics_gears.__all__
+        found = getattr(fenics_gears, first)
+        assert all(hasattr(found, each) for each in rest), name

@@ -1,0 +1,23 @@
+"""Commands that run many scenes refuse, before they compute, a place that cannot take their result. Authority: hard
+case 26."""
+
+from pathlib import Path
+
+import pytest
+from tests.commands.test_places_to_write import check_refusal
+
+DESIGN = """
+scene = "pair.toml"
+set.tip_relief.start = "HPSTC"
+variables.tip_relief.depth = ["5 um", "60 um"]
+goals.peak_to_peak_transmission_error = 1
+"""
+CALLS = {"map.nc": ["map", "pair.toml", "--loads", "100 N m"], "best.toml": ["optimize", "design.toml"]}
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_a_folder_under_the_results_name(tmp_path, monkeypatch, capsys, name):
+    """Named, with the remedy; what was there is all that is there."""
+    monkeypatch.chdir(tmp_path)
+    Path("design.toml").write_text(DESIGN, encoding="utf-8")
+    check_refusal(CALLS[name], name, capsys)
