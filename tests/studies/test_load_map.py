@@ -13,7 +13,9 @@ from tests.studies.conftest import gears, stamps
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
-from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings, Inertia, Shafts
+from fenics_gears.effects.bearings import BearingPlaces, Bearings
+from fenics_gears.effects.inertia import Inertia
+from fenics_gears.effects.shafts import Shafts
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.results.settled import settling_time

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 import fenics_gears
-from fenics_gears.inputs.fields import AllowedFile
+from fenics_gears.inputs.allowed import AllowedFile
 from fenics_gears.inputs.tree import value_at
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.results.files import save
