@@ -21,7 +21,7 @@ def test_imports_point_one_way(monkeypatch):
 
 
 # What a scene may have, how it is read and refused; effects say for themselves what they import.
-DECLARED = {"effects.lead_modifications", "effects.misalignment", "geometry.face_data", "scene.face_rules"}
+DECLARED = {"effects.lead_modifications", "effects.misalignment", "scene.face_rules"}
 PLANE_RUN = """
 import sys
 from fenics_gears.commands.cli import main

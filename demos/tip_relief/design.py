@@ -47,7 +47,7 @@ def paper_scene(accuracy: Accuracy = ACCURACY) -> Scene:
         scene,
         inertia=None,
         damping=None,
-        corner_contact=CornerContact((0.0, 0.0)),
+        corner_contact=CornerContact(0.0),
         accuracy=accuracy,
         motion=Motion(200.0, 1, 1),
     )
@@ -72,7 +72,7 @@ def relief(pair: GearPair, design: Design) -> TipRelief:
     )
     return TipRelief(
         *(
-            Relief(design.depth / MICROMETRES, tip - design.length * (tip - single), design.shape)
+            Relief(design.depth / MICROMETRES, tip - design.length * (tip - single), shape=design.shape)
             for tip, single in ends
         )
     )

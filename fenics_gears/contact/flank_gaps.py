@@ -20,11 +20,11 @@ from fenics_gears.contact.operator import node_slices
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, ToothPair
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations
-from fenics_gears.geometry.flank_error_data import FlankErrors
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
     from fenics_gears.contact.face import Face
+    from fenics_gears.effects.flank_errors_sections import FlankErrors
 
 # A later tooth stands behind on the pinion, whose flank drives: the gap opens. On the wheel it stands nearer to the
 # pinion's.

@@ -9,13 +9,16 @@ and left out.
 from __future__ import annotations
 
 from math import cos, pi, sin
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import normals
-from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
 from fenics_gears.geometry.pair import GearPair
+
+if TYPE_CHECKING:
+    from fenics_gears.effects.eccentricity import Eccentricity, Offset
 
 
 class RunOut:

@@ -8,14 +8,17 @@ operator's own rows of tilts close it.
 from __future__ import annotations
 
 from math import cos, pi, sin
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import COORDINATES, displacement_jacobian
 from fenics_gears.contact.run_out import RunOut
-from fenics_gears.geometry.eccentricity_data import Eccentricity
 from fenics_gears.geometry.pair import GearPair
+
+if TYPE_CHECKING:
+    from fenics_gears.effects.eccentricity import Eccentricity
 
 TILTS = [[COORDINATES.index(f"tilt_{direction}{gear}") for direction in "xy"] for gear in (1, 2)]
 

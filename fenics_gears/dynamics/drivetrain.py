@@ -12,13 +12,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.contact.operator import COORDINATES, FACE_COORDINATES
-from fenics_gears.dynamics.drivetrain_data import RAYLEIGH, Bearings, Damping, Inertia, Shafts
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.gear_inertia import LumpedGear
     from fenics_gears.dynamics.tilting import MeshOverFace
+    from fenics_gears.effects.bearings import Bearings
+    from fenics_gears.effects.damping import Damping
+    from fenics_gears.effects.inertia import Inertia
+    from fenics_gears.effects.shafts import Shafts
 
 # The load's moment of inertia over the wheel's, at most: their sum keeps six digits of the wheel's.
 MOST_OF_WHEEL = 1e10
@@ -198,7 +201,7 @@ def _mass(names: tuple[str, ...], inertia: Inertia, gears: Mapping[str, LumpedGe
         mass[second, second] += end
         mass[second, twist] = mass[twist, second] = end
     elif inertia.load is not None:
-        mass[second, second] += inertia.load
+        mass[second, second] += inertia.load.moment_of_inertia
     return mass
 
 
@@ -214,10 +217,10 @@ def _check_load(end: float, wheel: float) -> None:
 
 def _damping(damping: Damping, undamped: Drivetrain, mesh_stiffness: float) -> np.ndarray:
     """D (k, k): alpha K + beta M of either shaft, or by the ratios of the modes with one tooth pair in mesh."""
-    if damping.ratios:
+    if damping.modal:
         from fenics_gears.dynamics.modal_damping import modal_damping
 
-        return modal_damping(undamped, mesh_stiffness, damping.ratios)
+        return modal_damping(undamped, mesh_stiffness, damping.modal)
     # No spring and no mass connects both sides of the mesh: a row and its column have the same factors.
-    alpha, beta = (np.array([[damping.of(SIDE[name], each)] for name in undamped.coordinates]) for each in RAYLEIGH)
+    alpha, beta = np.array([damping.rayleigh(SIDE[name]) for name in undamped.coordinates]).T[:, :, None]
     return alpha * undamped.stiffness + beta * undamped.mass

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from fenics_gears.dynamics.drivetrain_data import Inertia
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
+    from fenics_gears.effects.inertia import Inertia
     from fenics_gears.geometry.section import CrossSection
 
 GEARS = ("pinion", "wheel")

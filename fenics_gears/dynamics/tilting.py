@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.dynamics.drivetrain_data import Bearings
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
+    from fenics_gears.effects.bearings import Bearings
 
 # Shifts of natural frequencies that give a warning.
 GYROSCOPIC = 0.05

@@ -7,11 +7,14 @@ The angle is that of the nominal motion: deviations of the shaft's end from it a
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.dynamics.drivetrain import Drivetrain, forces_of_torque
-from fenics_gears.dynamics.torque_ripple_data import TorqueRipple
+
+if TYPE_CHECKING:
+    from fenics_gears.effects.torque_ripple import TorqueRipple
 
 
 def torque(ripple: TorqueRipple, angles: Sequence[float]) -> np.ndarray:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Optional
+from dataclasses import dataclass
 
-from fenics_gears.dynamics.drivetrain_data import Bearings
-from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.inputs.fields import Section, quantities, quantity
+from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
+from fenics_gears.inputs.fields import quantities, quantity
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, quantity_at, quantity_in, table
 from fenics_gears.inputs.written import as_written
 
@@ -18,7 +18,7 @@ LEAST_SPAN = 0.1
 
 
 def _stiffness(meaning: str, otherwise: str):
-    return quantity("1e-6 N/mm", "1e20 N/mm", "0.155e6 N/mm", meaning=meaning, otherwise=otherwise)
+    return quantity("1e-6 N/mm to 1e20 N/mm", "0.155e6 N/mm", meaning=meaning, otherwise=otherwise)
 
 
 def _places(gear: str):
@@ -27,35 +27,45 @@ def _places(gear: str):
         " pinion is seen to turn counter-clockwise"
     )
     return quantities(
-        "-10 m", "10 m", "-40 mm", "60 mm", meaning=meaning, otherwise=f"the {gear} does not tilt", count=2
+        "-10 m to 10 m", "-40 mm", "60 mm", meaning=meaning, otherwise=f"the {gear} does not tilt", count=2
     )
 
 
-class SupportText(Section):
+@dataclass(frozen=True)
+class Support(Section):
     """``[bearings.pinion]`` and ``[bearings.wheel]``; fields that are left out are those of ``[bearings]``, and the
     defaults hold if that
     section leaves them out too."""
 
-    stiffness: Optional[float] = _stiffness(
+    stiffness: float | None = _stiffness(
         "stiffness in all directions across the axis", "from `stiffness_x` and `stiffness_y`"
     )
-    stiffness_x: Optional[float] = _stiffness("stiffness along the line of action", "`stiffness`")
-    stiffness_y: Optional[float] = _stiffness("stiffness off the line of action", "`stiffness`")
-    axial_stiffness: Optional[float] = _stiffness(
+    stiffness_x: float | None = _stiffness("stiffness along the line of action", "`stiffness`")
+    stiffness_y: float | None = _stiffness("stiffness off the line of action", "`stiffness`")
+    axial_stiffness: float | None = _stiffness(
         "stiffness of the whole shaft along its axis, only of a gear whose bearings have `places`",
         "the shaft is held axially",
     )
 
+    def along(self, direction: str) -> float | None:
+        """Stiffness (N/mm) in "x" or "y"; None where it is not given."""
+        own = {"x": self.stiffness_x, "y": self.stiffness_y}[direction]
+        return self.stiffness if own is None else own
 
-class BearingPlacesText(Section):
+
+@dataclass(frozen=True)
+class BearingPlaces(Section):
     """``[bearings.places]``: where the bearings stand along the shafts, each of them with half of the stiffness. The
     shafts are rigid, and the gears tilt on them."""
 
-    pinion: Optional[tuple[float, ...]] = _places("pinion")
-    wheel: Optional[tuple[float, ...]] = _places("wheel")
+    empty = 'is empty. Allowed: the places of the bearings of either shaft, such as pinion = ["-40 mm", "60 mm"].'
+
+    pinion: tuple[float, ...] | None = _places("pinion")
+    wheel: tuple[float, ...] | None = _places("wheel")
 
 
-class BearingsText(SupportText):
+@dataclass(frozen=True)
+class Bearings(Support):
     """``[bearings]``: stiffness of the support of each gear, the same in all directions or separate along (x) and off
     (y) the line of action.
 
@@ -63,9 +73,24 @@ class BearingsText(SupportText):
     of that stiffness each.
     """
 
-    pinion: Optional[SupportText] = None
-    wheel: Optional[SupportText] = None
-    places: Optional[BearingPlacesText] = None
+    pinion: Support | None = None
+    wheel: Support | None = None
+    places: BearingPlaces | None = None
+
+    def of(self, gear: str, direction: str) -> float:
+        """Stiffness (N/mm) of the "pinion"'s or the "wheel"'s support in "x" or "y"."""
+        own = getattr(self, gear)
+        stiffness = None if own is None else own.along(direction)
+        return self.along(direction) if stiffness is None else stiffness
+
+    def axial(self, gear: str) -> float | None:
+        """Axial stiffness (N/mm) of the "pinion"'s or the "wheel"'s shaft; None where it is held."""
+        return own_or_shared(getattr(self, gear), self, "axial_stiffness")
+
+    def places_of(self, gear: str) -> tuple[float, ...] | None:
+        """Places (2,), mm, of the bearings of the "pinion"'s or the "wheel"'s shaft, from the gear's mid-width; None
+        where that gear does not tilt."""
+        return getattr(self.places, gear, None)
 
 
 def supports_are_complete(tree: Tree) -> Iterator[Problem]:
@@ -102,12 +127,6 @@ def _bearings_stand_apart(tree: Tree, both: Tree) -> Iterator[Problem]:
     places = table(both, "places")
     if places is None:
         return
-    if not places:
-        yield Problem(
-            ("bearings", "places"),
-            "",
-            'is empty. Allowed: the places of the bearings of either shaft, such as pinion = ["-40 mm", "60 mm"].',
-        )
     module = quantity_at(tree, "gears", "module") or 0.0
     for gear in GEARS:
         written = places.get(gear)
@@ -164,8 +183,7 @@ EFFECT = Effect(
     section="bearings",
     description="elastic support of the gear centres",
     absent="the centres are fixed",
-    text=BearingsText,
-    data=Bearings,
+    fields=Bearings,
     unknowns=("two displacements of each gear centre; with places also two tilts and the axial position",),
     terms=("springs of the bearings",),
     variables=(

@@ -8,11 +8,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import lcm
 from pathlib import Path
-from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.inputs.fields import Section, file_name
+from fenics_gears.inputs.fields import file_name
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, Tree, table, value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.system import user_file
@@ -30,32 +30,21 @@ class MeshFile:
 
 
 @dataclass(frozen=True)
-class BodyMeshes:
-    """The mesh of either gear; None for a gear that is made of equal sectors."""
-
-    pinion: MeshFile | None
-    wheel: MeshFile | None
-
-
-class BodyMeshesText(Section):
+class BodyMeshes(Section):
     """``[body_meshes]``: gmsh files, relative to the folder of the scene file; lengths in mm."""
 
-    pinion: Optional[str] = file_name(
-        ".msh", "pinion.msh", meaning="mesh file of the whole pinion", otherwise="a ring of equal sectors"
+    empty = 'names no file. Add pinion = "gear.msh" or wheel = "gear.msh", or leave the section out.'
+
+    pinion: MeshFile | None = file_name(
+        ".msh",
+        "pinion.msh",
+        meaning="mesh file of the whole pinion",
+        otherwise="a ring of equal sectors",
+        made=MeshFile,
     )
-    wheel: Optional[str] = file_name(
-        ".msh", "wheel.msh", meaning="mesh file of the whole wheel", otherwise="a ring of equal sectors"
+    wheel: MeshFile | None = file_name(
+        ".msh", "wheel.msh", meaning="mesh file of the whole wheel", otherwise="a ring of equal sectors", made=MeshFile
     )
-
-
-def read(written: BodyMeshesText) -> BodyMeshes:
-    """The data of a validated section."""
-    return BodyMeshes(*(name and MeshFile(name) for name in (written.pinion, written.wheel)))
-
-
-def write(meshes: BodyMeshes) -> dict:
-    """The section; files have absolute paths."""
-    return {name: getattr(meshes, name).path for name in GEARS if getattr(meshes, name) is not None}
 
 
 def located(meshes: BodyMeshes, directory: Path) -> BodyMeshes:
@@ -84,12 +73,6 @@ def meshes_are_given_and_used(tree: Tree) -> Iterator[Problem]:
     section = table(tree, "body_meshes")
     if section is None:
         return
-    if not section:
-        yield Problem(
-            ("body_meshes",),
-            "",
-            'names no file. Add pinion = "gear.msh" or wheel = "gear.msh", or leave the section out.',
-        )
     for gear in GEARS:
         if gear in section and value_at(tree, "gears", gear, "web") is not None:
             yield Problem(
@@ -204,13 +187,10 @@ EFFECT = Effect(
     section="body_meshes",
     description="gears meshed as a whole by the user, with teeth that may differ",
     absent="each gear is a ring of equal sectors",
-    text=BodyMeshesText,
-    data=BodyMeshes,
+    fields=BodyMeshes,
     terms=("a flank compliance for each tooth", "contact equations that change with the teeth in mesh"),
     needs=("tooth_elasticity",),
     excludes=("coast_flanks",),
-    read=read,
-    write=write,
     located=located,
     files=files,
     rules=meshes_are_given_and_used,

@@ -6,18 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, OF_SLICES, Effect, ResultVariable
-from fenics_gears.inputs.fields import Section
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import Tree, load_in, value_at
 from fenics_gears.inputs.written import as_written
 
 
 @dataclass(frozen=True)
-class CoastFlanks:
-    """Contact on the unloaded flanks, with the backlash that the geometry has."""
-
-
-class CoastFlanksText(Section):
+class CoastFlanks(Section):
     """``[coast_flanks]``: this section has no fields."""
 
 
@@ -40,8 +36,7 @@ EFFECT = Effect(
     section="coast_flanks",
     description="contact on the coast flanks, with the backlash that follows from the gear data",
     absent="contact on the drive flanks only",
-    text=CoastFlanksText,
-    data=CoastFlanks,
+    fields=CoastFlanks,
     unknowns=("normal force of each closed contact node on the coast flanks",),
     terms=("contact along the coast flanks' own line of action",),
     variables=(

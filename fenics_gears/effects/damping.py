@@ -4,20 +4,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Optional
+from dataclasses import dataclass
 
-from fenics_gears.dynamics.drivetrain_data import MODAL, RAYLEIGH, Damping
-from fenics_gears.effects.effect import Effect, ResultVariable, same_names
-from fenics_gears.inputs.fields import Section, number, numbers, quantity
+from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
+from fenics_gears.inputs.fields import number, numbers, quantity
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, material_sections, quantity_in, table, with_gears
 from fenics_gears.inputs.written import as_written
+
+RAYLEIGH, MODAL = ("stiffness_proportional", "mass_proportional"), ("ratio", "ratios")
 
 
 def _stiffness_proportional(otherwise: str):
     return quantity(
-        "0 s",
-        "1e3 s",
+        "0 s to 1e3 s",
         "0.4e-3 s",
         meaning="factor alpha of the stiffness matrix K in the damping matrix alpha K + beta M",
         otherwise=otherwise,
@@ -26,29 +27,30 @@ def _stiffness_proportional(otherwise: str):
 
 def _mass_proportional(otherwise: str):
     return quantity(
-        "0 1/s",
-        "1e9 1/s",
+        "0 1/s to 1e9 1/s",
         "0.5e-3 1/s",
         meaning="factor beta of the mass matrix M in the damping matrix alpha K + beta M",
         otherwise=otherwise,
     )
 
 
-class RayleighText(Section):
+@dataclass(frozen=True)
+class Rayleigh(Section):
     """``[damping.pinion]`` and ``[damping.wheel]``: Rayleigh damping of a gear with its bearings and its shaft."""
 
-    stiffness_proportional: Optional[float] = _stiffness_proportional("that of `[damping]`")
-    mass_proportional: Optional[float] = _mass_proportional("that of `[damping]`")
+    stiffness_proportional: float | None = _stiffness_proportional("that of `[damping]`")
+    mass_proportional: float | None = _mass_proportional("that of `[damping]`")
 
 
-class DampingText(Section):
+@dataclass(frozen=True)
+class Damping(Rayleigh):
     """``[damping]``: either Rayleigh damping, for both gears or for each, or damping ratios of the modes."""
 
-    stiffness_proportional: Optional[float] = _stiffness_proportional(
+    stiffness_proportional: float | None = _stiffness_proportional(
         "each gear has its own, or the damping is given by ratios"
     )
-    mass_proportional: Optional[float] = _mass_proportional("each gear has its own, or the damping is given by ratios")
-    ratio: Optional[float] = number(
+    mass_proportional: float | None = _mass_proportional("each gear has its own, or the damping is given by ratios")
+    ratio: float | None = number(
         0.05,
         meaning=(
             "damping ratio (part of the critical damping) of all modes of the drivetrain with one tooth pair in mesh"
@@ -57,21 +59,25 @@ class DampingText(Section):
         below=1,
         otherwise="damping is given by `ratios` or is Rayleigh damping",
     )
-    ratios: Optional[tuple[float, ...]] = numbers(
+    ratios: tuple[float, ...] | None = numbers(
         0.0, 0.999, 0.05,
         meaning="damping ratios of the modes in the order of their frequencies; the last one holds for all further "
             "modes",
         otherwise="damping is given by `ratio` or is Rayleigh damping",
     )  # fmt: skip
-    pinion: Optional[RayleighText] = None
-    wheel: Optional[RayleighText] = None
+    pinion: Rayleigh | None = None
+    wheel: Rayleigh | None = None
 
+    @property
+    def modal(self) -> tuple[float, ...]:
+        """Damping ratios by mode from the lowest frequency on, of which the last holds for all that follow; empty for
+        Rayleigh damping."""
+        return (self.ratio,) if self.ratio is not None else self.ratios or ()
 
-def read(text: DampingText) -> Damping:
-    """The data of a validated section; the ratio of all modes is a list of one."""
-    if text.ratio is None:
-        return same_names(Damping, text, leaving=("ratio",))
-    return same_names(Damping, text, leaving=("ratio",), ratios=(float(text.ratio),))
+    def rayleigh(self, gear: str) -> tuple[float, float]:
+        """alpha (s) and beta (1/s) of the shaft of the "pinion" or of the "wheel"."""
+        alpha, beta = (own_or_shared(getattr(self, gear), self, name) for name in RAYLEIGH)
+        return alpha, beta
 
 
 def damping_acts(tree: Tree) -> Iterator[Problem]:
@@ -144,11 +150,9 @@ EFFECT = Effect(
     section="damping",
     description="Rayleigh damping, or damping ratios of the modes",
     absent="no damping",
-    text=DampingText,
-    data=Damping,
+    fields=Damping,
     terms=("damping forces: stiffness- and mass-proportional, or by mode",),
     variables=(ResultVariable("work_damping", "N mm", "energy lost to damping"),),
     needs=("inertia",),
-    read=read,
     rules=damping_acts,
 )

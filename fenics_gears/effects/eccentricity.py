@@ -3,23 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from math import lcm
-from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.geometry.eccentricity_data import Eccentricity
-from fenics_gears.inputs.fields import Section, quantity
+from fenics_gears.inputs.fields import quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import (
-    GEARS,
-    NOT_IN_THE_PLANE,
-    Tree,
-    over_the_face,
-    table,
-    too_large_for_the_module,
-    value_at,
-)
-from fenics_gears.inputs.written import as_written
+from fenics_gears.inputs.section import Section
+from fenics_gears.inputs.tree import GEARS, Tree, table
 
 
 def _angle(of: str, field: str):
@@ -28,65 +19,62 @@ def _angle(of: str, field: str):
         " sense of rotation"
     )
     return quantity(
-        "-360 deg", "360 deg", "90 deg", meaning=meaning, otherwise=f"0 deg; has no meaning without {field}"
+        "-360 deg to 360 deg",
+        "90 deg",
+        meaning=meaning,
+        default="0 deg",
+        otherwise=f"0 deg; has no meaning without {field}",
     )
 
 
-class OffsetText(Section):
+@dataclass(frozen=True)
+class Offset(Section):
     """``[eccentricity.pinion]`` and ``[eccentricity.wheel]``: a distance, or in three-dimensional scenes a wobble, or
     both."""
 
-    distance: Optional[float] = quantity(
-        "1e-6 um",
-        "100 mm",
+    distance: float = quantity(
+        "1e-6 um to 100 mm",
         "10 um",
         meaning="eccentricity: distance of the base circle's centre from the axis of rotation, at mid-width",
+        default="0 um",
         otherwise="no eccentricity, for `wobble` alone",
         below="For a gear that runs true, leave its section out.",
+        small=True,
     )
-    phase: Optional[float] = _angle("direction of the base circle's centre", "`distance`")
-    wobble: Optional[float] = quantity(
-        "1e-6 um",
-        "100 mm",
+    phase: float = _angle("direction of the base circle's centre", "`distance`")
+    wobble: float = quantity(
+        "1e-6 um to 100 mm",
         "10 um",
-        meaning="wobble: how far the axis of the teeth departs from the axis of rotation over the gear's face width",
+        meaning=("wobble: how far the axis of the teeth departs from the axis of rotation over the gear's face width"),
+        default="0 um",
         otherwise="no wobble; not allowed in a plane scene",
         below="For teeth that do not wobble, leave it out.",
+        small=True,
+        over_face=True,
     )
-    wobble_phase: Optional[float] = _angle(
-        "direction in which the axis of the teeth leans towards the right end", "`wobble`"
-    )
+    wobble_phase: float = _angle("direction in which the axis of the teeth leans towards the right end", "`wobble`")
 
 
-class EccentricityText(Section):
+@dataclass(frozen=True)
+class Eccentricity(Section):
     """``[eccentricity]``."""
 
-    pinion: Optional[OffsetText] = None
-    wheel: Optional[OffsetText] = None
+    empty = (
+        "says of neither gear that it runs out. Add [eccentricity.pinion] or [eccentricity.wheel], or leave the section"
+        " out."
+    )
+
+    pinion: Offset | None = None
+    wheel: Offset | None = None
 
 
-def run_out_is_small_and_of_some_gear(tree: Tree) -> Iterator[Problem]:
-    """A section names a gear, what it does not run true by, and that is small against the tooth."""
-    section = table(tree, "eccentricity")
-    if section is not None and not section:
-        message = (
-            "says of neither gear that it runs out. Add [eccentricity.pinion] or [eccentricity.wheel], or leave the"
-            " section out."
-        )
-        yield Problem(("eccentricity",), "", message)
+def offsets_are_given(tree: Tree) -> Iterator[Problem]:
+    """The section of a gear says what the gear does not run true by."""
     for gear in GEARS:
-        own = table(section or {}, gear)
+        own = table(table(tree, "eccentricity") or {}, gear)
         if own is not None and not {"distance", "wobble"} & set(own):
-            yield Problem(
-                ("eccentricity", gear, "distance"),
-                None,
-                'is missing. Allowed: such as "10 um"; or a wobble in a three-dimensional scene.',
-            )
-        for name in ("distance", "wobble"):
-            path = ("eccentricity", gear, name)
-            yield from too_large_for_the_module(tree, path, value_at(tree, *path))
-        if own is not None and "wobble" in own and not over_the_face(tree):
-            yield Problem(("eccentricity", gear, "wobble"), as_written(own["wobble"]), NOT_IN_THE_PLANE)
+            message = 'is missing. Allowed: such as "10 um"; or a wobble in a three-dimensional scene.'
+            yield Problem(("eccentricity", gear, "distance"), None, message)
 
 
 def gaps(eccentricity: Eccentricity, model):
@@ -105,10 +93,9 @@ EFFECT = Effect(
     section="eccentricity",
     description="eccentricity of the gears on their shafts (run-out), wobble of their teeth",
     absent="no run-out",
-    text=EccentricityText,
-    data=Eccentricity,
+    fields=Eccentricity,
     terms=("gaps that vary once per revolution of the gear",),
-    rules=run_out_is_small_and_of_some_gear,
+    rules=offsets_are_given,
     gaps=gaps,
     period=period,
 )

@@ -1,22 +1,19 @@
 """What an effect is: the section that switches it on, and the hooks by which it enters the model.
 
 An effect is one module of this package and one entry in the list of ``fenics_gears.effects``. A module holds the
-section as it is written (``text``), its data in program units, its description, and hooks. A hook is called only when
-the scene names the effect; it imports the effect's physics inside the function, so that a scene without the effect does
-not load it.
+section, which is its data in program units, its description, and hooks. A hook is called only when the scene names the
+effect; it imports the effect's physics inside the function, so that a scene without the effect does not load it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, is_dataclass
-from functools import cache
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, get_args, get_type_hints
+from typing import Any
 
-from fenics_gears.inputs.fields import Section
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.spelling import section_tree
+from fenics_gears.inputs.section import Section, tree_of
 
 # Over the tooth pairs that can touch at once, and over the contact nodes of each at the steps whose contact fields are
 # stored.
@@ -46,9 +43,9 @@ class Effect:
     """One effect: the section that switches it on, what it adds, and the sections it needs or excludes.
 
     ``needs`` and ``excludes`` are section names; ``absent`` says what the model is without the effect; ``unknowns``,
-    ``terms`` and ``variables`` say what it adds. ``text`` is the section as a scene file has it and ``data`` the frozen
-    dataclass of its values; ``read`` makes the data of the section where the names do not do so by themselves,
-    ``write`` a section (a dictionary) of the data; ``rules`` finds what is wrong between fields.
+    ``terms`` and ``variables`` say what it adds. ``fields`` declares the section and is its data; where the data are
+    something else, ``read`` makes them of the section, and ``write`` a section (a dictionary) of them. ``rules`` finds
+    what is wrong between fields.
     ``within``: the section's path where a scene does not have it at the top; the scene's attribute is ``section`` all
         the same.
 
@@ -67,14 +64,14 @@ class Effect:
     need, name to values (steps,). ``findings(data, watched)``: sentences on where a run violates what the effect
     assumes, from the watched values of all steps. ``results(data, scene, cycle, steps)``: the effect's own variables at
     steps (time,), name to (dimensions, values). ``period(data, scene)``: mesh cycles after which what the effect does
-    repeats; infinite where it never does. 1 unless given.
+    repeats; infinite where it never does. 1 unless given. ``gentle(data)``: whether teeth come into contact so gently
+    that fewer layers of elements over a face resolve it.
     """
 
     section: str
     description: str
     absent: str
-    text: type[Section]
-    data: type
+    fields: type[Section]
     unknowns: tuple[str, ...] = ()
     terms: tuple[str, ...] = ()
     variables: tuple[ResultVariable, ...] = ()
@@ -97,47 +94,23 @@ class Effect:
     findings: Callable | None = None
     results: Callable | None = None
     period: Callable | None = None
+    gentle: Callable | None = None
 
     @property
     def written(self) -> str:
         """The section's name as a scene file has it."""
         return ".".join(self.within) or self.section
 
-    def from_text(self, section: Section | None, directory: Path = Path()) -> Any:
-        """The data of a validated section, its files found from a directory on; None for an absent one."""
+    def data_of(self, section: Section | None, directory: Path) -> Any:
+        """The data of a section, its files found from a directory on; None for an absent one."""
         if section is None:
             return None
-        data = self.read(section) if self.read is not None else same_names(self.data, section)
+        data = section if self.read is None else self.read(section)
         return data if self.located is None else self.located(data, directory)
 
     def as_section(self, data: Any) -> dict[str, Any]:
         """The section that has the data, as a scene file has it."""
-        return self.write(data) if self.write is not None else section_tree(data, self.text)
-
-
-# A study reads hundreds of scenes.
-_hints = cache(get_type_hints)
-
-
-def same_names(kind: type, section: Section, leaving: Collection[str] = (), **others: Any) -> Any:
-    """The dataclass ``kind`` with the section's values, which have the same names; a section within it becomes the
-    dataclass of that field.
-
-    What the scene leaves out keeps the dataclass's own default. ``leaving``: fields of the section that the dataclass
-    does not have;
-    ``others``: values that are not the section's own.
-    """
-    hints = _hints(kind)
-    for name, value in section:
-        if value is None or name in leaving or name in others:
-            continue
-        if isinstance(value, Section):
-            value = same_names(
-                next(each for each in (hints[name], *get_args(hints[name])) if is_dataclass(each)), value
-            )
-        # A bare number leaves its spelling behind.
-        others[name] = float(value) if isinstance(value, float) else value
-    return kind(**others)
+        return tree_of(data) if self.write is None else self.write(data)
 
 
 def own_or_shared(own: Section | None, shared: Section | None, name: str) -> Any:

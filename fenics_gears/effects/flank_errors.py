@@ -16,16 +16,15 @@ from typing import Any
 
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.effects.flank_errors_rules import errors_fit_the_gears
-from fenics_gears.effects.flank_errors_sections import HELIX, LISTS, FlankErrorsText
+from fenics_gears.effects.flank_errors_sections import HELIX, LISTS, FlankErrors, GearErrors
 from fenics_gears.effects.flank_errors_tables import check, files, located
-from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors
-from fenics_gears.inputs.spelling import section_tree
+from fenics_gears.inputs.section import tree_of
 from fenics_gears.inputs.tree import GEARS
 
 
 def write(errors: FlankErrors) -> dict:
     """The section; what stands in tables is left to them."""
-    found = section_tree(errors, FlankErrorsText)
+    found = tree_of(errors)
     for gear in GEARS:
         for column in getattr(errors, gear).columns:
             found[gear].pop(column, None)
@@ -87,8 +86,7 @@ EFFECT = Effect(
         " tolerance class"
     ),
     absent="all teeth are alike and at their nominal places",
-    text=FlankErrorsText,
-    data=FlankErrors,
+    fields=FlankErrors,
     terms=("gaps that differ from tooth to tooth, over a hunting tooth period",),
     variables=tuple(
         ResultVariable(

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 
-from fenics_gears.geometry.flank_error_data import MeasuredCurve, MeasuredCurves
+from fenics_gears.effects.flank_errors_sections import MeasuredCurve, MeasuredCurves
 from fenics_gears.inputs import units
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.synonyms import meant

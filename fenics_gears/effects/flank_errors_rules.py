@@ -4,20 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fenics_gears.effects.flank_errors_sections import CURVES, HELIX, LISTS
+from fenics_gears.effects.flank_errors_sections import CURVES, LISTS
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import (
-    GEARS,
-    NOT_IN_THE_PLANE,
-    Tree,
-    over_the_face,
-    quantity_at,
-    quantity_in,
-    table,
-    teeth_in,
-    too_large_for_the_module,
-    value_at,
-)
+from fenics_gears.inputs.tree import GEARS, Tree, over_the_face, quantity_at, quantity_in, table, teeth_in
 from fenics_gears.inputs.written import as_written
 
 # Pitches of a measuring sheet are rounded to 0.1 um: their sum is off by at most half of that for each tooth.
@@ -46,25 +35,9 @@ def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
     for gear in GEARS:
         own = table(errors, gear) or {}
         yield from _lists_fit_the_teeth(own, teeth_in(tree, gear), gear)
-        yield from _errors_are_small(tree, own, gear)
         if "anchor" in own and not any(name in own for name in CURVES):
             message = f"has no curves to hold. Allowed: beside {' or '.join(CURVES)}; leave anchor out."
             yield Problem(("flank_errors", gear, "anchor"), as_written(own["anchor"]), message)
-        if not over_the_face(tree):
-            in_space = (*HELIX, "helix_curves")
-            yield from (
-                Problem(("flank_errors", gear, name), as_written(own[name]), NOT_IN_THE_PLANE)
-                for name in in_space
-                if name in own
-            )
-
-
-def _errors_are_small(tree: Tree, errors: Tree, gear: str) -> Iterator[Problem]:
-    """Deviations are small against the tooth, whose place and shape stay what they are."""
-    values = {(name,): errors.get(name) for name in LISTS}
-    values["waviness", "amplitude"] = value_at(errors, "waviness", "amplitude")
-    for path, written in values.items():
-        yield from too_large_for_the_module(tree, ("flank_errors", gear, *path), written)
 
 
 def _lists_fit_the_teeth(errors: Tree, teeth: int | None, gear: str) -> Iterator[Problem]:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Literal, Optional
+from dataclasses import dataclass
 
-from fenics_gears.geometry.flank_error_data import MEAN, REFERENCE_POINT
-from fenics_gears.inputs.fields import Section, choice, file_name, quantities, quantity, whole_number
+from fenics_gears.inputs.fields import choice, file_name, quantities, quantity, whole_number
+from fenics_gears.inputs.section import Section
 
+# Where a measured curve is zero.
+REFERENCE_POINT, MEAN = "reference point", "mean"
 HELIX = ("helix_slope", "helix_form")
 LISTS = ("pitch", "profile_slope", "profile_form", *HELIX)
 # Tables of curves: the field of their data, and the name of the columns that say where a point lies.
@@ -18,23 +20,51 @@ DRAWN = "random values within `tolerance_class`; without a class, zero"
 DRAWN_OVER_FACE = f"{DRAWN}; not allowed in a plane scene"
 
 
-class WavinessText(Section):
+@dataclass(frozen=True)
+class Waviness(Section):
     """``[flank_errors.pinion.waviness]`` and the wheel's: a sinusoidal undulation around the gear."""
 
     amplitude: float = quantity(
-        "1e-6 um", "100 mm", "1 um", meaning="amplitude", below="For flanks without waviness, leave the section out."
+        "1e-6 um to 100 mm",
+        "1 um",
+        meaning="amplitude",
+        below="For flanks without waviness, leave the section out.",
+        small=True,
     )
     waves: int = whole_number(1, 1_000_000, 37, meaning="number of waves per revolution of the gear")
-    phase: Optional[float] = quantity(
-        "-360 deg", "360 deg", "90 deg", meaning="phase of the wave at the first tooth", otherwise="0 deg"
+    phase: float = quantity(
+        "-360 deg to 360 deg", "90 deg", meaning="phase of the wave at the first tooth", default="0 deg"
     )
 
 
-class GearErrorsText(Section):
+@dataclass(frozen=True)
+class MeasuredCurve:
+    """Deviations (mm, material in excess positive) of one tooth, counted from 1, at rising places; ``places`` as
+    ``MeasuredCurves.along`` says."""
+
+    tooth: int
+    places: tuple[float, ...]
+    deviations: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class MeasuredCurves:
+    """Measured profiles or helices of some teeth of a gear.
+
+    ``along``: what places are, "roll_length" (mm), "roll_angle" (rad) or "diameter" (mm) of a profile, "face_position"
+    (mm, from mid-width to the right) of a helix.
+    """
+
+    along: str
+    curves: tuple[MeasuredCurve, ...]
+
+
+@dataclass(frozen=True)
+class GearErrors(Section):
     """``[flank_errors.pinion]`` and ``[flank_errors.wheel]``: deviations of each tooth, as lists or as a table in a
     file."""
 
-    file: Optional[str] = file_name(
+    file: str | None = file_name(
         ".csv",
         "pinion.csv",
         meaning=(
@@ -45,42 +75,44 @@ class GearErrorsText(Section):
         otherwise="no table",
     )
 
-    pitch: Optional[tuple[float, ...]] = quantities(
-        "-100 mm",
-        "100 mm",
+    pitch: tuple[float, ...] | None = quantities(
+        "-100 mm to 100 mm",
         "3.5 um",
         meaning="single pitch deviations, positive where the pitch is too long; their sum must be zero",
         otherwise=DRAWN,
+        small=True,
     )
-    profile_slope: Optional[tuple[float, ...]] = quantities(
-        "-100 mm",
-        "100 mm",
+    profile_slope: tuple[float, ...] | None = quantities(
+        "-100 mm to 100 mm",
         "4 um",
         meaning="profile slope deviations, positive with material in excess towards the tip",
         otherwise=DRAWN,
+        small=True,
     )
-    profile_form: Optional[tuple[float, ...]] = quantities(
-        "-100 mm",
-        "100 mm",
+    profile_form: tuple[float, ...] | None = quantities(
+        "-100 mm to 100 mm",
         "3 um",
         meaning="profile form deviations, positive with material in excess in the middle of the flank",
         otherwise=DRAWN,
+        small=True,
     )
-    helix_slope: Optional[tuple[float, ...]] = quantities(
-        "-100 mm",
-        "100 mm",
+    helix_slope: tuple[float, ...] | None = quantities(
+        "-100 mm to 100 mm",
         "5 um",
-        meaning="helix slope deviations over the face width, positive with material in excess towards the right end",
+        meaning=("helix slope deviations over the face width, positive with material in excess towards the right end"),
         otherwise=DRAWN_OVER_FACE,
+        small=True,
+        over_face=True,
     )
-    helix_form: Optional[tuple[float, ...]] = quantities(
-        "-100 mm",
-        "100 mm",
+    helix_form: tuple[float, ...] | None = quantities(
+        "-100 mm to 100 mm",
         "3 um",
         meaning="helix form deviations, positive with material in excess in the middle of the face",
         otherwise=DRAWN_OVER_FACE,
+        small=True,
+        over_face=True,
     )
-    profile_curves: Optional[str] = file_name(
+    profile_curves: str | None = file_name(
         ".csv",
         "pinion_profile.csv",
         meaning=(
@@ -90,7 +122,7 @@ class GearErrorsText(Section):
         ),
         otherwise="no curves",
     )
-    helix_curves: Optional[str] = file_name(
+    helix_curves: str | None = file_name(
         ".csv",
         "pinion_helix.csv",
         meaning=(
@@ -98,8 +130,9 @@ class GearErrorsText(Section):
             " `helix_slope` and `helix_form`"
         ),
         otherwise="no curves; not allowed in a plane scene",
+        over_face=True,
     )
-    anchor: Optional[Literal["reference point", "mean"]] = choice(
+    anchor: str = choice(
         REFERENCE_POINT,
         MEAN,
         meaning=(
@@ -107,21 +140,34 @@ class GearErrorsText(Section):
             " 21771), and at mid-width of a helix, each within the active profile and the face; or in the mean over"
             " them"
         ),
+        default=REFERENCE_POINT,
         otherwise=f'"{REFERENCE_POINT}"',
     )
-    waviness: Optional[WavinessText] = None
+    waviness: Waviness | None = None
+    # What the tables say: the columns of `file`, whose values are in the fields of these names; the measured curves;
+    # the field that names a wrong table, and what is wrong in words.
+    columns: tuple[str, ...] = ()
+    measured_profile: MeasuredCurves | None = None
+    measured_helix: MeasuredCurves | None = None
+    problem: tuple[str, str] | tuple[()] = ()
+
+    @property
+    def in_the_mean(self) -> bool:
+        """Whether measured curves are zero in the mean and not at one place."""
+        return self.anchor == MEAN
 
 
-class FlankErrorsText(Section):
+@dataclass(frozen=True)
+class FlankErrors(Section):
     """``[flank_errors]``: deviations that are not given are random values within a tolerance class."""
 
-    tolerance_class: Optional[int] = whole_number(
+    tolerance_class: int | None = whole_number(
         1,
         11,
         6,
         meaning="flank tolerance class of ISO 1328-1 that limits the random deviations",
         otherwise="no random deviations",
     )
-    seed: Optional[int] = whole_number(0, 2**31 - 1, 1, meaning="seed of the random numbers", otherwise="1")
-    pinion: Optional[GearErrorsText] = None
-    wheel: Optional[GearErrorsText] = None
+    seed: int = whole_number(0, 2**31 - 1, 1, meaning="seed of the random numbers", default=1)
+    pinion: GearErrors = GearErrors()
+    wheel: GearErrors = GearErrors()

@@ -8,9 +8,8 @@ from hashlib import sha256
 from pathlib import Path
 
 from fenics_gears.effects.flank_errors_rules import PITCH_ROUNDING, not_closed
-from fenics_gears.effects.flank_errors_sections import CURVES, HELIX, LISTS, REPLACED, TABLES
+from fenics_gears.effects.flank_errors_sections import CURVES, HELIX, LISTS, REPLACED, TABLES, FlankErrors, GearErrors
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors
 from fenics_gears.inputs.tree import GEARS, LARGEST_ERROR, NOT_IN_THE_PLANE
 from fenics_gears.inputs.written import as_written
 

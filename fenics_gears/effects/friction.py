@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Literal, Optional
 
 from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, Effect, ResultVariable
 from fenics_gears.errors import SceneError
-from fenics_gears.inputs.fields import Section, allowed_in, choice, number, quantity
+from fenics_gears.inputs.fields import choice, number, quantity
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.section import Section, allowed_in
 from fenics_gears.inputs.tree import Tree, quantity_at, table
 from fenics_gears.inputs.written import as_written
 
@@ -18,21 +18,11 @@ OF_A_FORMULA = ("viscosity", "roughness")
 
 
 @dataclass(frozen=True)
-class Friction:
-    """Coulomb friction on the flanks: its coefficient, or the formula of ``geometry.friction_formulas`` with viscosity
-    (N s/mm^2) and roughness Ra (mm)."""
-
-    coefficient: float | None = None
-    formula: str | None = None
-    viscosity: float | None = None
-    roughness: float | None = None
-
-
-class FrictionText(Section):
+class Friction(Section):
     """``[friction]``: one coefficient on all flanks, given, or computed once from the mean load and the speed of the
     scene."""
 
-    coefficient: Optional[float] = number(
+    coefficient: float | None = number(
         0.1,
         meaning="coefficient of friction on all flanks",
         above=0,
@@ -40,7 +30,7 @@ class FrictionText(Section):
         otherwise="from `formula`; one of the two is required",
         too_low="For a pair without friction, leave the section [friction] out.",
     )
-    formula: Optional[Literal["Schlenk", "Benedict and Kelley"]] = choice(
+    formula: str | None = choice(
         "Schlenk",
         "Benedict and Kelley",
         meaning=(
@@ -51,16 +41,14 @@ class FrictionText(Section):
         ),
         otherwise="`coefficient`",
     )
-    viscosity: Optional[float] = quantity(
-        "0.1 mPa s",
-        "100 Pa s",
+    viscosity: float | None = quantity(
+        "0.1 mPa s to 100 Pa s",
         "13 mPa s",
         meaning="dynamic viscosity of the oil at its temperature in the mesh, for `formula`",
         otherwise="required with `formula`",
     )
-    roughness: Optional[float] = quantity(
-        "0.01 um",
-        "20 um",
+    roughness: float | None = quantity(
+        "0.01 um to 20 um",
         "0.4 um",
         meaning="arithmetic mean roughness Ra of both flanks, for `formula`",
         otherwise="required with `formula`",
@@ -80,7 +68,7 @@ def coefficient_or_formula(tree: Tree) -> Iterator[Problem]:
             "stands beside coefficient. Allowed is one of the two. Leave one out.",
         )
     if "coefficient" not in friction and formula is None:
-        allowed = allowed_in(FrictionText, "coefficient").description
+        allowed = allowed_in(Friction, "coefficient").description
         yield Problem(
             ("friction", "coefficient"),
             None,
@@ -131,8 +119,7 @@ EFFECT = Effect(
     section="friction",
     description="Coulomb friction between the flanks",
     absent="no friction, no tangential unknowns",
-    text=FrictionText,
-    data=Friction,
+    fields=Friction,
     unknowns=("tangential force of each closed contact node",),
     terms=("friction law with stick and slip",),
     variables=(

@@ -4,23 +4,24 @@ dynamic (``dynamics``)."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Optional
+from dataclasses import dataclass, replace
 
-from fenics_gears.dynamics.drivetrain_data import LUMPED, Inertia
-from fenics_gears.effects.effect import Effect, ResultVariable, same_names
-from fenics_gears.inputs.fields import Section, quantity
+from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
+from fenics_gears.inputs.fields import quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.spelling import field_of, section_tree
+from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, value_at, with_gears
 from fenics_gears.inputs.written import as_written
 
+LUMPED = ("mass", "moment_of_inertia")
+
 
 def _mass(meaning: str, otherwise: str):
-    return quantity("1e-9 kg", "1e9 kg", "4.9 kg", meaning=meaning, otherwise=otherwise)
+    return quantity("1e-9 kg to 1e9 kg", "4.9 kg", meaning=meaning, otherwise=otherwise)
 
 
 def _moment_of_inertia(meaning: str, otherwise: str = ""):
-    return quantity("1e-15 kg m^2", "1e15 kg m^2", "24.5e-3 kg m^2", meaning=meaning, otherwise=otherwise)
+    return quantity("1e-15 kg m^2 to 1e15 kg m^2", "24.5e-3 kg m^2", meaning=meaning, otherwise=otherwise)
 
 
 def _density(otherwise: str):
@@ -28,7 +29,7 @@ def _density(otherwise: str):
         "density of the gear; mass and moment of inertia follow from its outline, bore and face width, without the"
         " shaft"
     )
-    return quantity("1e-6 g/cm^3", "1e6 g/cm^3", "7.85 g/cm^3", meaning=meaning, otherwise=otherwise)
+    return quantity("1e-6 g/cm^3 to 1e6 g/cm^3", "7.85 g/cm^3", meaning=meaning, otherwise=otherwise)
 
 
 def _tilting(otherwise: str):
@@ -36,63 +37,63 @@ def _tilting(otherwise: str):
         "moment of inertia about a diameter at mid-width, with the shaft, of a gear that tilts, whose bearings have"
         " `places`"
     )
-    return quantity("1e-15 kg m^2", "1e15 kg m^2", "13e-3 kg m^2", meaning=meaning, otherwise=otherwise)
+    return quantity("1e-15 kg m^2 to 1e15 kg m^2", "13e-3 kg m^2", meaning=meaning, otherwise=otherwise)
 
 
-class GearInertiaText(Section):
+@dataclass(frozen=True)
+class GearInertia(Section):
     """``[inertia.pinion]`` and ``[inertia.wheel]``; values that are left out follow from the gear's own density,
     otherwise from ``[inertia]``."""
 
-    mass: Optional[float] = _mass(
+    mass: float | None = _mass(
         "mass of this gear, with its shaft", "from the gear's own `density`, otherwise from `[inertia]`"
     )
-    moment_of_inertia: Optional[float] = _moment_of_inertia(
+    moment_of_inertia: float | None = _moment_of_inertia(
         "moment of inertia of this gear", "from the gear's own `density`, otherwise from `[inertia]`"
     )
-    density: Optional[float] = _density(
-        "that of `[inertia]`, where the gear has no mass and moment of inertia of its own"
-    )
-    tilting_moment_of_inertia: Optional[float] = _tilting("that of `[inertia]`")
+    density: float | None = _density("that of `[inertia]`, where the gear has no mass and moment of inertia of its own")
+    tilting_moment_of_inertia: float | None = _tilting("that of `[inertia]`")
 
 
-class LoadInertiaText(Section):
+@dataclass(frozen=True)
+class LoadInertia(Section):
     """``[inertia.load]``: the driven machine on the end of the output shaft; without ``[shafts]`` it turns with the
     wheel."""
 
     moment_of_inertia: float = _moment_of_inertia("moment of inertia of the load")
 
 
-class InertiaText(Section):
+@dataclass(frozen=True)
+class Inertia(GearInertia):
     """``[inertia]``: masses and moments of inertia, lumped at the gear centres. The far end of the input shaft needs
     none: its rotation is prescribed."""
 
-    mass: Optional[float] = _mass("mass of each gear, with its shaft", "from `density`, or each gear has its own")
-    moment_of_inertia: Optional[float] = _moment_of_inertia(
+    mass: float | None = _mass("mass of each gear, with its shaft", "from `density`, or each gear has its own")
+    moment_of_inertia: float | None = _moment_of_inertia(
         "moment of inertia of each gear, and of the load if there is no `[inertia.load]`",
         "from `density`, or each gear has its own",
     )
-    density: Optional[float] = _density("mass and moment of inertia must be given")
-    tilting_moment_of_inertia: Optional[float] = _tilting(
+    density: float | None = _density("mass and moment of inertia must be given")
+    tilting_moment_of_inertia: float | None = _tilting(
         "that of a disc: half of the moment of inertia, and mass times face width squared over 12"
     )
-    pinion: Optional[GearInertiaText] = None
-    wheel: Optional[GearInertiaText] = None
-    load: Optional[LoadInertiaText] = None
+    pinion: GearInertia | None = None
+    wheel: GearInertia | None = None
+    load: LoadInertia | None = None
 
+    def of(self, gear: str) -> GearInertia:
+        """Inertia of the "pinion" or the "wheel": its own, by its own density, or that of both."""
+        own = getattr(self, gear) or GearInertia()
+        tilting = own_or_shared(own, self, "tilting_moment_of_inertia")
+        if own.density is not None:
+            return replace(own, tilting_moment_of_inertia=tilting)
+        mass, moment = (own_or_shared(own, self, name) for name in LUMPED)
+        return GearInertia(mass, moment, self.density, tilting)
 
-def read(text: InertiaText) -> Inertia:
-    """The data of a validated section, in which the load is its moment of inertia."""
-    return same_names(Inertia, text, load=None if text.load is None else text.load.moment_of_inertia)
-
-
-def write(inertia: Inertia) -> dict:
-    """The section, in which the load's moment of inertia is a section."""
-    found = section_tree(inertia, InertiaText, ("load",))
-    return (
-        found
-        if inertia.load is None
-        else found | {"load": {"moment_of_inertia": field_of(LoadInertiaText, "moment_of_inertia", inertia.load)}}
-    )
+    @property
+    def shaft_end(self) -> float | None:
+        """Moment of inertia (N mm s^2) at the far end of the output shaft."""
+        return own_or_shared(self.load, self, "moment_of_inertia")
 
 
 def inertia_is_complete(tree: Tree) -> Iterator[Problem]:
@@ -166,11 +167,8 @@ EFFECT = Effect(
     section="inertia",
     description="mass and moment of inertia of gears and load",
     absent="quasi-static equilibrium in each step",
-    text=InertiaText,
-    data=Inertia,
+    fields=Inertia,
     terms=("inertia forces",),
     variables=(ResultVariable("energy_kinetic", "N mm", "kinetic energy"),),
-    read=read,
-    write=write,
     rules=inertia_is_complete,
 )

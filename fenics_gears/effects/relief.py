@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, Literal, Optional
+from dataclasses import KW_ONLY, dataclass
+from typing import Any
 
-from fenics_gears.effects.effect import ResultVariable, own_or_shared
-from fenics_gears.geometry.relief_data import LINEAR, PARABOLIC, Relief
+from fenics_gears.effects.effect import ResultVariable
 from fenics_gears.inputs import units
-from fenics_gears.inputs.fields import Measured, Section, choice, either, number, quantity
+from fenics_gears.inputs.allowed import Measured
+from fenics_gears.inputs.fields import choice, either, number, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.spelling import quantity_text, section_tree
+from fenics_gears.inputs.section import Section, tree_of
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, with_gears
 from fenics_gears.inputs.written import as_written
+
+LINEAR, PARABOLIC = "linear", "parabolic"
+POWERS = {LINEAR: 1, PARABOLIC: 2}
 
 AT_KINK = ResultVariable(
     "largest_kink_pressure",
@@ -25,9 +29,9 @@ AT_KINK = ResultVariable(
 def start_field(word: str, word_meaning: str) -> Any:
     """The field that says where a relief starts: ``word``, a roll angle or a diameter."""
     return either(
-        ("1e-3 deg", "360 deg", "29.61 deg"),
-        ("0.1 mm", "100 m", "80.1 mm"),
-        words={word: None},
+        ("1e-3 deg to 360 deg", "29.61 deg"),
+        ("0.1 mm to 100 m", "80.1 mm"),
+        words=(word,),
         meaning=(
             f"start of the relief: a roll angle, the {word_meaning}, or a diameter, which is accepted for one gear only"
         ),
@@ -38,22 +42,21 @@ def start_field(word: str, word_meaning: str) -> Any:
 def length_field(measured: str) -> Any:
     """The field for the length of a relief, in place of its start."""
     return quantity(
-        "1e-3 um",
-        "100 m",
+        "1e-3 um to 100 m",
         "3 mm",
         meaning=f"length of the relief {measured}, from its start to its end",
         otherwise="follows from `start`",
     )
 
 
-class TipReliefOfGearText(Section):
+@dataclass(frozen=True)
+class Relief(Section):
     """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; fields that are left out are those of ``[tip_relief]``, and
     the defaults hold
     if that section leaves them out too."""
 
-    depth: Optional[float] = quantity(
-        "1e-6 um",
-        "100 mm",
+    depth: float | None = quantity(
+        "1e-6 um to 100 mm",
         "31 um",
         meaning=(
             "depth at the end of the relief, normal to the flank in the transverse section, which is along the line of"
@@ -62,12 +65,11 @@ class TipReliefOfGearText(Section):
         otherwise="no relief",
         below="For a gear without relief, leave its depth out.",
     )
-    start: Optional[Measured] = start_field("HPSTC", "highest point of single tooth contact")
-    length_on_path: Optional[float] = length_field(
-        "on the path of contact (length of roll: base radius times roll angle)"
-    )
-    length_on_flank: Optional[float] = length_field("along the flank (arc of the involute)")
-    shape: Optional[Literal["linear", "parabolic"]] = choice(
+    start: float | Measured | str | None = start_field("HPSTC", "highest point of single tooth contact")
+    _: KW_ONLY
+    length_on_path: float | None = length_field("on the path of contact (length of roll: base radius times roll angle)")
+    length_on_flank: float | None = length_field("along the flank (arc of the involute)")
+    shape: str | None = choice(
         LINEAR,
         PARABOLIC,
         meaning=(
@@ -76,7 +78,7 @@ class TipReliefOfGearText(Section):
         ),
         otherwise="`linear`",
     )
-    exponent: Optional[float] = number(
+    exponent: float | None = number(
         1.5,
         lowest=1.0,
         highest=10.0,
@@ -84,54 +86,66 @@ class TipReliefOfGearText(Section):
         otherwise="that of `shape`",
     )
 
+    @property
+    def start_roll_angle(self) -> float | None:
+        """Roll angle (rad) of the start, where the scene has one."""
+        return None if isinstance(self.start, Measured) else self.start
 
-class RootReliefOfGearText(TipReliefOfGearText):
+    @property
+    def start_diameter(self) -> float | None:
+        """Diameter (mm) of the start, where the scene has one."""
+        return self.start.number if isinstance(self.start, Measured) else None
+
+    @property
+    def power(self) -> float:
+        """Power of the roll angle with which the relief grows."""
+        return POWERS[self.shape or LINEAR] if self.exponent is None else self.exponent
+
+
+@dataclass(frozen=True)
+class RootReliefOfGear(Relief):
     """``[root_relief.pinion]`` and ``[root_relief.wheel]``; fields that are left out are those of ``[root_relief]``,
     and the defaults hold
     if that section leaves them out too."""
 
-    start: Optional[Measured] = start_field("LPSTC", "lowest point of single tooth contact")
+    start: float | Measured | str | None = start_field("LPSTC", "lowest point of single tooth contact")
 
 
 # Each alone says where a relief starts.
 STARTS = ("start", "length_on_path", "length_on_flank")
+# And how it grows.
+GROWTH = ("shape", "exponent")
 
 
-def of_gear(both: Section, own: Section | None) -> Relief | None:
-    """One gear's relief: what is its own before what is both gears'; None without a depth."""
-    depth = own_or_shared(own, both, "depth")
-    if depth is None:
-        return None
-    starting = own if own is not None and own.model_fields_set.intersection(STARTS) else both
-    at = {starting.start.kind: starting.start.number} if starting.start is not None else {}
-    exponent = own_or_shared(own, both, "exponent")
-    shape = LINEAR if exponent is not None else own_or_shared(own, both, "shape") or LINEAR
-    return Relief(
-        depth,
-        at.get("an angle"),
-        shape,
-        at.get("a length"),
-        starting.length_on_path,
-        starting.length_on_flank,
-        exponent,
-    )
+@dataclass(frozen=True)
+class Reliefs:
+    """Relief of pinion and wheel, each by itself; None for a gear without. One without start or length begins at the
+    usual place, HPSTC or LPSTC."""
+
+    pinion: Relief | None
+    wheel: Relief | None
 
 
-def write(text: type[Section], usual: str, reliefs: Any) -> dict[str, Any]:
+def read(kind: type[Reliefs], section: Any) -> Reliefs:
+    """The data of a section: each gear's own relief before that of both."""
+    return kind(*(_of_gear(section, getattr(section, gear)) for gear in GEARS))
+
+
+def _of_gear(both: Relief, own: Relief | None) -> Relief | None:
+    """One gear's relief; None without a depth. Of fields that say the same, its own section's are taken together."""
+    values: dict[str, Any] = {}
+    for names in (("depth",), STARTS, GROWTH):
+        given = own if own is not None and any(getattr(own, name) is not None for name in names) else both
+        values |= {name: getattr(given, name) for name in names}
+    if isinstance(values["start"], str):
+        values["start"] = None
+    return None if values["depth"] is None else Relief(**values)
+
+
+def write(usual: str, reliefs: Any) -> dict[str, Any]:
     """The section of both gears' reliefs, each by itself; one without a start begins at the ``usual`` place."""
-    found = {}
-    for gear in GEARS:
-        own = getattr(reliefs, gear)
-        if own is None:
-            continue
-        found[gear] = section_tree(own, text)
-        if own.start_roll_angle is not None:
-            found[gear]["start"] = quantity_text(own.start_roll_angle, "an angle", "deg")
-        elif own.start_diameter is not None:
-            found[gear]["start"] = quantity_text(own.start_diameter, "a length", "mm")
-        elif not {*STARTS} & set(found[gear]):
-            found[gear]["start"] = usual
-    return found
+    own = {gear: tree_of(getattr(reliefs, gear)) for gear in GEARS if getattr(reliefs, gear) is not None}
+    return {gear: tree if {*STARTS} & {*tree} else tree | {"start": usual} for gear, tree in own.items()}
 
 
 def rules(section: str, word: str, tree: Tree) -> Iterator[Problem]:

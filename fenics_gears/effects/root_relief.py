@@ -2,42 +2,41 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import partial
-from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import AT_KINK, RootReliefOfGearText, of_gear, rules, write
-from fenics_gears.geometry.relief_data import RootRelief
+from fenics_gears.effects.relief import AT_KINK, Reliefs, RootReliefOfGear, read, rules, write
 
 
-class RootReliefText(RootReliefOfGearText):
+@dataclass(frozen=True)
+class RootReliefText(RootReliefOfGear):
     """``[root_relief]``: relief of both gears; it ends at the form circle."""
 
-    pinion: Optional[RootReliefOfGearText] = None
-    wheel: Optional[RootReliefOfGearText] = None
+    pinion: RootReliefOfGear | None = None
+    wheel: RootReliefOfGear | None = None
 
 
-def read(text: RootReliefText) -> RootRelief:
-    """Each gear's own relief before that of both."""
-    return RootRelief(of_gear(text, text.pinion), of_gear(text, text.wheel))
+@dataclass(frozen=True)
+class RootRelief(Reliefs):
+    """Root relief of the pair."""
 
 
-def removal(relief: RootRelief, pair):
+def removal(reliefs: RootRelief, pair):
     """Material removed from pinion and wheel."""
     from fenics_gears.geometry.relief import root_reliefs
 
-    return root_reliefs(pair, relief)
+    return root_reliefs(pair, reliefs)
 
 
 EFFECT = Effect(
     section="root_relief",
     description="root relief, linear or parabolic in the roll angle",
     absent="involutes without root relief",
-    text=RootReliefText,
-    data=RootRelief,
+    fields=RootReliefText,
     terms=("gaps between the flanks",),
-    read=read,
-    write=partial(write, RootReliefOfGearText, "LPSTC"),
+    read=partial(read, RootRelief),
+    write=partial(write, "LPSTC"),
     rules=partial(rules, "root_relief", "LPSTC"),
     removal=removal,
     variables=(AT_KINK,),

@@ -3,36 +3,42 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Optional
+from dataclasses import dataclass
 
-from fenics_gears.dynamics.drivetrain_data import Shafts
-from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.inputs.fields import Section, quantity
+from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
+from fenics_gears.inputs.fields import quantity
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import Tree, table
 
 SHAFTS = ("input", "output")
 
 
 def _stiffness(meaning: str, otherwise: str = ""):
-    return quantity("1e-6 N mm/rad", "1e24 N mm/rad", "0.203e9 N mm/rad", meaning=meaning, otherwise=otherwise)
+    return quantity("1e-6 N mm/rad to 1e24 N mm/rad", "0.203e9 N mm/rad", meaning=meaning, otherwise=otherwise)
 
 
-class ShaftText(Section):
+@dataclass(frozen=True)
+class Shaft(Section):
     """``[shafts.input]`` and ``[shafts.output]``: the shaft between the prescribed rotation and the pinion, and that
     between wheel and load."""
 
     torsional_stiffness: float = _stiffness("torsional stiffness of this shaft")
 
 
-class ShaftsText(Section):
+@dataclass(frozen=True)
+class Shafts(Section):
     """``[shafts]``."""
 
-    torsional_stiffness: Optional[float] = _stiffness(
+    torsional_stiffness: float | None = _stiffness(
         "torsional stiffness of each of the two shafts", "each shaft has its own"
     )
-    input: Optional[ShaftText] = None
-    output: Optional[ShaftText] = None
+    input: Shaft | None = None
+    output: Shaft | None = None
+
+    def of(self, shaft: str) -> float:
+        """Torsional stiffness (N mm/rad) of the "input" or the "output" shaft."""
+        return own_or_shared(getattr(self, shaft), self, "torsional_stiffness")
 
 
 def shafts_are_complete(tree: Tree) -> Iterator[Problem]:
@@ -61,8 +67,7 @@ EFFECT = Effect(
     section="shafts",
     description="elastic torsion of the input and the output shaft",
     absent="the prescribed rotation acts on the pinion and the load torque on the wheel directly",
-    text=ShaftsText,
-    data=Shafts,
+    fields=Shafts,
     unknowns=("rotation of the pinion", "rotation of the far end of the output shaft"),
     terms=("torsional springs",),
     variables=(

@@ -5,30 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf
-from typing import Optional
 
 from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.inputs.fields import Section, quantity, whole_number
+from fenics_gears.inputs.fields import quantity, whole_number
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import Tree, quantity_in, table
 from fenics_gears.inputs.written import as_written
 
 
 @dataclass(frozen=True)
-class SpeedRamp:
-    """Mesh frequency (Hz) at the end of the run, reached linearly in time after `hold_cycles` mesh cycles at that of
-    the motion."""
-
-    end_frequency: float
-    hold_cycles: int = 0
-
-
-class SpeedRampText(Section):
+class SpeedRamp(Section):
     """``[speed_ramp]``: from the mesh frequency of ``[motion]`` to another one."""
 
-    end_frequency: float = quantity("1e-6 Hz", "1e6 Hz", "260 Hz", meaning="mesh frequency at the end of the run")
-    hold_cycles: Optional[int] = whole_number(
-        0, 1_000_000, 20, meaning="number of mesh cycles at the first frequency, before the ramp begins", otherwise="0"
+    end_frequency: float = quantity("1e-6 Hz to 1e6 Hz", "260 Hz", meaning="mesh frequency at the end of the run")
+    hold_cycles: int = whole_number(
+        0, 1_000_000, 20, meaning="number of mesh cycles at the first frequency, before the ramp begins", default=0
     )
 
 
@@ -88,8 +80,7 @@ EFFECT = Effect(
     section="speed_ramp",
     description="mesh frequency that rises or falls linearly in time",
     absent="constant speed",
-    text=SpeedRampText,
-    data=SpeedRamp,
+    fields=SpeedRamp,
     terms=("inertia forces of the accelerating nominal motion", "time steps of equal mesh phase"),
     variables=(ResultVariable("mesh_frequency", "Hz", "mesh frequency"),),
     needs=("inertia",),

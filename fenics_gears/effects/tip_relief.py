@@ -2,43 +2,48 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import partial
-from typing import Optional
 
 from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import AT_KINK, TipReliefOfGearText, of_gear, rules, write
-from fenics_gears.geometry.relief_data import TipRelief
+from fenics_gears.effects.relief import AT_KINK, Relief, Reliefs, read, rules, write
 
 
-class TipReliefText(TipReliefOfGearText):
+@dataclass(frozen=True)
+class TipReliefText(Relief):
     """``[tip_relief]``: relief of both gears; it ends at the tip."""
 
-    pinion: Optional[TipReliefOfGearText] = None
-    wheel: Optional[TipReliefOfGearText] = None
+    pinion: Relief | None = None
+    wheel: Relief | None = None
 
 
-def read(text: TipReliefText) -> TipRelief:
-    """Each gear's own relief before that of both."""
-    return TipRelief(of_gear(text, text.pinion), of_gear(text, text.wheel))
+@dataclass(frozen=True)
+class TipRelief(Reliefs):
+    """Tip relief of the pair."""
 
 
-def removal(relief: TipRelief, pair):
+def removal(reliefs: TipRelief, pair):
     """Material removed from pinion and wheel."""
     from fenics_gears.geometry.relief import tip_reliefs
 
-    return tip_reliefs(pair, relief)
+    return tip_reliefs(pair, reliefs)
+
+
+def gentle(reliefs: TipRelief) -> bool:
+    """Whether the tips of both gears come into contact gently."""
+    return None not in (reliefs.pinion, reliefs.wheel)
 
 
 EFFECT = Effect(
     section="tip_relief",
     description="tip relief, linear or parabolic in the roll angle",
     absent="involutes without tip relief",
-    text=TipReliefText,
-    data=TipRelief,
+    fields=TipReliefText,
     terms=("gaps between the flanks",),
-    read=read,
-    write=partial(write, TipReliefOfGearText, "HPSTC"),
+    read=partial(read, TipRelief),
+    write=partial(write, "HPSTC"),
     rules=partial(rules, "tip_relief", "HPSTC"),
     removal=removal,
+    gentle=gentle,
     variables=(AT_KINK,),
 )

@@ -4,20 +4,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Literal, Optional
+from dataclasses import dataclass
 
 from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.materials import MATERIALS
-from fenics_gears.inputs.fields import Section, allowed_in, choice, number, quantity
+from fenics_gears.inputs.fields import choice, number, quantity
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.section import Section, allowed_in
 from fenics_gears.inputs.tree import GEARS, Tree, material_sections, table
 
 CONSTANTS = ("youngs_modulus", "poissons_ratio")
 
 
 def _youngs_modulus(otherwise: str):
-    return quantity("1 kPa", "1e9 GPa", "206 GPa", meaning="Young's modulus", otherwise=otherwise)
+    return quantity("1 kPa to 1e9 GPa", "206 GPa", meaning="Young's modulus", otherwise=otherwise)
 
 
 def _poissons_ratio(otherwise: str):
@@ -39,32 +40,33 @@ def _name(otherwise: str):
 
 def _yield_strength(otherwise: str):
     return quantity(
-        "1 kPa",
-        "1e3 GPa",
+        "1 kPa to 1e3 GPa",
         "650 MPa",
         meaning="yield strength, above which a stress is remarked; nothing else follows from it",
         otherwise=otherwise,
     )
 
 
+@dataclass(frozen=True)
 class MaterialText(Section):
     """``[gears.material]``: material of both gears, by `name` or by both constants. Without this section the flanks are
     rigid."""
 
-    name: Optional[Literal[tuple(MATERIALS)]] = _name("both constants are required")
-    youngs_modulus: Optional[float] = _youngs_modulus("that of the `name`")
-    poissons_ratio: Optional[float] = _poissons_ratio("that of the `name`")
-    yield_strength: Optional[float] = _yield_strength("that of the `name`, if it has one")
+    name: str | None = _name("both constants are required")
+    youngs_modulus: float | None = _youngs_modulus("that of the `name`")
+    poissons_ratio: float | None = _poissons_ratio("that of the `name`")
+    yield_strength: float | None = _yield_strength("that of the `name`, if it has one")
 
 
+@dataclass(frozen=True)
 class OwnMaterialText(Section):
     """``[gears.pinion.material]`` and ``[gears.wheel.material]``; fields that are left out are those of
     ``[gears.material]``."""
 
-    name: Optional[Literal[tuple(MATERIALS)]] = _name("from `[gears.material]`")
-    youngs_modulus: Optional[float] = _youngs_modulus("that of the `name`, or from `[gears.material]`")
-    poissons_ratio: Optional[float] = _poissons_ratio("that of the `name`, or from `[gears.material]`")
-    yield_strength: Optional[float] = _yield_strength(
+    name: str | None = _name("from `[gears.material]`")
+    youngs_modulus: float | None = _youngs_modulus("that of the `name`, or from `[gears.material]`")
+    poissons_ratio: float | None = _poissons_ratio("that of the `name`, or from `[gears.material]`")
+    yield_strength: float | None = _yield_strength(
         "that of the `name`, if it has one; from `[gears.material]` where this section names no other material"
     )
 
@@ -130,8 +132,7 @@ EFFECT = Effect(
         "rigid flanks: kinematic transmission error, no pressures; forces of tooth pairs only where a single pair"
         " touches"
     ),
-    text=MaterialText,
-    data=Material,
+    fields=MaterialText,
     read=material_of,
     unknowns=("normal force of each closed contact node",),
     terms=("compliance of the flanks",),

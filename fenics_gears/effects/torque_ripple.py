@@ -6,18 +6,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite, lcm, pi
-from typing import Any
 
-from pydantic import Field
-from pydantic_core import PydanticCustomError
-
-from fenics_gears.dynamics.torque_ripple_data import Harmonic, TorqueRipple
 from fenics_gears.effects.effect import Effect, ResultVariable
-from fenics_gears.inputs import units
-from fenics_gears.inputs.fields import Allowed, Section, out_of_range, refused
-from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.fields import declared, number, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.spelling import quantity_text
+from fenics_gears.inputs.section import AllowedTables, Section
 from fenics_gears.inputs.tree import Tree, dotted, load_in, quantity_in, table
 from fenics_gears.inputs.written import as_written
 
@@ -25,99 +18,33 @@ HIGHEST_ORDER = 1e6
 MOST_HARMONICS = 1000
 # Orders are taken as whole parts of this; finer ones repeat in no run.
 FINEST_PART_OF_ORDER = 1000
-# Bounds of amplitude and phase, and what they are written like.
-QUANTITIES = {"amplitude": ("1e-12 N m", "1e12 N m", "20 N m"), "phase": ("-360 deg", "360 deg", "30 deg")}
-_KINDS = {name: (units.quantity(example)[1], units.unit_of(example)) for name, (_, _, example) in QUANTITIES.items()}
 
 
 @dataclass(frozen=True)
-class AllowedHarmonics(Allowed):
-    """A list of tables with order, amplitude and phase."""
+class Harmonic(Section):
+    """amplitude cos(order theta + phase), with theta the angle that the wheel's shaft has turned since the start."""
 
-    def convert(self, value: Any) -> tuple[Harmonic, ...]:
-        """The harmonics in N mm and rad. Raises PydanticCustomError, which names the first that is wrong."""
-        if not isinstance(value, list):
-            raise refused("is not a list.")
-        if not 0 < len(value) <= MOST_HARMONICS:
-            raise refused(
-                f"has {len(value)} entries."
-                if value
-                else "is empty. For a steady torque, leave the section [torque_ripple] out."
-            )
-        return tuple(_harmonic(place, entry) for place, entry in enumerate(value, 1))
+    order: float = number(1.0, meaning="order", above=0, highest=HIGHEST_ORDER)
+    amplitude: float = quantity("1e-12 N m to 1e12 N m", "20 N m", meaning="amplitude")
+    phase: float = quantity("-360 deg to 360 deg", "30 deg", meaning="phase", default="0 deg")
 
 
-def _harmonic(place: int, entry: Any) -> Harmonic:
-    """One harmonic; raises PydanticCustomError that names its `place` in the list."""
-    if not isinstance(entry, Mapping):
-        raise refused(
-            f"has the entry {as_written(entry)} at place {place}, which is no table of order, amplitude and phase."
-        )
-    for name in entry:
-        if name not in ("order", *QUANTITIES):
-            raise refused(
-                f'has "{name}" at place {place}, which no harmonic has.{did_you_mean(name, ("order", *QUANTITIES))}'
-            )
-    for name in ("order", "amplitude"):
-        if name not in entry:
-            raise refused(f"has no {name} at place {place}.")
-    values = {"order": _order(place, entry["order"])}
-    for name in QUANTITIES:
-        if name in entry:
-            values[name] = _quantity(place, name, entry[name])
-    return Harmonic(**values)
-
-
-def _order(place: int, value: Any) -> float:
-    number = value if isinstance(value, (int, float)) and not isinstance(value, bool) else None
-    if number is None or not isfinite(number) or not 0 < number <= HIGHEST_ORDER:
-        raise refused(
-            f"has order = {as_written(value)} at place {place}, which is not a number above 0 and up to"
-            f" {HIGHEST_ORDER:g}."
-        )
-    return float(number)
-
-
-def _quantity(place: int, name: str, value: Any) -> float:
-    lowest, highest, example = QUANTITIES[name]
-    (low, kind), (high, _) = units.quantity(lowest), units.quantity(highest)
-    try:
-        converted = Allowed("", kind, units.unit_of(example)).convert(value)
-        reason = out_of_range(converted, low, high)
-    except PydanticCustomError as error:
-        reason = error.context["reason"]
-    if reason:
-        raise refused(
-            f"has {name} = {as_written(value)} at place {place}, which {reason} From {lowest} to {highest} are allowed."
-        )
-    return converted
-
-
-_HARMONICS = AllowedHarmonics(
-    f"a list of harmonics, each with an order above 0 up to {HIGHEST_ORDER:g}, an amplitude and, if any, "
+_HARMONICS = AllowedTables(
+    description=f"a list of harmonics, each with an order above 0 up to {HIGHEST_ORDER:g}, an amplitude and, if any, "
     'a phase, such as [{ order = 1, amplitude = "20 N m", phase = "30 deg" }]',
+    section=Harmonic,
+    singular="harmonic",
+    empty="For a steady torque, leave the section [torque_ripple] out.",
+    most=MOST_HARMONICS,
     meaning="harmonics added to `load.wheel_torque`: amplitude * cos(order * rotation of the wheel's shaft + phase)",
 )
 
 
-class TorqueRippleText(Section):
+@dataclass(frozen=True)
+class TorqueRipple(Section):
     """``[torque_ripple]``."""
 
-    harmonics: tuple = Field(..., json_schema_extra={"allowed": _HARMONICS})
-
-
-def write(ripple: TorqueRipple) -> dict:
-    """The section, with a table for each harmonic."""
-
-    def harmonic(each: Harmonic) -> dict:
-        written = {
-            name: quantity_text(getattr(each, name), *_KINDS[name])
-            for name in QUANTITIES
-            if name != "phase" or each.phase
-        }
-        return {"order": float(each.order), **written}
-
-    return {"harmonics": [harmonic(each) for each in ripple.harmonics]}
+    harmonics: tuple[Harmonic, ...] = declared(_HARMONICS)
 
 
 def torque_keeps_its_sign(tree: Tree) -> Iterator[Problem]:
@@ -170,8 +97,7 @@ EFFECT = Effect(
     section="torque_ripple",
     description="load torque that varies with the rotation of the wheel's shaft, as a sum of harmonics",
     absent="constant load torque",
-    text=TorqueRippleText,
-    data=TorqueRipple,
+    fields=TorqueRipple,
     terms=("varying load torque",),
     variables=(
         ResultVariable(
@@ -180,7 +106,6 @@ EFFECT = Effect(
     ),
     rules=torque_keeps_its_sign,
     load=load,
-    write=write,
     results=results,
     period=period,
 )

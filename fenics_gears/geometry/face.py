@@ -7,11 +7,16 @@ long. z (mm) runs along the axis from the middle of the common face; `left` is -
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from fenics_gears.geometry.face_data import BOTH, LEFT, RIGHT, LeadModification, LeadModifications, Misalignment
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.relief_data import POWERS
+
+if TYPE_CHECKING:
+    from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
+    from fenics_gears.effects.misalignment import Misalignment
 
 
 def face_opening(
@@ -50,10 +55,9 @@ def lead_removal(modification: LeadModification, place, face_width: float) -> np
     removed += modification.helix_slope * share + 0.5 * abs(modification.helix_slope)
     relief = modification.end_relief
     if relief is not None:
-        for side, sign in ((LEFT, -1.0), (RIGHT, 1.0)):
-            if relief.sides in (side, BOTH):
-                beyond = sign * share * face_width - (0.5 * face_width - relief.length)
-                removed += relief.depth * (np.maximum(beyond, 0.0) / relief.length) ** POWERS[relief.shape]
+        for end in relief.ends:
+            beyond = end * share * face_width - (0.5 * face_width - relief.length)
+            removed += relief.depth * (np.maximum(beyond, 0.0) / relief.length) ** relief.power
     return removed
 
 
@@ -62,10 +66,10 @@ def coast_face_opening(pair: GearPair, misalignment: Misalignment, z, position) 
     start."""
     double = 2.0 * pair.operating_pressure_angle
     cosine, sine = np.cos(double), np.sin(double)
-    # In the mirror, the line of centres being the mirror's line: the misalignment as it is seen there, and the other
+    # In the mirror, the line of centres being the mirror's line: the misalignment as it is there, and the other
     # hand.
-    seen = Misalignment(-cosine * misalignment.in_plane - sine * misalignment.out_of_plane)
-    return misalignment_opening(pair, seen, z, position, -pair.slope)
+    mirrored = replace(misalignment, in_plane=-cosine * misalignment.in_plane - sine * misalignment.out_of_plane)
+    return misalignment_opening(pair, mirrored, z, position, -pair.slope)
 
 
 def misalignment_opening(

@@ -11,22 +11,24 @@ meaning, since the pitch deviation says where the flank stands. Curves may be gi
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.flank_error_data import (
-    MEAN,
-    FlankErrors,
-    GearErrors,
-    MeasuredCurve,
-    MeasuredCurves,
-    Waviness,
-)
 from fenics_gears.geometry.flank_tolerance import FlankTolerance, flank_tolerance, helix_tolerance
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.written import as_written
+
+if TYPE_CHECKING:
+    from fenics_gears.effects.flank_errors_sections import (
+        FlankErrors,
+        GearErrors,
+        MeasuredCurve,
+        MeasuredCurves,
+        Waviness,
+    )
 
 PITCH, SLOPE, FORM, HELIX_SLOPE, HELIX_FORM = range(
     5
@@ -118,7 +120,7 @@ def _of_gear(
                 level,
                 width,
                 middle,
-                _curves(own.measured_helix, gear, (-0.5 * width, 0.5 * width), None if own.anchor == MEAN else 0.0),
+                _curves(own.measured_helix, gear, (-0.5 * width, 0.5 * width), None if own.in_the_mean else 0.0),
             )
         allowed = (
             None if tolerance is None else helix_tolerance(2.0 * gear.reference_radius, width, errors.tolerance_class)
@@ -143,7 +145,7 @@ def _of_gear(
         waviness=own.waviness,
         active_profile=active_profile,
         helix=None if face is None else along_face(*face),
-        curves=_curves(own.measured_profile, gear, active_profile, None if own.anchor == MEAN else v_roll_angle(gear))
+        curves=_curves(own.measured_profile, gear, active_profile, None if own.in_the_mean else v_roll_angle(gear))
         if measured
         else None,
     )

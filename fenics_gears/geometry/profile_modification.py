@@ -7,12 +7,14 @@ active profile to the tip.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.profile_modification_data import ProfileModification, ProfileModifications
+
+if TYPE_CHECKING:
+    from fenics_gears.effects.profile_modifications import ProfileModification, ProfileModifications
 
 
 @dataclass(frozen=True)

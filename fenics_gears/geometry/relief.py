@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import degrees, isfinite, sqrt
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.relief_data import Relief, RootRelief, TipRelief
+
+if TYPE_CHECKING:
+    from fenics_gears.effects.relief import Relief, Reliefs
 
 
 @dataclass(frozen=True)
@@ -62,7 +65,7 @@ class _Side:
         return self.section.replace("_", " ")
 
 
-def tip_reliefs(pair: GearPair, reliefs: TipRelief) -> tuple[ReliefCurve | None, ReliefCurve | None]:
+def tip_reliefs(pair: GearPair, reliefs: Reliefs) -> tuple[ReliefCurve | None, ReliefCurve | None]:
     """Relief of pinion and wheel from HPSTC, unless the scene gives another start, to the tip; None for a gear that has
     none.
 
@@ -73,7 +76,7 @@ def tip_reliefs(pair: GearPair, reliefs: TipRelief) -> tuple[ReliefCurve | None,
     )
 
 
-def root_reliefs(pair: GearPair, reliefs: RootRelief) -> tuple[ReliefCurve | None, ReliefCurve | None]:
+def root_reliefs(pair: GearPair, reliefs: Reliefs) -> tuple[ReliefCurve | None, ReliefCurve | None]:
     """Relief of pinion and wheel from LPSTC, unless the scene gives another start, to the form circle; None for a gear
     that has none.
 
@@ -84,7 +87,7 @@ def root_reliefs(pair: GearPair, reliefs: RootRelief) -> tuple[ReliefCurve | Non
     )
 
 
-def _curves(pair: GearPair, reliefs: TipRelief | RootRelief, section: str, ends, usual_starts):
+def _curves(pair: GearPair, reliefs: Reliefs, section: str, ends, usual_starts):
     sides = (
         _Side(getattr(pair, name), name, section, *angles)
         for name, *angles in zip(("pinion", "wheel"), ends, usual_starts)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from math import pi
 from typing import Any
 
 from fenics_gears.inputs import units
 from fenics_gears.inputs.names import nearest
-from fenics_gears.inputs.problem import Path, Problem
-from fenics_gears.inputs.written import as_written
+from fenics_gears.inputs.problem import Path
 
 Tree = Mapping[str, Any]
 GEARS = ("pinion", "wheel")
@@ -122,13 +121,3 @@ def material_sections(tree: Tree) -> list[Path]:
         for name in home
         if nearest(name, ["material"])
     ]
-
-
-def too_large_for_the_module(tree: Tree, path: Path, written: Any) -> Iterator[Problem]:
-    """The problem of an error of manufacture, a length or a list of lengths, that is not small against the module."""
-    module = quantity_at(tree, "gears", "module")
-    sizes = [abs(quantity_in(value) or 0.0) for value in (written if isinstance(written, list) else [written])]
-    if module is not None and max(sizes, default=0.0) > LARGEST_ERROR * module > 0.0:
-        largest = LARGEST_ERROR * module
-        message = f"is too large an error of manufacture for a module of {module:g} mm: up to {max(sizes):.4g} mm."
-        yield Problem(path, as_written(written), f"{message} Allowed: up to {largest:g} mm.")

@@ -185,6 +185,30 @@ def own_unit(kind: str) -> str:
     return next(unit for unit, each in _KINDS.items() if each == kind)
 
 
+# A number is written with the fewest of so many digits that read as the same number.
+DIGITS = (3, 6, 9, 12, 15, 16, 17)
+
+
+def text_of(value: float, kind: str, usual: str) -> str:
+    """A quantity of a kind with its unit, the usual one if that gives it bit for bit.
+
+    >>> text_of(437000.0, "a torque", "N m")
+    '437 N m'
+    >>> text_of(0.031, "a length", "um"), text_of(0.031, "a length", "mm")
+    ('31 um', '0.031 mm')
+    """
+    own = own_unit(kind)
+    for unit in (usual, own):
+        quotient = float(value) / quantity(f"1 {unit}")[0]
+        # The quotient and then the product with the factor are rounded: a number beside it may be the one.
+        for number in (quotient, math.nextafter(quotient, math.inf), math.nextafter(quotient, -math.inf)):
+            for digits in DIGITS:
+                text = f"{number:.{digits}g} {unit}"
+                if quantity(text)[0] == value:
+                    return text
+    return f"{quotient!r} {own}"
+
+
 def _tidy(written: str) -> str:
     """A unit in plain letters: "µm" as "um", "min⁻¹" as "min^-1"."""
     return _NEGATIVE_POWER.sub(lambda found: f"^-{found[1].translate(_DIGITS)}", written).translate(_SPELLINGS).strip()

@@ -10,9 +10,9 @@ import numpy as np
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
 from fenics_gears.effects import EFFECTS, Effect, common_period, result_variables
+from fenics_gears.effects.flank_errors_sections import MEAN
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.flank_deviations import v_roll_angle
-from fenics_gears.geometry.flank_error_data import MEAN
 from fenics_gears.geometry.sliding import sliding_speed
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.cost import SECTOR_UNKNOWNS, expected_cost

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.contact.face import Face, even_slices
+from fenics_gears.effects import from_effects
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.rough_stiffness import mean_youngs_modulus
@@ -61,8 +62,7 @@ def layers_of_common_face(scene: Scene, pair: GearPair, slices: int) -> int:
 def _fewest_layers(scene: Scene, pair: GearPair) -> int:
     """Layers of the common face by their thickness and, of a helical pair, by how far its line of contact moves within
     one."""
-    relieved = scene.tip_relief is not None and None not in (scene.tip_relief.pinion, scene.tip_relief.wheel)
-    turn = LAYER_TURN_RELIEVED if relieved else LAYER_TURN
+    turn = LAYER_TURN_RELIEVED if any(from_effects(scene, "gentle")) else LAYER_TURN
     moves = turn * pair.base_pitch / abs(pair.slope) if pair.slope else np.inf
     return max(ceil(pair.face_width / min(LAYER_THICKNESS * scene.gears.module, moves) - 1e-9), FEWEST_LAYERS)
 

@@ -13,8 +13,7 @@ from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.contact_loss import contact_losses
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March
-from fenics_gears.effects.relief import PARABOLIC
-from fenics_gears.geometry.relief_data import RootRelief, TipRelief
+from fenics_gears.effects.relief import PARABOLIC, Reliefs
 from fenics_gears.results.key_numbers import wedged
 from fenics_gears.scene.data import Scene
 
@@ -233,7 +232,7 @@ def _kink(scene: Scene, numbers: Mapping) -> list[str]:
     ]
 
 
-def _linear(reliefs: TipRelief | RootRelief | None) -> list[str]:
+def _linear(reliefs: Reliefs | None) -> list[str]:
     """The gears whose relief is linear."""
     own = {gear: getattr(reliefs, gear, None) for gear in ("pinion", "wheel")}
     return [gear for gear, relief in own.items() if relief is not None and relief.power == 1 and relief.depth > 0.0]

@@ -8,21 +8,32 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from fenics_gears.dynamics.drivetrain_data import Bearings, Damping, Inertia, Shafts
-from fenics_gears.dynamics.torque_ripple_data import TorqueRipple
+from fenics_gears.effects.bearings import Bearings
 from fenics_gears.effects.body_meshes import BodyMeshes
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.corner_contact import CornerContact
+from fenics_gears.effects.damping import Damping
+from fenics_gears.effects.eccentricity import Eccentricity
+from fenics_gears.effects.flank_errors_sections import FlankErrors
 from fenics_gears.effects.friction import Friction
+from fenics_gears.effects.inertia import Inertia
+from fenics_gears.effects.lead_modifications import LeadModifications
+from fenics_gears.effects.misalignment import Misalignment
+from fenics_gears.effects.profile_modifications import ProfileModifications
+from fenics_gears.effects.root_relief import RootRelief
+from fenics_gears.effects.shafts import Shafts
 from fenics_gears.effects.speed_ramp import SpeedRamp
-from fenics_gears.geometry.eccentricity_data import Eccentricity
-from fenics_gears.geometry.face_data import LeadModifications, Misalignment
-from fenics_gears.geometry.flank_error_data import FlankErrors
+from fenics_gears.effects.tip_relief import TipRelief
+from fenics_gears.effects.torque_ripple import TorqueRipple
 from fenics_gears.geometry.gear_data import GearData as GearData
 from fenics_gears.geometry.gear_data import GearPairData, Material
-from fenics_gears.geometry.profile_modification_data import ProfileModifications
-from fenics_gears.geometry.relief_data import RootRelief, TipRelief
 from fenics_gears.inputs.tree import wheel_torque
+from fenics_gears.scene.accuracy import ELASTIC as ELASTIC
+from fenics_gears.scene.accuracy import ISO_6336 as ISO_6336
+from fenics_gears.scene.accuracy import RIGID_TEETH as RIGID_TEETH
+from fenics_gears.scene.accuracy import STIFFNESS_TABLE as STIFFNESS_TABLE
+from fenics_gears.scene.accuracy import Accuracy as Accuracy
+from fenics_gears.scene.output import Output as Output
 
 
 @dataclass(frozen=True)
@@ -78,43 +89,6 @@ class Motion:
     recorded_cycles: int
     fewer_where_too_large: bool = False
     speed_given: bool = True
-
-
-# Models of the mesh: the full contact of elastic flanks, and cheaper ones.
-ELASTIC, RIGID_TEETH, STIFFNESS_TABLE, ISO_6336 = "elastic", "rigid teeth", "stiffness table", "ISO 6336-1"
-
-
-@dataclass(frozen=True)
-class Accuracy:
-    """How the scene is computed; where a value is None the program chooses it.
-
-    ``elastic_teeth``: teeth this many pitches apart and further do not deform each other; None: all that can be loaded
-        together do.
-    ``slices`` of the common face and ``layers`` of elements over a gear's face: of three-dimensional scenes only.
-    ``target``: relative error for which a run chooses all settings by measuring; no other field is given beside it.
-    """
-
-    element: str | None = None
-    flank_element_size: float | None = None
-    contact_length: float | None = None
-    contact_nodes: int | None = None
-    steps_per_mesh_cycle: int | None = None
-    condensation: str | None = None
-    body_element_size: float | None = None
-    interpolation: str | None = None
-    elastic_teeth: int | None = None
-    model: str | None = None
-    target: float | None = None
-    slices: int | None = None
-    layers: int | None = None
-
-
-@dataclass(frozen=True)
-class Output:
-    """Results besides those that every run has."""
-
-    root_stress: bool = False
-    contact_fields: bool = True
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,6 @@ from dataclasses import replace
 from math import cos, tan
 from typing import Any
 
-from fenics_gears.effects.effect import same_names
 from fenics_gears.effects.tooth_elasticity import material_of
 from fenics_gears.geometry import tooth_thickness
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear, transverse_gear
@@ -27,7 +26,7 @@ from fenics_gears.scene import unusual
 from fenics_gears.scene.data import Derived, Load, Motion
 from fenics_gears.scene.gear_schema import MEASURES, Gears
 from fenics_gears.scene.gear_schema import Gear as GearText
-from fenics_gears.scene.schema import Load as LoadText
+from fenics_gears.scene.schema import LoadText
 
 # Largest difference, in modules, of the profile shift of a thickness from that of the drawing: more is another number
 # of spanned teeth or another gear.
@@ -69,14 +68,18 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
         )
         for gear, own, width in zip(drawn, both, widths)
     )
-    others = {
-        "face_width": common,
-        "pinion": pinion,
-        "wheel": wheel,
-        "material": material_of(gears.material),
-        "axial_offsets": offsets,
-    }
-    data = same_names(GearPairData, gears, ("backlash", "tip_shortening", "rack"), centre_distance=distance, **others)
+    data = GearPairData(
+        module=gears.module,
+        pressure_angle=gears.pressure_angle,
+        centre_distance=distance,
+        face_width=common,
+        pinion=pinion,
+        wheel=wheel,
+        material=material_of(gears.material),
+        helix_angle=gears.helix_angle or 0.0,
+        pinion_hand=gears.pinion_hand or "right",
+        axial_offsets=offsets,
+    )
     return data, derived + _named_materials(gears)
 
 

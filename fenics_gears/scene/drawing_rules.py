@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from fenics_gears.inputs.fields import allowed_in
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.section import allowed_in
 from fenics_gears.inputs.tree import GEARS, LOADS, Tree, quantity_at, table, value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.gear_schema import MEASURES, Gear
-from fenics_gears.scene.schema import Load
+from fenics_gears.scene.schema import LoadText
 
 
 def _thickness_is_given_once(tree: Tree) -> Iterator[Problem]:
@@ -124,7 +124,7 @@ def _load_is_given_once(tree: Tree) -> Iterator[Problem]:
         yield Problem(
             ("load", "wheel_torque"),
             None,
-            f"is missing. Allowed: {allowed_in(Load, 'wheel_torque').description}; or pinion_torque or power.",
+            f"is missing. Allowed: {allowed_in(LoadText, 'wheel_torque').description}; or pinion_torque or power.",
         )
     for name in given[1:]:
         yield Problem(

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.section import given
 from fenics_gears.inputs.tree import (
     GEARS,
     NOT_IN_THE_PLANE,
@@ -19,6 +20,7 @@ from fenics_gears.inputs.tree import (
     value_at,
 )
 from fenics_gears.inputs.written import as_written
+from fenics_gears.scene.schema import SceneText
 
 # Effects say themselves what they need.
 NOT_EFFECTS = (("gears", "helix_angle"), ("bearings", "places"))
@@ -72,13 +74,12 @@ def faces_are_resolved_by_elastic_contact(tree: Tree) -> Iterator[Problem]:
 
 
 def fields_of_faces_have_a_face(tree: Tree) -> Iterator[Problem]:
-    """Slices and layers belong to three-dimensional scenes, a hand to a helix, and layers have a thickness."""
-    accuracy, gears = table(tree, "accuracy") or {}, table(tree, "gears") or {}
-    reasons = over_the_face(tree)
+    """Fields of faces belong to three-dimensional scenes, a hand to a helix, and layers have a thickness."""
+    gears, reasons = table(tree, "gears") or {}, over_the_face(tree)
     if not reasons:
-        for name in ("slices", "layers"):
-            if name in accuracy:
-                yield Problem(("accuracy", name), as_written(accuracy[name]), NOT_IN_THE_PLANE)
+        for path, allowed, written in given(SceneText, tree):
+            if allowed.over_face:
+                yield Problem(path, as_written(written), NOT_IN_THE_PLANE)
     if "pinion_hand" in gears and "helix_angle" not in gears:
         message = (
             'is missing. Allowed: such as "15 deg"; pinion_hand has no meaning without it. Add it, or leave pinion_hand'
@@ -92,11 +93,13 @@ def fields_of_faces_have_a_face(tree: Tree) -> Iterator[Problem]:
 def _layers_are_no_needles(tree: Tree) -> Iterator[Problem]:
     module, layers = quantity_at(tree, "gears", "module"), value_at(tree, "accuracy", "layers")
     homes = [("gears", "face_width"), *(("gears", gear, "face_width") for gear in GEARS)]
-    given = {path: width for path in homes if (width := quantity_in(value_at(tree, *path))) is not None and width > 0.0}
-    if module is None or not given:
+    widths = {
+        path: width for path in homes if (width := quantity_in(value_at(tree, *path))) is not None and width > 0.0
+    }
+    if module is None or not widths:
         return
-    path = min(given, key=lambda each: given[each])
-    thinnest, width = THINNEST_LAYER * module, given[path]
+    path = min(widths, key=lambda each: widths[each])
+    thinnest, width = THINNEST_LAYER * module, widths[path]
     if width < thinnest:
         message = (
             "is less than a layer of elements. Allowed in three-dimensional scenes of this module: from"

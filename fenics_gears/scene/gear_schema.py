@@ -3,29 +3,31 @@
 
 from __future__ import annotations
 
-from typing import Literal, Optional
+from dataclasses import dataclass
 
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
 from fenics_gears.geometry.gear_data import RACKS
-from fenics_gears.inputs.fields import Section, choice, number, quantity, whole_number
+from fenics_gears.inputs.fields import choice, number, quantity, whole_number
+from fenics_gears.inputs.section import Section
 
 # Measures of the tooth thickness, each with what has to be known with it.
 MEASURES = {"tooth_thickness": None, "base_tangent_length": "spanned_teeth", "dimension_over_balls": "ball_diameter"}
 
 
 def _length(example: str, meaning: str, otherwise: str):
-    return quantity("0.01 mm", "100 m", example, meaning=meaning, otherwise=otherwise)
+    return quantity("0.01 mm to 100 m", example, meaning=meaning, otherwise=otherwise)
 
 
 def _diameter(example: str, meaning: str, otherwise: str = ""):
-    return quantity("0.1 mm", "100 m", example, meaning=meaning, otherwise=otherwise)
+    return quantity("0.1 mm to 100 m", example, meaning=meaning, otherwise=otherwise)
 
 
+@dataclass(frozen=True)
 class RackText(Section):
     """``[gears.rack]``: the generating rack of both gears, or within a gear's section its own. A figure that is given
     replaces that of the profile, and one of a gear's own that of both."""
 
-    profile: Optional[Literal[tuple(RACKS)]] = choice(
+    profile: str | None = choice(
         *RACKS,
         meaning=(
             "addendum, dedendum and tip radius by ISO 53:1998, Annex A: A 1/1.25/0.38, B 1/1.25/0.3, C 1/1.25/0.25, D"
@@ -33,22 +35,21 @@ class RackText(Section):
         ),
         otherwise="`ISO 53 A`",
     )
-    addendum: Optional[float] = number(
+    addendum: float | None = number(
         1.0, meaning="addendum h_aP of the basic rack, in modules", above=0, highest=3, otherwise="that of the profile"
     )
-    dedendum: Optional[float] = number(
+    dedendum: float | None = number(
         1.25, meaning="dedendum h_fP of the basic rack, in modules", above=0, highest=3, otherwise="that of the profile"
     )
-    tip_radius: Optional[float] = number(
+    tip_radius: float | None = number(
         0.38,
         meaning="tip radius of the rack's tooth, in modules; it shapes the fillet",
         lowest=0,
         highest=2,
         otherwise="that of the profile, or what has room on the rack's tip",
     )
-    protuberance: Optional[float] = quantity(
-        "0 mm",
-        "1 m",
+    protuberance: float | None = quantity(
+        "0 mm to 1 m",
         "0.15 mm",
         meaning=(
             "amount pr_P0 by which the rounding of the rack's tip stands out beyond its flank, normal to it, so that"
@@ -56,16 +57,14 @@ class RackText(Section):
         ),
         otherwise="0 mm, a rack without protuberance",
     )
-    protuberance_angle: Optional[float] = quantity(
-        "1 deg",
-        "34 deg",
+    protuberance_angle: float | None = quantity(
+        "1 deg to 34 deg",
         "10 deg",
         meaning="pressure angle alpha_prP0 of the short flank between protuberance and flank",
         otherwise="half the pressure angle; has no meaning without `protuberance`",
     )
-    finishing_stock: Optional[float] = quantity(
-        "0 mm",
-        "1 m",
+    finishing_stock: float | None = quantity(
+        "0 mm to 1 m",
         "0.1 mm",
         meaning=(
             "stock q on the flanks that finishing takes off, normal to them and not in the root; no more than"
@@ -75,17 +74,19 @@ class RackText(Section):
     )
 
 
+@dataclass(frozen=True)
 class WebText(Section):
     """``[gears.pinion.web]`` and ``[gears.wheel.web]``: a web between hub and rim that is less wide than the face. It
     counts in plane strain, stiff and heavy by its share of the face width."""
 
     rim_inner_diameter: float = _diameter("100 mm", "inner diameter of the rim, where the web ends")
     width: float = _length("8 mm", "width of the web, at most the gear's face width", "")
-    hub_diameter: Optional[float] = _diameter(
+    hub_diameter: float | None = _diameter(
         "50 mm", "outer diameter of the hub, where the web begins", "the bore diameter"
     )
 
 
+@dataclass(frozen=True, kw_only=True)
 class Gear(Section):
     """``[gears.pinion]`` and ``[gears.wheel]``: the pinion drives, the wheel is driven; both are external gears. The
     tooth thickness is given by `profile_shift`, or measured (`tooth_thickness`, `base_tangent_length` or
@@ -93,24 +94,23 @@ class Gear(Section):
     tip circle and centre distance go by `profile_shift`."""
 
     teeth: int = whole_number(5, 1000, 16, meaning="number of teeth")
-    profile_shift: Optional[float] = number(
+    profile_shift: float | None = number(
         0.196,
         meaning="profile shift coefficient x, in modules",
         lowest=-5,
         highest=5,
         otherwise="that of the measured tooth thickness; one of both is required",
     )
-    tip_diameter: Optional[float] = _diameter(
+    tip_diameter: float | None = _diameter(
         "82.64 mm", "tip diameter", "d_a = d + 2 m_n (x + h_aP + k), with k of `tip_shortening`"
     )
-    root_diameter: Optional[float] = _diameter(
+    root_diameter: float | None = _diameter(
         "62.50 mm",
         "root diameter, from which the dedendum of the generating rack follows",
         "d_f = d + 2 m_n (x - h_fP), with x of the tooth thickness",
     )
-    tip_chamfer: Optional[float] = quantity(
-        "0 mm",
-        "1 m",
+    tip_chamfer: float | None = quantity(
+        "0 mm to 1 m",
         "0.3 mm",
         meaning=(
             "radial height h_K of the chamfer between flank and tip circle, as long on the one as on the other; the"
@@ -121,36 +121,35 @@ class Gear(Section):
     bore_diameter: float = _diameter(
         "30 mm", "bore diameter; the bore is a rigid ring on the shaft, which makes thin rims too stiff"
     )
-    rack_tip_radius: Optional[float] = number(
+    rack_tip_radius: float | None = number(
         0.38,
         meaning="tip radius of the generating rack, in modules; the same as `tip_radius` of `[gears.pinion.rack]`",
         lowest=0,
         highest=2,
         otherwise="`tip_radius` of the rack; 0.38, or what has room on the rack's tip",
     )
-    tooth_thickness: Optional[float] = _length(
+    tooth_thickness: float | None = _length(
         "7.7 mm", "normal tooth thickness s_n at the reference cylinder", "from `profile_shift`"
     )
-    base_tangent_length: Optional[float] = _length(
+    base_tangent_length: float | None = _length(
         "34.5 mm", "base tangent length W_k over `spanned_teeth`", "from `profile_shift`"
     )
-    spanned_teeth: Optional[int] = whole_number(
+    spanned_teeth: int | None = whole_number(
         2,
         1000,
         3,
         meaning="number of teeth k that the base tangent length spans",
         otherwise="as `gears check` chooses; required with `base_tangent_length`",
     )
-    dimension_over_balls: Optional[float] = _length(
+    dimension_over_balls: float | None = _length(
         "85.2 mm", "dimension M_d over two balls, of spur gears also over two pins", "from `profile_shift`"
     )
-    ball_diameter: Optional[float] = _length(
+    ball_diameter: float | None = _length(
         "8 mm", "diameter D_M of the balls or pins", "as `gears check` chooses; required with `dimension_over_balls`"
     )
-    face_width: Optional[float] = _length("15 mm", "face width of this gear", "that of `[gears]`")
-    axial_offset: Optional[float] = quantity(
-        "-100 m",
-        "100 m",
+    face_width: float | None = _length("15 mm", "face width of this gear", "that of `[gears]`")
+    axial_offset: float | None = quantity(
+        "-100 m to 100 m",
         "2 mm",
         meaning=(
             "mid-width of this gear along the axis, from a place common to both gears, positive to the right, the end"
@@ -158,29 +157,27 @@ class Gear(Section):
         ),
         otherwise="0 mm",
     )
-    rack: Optional[RackText] = None
-    web: Optional[WebText] = None
-    material: Optional[OwnMaterialText] = None
+    rack: RackText | None = None
+    web: WebText | None = None
+    material: OwnMaterialText | None = None
 
 
+@dataclass(frozen=True, kw_only=True)
 class Gears(Section):
     """``[gears]``: what both gears share."""
 
     module: float = quantity(
-        "0.01 mm",
-        "1 m",
+        "0.01 mm to 1 m",
         "4.5 mm",
         meaning="module: with `helix_angle` the normal module, without it that of the plane of rotation",
     )
     pressure_angle: float = quantity(
-        "10 deg",
-        "35 deg",
+        "10 deg to 35 deg",
         "20 deg",
         meaning="pressure angle of the generating rack: with `helix_angle` in its normal section",
     )
-    helix_angle: Optional[float] = quantity(
-        "1e-3 deg",
-        "45 deg",
+    helix_angle: float | None = quantity(
+        "1e-3 deg to 45 deg",
         "15 deg",
         meaning=(
             "helix angle at the reference cylinder, without sign; what is given in modules then counts in normal"
@@ -189,21 +186,20 @@ class Gears(Section):
         otherwise="spur gears",
         below="For spur gears, leave it out.",
     )
-    pinion_hand: Optional[Literal["right", "left"]] = choice(
+    pinion_hand: str | None = choice(
         "right",
         "left",
         meaning="hand of the pinion's helix; the wheel has the other",
         otherwise="`right`; has no meaning without `helix_angle`",
     )
-    centre_distance: Optional[float] = _diameter(
+    centre_distance: float | None = _diameter(
         "91.5 mm",
         "distance of the axes",
         "that of the profile shifts without backlash: inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1"
         " + z2)",
     )
-    backlash: Optional[float] = quantity(
-        "0 mm",
-        "1 m",
+    backlash: float | None = quantity(
+        "0 mm to 1 m",
         "0.1 mm",
         meaning=(
             "circumferential backlash j_wt at the pitch circles. Beside `profile_shift` of both gears it is made by"
@@ -211,7 +207,7 @@ class Gears(Section):
         ),
         otherwise="what centre distance and tooth thicknesses leave",
     )
-    tip_shortening: Optional[float] = number(
+    tip_shortening: float | None = number(
         0.05,
         meaning=(
             "how much shorter the addendum of both gears is, in modules: -k of DIN 3960 and ISO 21771, where k of"
@@ -225,7 +221,7 @@ class Gears(Section):
             " negative"
         ),
     )
-    face_width: Optional[float] = _length(
+    face_width: float | None = _length(
         "15 mm",
         "face width of both gears; gears of unequal width mesh over the smaller one, centred unless they have an"
         " `axial_offset`; in the plane one to three modules of what stands out help to carry (`gears check` says which"
@@ -234,5 +230,5 @@ class Gears(Section):
     )
     pinion: Gear
     wheel: Gear
-    rack: Optional[RackText] = None
-    material: Optional[MaterialText] = None
+    rack: RackText | None = None
+    material: MaterialText | None = None

@@ -6,18 +6,18 @@ import math
 import os
 import tomllib
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from fenics_gears.effects import top_level
-from fenics_gears.effects.effect import same_names
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem, line_numbers, listed
 from fenics_gears.inputs.written import WrittenFloat, as_toml, as_written
 from fenics_gears.scene import data
+from fenics_gears.scene import problems as problems_of
 from fenics_gears.scene.drawing import gear_pair_data, load_data, with_material_sections
-from fenics_gears.scene.problems import problems_of_schema, without_echoes
 from fenics_gears.scene.rules import broken_rules
 from fenics_gears.system import user_file
 from fenics_gears.system.printable import control_character, printable
@@ -116,14 +116,13 @@ def scene_from_text(
         raise SceneError(
             f"{source}: is a study, not a scene; `gears study {source}` runs it. Nothing was computed or written."
         )
-    checked, problems = problems_of_schema(tree)
-    problems = without_echoes(problems + broken_rules(tree))
-    if problems:
-        raise SceneError(listed(problems, line_numbers(text) if with_lines else {}, source))
     try:
-        return checked_scene(checked, text, name, directory)
+        scene, problems = scene_of(tree, text, name, directory)
     except GeometryError as error:
         raise GeometryError(f"{source}: {error}\nNothing was computed or written.") from error
+    if scene is None:
+        raise SceneError(listed(problems, line_numbers(text) if with_lines else {}, source))
+    return scene
 
 
 def _why_no_toml(error: Exception) -> str:
@@ -137,12 +136,15 @@ def _nearest_file(path: Path) -> str:
     return "." + did_you_mean(path.name, neighbours)
 
 
-def checked_scene(checked, text: str, name: str, directory: Path) -> data.Scene:
-    """The dataclasses of a scene whose tree has neither problems of its schema, `checked` being what that gave, nor
-    broken rules.
+def scene_of(tree: Mapping[str, Any], text: str, name: str, directory: Path) -> tuple[data.Scene | None, list[Problem]]:
+    """The scene of a parsed text, None where it is wrong, and all that is wrong with it.
 
     Raises GeometryError for a figure of the gears that cannot be derived.
     """
+    checked, problems = problems_of.checked(tree)
+    problems = problems_of.without_echoes(problems + broken_rules(tree))
+    if problems:
+        return None, problems
     gears, derived = gear_pair_data(checked.gears)
     motion = _motion(checked)
     load, of_load = load_data(checked.load, checked.gears, motion)
@@ -151,17 +153,17 @@ def checked_scene(checked, text: str, name: str, directory: Path) -> data.Scene:
         gears=gears,
         load=load,
         motion=motion,
-        accuracy=same_names(data.Accuracy, checked.accuracy),
-        output=data.Output(checked.output.root_stress, contact_fields=checked.output.contact_fields is not False),
+        accuracy=checked.accuracy,
+        output=replace(checked.output, contact_fields=checked.output.contact_fields is not False),
         name=name,
         derived=(*derived, *of_load),
         written=text,
         folder=str(directory.absolute()),
-        **{effect.section: effect.from_text(getattr(checked, effect.section), directory) for effect in top_level()},
+        **{effect.section: effect.data_of(getattr(checked, effect.section), directory) for effect in top_level()},
     )
     # Known already; a scene that is made of this one has to find its own.
     scene.__dict__["text"] = text
-    return scene
+    return scene, []
 
 
 def _motion(checked) -> data.Motion:
@@ -178,21 +180,21 @@ def _motion(checked) -> data.Motion:
     elif frequency is None:
         frequency = motion.pinion_speed / (2 * math.pi) * gears.pinion.teeth
     whole_period = math.lcm(gears.pinion.teeth, gears.wheel.teeth)
-    recorded = motion.recorded_cycles or whole_period if "recorded_cycles" in motion.model_fields_set else None
-    fields = checked.output.contact_fields
-    cycles, whole = motion.mesh_cycles or whole_period, motion.mesh_cycles is None
-    if "mesh_cycles" not in motion.model_fields_set:
-        # True is not a number of cycles, although Python counts it as 1.
+    recorded = None if motion.recorded_cycles is None else motion.recorded_cycles or whole_period
+    stored = checked.output.contact_fields
+    asked = None if isinstance(stored, bool) else stored
+    cycles, whole = motion.mesh_cycles or whole_period, motion.mesh_cycles == 0
+    if motion.mesh_cycles is None:
         least = 1 if motion.settling_time is None else data.LAST_CYCLES
-        wanted = recorded or (fields if fields is not True and fields else least)
+        wanted = recorded or (least if asked in (None, math.inf) else asked)
         whole = any(
             effect.period is not None and getattr(checked, effect.section) is not None for effect in top_level()
         )
         # Rounded, so that 25 ms at 40 Hz are one cycle in spite of round-off.
         settling = math.ceil(round((motion.settling_time or 0.0) * frequency, 9))
         cycles = settling + max(whole_period if whole else 1, wanted)
-    if fields:
-        return data.Motion(frequency, cycles, cycles if fields is True else fields, speed_given=speed_given)
+    if asked is not None:
+        return data.Motion(frequency, cycles, min(cycles, asked), speed_given=speed_given)
     if recorded is not None:
         return data.Motion(frequency, cycles, recorded, speed_given=speed_given)
     if checked.speed_ramp is not None or whole:

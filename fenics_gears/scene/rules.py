@@ -9,15 +9,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from math import inf, lcm
+from math import lcm
 
 from fenics_gears import effects
-from fenics_gears.inputs.fields import allowed_in
 from fenics_gears.inputs.names import nearest
 from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.section import allowed_in, given, names_in
 from fenics_gears.inputs.synonyms import meant
 from fenics_gears.inputs.tree import (
     GEARS,
+    LARGEST_ERROR,
     Tree,
     given_for,
     load_in,
@@ -30,10 +31,12 @@ from fenics_gears.inputs.tree import (
     value_at,
 )
 from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.data import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE
+from fenics_gears.scene.accuracy import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy
+from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
 from fenics_gears.scene.drawing_rules import DRAWING_RULES
 from fenics_gears.scene.face_rules import faces_are_resolved_by_elastic_contact, fields_of_faces_have_a_face
-from fenics_gears.scene.schema import HUNTING_TOOTH_PERIOD, Accuracy, Gears, Motion
+from fenics_gears.scene.gear_schema import Gears
+from fenics_gears.scene.schema import MotionText, SceneText
 
 # In modules: the dense compliance of a flank of such elements has gigabytes.
 FINEST_ELEMENT, FINEST_BODY = 1e-3, 1e-2
@@ -96,8 +99,8 @@ def _one_speed(tree: Tree) -> Iterator[Problem]:
         return
     if "motion" not in tree:
         message = (
-            f"is missing. Add the section [motion] with its fields: {', '.join(Motion.model_fields)}; [{needing}] needs"
-            " a speed."
+            f"is missing. Add the section [motion] with its fields: {', '.join(names_in(MotionText))};"
+            f" [{needing}] needs a speed."
         )
         yield Problem(("motion",), None, message)
         return
@@ -113,7 +116,7 @@ def _one_speed(tree: Tree) -> Iterator[Problem]:
         yield Problem(("motion", "mesh_frequency"), None, message)
     if "mesh_cycles" not in motion and "settling_time" not in motion:
         message = (
-            f"is missing. Allowed: {allowed_in(Motion, 'mesh_cycles').description}; [{needing}] needs it, or"
+            f"is missing. Allowed: {allowed_in(MotionText, 'mesh_cycles').description}; [{needing}] needs it, or"
             ' settling_time, such as "25 ms".'
         )
         yield Problem(("motion", "mesh_cycles"), None, message)
@@ -178,6 +181,18 @@ def _cycles(tree: Tree, written) -> object:
     cycles."""
     teeth = [teeth_in(tree, gear) for gear in GEARS]
     return lcm(*teeth) if written == HUNTING_TOOTH_PERIOD and None not in teeth else written
+
+
+def _errors_are_small(tree: Tree) -> Iterator[Problem]:
+    """Errors of manufacture and modifications are small against the tooth, whose place and shape stay what they are."""
+    module = quantity_at(tree, "gears", "module")
+    largest = LARGEST_ERROR * (module or 0.0)
+    for path, allowed, written in given(SceneText, tree):
+        values = written if isinstance(written, list) else [written]
+        size = max((abs(quantity_in(value) or 0.0) for value in values), default=0.0)
+        if allowed.small and size > largest > 0.0:
+            message = f"is too large an error of manufacture for a module of {module:g} mm: up to {size:.4g} mm."
+            yield Problem(path, as_written(written), f"{message} Allowed: up to {largest:g} mm.")
 
 
 def _resolution_fits_the_teeth(tree: Tree) -> Iterator[Problem]:
@@ -272,7 +287,7 @@ def _a_target_chooses_alone(tree: Tree) -> Iterator[Problem]:
     if "target" not in accuracy:
         return
     for name in accuracy:
-        if name in Accuracy.model_fields and name != "target":
+        if name in names_in(Accuracy) and name != "target":
             message = f"{_NOT_BESIDE_A_TARGET.get(name, 'is chosen by accuracy.target')}. Leave one of the two out."
             yield Problem(("accuracy", name), as_written(accuracy[name]), message)
 
@@ -321,6 +336,7 @@ _RULES = (
     _one_length_of_the_run,
     _recorded_cycles_are_run,
     _contact_fields_are_of_cycles_that_run,
+    _errors_are_small,
     _resolution_fits_the_teeth,
     _body_is_no_finer_than_the_flank,
     _remeshing_has_its_own_nodes,
@@ -339,5 +355,5 @@ def _module(tree: Tree) -> float | None:
     module = quantity_at(tree, "gears", "module")
     if module is None:
         return None
-    limits = Gears.model_fields["module"].metadata
-    return module if all(getattr(each, "ge", 0.0) <= module <= getattr(each, "le", inf) for each in limits) else None
+    allowed = allowed_in(Gears, "module")
+    return module if allowed.lowest <= module <= allowed.highest else None

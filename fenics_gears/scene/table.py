@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from html import escape
 from typing import Any
 
-from fenics_gears.inputs.fields import allowed_in, section_within
+from fenics_gears.inputs.section import allowed_in, section_within
 from fenics_gears.inputs.written import toml_value
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.schema import SceneText

@@ -11,7 +11,7 @@ from typing import Any
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GearsError
 from fenics_gears.geometry.gear_data import GearData, GearPairData, Web
-from fenics_gears.inputs.spelling import field_of, section_tree
+from fenics_gears.inputs.section import field_of, tree_of
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.scene import data, gear_schema, schema
@@ -64,11 +64,11 @@ def section_trees(scene: data.Scene) -> dict[str, Any]:
     found = {
         "title": scene.title or None,
         "gears": _gears(scene.gears),
-        "load": section_tree(scene.load, schema.Load),
+        "load": tree_of(scene.load, schema.LoadText),
         "motion": _motion(scene),
     }
-    found["accuracy"] = section_tree(scene.accuracy, schema.Accuracy) or None
-    found["output"] = section_tree(scene.output, schema.Output) or None
+    found["accuracy"] = tree_of(scene.accuracy) or None
+    found["output"] = tree_of(scene.output) or None
     own = {
         effect.section: effect.as_section(getattr(scene, effect.section))
         for effect in effects_on(scene)
@@ -96,7 +96,7 @@ def _as_read_where_the_same(scene: data.Scene, sections: dict[str, Any]) -> dict
 def _gears(pair: GearPairData) -> dict[str, Any]:
     """``[gears]``, with every figure of the drawing."""
     section, own_width = gear_schema.Gears, any(getattr(pair, name).face_width is not None for name in GEARS)
-    found = section_tree(pair, section, ("pinion", "wheel", "pinion_hand", *(("face_width",) if own_width else ())))
+    found = tree_of(pair, section, ("pinion", "wheel", "pinion_hand", *(("face_width",) if own_width else ())))
     if pair.helix_angle:
         found["pinion_hand"] = pair.pinion_hand
     for name, width, offset in zip(GEARS, pair.face_widths, pair.axial_offsets):
@@ -107,11 +107,11 @@ def _gears(pair: GearPairData) -> dict[str, Any]:
 
 
 def _gear(gear: GearData, width: float, own_width: bool) -> dict[str, Any]:
-    found = section_tree(gear, gear_schema.Gear, ("face_width", "web"))
+    found = tree_of(gear, gear_schema.Gear, ("face_width", "web"))
     if own_width:
         found["face_width"] = field_of(gear_schema.Gear, "face_width", width)
     if gear.protuberance:
-        found["rack"] = section_tree(gear, gear_schema.RackText)
+        found["rack"] = tree_of(gear, gear_schema.RackText)
     if gear.web is not None:
         found["web"] = _web(gear.web, width)
     return found
@@ -129,7 +129,7 @@ def _web(web: Web, face_width: float) -> dict[str, Any]:
 def _motion(scene: data.Scene) -> dict[str, Any]:
     motion, period = scene.motion, math.lcm(scene.gears.pinion.teeth, scene.gears.wheel.teeth)
     found: dict[str, Any] = (
-        {"mesh_frequency": field_of(schema.Motion, "mesh_frequency", motion.mesh_frequency)}
+        {"mesh_frequency": field_of(schema.MotionText, "mesh_frequency", motion.mesh_frequency)}
         if motion.speed_given
         else {}
     )
@@ -141,4 +141,4 @@ def _motion(scene: data.Scene) -> dict[str, Any]:
     if motion.mesh_cycles == period:
         return found | {"mesh_cycles": data.HUNTING_TOOTH_PERIOD}
     settling = (motion.mesh_cycles - max(period, data.LAST_CYCLES)) / motion.mesh_frequency
-    return found | {"settling_time": field_of(schema.Motion, "settling_time", settling)}
+    return found | {"settling_time": field_of(schema.MotionText, "settling_time", settling)}

@@ -7,10 +7,11 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from fenics_gears.inputs.fields import Allowed, AllowedEither, AllowedList, allowed_in
+from fenics_gears.inputs.allowed import Allowed, AllowedEither, AllowedList, AllowedNumber
 from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.section import allowed_in, section_within
 from fenics_gears.inputs.tree import LOADS
-from fenics_gears.scene.schema import SceneText, known_paths, section_within
+from fenics_gears.scene.schema import SceneText, known_paths
 
 Path = tuple[str, ...]
 ABSENT = "absent"
@@ -74,16 +75,12 @@ def allowed_at(path: Path) -> tuple[Allowed | None, float, float]:
     section: Any = SceneText
     for name in path[:-1]:
         section = section_within(section, name)
-    allowed, info = allowed_in(section, path[-1]), section.model_fields[path[-1]]
+    allowed = allowed_in(section, path[-1])
     if isinstance(allowed, AllowedEither):
         return allowed, min(low for low, _ in allowed.ranges.values()), max(high for _, high in allowed.ranges.values())
-    limits = {
-        key: getattr(item, key)
-        for item in info.metadata
-        for key in ("ge", "gt", "le", "lt")
-        if getattr(item, key, None) is not None
-    }
-    return allowed, limits.get("ge", limits.get("gt", -math.inf)), limits.get("le", limits.get("lt", math.inf))
+    if isinstance(allowed, AllowedNumber):
+        return allowed, allowed.lowest, allowed.highest
+    return allowed, -math.inf, math.inf
 
 
 def is_numeric(path: Path) -> bool:

@@ -15,9 +15,7 @@ from fenics_gears.inputs.problem import Problem, counted, line_numbers
 from fenics_gears.inputs.written import as_toml, as_written
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.problems import problems_of_schema, without_echoes
-from fenics_gears.scene.read import checked_scene, load_scene, name_of, parsed, text_of
-from fenics_gears.scene.rules import broken_rules
+from fenics_gears.scene.read import load_scene, name_of, parsed, scene_of, text_of
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import Axis, AxisError, label, unit_of, values_of
 from fenics_gears.studies.study import Case, Study, scene_key
@@ -311,16 +309,13 @@ def _cases(
 
 def scene_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> tuple[Scene | None, list[Problem]]:
     """The validated scene of a case, or what is wrong with it."""
-    checked, problems = problems_of_schema(tree)
-    problems = without_echoes(problems + broken_rules(tree))
-    if problems:
-        return None, problems
     try:
-        scene = checked_scene(checked, as_toml(tree), name, directory)
-        model_of(scene)
+        scene, problems = scene_of(tree, as_toml(tree), name, directory)
+        if scene is not None:
+            model_of(scene)
     except SceneError as error:
         return None, [Problem((), None, str(error))]
-    return scene, []
+    return scene, problems
 
 
 def _in_study(field: fields.Path, written, message: str, changes: Changes, where: list[str], points: int) -> tuple:

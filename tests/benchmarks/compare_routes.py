@@ -88,7 +88,13 @@ def compare(element: str, size: float, options, cache: Cache) -> None:
     """All cases at one resolution, a line each."""
     nodes = round(LENGTH / size) + 1
     for name, scene in cases(load_scene(SCENE), options.cycles).items():
-        accuracy = Accuracy(element, size, LENGTH, nodes, options.steps)
+        accuracy = Accuracy(
+            element=element,
+            flank_element_size=size,
+            contact_length=LENGTH,
+            contact_nodes=nodes,
+            steps_per_mesh_cycle=options.steps,
+        )
         fast = simulate(replace(scene, accuracy=replace(accuracy, condensation=ONCE)), cache=cache)
         slow_scene = replace(scene, accuracy=replace(accuracy, condensation=EVERY_STEP))
         reference = simulate(slow_scene, cache=cache)

@@ -12,10 +12,11 @@ import numpy as np
 from scipy.optimize import brentq
 
 from fenics_gears.effects.friction import Friction
-from fenics_gears.effects.relief import LINEAR, Relief
+from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.inputs.allowed import Measured
 from fenics_gears.scene.data import Accuracy, GearData, GearPairData, Motion, Scene
 
 PRESSURE_ANGLE = radians(20.0)
@@ -124,7 +125,7 @@ def _loaded(scene: Scene, gears: GearPairData, line_load: float = LINE_LOAD) -> 
 def _relief(gears: GearPairData, depth: float = RELIEF) -> TipRelief:
     return TipRelief(
         *(
-            Relief(depth, None, LINEAR, gear.tip_diameter - RELIEVED * gears.module)
+            Relief(depth, Measured(gear.tip_diameter - RELIEVED * gears.module, "a length"))
             for gear in (gears.pinion, gears.wheel)
         )
     )

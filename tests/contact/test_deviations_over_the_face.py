@@ -14,8 +14,8 @@ from fenics_gears.contact.operator import node_slices
 from fenics_gears.contact.run_out import RunOut
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.contact.wobble import WobblingRunOut
-from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
-from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors, Waviness
+from fenics_gears.effects.eccentricity import Eccentricity, Offset
+from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors, Waviness
 from fenics_gears.geometry.helix import Helix
 
 SLICES, STEPS = 4, 10

@@ -5,15 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import get_args
 
-from pydantic import BaseModel
-from pydantic_core import PydanticUndefined
 from tests.docs.markdown import capital, from_docstring, table
 
 from fenics_gears.effects import EFFECTS, effect_named
 from fenics_gears.inputs import units
-from fenics_gears.inputs.fields import Allowed, allowed_in
+from fenics_gears.inputs.allowed import Allowed
+from fenics_gears.inputs.section import Section, allowed_in, names_in, required_in, section_within
 from fenics_gears.scene.schema import SceneText
 
 HEADING = """# The scene
@@ -32,7 +30,7 @@ NAMES = re.compile(r"^`\[[^]]+\]`(?: and (?:`\[[^]]+\]`|the wheel's))?[.:;]\s*")
 
 
 class NoMeaning(ValueError):
-    """A field of the schema that does not say what it is, or may be left out without saying what is taken then."""
+    """A field of the schema that does not say what it is."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +38,7 @@ class SectionOfScene:
     """A section: the names under which a scene has it, what it is, and its fields with their own defaults."""
 
     names: tuple[str, ...]
-    kind: type[BaseModel]
+    kind: type[Section]
 
 
 def page() -> str:
@@ -74,12 +72,12 @@ def _effect(name: str) -> list[str]:
     for words, names in (("Needs", found.needs), ("Excludes", found.excludes)):
         if names:
             lines.append(f"{words} {', '.join(f'`[{effect_named(name).written}]`' for name in names)}.")
-    section = SectionOfScene((name,), found.text)
+    section = SectionOfScene((name,), found.fields)
     return [*lines, "", *_body(section), *_parts(section)]
 
 
 def _with_parts(name: str) -> list[str]:
-    section = SectionOfScene((name,), _section(SceneText, name))
+    section = SectionOfScene((name,), section_within(SceneText, name))
     return [f"### `[{name}]`", "", *_body(section), *_parts(section)]
 
 
@@ -92,26 +90,19 @@ def _body(section: SectionOfScene) -> list[str]:
 def _parts(section: SectionOfScene) -> Iterator[str]:
     """The sections within a section; those of both gears, which are alike, together."""
     alike: dict[type, list[str]] = {}
-    for name, field in section.kind.model_fields.items():
-        if allowed_in(section.kind, name) is None:
-            alike.setdefault(_section(section.kind, name), []).extend(f"{outer}.{name}" for outer in section.names)
+    for name in names_in(section.kind):
+        inner = section_within(section.kind, name)
+        if inner is not None:
+            alike.setdefault(inner, []).extend(f"{outer}.{name}" for outer in section.names)
     for kind, names in alike.items():
         part = SectionOfScene(tuple(names), kind)
         yield from [f"#### {', '.join(f'`[{name}]`' for name in names)}", "", *_body(part), *_parts(part)]
 
 
-def _section(kind: type[BaseModel], name: str) -> type[BaseModel]:
-    """The class of a section within a section, which may be optional."""
-    annotation = kind.model_fields[name].annotation
-    return next(
-        each for each in (annotation, *get_args(annotation)) if isinstance(each, type) and issubclass(each, BaseModel)
-    )
-
-
-def fields(kind: type[BaseModel], place: str) -> list[str]:
+def fields(kind: type[Section], place: str) -> list[str]:
     """The table of a section's own fields; raises NoMeaning for one that does not say what it is."""
     rows = []
-    for name, field in kind.model_fields.items():
+    for name in names_in(kind):
         allowed = allowed_in(kind, name)
         if allowed is not None:
             rows.append(
@@ -119,7 +110,7 @@ def fields(kind: type[BaseModel], place: str) -> list[str]:
                     f"`{name}`",
                     _meaning(allowed, f"{place}.{name}"),
                     _allowed(allowed),
-                    _left_out(allowed, field, f"{place}.{name}"),
+                    "required" if name in required_in(kind) else allowed.otherwise,
                 )
             )
     return [*table(("field", "meaning", "allowed", "default"), rows), ""] if rows else []
@@ -135,13 +126,3 @@ def _allowed(allowed: Allowed) -> str:
     """What is allowed, in the words of the messages, with what is to be typed as code."""
     words = allowed.description.replace(", with its unit", "").replace(", without unit", "")
     return re.sub(r'(\[\{.*\}\]|\["[^]]*\]|"[^"]*"|(?<=such as )[^"\[,\s]+)', r"`\1`", words)
-
-
-def _left_out(allowed: Allowed, field, path: str) -> str:
-    if field.default is PydanticUndefined:
-        return "required"
-    if allowed.otherwise:
-        return allowed.otherwise
-    if field.default is None:
-        raise NoMeaning(f"{path}: the field may be left out but does not say what is taken then; say it by otherwise=")
-    return f"{field.default:g}"

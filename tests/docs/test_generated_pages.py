@@ -1,14 +1,15 @@
 """Pages made from the program are up to date, and nothing in them goes without a word."""
 
-from dataclasses import replace
+from dataclasses import make_dataclass, replace
 
 import pytest
-from pydantic import Field, create_model
 from tests.coarse import coarse_scene
 from tests.docs import commands_page, result_page, scene_page, write
 from tests.docs.markdown import table
 
-from fenics_gears.inputs.fields import Allowed, Section, allowed_in, quantity
+from fenics_gears.inputs.allowed import Allowed
+from fenics_gears.inputs.fields import declared, quantity
+from fenics_gears.inputs.section import Section, names_in, section_within
 from fenics_gears.results.attributes import ESTIMATED, RESULT_ATTRIBUTES, RUNG
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.schema import SceneText
@@ -42,11 +43,11 @@ def test_every_field_has_its_line():
 
     def count(kind):
         found, seen = 0, set()
-        for name in kind.model_fields:
-            if allowed_in(kind, name) is not None:
+        for name in names_in(kind):
+            part = section_within(kind, name)
+            if part is None:
                 found += 1
                 continue
-            part = scene_page._section(kind, name)
             # Sections of both gears, which are alike, share their table.
             found += 0 if part in seen else count(part)
             seen.add(part)
@@ -60,21 +61,9 @@ def test_a_field_without_meaning_is_refused():
     """Authority: the pages' own rule; a field cannot be declared without one, and one that is declared otherwise is
     named."""
     with pytest.raises(TypeError, match="meaning"):
-        quantity("1 mm", "2 mm", "1 mm")
-    silent = create_model(
-        "Silent", __base__=Section, depth=(float, Field(..., json_schema_extra={"allowed": Allowed("a length")}))
-    )
+        quantity("1 mm to 2 mm", "1 mm")
+    silent = make_dataclass("Silent", [("depth", float, declared(Allowed(description="a length")))], bases=(Section,))
     with pytest.raises(scene_page.NoMeaning, match="tip_relief.depth: the field has no meaning"):
-        scene_page.fields(silent, "tip_relief")
-
-
-def test_a_field_that_may_be_left_out_says_what_is_taken_then():
-    """Authority: the pages' own rule."""
-    allowed = Allowed("a length", meaning="depth")
-    silent = create_model(
-        "Silent", __base__=Section, depth=(float, Field(None, json_schema_extra={"allowed": allowed}))
-    )
-    with pytest.raises(scene_page.NoMeaning, match="otherwise="):
         scene_page.fields(silent, "tip_relief")
 
 

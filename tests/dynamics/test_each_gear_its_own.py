@@ -7,8 +7,10 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from fenics_gears.dynamics.drivetrain_data import Damping, GearInertia, Inertia, Rayleigh, Shaft, Shafts
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
+from fenics_gears.effects.damping import Damping, Rayleigh
+from fenics_gears.effects.inertia import GearInertia, Inertia, LoadInertia
+from fenics_gears.effects.shafts import Shaft, Shafts
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.section import gear_section
 from fenics_gears.model.description import describe
@@ -17,7 +19,9 @@ from fenics_gears.scene.read import scene_from_text
 
 J1, J2, J3 = 1.7, 23.0, 410.0
 MESH, INPUT, OUTPUT = 2.1e5, 0.9e8, 0.4e7
-UNEQUAL = Inertia(4.9e-3, 24.5, pinion=GearInertia(0.4e-3, J1), wheel=GearInertia(moment_of_inertia=J2), load=J3)
+UNEQUAL = Inertia(
+    4.9e-3, 24.5, pinion=GearInertia(0.4e-3, J1), wheel=GearInertia(moment_of_inertia=J2), load=LoadInertia(J3)
+)
 
 
 @pytest.fixture

@@ -12,10 +12,10 @@ from fenics_gears.contact.face import Face, even_slices
 from fenics_gears.contact.face_cycle import FaceCycle
 from fenics_gears.contact.operator import COORDINATES, displacement_jacobian
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings, Support
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.tilting import moved
+from fenics_gears.effects.bearings import BearingPlaces, Bearings, Support
 from fenics_gears.geometry.helix import Helix
 from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.results.side_by_side import _reaction_rows

@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.operator import CENTRE_COORDINATES, COORDINATES
-from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings, GearInertia, Inertia, Support
 from fenics_gears.dynamics.frequencies import Vibration, natural_frequencies, vibrations
-from fenics_gears.dynamics.gear_inertia import LumpedGear
+from fenics_gears.dynamics.gear_inertia import LoadInertia, LumpedGear
 from fenics_gears.dynamics.tilting import gyroscopic_warnings, mesh_over_face, moved
+from fenics_gears.effects.bearings import BearingPlaces, Bearings, Support
+from fenics_gears.effects.inertia import GearInertia, Inertia, LoadInertia
 from fenics_gears.geometry.helix import Helix
 from fenics_gears.model.drivetrain import drivetrain
 
@@ -142,7 +143,7 @@ def test_natural_frequencies_of_a_rigid_shaft_on_two_springs(on_bearings, paper_
     b)/2)^2 [any text on rotors].
     """
     stiffness, mass, moment = 0.2e6, 4e-3, 3.0
-    inertia = Inertia(mass, moment, load=1.0)
+    inertia = Inertia(mass, moment, load=LoadInertia(1.0))
     scene = replace(on_bearings, bearings=Bearings(stiffness, places=BearingPlaces(places, places)), inertia=inertia)
     found = natural_frequencies(drivetrain(scene, paper_pair), 0.0)
     tilting = 0.5 * moment + mass * scene.gears.face_width**2 / 12.0
@@ -202,7 +203,9 @@ def test_a_tilting_inertia_of_its_own_stands_before_the_discs(on_bearings, paper
     radii = [gear.base_radius for gear in (paper_pair.pinion, paper_pair.wheel)]
 
     def tilting(**given):
-        shafts = drivetrain(replace(on_bearings, inertia=Inertia(4e-3, 3.0, load=1.0, **given)), paper_pair)
+        shafts = drivetrain(
+            replace(on_bearings, inertia=Inertia(4e-3, 3.0, load=LoadInertia(1.0), **given)), paper_pair
+        )
         return [
             shafts.mass[place, place] * radius**2
             for place, radius in zip((shafts.coordinates.index("tilt_x1"), shafts.coordinates.index("tilt_y2")), radii)
@@ -224,7 +227,9 @@ def test_a_mode_is_told_by_what_moves(on_bearings, paper_pair):
     soft = Bearings(
         1e6, places=BearingPlaces((-1.0, 1.0), (-200.0, 200.0)), axial_stiffness=1e8, wheel=Support(axial_stiffness=1.0)
     )
-    scene = replace(on_bearings, bearings=soft, inertia=Inertia(4e-3, 3.0, load=1.0, wheel=GearInertia(4e-3, 3.0)))
+    scene = replace(
+        on_bearings, bearings=soft, inertia=Inertia(4e-3, 3.0, load=LoadInertia(1.0), wheel=GearInertia(4e-3, 3.0))
+    )
     found = vibrations(drivetrain(scene, paper_pair), 1e3)
     assert [each.motion for each in found if each.motion][:3] == [
         "wheel moves along its axis",
@@ -268,7 +273,7 @@ def test_gyroscopic_moments_are_told_where_they_shift_a_tilting_frequency(on_bea
 
 def test_damping_by_ratios_and_by_rayleigh_reaches_the_tilts(on_bearings, paper_scene, paper_pair):
     """Definition: each mode has the ratio that is asked for; alpha K + beta M holds for the rows of tilts, too."""
-    from fenics_gears.dynamics.drivetrain_data import Damping
+    from fenics_gears.effects.damping import Damping
 
     by_ratio = drivetrain(replace(on_bearings, damping=Damping(ratios=(0.03, 0.05))), paper_pair)
     assert len(by_ratio.coordinates) == 13

@@ -8,8 +8,8 @@ import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
 from tests.helical import wide_pair
 
-from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings, Support
 from fenics_gears.effects import effect_named, result_variables
+from fenics_gears.effects.bearings import BearingPlaces, Bearings, Support
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.drivetrain import drivetrain

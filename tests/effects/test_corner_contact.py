@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, teeth_alone
 
-from fenics_gears.effects.corner_contact import CornerContact
+from fenics_gears.effects.corner_contact import CornerContact, Edge
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.model.modification import corner
@@ -37,7 +37,7 @@ def test_each_gear_has_its_own_radius(paper_scene):
 
 def test_tips_matter_at_hand_over_only(scene):
     """Where no tip is near the contact the effect changes little; it adds no variable."""
-    plain, cornered = simulate(scene), simulate(replace(scene, corner_contact=CornerContact((0.0, 0.0))))
+    plain, cornered = simulate(scene), simulate(replace(scene, corner_contact=CornerContact(0.0)))
     difference = (
         np.abs(cornered.transmission_error - plain.transmission_error).values / np.abs(plain.transmission_error).values
     )
@@ -49,7 +49,7 @@ def test_tips_matter_at_hand_over_only(scene):
 def test_edges_that_do_not_fit_are_refused(paper_scene, paper_pair):
     """A radius of more than half the tip's thickness leaves no tip."""
     with pytest.raises(GeometryError, match="corner_contact.edge_radius"):
-        corner(replace(paper_scene, corner_contact=CornerContact((2.0, 0.0))), paper_pair)
+        corner(replace(paper_scene, corner_contact=CornerContact(pinion=Edge(2.0))), paper_pair)
     text = paper_scene.text.replace("[accuracy]", '[corner_contact]\n[accuracy]\ncondensation = "every step"').replace(
         'condensation = "once"', ""
     )
@@ -63,9 +63,9 @@ def test_edges_that_leave_the_flanks_no_overlap_are_warned_of(paper_scene):
     short = replace(
         gears, pinion=replace(gears.pinion, tip_diameter=80.4), wheel=replace(gears.wheel, tip_diameter=116.0)
     )
-    sharp = replace(paper_scene, gears=short, corner_contact=CornerContact((0.0, 0.0)))
+    sharp = replace(paper_scene, gears=short, corner_contact=CornerContact(0.0))
     assert not [said for said in model_of(sharp).warnings if "contact ratio" in said]
-    rounded = replace(sharp, corner_contact=CornerContact((1.3, 1.3)))
+    rounded = replace(sharp, corner_contact=CornerContact(1.3))
     (said,) = [said for said in model_of(rounded).warnings if "contact ratio" in said]
     pair = model_of(sharp).pair
     taken = sum(

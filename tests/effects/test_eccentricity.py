@@ -13,7 +13,7 @@ from fenics_gears.contact.tooth_pair import COAST, DRIVE
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.effects import without
 from fenics_gears.effects.coast_flanks import CoastFlanks
-from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
+from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.simulation.simulate import simulate
 

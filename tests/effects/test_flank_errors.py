@@ -18,10 +18,10 @@ from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.effects import without
+from fenics_gears.effects.eccentricity import Eccentricity, Offset
+from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors, Waviness
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
 from fenics_gears.geometry.flank_deviations import flank_deviations
-from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors, Waviness
 from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.simulation.simulate import simulate

@@ -8,9 +8,9 @@ import pytest
 
 from fenics_gears.commands.cli import main
 from fenics_gears.commands.shared import checked_scene
+from fenics_gears.effects.flank_errors_sections import GearErrors
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import flank_deviations
-from fenics_gears.geometry.flank_error_data import GearErrors
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.read import load_scene, scene_from_text
 

@@ -15,11 +15,12 @@ from fenics_gears.contact.flank_gaps import flank_gaps
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
+from fenics_gears.effects.flank_errors_sections import MEAN, REFERENCE_POINT, FlankErrors, GearErrors
 from fenics_gears.effects.flank_errors_tables import located
+from fenics_gears.effects.relief import Relief
+from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import flank_deviations, slope_and_form
-from fenics_gears.geometry.flank_error_data import MEAN, REFERENCE_POINT, FlankErrors, GearErrors
-from fenics_gears.geometry.relief_data import Relief, TipRelief
 from fenics_gears.model.description import describe
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate

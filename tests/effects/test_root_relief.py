@@ -19,6 +19,7 @@ from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.relief import root_reliefs, tip_reliefs
+from fenics_gears.inputs.allowed import Measured
 from fenics_gears.model.modification import removals
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
@@ -31,7 +32,7 @@ def test_root_relief_runs_from_lpstc_to_the_form_circle(paper_pair):
     """Definition: nothing above LPSTC, the depth at the form circle, linear or parabolic between."""
     fractions = np.array([-1.0, 0.0, 0.25, 0.5, 1.0])
     for shape, power in ((LINEAR, 1), (PARABOLIC, 2)):
-        relief = Relief(DEPTH, None, shape)
+        relief = Relief(DEPTH, shape=shape)
         gears = (
             (paper_pair.pinion, paper_pair.lpstc_roll_angles[0]),
             (paper_pair.wheel, paper_pair.lpstc_roll_angles[1]),
@@ -44,7 +45,7 @@ def test_root_relief_runs_from_lpstc_to_the_form_circle(paper_pair):
 def test_parabolic_relief_leaves_the_involute_without_a_kink(paper_pair):
     """Definition: zero slope at the start; a linear one of the same depth has half the slope at the tip."""
     linear, parabolic = (
-        tip_reliefs(paper_pair, TipRelief(Relief(DEPTH, None, shape), None))[0] for shape in (LINEAR, PARABOLIC)
+        tip_reliefs(paper_pair, TipRelief(Relief(DEPTH, shape=shape), None))[0] for shape in (LINEAR, PARABOLIC)
     )
     start, tip, small = linear.start_roll_angle, linear.end_roll_angle, 1e-6
 
@@ -62,7 +63,7 @@ def test_a_start_may_be_a_roll_angle_or_a_diameter(paper_pair, section):
     roll = radians(22.0)
     diameter = 2.0 * float(paper_pair.pinion.radius(roll))
     by_roll, _ = curves(paper_pair, kind(Relief(DEPTH, roll), None))
-    by_diameter, wheel = curves(paper_pair, kind(Relief(DEPTH, None, LINEAR, diameter), Relief(DEPTH, 0.4)))
+    by_diameter, wheel = curves(paper_pair, kind(Relief(DEPTH, Measured(diameter, "a length")), Relief(DEPTH, 0.4)))
     assert by_diameter.start_roll_angle == pytest.approx(by_roll.start_roll_angle, rel=1e-14)
     assert wheel.start_roll_angle == 0.4
     end = paper_pair.pinion.tip_roll_angle if section == "tip_relief" else paper_pair.pinion.form_roll_angle
@@ -121,14 +122,18 @@ def test_a_start_means_one_place(paper_scene, section, word):
         relief(depth)
     assert relief(f'{depth}length_on_path = "3 mm"').wheel == Relief(0.02, None, length_on_path=3.0)
     mixed = relief(f'{depth}length_on_path = "3 mm"\n[{section}.wheel]\nstart = "110 mm"')
-    assert mixed.pinion == Relief(0.02, None, length_on_path=3.0) and mixed.wheel == Relief(0.02, None, LINEAR, 110.0)
+    assert mixed.pinion == Relief(0.02, None, length_on_path=3.0) and mixed.wheel == Relief(
+        0.02, Measured(110.0, "a length")
+    )
     # One gear alone takes the diameter, or both are alike.
     assert relief(f'[{section}]\n{diameter}[{section}.pinion]\ndepth = "20 um"').pinion == Relief(
-        0.02, None, LINEAR, 80.0
+        0.02, Measured(80.0, "a length")
     )
     pinion = paper_scene.text.partition("[gears.pinion]\n")[2].partition("[gears.wheel]")[0]
     wheel = paper_scene.text.partition("[gears.wheel]\n")[2].partition("[gears.material]")[0]
-    assert relief(depth + diameter, paper_scene.text.replace(wheel, pinion)).wheel == Relief(0.02, None, LINEAR, 80.0)
+    assert relief(depth + diameter, paper_scene.text.replace(wheel, pinion)).wheel == Relief(
+        0.02, Measured(80.0, "a length")
+    )
 
 
 @pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
@@ -136,17 +141,22 @@ def test_a_scene_says_start_and_shape_for_both_gears_and_for_one(paper_scene, se
     """Definition of the scene's fields; the wheel's own come before those of both."""
     own = f'[{section}.wheel]\nstart = "110 mm"\nshape = "parabolic"'
     scene = scene_from_text(f'{paper_scene.text}\n[{section}]\ndepth = "20 um"\nstart = "{word}"\n{own}\n')
-    assert getattr(scene, section) == KINDS[section][0](Relief(0.02, None), Relief(0.02, None, PARABOLIC, 110.0))
+    assert getattr(scene, section) == KINDS[section][0](
+        Relief(0.02, None), Relief(0.02, Measured(110.0, "a length"), shape=PARABOLIC)
+    )
 
 
 @pytest.mark.parametrize(
     ("relief", "said"),
     [
         (
-            Relief(DEPTH, None, LINEAR, 90.0),
+            Relief(DEPTH, Measured(90.0, "a length")),
             ["starts at diameter 90 mm", "diameters", "to 82.64 mm", "root_relief.pinion.start"],
         ),
-        (Relief(DEPTH, None, LINEAR, 60.0), ["starts at diameter 60 mm", "(form circle)", "root_relief.pinion.start"]),
+        (
+            Relief(DEPTH, Measured(60.0, "a length")),
+            ["starts at diameter 60 mm", "(form circle)", "root_relief.pinion.start"],
+        ),
         (Relief(DEPTH, radians(2.0)), ["roll angle 2 deg", "2.904 deg (form circle)"]),
         (Relief(5.0, None), ["depth 5 mm", "at the form circle", "lower root_relief.pinion.depth"]),
         (Relief(-0.01, None), ["root_relief depth -0.01 mm", "zero or a positive length"]),
@@ -175,7 +185,7 @@ def test_a_start_on_its_own_end_is_refused(paper_pair):
 def test_no_depth_changes_nothing(paper_scene, section):
     """Omitted equals its zero limit, to the last bit, with inertia and friction."""
     scene = coarse_scene(paper_scene, cycles=1)
-    none = Relief(0.0, None, PARABOLIC)
+    none = Relief(0.0, shape=PARABOLIC)
     plain, zero = simulate(scene), simulate(replace(scene, **{section: KINDS[section][0](none, none)}))
     for name in plain.data_vars:
         assert np.array_equal(plain[name].values, zero[name].values, equal_nan=True)

@@ -8,8 +8,9 @@ import pytest
 from fenics_gears.contact.rigid_cycle import SAME_GAP
 from fenics_gears.effects import result_variables, without
 from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.effects.relief import Relief
+from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.relief_data import Relief, TipRelief
 from fenics_gears.model.modification import removals
 from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.scene.read import scene_from_text

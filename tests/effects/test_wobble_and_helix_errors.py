@@ -8,10 +8,10 @@ from tests.coarse import COARSE, coarse_scene, frictionless, teeth_alone
 from tests.effects.examples import text_of
 
 from fenics_gears.effects import result_variables
+from fenics_gears.effects.eccentricity import Eccentricity, Offset
+from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors
+from fenics_gears.effects.misalignment import Misalignment
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
-from fenics_gears.geometry.face_data import Misalignment
-from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors
 from fenics_gears.scene.data import Load, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate

@@ -5,11 +5,13 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
 from fenics_gears.inputs import units
-from fenics_gears.inputs.fields import Allowed, AllowedEither, AllowedList, allowed_in
+from fenics_gears.inputs.allowed import Allowed, AllowedEither, AllowedList
+from fenics_gears.inputs.section import allowed_in, required_in, section_within
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.scene.schema import SceneText, known_paths
 from fenics_gears.studies.fields import ABSENT, changed
@@ -103,29 +105,17 @@ def _fields() -> Iterator[Field]:
             continue
         section: Any = SceneText
         for name in path[:-1]:
-            kinds = (
-                section.model_fields[name].annotation,
-                *getattr(section.model_fields[name].annotation, "__args__", ()),
-            )
-            section = next(kind for kind in kinds if hasattr(kind, "model_fields"))
-        info = section.model_fields[path[-1]]
-        limits = {
-            key: getattr(item, key)
-            for item in info.metadata
-            for key in ("ge", "gt", "le", "lt")
-            if getattr(item, key, None) is not None
-        }
-        low, high = limits.get("ge", limits.get("gt")), limits.get("le", limits.get("lt"))
+            section = section_within(section, name)
         allowed = allowed_in(section, path[-1])
-        bounds = _own_bounds(allowed) if low is None else (low, high)
-        yield Field(path, allowed, info.is_required(), bounds, ("gt" in limits, "lt" in limits))
+        excluded = (getattr(allowed, "above_lowest", False), getattr(allowed, "below_highest", False))
+        yield Field(path, allowed, path[-1] in required_in(section), _bounds(allowed), excluded)
 
 
-def _own_bounds(allowed: Allowed) -> tuple[float, float] | None:
-    """The bounds that a list's entries have, or a quantity of the first of several kinds."""
-    if isinstance(allowed, AllowedList):
-        return allowed.bounds
-    return allowed.ranges[allowed.kind] if isinstance(allowed, AllowedEither) else None
+def _bounds(allowed: Allowed) -> tuple[float, float] | None:
+    """The bounds of a number, of a list's entries, or of a quantity of the first of several kinds."""
+    if isinstance(allowed, AllowedEither):
+        return allowed.ranges[allowed.kind]
+    return (allowed.lowest, allowed.highest) if isfinite(allowed.lowest) else None
 
 
 def whole_scene() -> dict[str, Any]:

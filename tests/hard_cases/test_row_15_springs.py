@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
 
-from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings
+from fenics_gears.effects.bearings import BearingPlaces, Bearings
 from fenics_gears.simulation.simulate import simulate
 
 

@@ -19,7 +19,7 @@ ACCURACY = replace(COARSE, contact_length=2.0, contact_nodes=41, steps_per_mesh_
 
 def relieved(paper_scene, pinion=None, wheel=None):
     """The paper's gears on rigid shafts with reliefs of 31 um from HPSTC, linear or parabolic."""
-    reliefs = [shape and Relief(0.031, None, shape) for shape in (pinion, wheel)]
+    reliefs = [shape and Relief(0.031, shape=shape) for shape in (pinion, wheel)]
     return replace(
         frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1))),
         accuracy=ACCURACY,

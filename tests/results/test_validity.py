@@ -52,10 +52,7 @@ def test_an_ordinary_run_has_nothing_to_say_but_of_its_sharp_tips(coarse):
             ["[tip_relief] takes", "[tip_relief.pinion]"],
         ),
         (
-            {
-                "tip_relief": TipRelief(*[Relief(0.002, None, PARABOLIC)] * 2),
-                "corner_contact": CornerContact((0.0, 0.0)),
-            },
+            {"tip_relief": TipRelief(*[Relief(0.002, shape=PARABOLIC)] * 2), "corner_contact": CornerContact(0.0)},
             ["deeper", "[corner_contact] with"],
             ["shape"],
         ),
@@ -100,7 +97,7 @@ def test_the_kink_of_linear_relief_is_named_where_it_presses_hardest(coarse, sha
     """Elasticity: a flank with a kink has a logarithmically infinite pressure there (Johnson, Contact Mechanics, 5.2),
     which elements of any size miss by some part; a
     parabola has no kink. House rule: a warning and the printed number are the same."""
-    relief = Relief(0.06, None, shape)
+    relief = Relief(0.06, shape=shape)
     scene = replace(
         coarse, motion=Motion(200.0, 1, 1), inertia=None, damping=None, tip_relief=TipRelief(relief, relief)
     )

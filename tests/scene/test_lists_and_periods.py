@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
+from fenics_gears.effects.eccentricity import Eccentricity, Offset
+from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors, Waviness
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
-from fenics_gears.geometry.flank_error_data import FlankErrors, GearErrors, Waviness
 from fenics_gears.scene.read import scene_from_text
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")

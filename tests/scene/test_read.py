@@ -42,9 +42,9 @@ def numbers(section):
         ("shafts", [0.203e9, None, None]),
         ("bearings", [0.155e6, None, None, None, None, None, None]),
         ("inertia", [4.9e-3, 24.5, None, None, None, None, None]),
-        ("damping", [0.4e-3, 0.5e-3, None, None, ()]),
+        ("damping", [0.4e-3, 0.5e-3, None, None, None, None]),
         ("friction", [0.1, None, None, None]),
-        ("accuracy", ["P2", 0.08, 1.5, 20, 100, "once", None, None, None, None, None, None, None]),
+        ("accuracy", [None, "P2", 0.08, None, 1.5, 20, None, None, 100, None, None, "once", None]),
     ],
 )
 def test_the_demo_has_the_papers_numbers(section, by_hand):

@@ -7,9 +7,10 @@ from math import cos, radians
 import pytest
 
 from fenics_gears.commands.cli import main
-from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings
+from fenics_gears.effects.bearings import BearingPlaces, Bearings
+from fenics_gears.effects.lead_modifications import EndRelief, LeadModification, LeadModifications
+from fenics_gears.effects.misalignment import Misalignment
 from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.geometry.face_data import EndRelief, LeadModification, LeadModifications, Misalignment
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.read import scene_from_text
 

@@ -8,9 +8,9 @@ import pytest
 
 from fenics_gears.contact.tooth_pair import coast_place, drive_place
 from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.effects.friction import Friction
 from fenics_gears.elasticity.ring import rotation
-from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
 from fenics_gears.geometry.involute import canonical_point
 from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.results.contact_variables import largest_normal_force

@@ -11,8 +11,8 @@ from tests.over_face import helical_run
 
 from fenics_gears.contact.face_forces import face_forces
 from fenics_gears.contact.tooth_pair import DRIVE
+from fenics_gears.effects.misalignment import Misalignment
 from fenics_gears.elasticity.ring import rotation
-from fenics_gears.geometry.face_data import Misalignment
 from fenics_gears.scene.data import Accuracy, Motion, Output
 from fenics_gears.show import stress_animation
 from fenics_gears.show.face_grid import save_vtu, surface

@@ -27,7 +27,7 @@ def kinds(scene):
     return {
         "quasi-static with friction": (still, in_the_plane),
         "in time": (scene, in_the_plane),
-        "corners": (replace(still, friction=None, corner_contact=CornerContact((0.0, 0.0))), in_the_plane),
+        "corners": (replace(still, friction=None, corner_contact=CornerContact(0.0)), in_the_plane),
         "coast flanks": (replace(still, coast_flanks=CoastFlanks(), load=Load(-1e5)), in_the_plane),
         "over the face": (helical_scene(), over_the_face),
     }

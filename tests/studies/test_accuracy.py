@@ -28,7 +28,9 @@ TINY = {
     FAMILY: (0.5, 1.0), FLANK: (0.5, 1.0), NODES: (1.0,), BODY: (4.0,), LENGTH: (1.0,), STEPS: (10, 20, 40),
 }  # fmt: skip
 TINY_FINE = {FLANK: 1.0, NODES: 1.0, BODY: 4.0, LENGTH: 1.0, STEPS: 20}
-SETTINGS = Accuracy("P1", 0.25, 3.0, 13, 20)
+SETTINGS = Accuracy(
+    element="P1", flank_element_size=0.25, contact_length=3.0, contact_nodes=13, steps_per_mesh_cycle=20
+)
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -13,7 +13,7 @@ from fenics_gears import as_toml
 from fenics_gears.command_line import write_whole
 from fenics_gears.extensions.optimization.design import QUANTILE
 from fenics_gears.extensions.optimization.optimize import BEST, RESULT, TABLE, Outcome
-from fenics_gears.inputs.fields import AllowedFile
+from fenics_gears.inputs.allowed import AllowedFile
 from fenics_gears.inputs.tree import value_at
 from fenics_gears.results.files import save
 from fenics_gears.scene.schema import known_paths

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from fenics_gears.geometry.face_data import LeadModification, LeadModifications
+from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
 from fenics_gears.scene.data import Scene
 
 UNMODIFIED = LeadModification()

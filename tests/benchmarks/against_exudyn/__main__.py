@@ -28,10 +28,11 @@ from fenics_gears import load_scene
 from fenics_gears.contact.spring_cycle import PairSprings, SpringCycle
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.drivetrain import forces_of_torque
-from fenics_gears.dynamics.drivetrain_data import Bearings, Shaft, Shafts, Support
 from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
+from fenics_gears.effects.bearings import Bearings, Support
+from fenics_gears.effects.shafts import Shaft, Shafts
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.drivetrain import drivetrain, lumped_gears
 

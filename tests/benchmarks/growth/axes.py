@@ -25,7 +25,13 @@ FINEST_FLANK = 0.0125
 def paper() -> Scene:
     """The paper's scene without inertia, at settings that no axis but its own changes."""
     scene = load_scene(SCENE)
-    accuracy = Accuracy("P2", FLANK_SIZE, LENGTH, NODES, STEPS)
+    accuracy = Accuracy(
+        element="P2",
+        flank_element_size=FLANK_SIZE,
+        contact_length=LENGTH,
+        contact_nodes=NODES,
+        steps_per_mesh_cycle=STEPS,
+    )
     return replace(scene, inertia=None, damping=None, motion=Motion(200.0, 2, 1), accuracy=accuracy)
 
 

@@ -30,7 +30,14 @@ def helical(teeth: float = TEETH[1], solid: bool = True, **accuracy) -> Scene:
     if not solid:
         wheel = replace(wheel, bore_diameter=wheel.root_diameter - 6.0 * MODULE)
     gears = replace(gears, wheel=wheel, centre_distance=0.5 * (TEETH[0] + int(teeth)) * MODULE / cos(HELIX_ANGLE))
-    given = Accuracy(None, None, WINDOW, NODES, STEPS, body_element_size=SECTION, layers=LAYERS, slices=LAYERS)
+    given = Accuracy(
+        contact_length=WINDOW,
+        contact_nodes=NODES,
+        steps_per_mesh_cycle=STEPS,
+        body_element_size=SECTION,
+        layers=LAYERS,
+        slices=LAYERS,
+    )
     return scene_of(gears, replace(given, **accuracy))
 
 

@@ -19,8 +19,8 @@ from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.contact.pressure import without_oscillation
 from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
+from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.geometry.face_data import LeadModification, LeadModifications
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import plane_contact_modulus, relative_radius

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from tests.benchmarks.third_dimension.pairs import LINE_LOAD, MODULE, scene_of, standard_pair
 from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
 
-from fenics_gears.geometry.face_data import Misalignment
+from fenics_gears.effects.misalignment import Misalignment
 from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Accuracy

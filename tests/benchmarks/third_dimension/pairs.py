@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 from math import atan, cos, pi, radians, sin, tan
 
-from fenics_gears.geometry.face_data import Misalignment
+from fenics_gears.effects.misalignment import Misalignment
 from fenics_gears.geometry.gear_data import GearData, GearPairData, Material
 from fenics_gears.scene.data import Accuracy, Load, Motion, Scene
 

@@ -13,7 +13,9 @@ from tests.studies.conftest import DEMO, gears, stamps
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
-from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings, Inertia, Shafts
+from fenics_gears.effects.bearings import BearingPlaces, Bearings
+from fenics_gears.effects.inertia import Inertia
+from fenics_gears.effects.shafts import Shafts
 from fenics_gears.errors import SceneError
 from fenics_gears.extensions.maps.load_map import OVER_SPEED, QUASI_STATIC, load_map, shared_accuracy
 from fenics_gears.extensions.maps.map_results import frequencies_over_load

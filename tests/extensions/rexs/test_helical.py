@@ -12,7 +12,7 @@ import pytest
 from tests.extensions.rexs import paper_model as rexs
 from tests.extensions.rexs.test_lookups import assumed_fields, refused, scene_of
 
-from fenics_gears.geometry.face_data import EndRelief, LeadModification
+from fenics_gears.effects.lead_modifications import EndRelief, LeadModification
 from fenics_gears.geometry.pair import gear_pair
 
 STRETCH = 1.0 / cos(radians(20.0))

@@ -44,7 +44,13 @@ def both_routes(reference_cache):
         return known[key][1:]
 
     def march(scene, element, size, steps, preparation):
-        accuracy = Accuracy(element, size, WINDOW, round(WINDOW / size) + 1, steps)
+        accuracy = Accuracy(
+            element=element,
+            flank_element_size=size,
+            contact_length=WINDOW,
+            contact_nodes=round(WINDOW / size) + 1,
+            steps_per_mesh_cycle=steps,
+        )
         fast = simulate(replace(scene, accuracy=replace(accuracy, condensation=ONCE)), cache=reference_cache)
         slow_scene = replace(scene, accuracy=replace(accuracy, condensation=EVERY_STEP))
         return fast, simulate(slow_scene, cache=reference_cache, preparation=preparation)

@@ -119,7 +119,14 @@ def test_coast_flanks_are_refused(paper_cases):
 def test_what_it_cannot_solve_goes_to_the_ladder_and_is_told(paper_cases, reference_cache):
     """Message: a load that pulls the flanks apart has no static equilibrium; the error lists the published method
     first, then the ladder."""
-    accuracy = Accuracy("P2", 0.3, 1.5, 8, 2, EVERY_STEP)
+    accuracy = Accuracy(
+        element="P2",
+        flank_element_size=0.3,
+        contact_length=1.5,
+        contact_nodes=8,
+        steps_per_mesh_cycle=2,
+        condensation=EVERY_STEP,
+    )
     model = model_of(replace(paper_cases["static frictionless"], accuracy=accuracy))
     cycle = reference_route(model, SilentProgress(), reference_cache)[1]
     pulled = replace(model.drivetrain, load=-model.drivetrain.load)

@@ -112,11 +112,14 @@ def test_a_scene_changed_in_python_can_have_a_target(scene, monkeypatch):
     """The text that the result carries gives what was run, by its reader: the chosen settings, and what was changed."""
     monkeypatch.setattr(
         "fenics_gears.studies.accuracy_target.choose.choose",
-        lambda *arguments: choosing.Chosen(Accuracy("P1", 0.25), None, {"x": 0.05}, 1),
+        lambda *arguments: choosing.Chosen(Accuracy(element="P1", flank_element_size=0.25), None, {"x": 0.05}, 1),
     )
     result = simulate(replace(scene, load=Load(0.9 * scene.load.wheel_torque)))
     assert scene_from_text(result.attrs["scene"]) == replace(
-        scene, name="scene", load=Load(0.9 * scene.load.wheel_torque), accuracy=Accuracy("P1", 0.25)
+        scene,
+        name="scene",
+        load=Load(0.9 * scene.load.wheel_torque),
+        accuracy=Accuracy(element="P1", flank_element_size=0.25),
     )
     assert result.attrs["element"] == "P1"
 

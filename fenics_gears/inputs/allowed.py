@@ -1,0 +1,266 @@
+"""What a field of a section allows (``inputs.fields``), and how its text in a scene file becomes a value and back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from math import inf, isfinite
+from typing import Any
+
+from fenics_gears.inputs import units
+from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.written import as_written
+
+# The longest path that Linux takes.
+LONGEST_FILE_NAME = 4096
+
+
+class Refused(ValueError):
+    """A value that a field does not allow; the message completes "the value ..." to whole sentences."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Allowed:
+    """What a field allows, in words (``description``), and how its text becomes a value.
+
+    ``meaning`` says what the field is and ``otherwise`` what is taken where it is left out; for the documentation.
+    ``kind`` is the kind of quantity ("a length"), None for a field without unit, and ``unit`` a usual one. ``lowest``
+    and ``highest`` bound a number and the entries of a list, in N, mm, s, rad. ``over_face``: in three-dimensional
+    scenes alone; ``small``: against the module, as an error of manufacture is.
+    """
+
+    description: str
+    meaning: str = ""
+    otherwise: str = ""
+    kind: str | None = None
+    unit: str = ""
+    lowest: float = -inf
+    highest: float = inf
+    over_face: bool = False
+    small: bool = False
+
+    def convert(self, value: Any) -> Any:
+        """The value in N, mm, s, rad. Raises Refused for what is not allowed."""
+        raise NotImplementedError
+
+    def spelled(self, value: Any) -> Any:
+        """A value as a scene file has it."""
+        return value
+
+
+@dataclass(frozen=True, kw_only=True)
+class AllowedNumber(Allowed):
+    """A quantity or a bare number.
+
+    ``words`` are texts that stand for other values; ``below`` is a sentence added where a value is too small;
+    ``above_lowest`` and ``below_highest``: the bound itself is not allowed.
+    """
+
+    words: Mapping[str, Any] = field(default_factory=dict)
+    below: str = ""
+    whole: bool = False
+    above_lowest: bool = False
+    below_highest: bool = False
+
+    def convert(self, value: Any) -> Any:
+        """The number in N, mm, s, rad."""
+        if isinstance(value, str) and value in self.words:
+            return self.words[value]
+        if self.kind is None:
+            number = _bare(value, self.whole)
+        else:
+            number = _quantity(value, self.unit, self.words, self.kind)[0]
+        reason = out_of_range(number, self.lowest, self.highest, self.above_lowest, self.below_highest)
+        if reason:
+            raise Refused(reason if reason in NOT_TOO_LOW else f"{reason} {self.below}".rstrip())
+        return number
+
+    def spelled(self, value: Any) -> Any:
+        """A quantity in the field's usual unit where that gives it bit for bit, else in N, mm, s, rad."""
+        word = next((word for word, meant in self.words.items() if meant == value), None)
+        if word is not None:
+            return word
+        return value if self.kind is None else units.text_of(value, self.kind, self.unit)
+
+
+@dataclass(frozen=True, kw_only=True)
+class AllowedList(Allowed):
+    """A list of ``shortest`` to ``longest`` quantities of one kind, or bare numbers, each within the bounds."""
+
+    longest: int = 1000
+    shortest: int = 1
+
+    def convert(self, value: Any) -> tuple[float, ...]:
+        """The numbers in N, mm, s, rad; a refusal names the first entry that is wrong."""
+        if not isinstance(value, list):
+            raise Refused("is not a list.")
+        if not self.shortest <= len(value) <= self.longest:
+            raise Refused(
+                "is empty." if not value else f"has {len(value)} {'entry' if len(value) == 1 else 'entries'}."
+            )
+        return tuple(self._entry(number, entry) for number, entry in enumerate(value, 1))
+
+    def _entry(self, number: int, entry: Any) -> float:
+        try:
+            if self.kind is not None:
+                converted = _quantity(entry, self.unit, (), self.kind)[0]
+            elif isinstance(entry, bool) or not isinstance(entry, (int, float)):
+                raise Refused("is not a number.")
+            else:
+                converted = _bare(entry, whole=False)
+            reason = out_of_range(converted, self.lowest, self.highest)
+        except Refused as error:
+            reason = str(error)
+        if reason:
+            raise Refused(f"has the entry {as_written(entry) or 'of a section'} at place {number}, which {reason}")
+        return converted
+
+    def spelled(self, value: Any) -> list[Any]:
+        """Each entry as a scene file has it."""
+        return [float(each) if self.kind is None else units.text_of(each, self.kind, self.unit) for each in value]
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A number in N, mm, s, rad with its kind ("a length"), of a field that takes several kinds but for the first."""
+
+    number: float
+    kind: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class AllowedEither(Allowed):
+    """A quantity of one of several kinds, or a word; ``ranges``: bounds of each kind, both included; ``units``: usual
+    ones. A quantity of the first kind becomes a number and one of another a ``Measured``; a word stays."""
+
+    ranges: Mapping[str, tuple[float, float]]
+    units: Mapping[str, str]
+    words: tuple[str, ...]
+
+    def convert(self, value: Any) -> float | Measured | str:
+        """The number, with its kind unless that is the first."""
+        if isinstance(value, str) and value in self.words:
+            return value
+        number, kind = _quantity(value, self.unit, self.words, *self.ranges)
+        reason = out_of_range(number, *self.ranges[kind])
+        if reason:
+            raise Refused(reason)
+        return number if kind == self.kind else Measured(number, kind)
+
+    def spelled(self, value: float | Measured | str) -> str:
+        """The quantity in the usual unit of its kind."""
+        if isinstance(value, str):
+            return value
+        found = value if isinstance(value, Measured) else Measured(value, self.kind)
+        return units.text_of(found.number, found.kind, self.units[found.kind])
+
+
+@dataclass(frozen=True, kw_only=True)
+class AllowedText(Allowed):
+    """A text of at most ``longest`` characters."""
+
+    longest: int
+
+    def convert(self, value: Any) -> Any:
+        """The text as it is."""
+        if not isinstance(value, str):
+            raise Refused("is not a text.")
+        if len(value) > self.longest:
+            raise Refused("is too long.")
+        return value
+
+
+@dataclass(frozen=True, kw_only=True)
+class AllowedFile(AllowedText):
+    """The name of a file with a certain ``ending``, such as ".msh"; ``made``: what it becomes, which has its name as
+    ``path``."""
+
+    longest: int = LONGEST_FILE_NAME
+    ending: str
+    made: Callable[[str], Any] = str
+
+    def convert(self, value: Any) -> Any:
+        """What is made of the name."""
+        if isinstance(value, str) and not value.strip():
+            raise Refused("is empty.")
+        if isinstance(value, str) and (not value.endswith(self.ending) or value == self.ending):
+            raise Refused(f"is not the name of a file that ends in {self.ending}.")
+        return self.made(super().convert(value))
+
+    def spelled(self, value: Any) -> str:
+        """The name."""
+        return value if isinstance(value, str) else value.path
+
+
+@dataclass(frozen=True, kw_only=True)
+class AllowedChoice(Allowed):
+    """One of a few ``names``."""
+
+    names: tuple[str, ...]
+
+    def convert(self, value: Any) -> str:
+        """The name."""
+        if not isinstance(value, str):
+            raise Refused("is not known.")
+        if value not in self.names:
+            raise Refused("is not known." + did_you_mean(value, self.names))
+        return value
+
+
+class AllowedSwitch(Allowed):
+    """True or false."""
+
+    def convert(self, value: Any) -> bool:
+        """The value as it is."""
+        if not isinstance(value, bool):
+            raise Refused("is neither true nor false.")
+        return value
+
+
+NOT_TOO_LOW = ("is too large.", "is not a finite number.")
+
+
+def out_of_range(
+    number: float, lowest: float, highest: float, above_lowest: bool = False, below_highest: bool = False
+) -> str:
+    """What is wrong with a number outside its bounds, both included unless told; empty for one within."""
+    if isinstance(number, float) and not isfinite(number):
+        return "is not a finite number."
+    if number > highest or (below_highest and number == highest):
+        return "is too large."
+    if number > lowest or (not above_lowest and number == lowest):
+        return ""
+    if lowest < 0 or number > 0:
+        return "is too small."
+    return "is negative." if number < 0 else "is zero."
+
+
+def _bare(value: Any, whole: bool) -> float:
+    """A bare number, a float unless it is whole."""
+    if isinstance(value, str):
+        raise Refused("is a text, not a bare number.")
+    if isinstance(value, bool):
+        raise Refused("is true or false, not a number.")
+    if not isinstance(value, (int, float)):
+        raise Refused("is not a number.")
+    if whole and isinstance(value, float):
+        raise Refused("is not a whole number.")
+    try:
+        # A float leaves its spelling behind.
+        return value if whole else float(value)
+    except OverflowError:
+        raise Refused("is too large.") from None
+
+
+def _quantity(value: Any, unit: str, words: Any, *kinds: str) -> tuple[float, str]:
+    """The number and the kind of a quantity's text, one of some kinds."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        raise Refused("is not a text with a number and its unit.")
+    if not isinstance(value, str):
+        written = f"{as_written(value)} {unit}"
+        in_unit = f' In {unit} it is written "{written}".' if written[0] in "0123456789" else ""
+        raise Refused(f"is a number without its unit.{in_unit}")
+    try:
+        return units.of_kind(value, *kinds)
+    except units.QuantityError as error:
+        raise Refused(str(error) + did_you_mean(value, words)) from None

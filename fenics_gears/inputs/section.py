@@ -1,0 +1,187 @@
+"""A section of a scene, declared once: a frozen dataclass whose fields say what they allow (``inputs.fields``).
+
+``read`` makes one of a parsed file and tells what is wrong; its values, in N, mm, s, rad, are the data that physics
+gets. ``tree_of`` is the way back: a section of a file that reads as the same values, bit for bit.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import MISSING, Field, dataclass, fields
+from typing import Any, ClassVar, get_args, get_type_hints
+
+from fenics_gears.inputs.allowed import Allowed, Refused
+from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.problem import Path, Problem
+from fenics_gears.inputs.written import as_written
+
+
+class Section:
+    """A section of a scene. Its subclasses are frozen dataclasses; a field that is of one is a section within it.
+
+    ``empty``: what is wrong with a section that says nothing, empty where nothing is.
+    """
+
+    empty: ClassVar[str] = ""
+
+
+def allowed_in(section: type[Section], name: str) -> Allowed | None:
+    """What the field of that name allows; None for a section within a section."""
+    return _allowed(section).get(name)
+
+
+def section_within(section: type[Section], name: str) -> type[Section] | None:
+    """The section of that name within a section; None where the name is a plain field."""
+    return _sections(section).get(name)
+
+
+@functools.cache
+def names_in(section: type[Section]) -> tuple[str, ...]:
+    """Names of all that a section may have in a scene file, in the order of their declaration; a field that declares
+    nothing is of the data alone."""
+    return tuple(each.name for each in fields(section) if {each.name} & {*_allowed(section), *_sections(section)})
+
+
+@functools.cache
+def required_in(section: type[Section]) -> frozenset[str]:
+    """Names of what a section cannot leave out."""
+    return frozenset(each.name for each in fields(section) if _default(each) is MISSING)
+
+
+@functools.cache
+def _allowed(section: type[Section]) -> dict[str, Allowed]:
+    return {each.name: each.metadata["allowed"] for each in fields(section) if "allowed" in each.metadata}
+
+
+@functools.cache
+def _sections(section: type[Section]) -> dict[str, type[Section]]:
+    hints = get_type_hints(section).items()
+    found = {name: _section_of(hint) for name, hint in hints if name not in _allowed(section)}
+    return {name: kind for name, kind in found.items() if kind is not None}
+
+
+def _section_of(hint: Any) -> type[Section] | None:
+    return next(
+        (each for each in (hint, *get_args(hint)) if isinstance(each, type) and issubclass(each, Section)), None
+    )
+
+
+def read(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> tuple[Any, list[Problem]]:
+    """The section that a parsed file has at a path, None where it is wrong, and all that is wrong with it.
+
+    An unknown name has no message yet: what it may mean depends on the whole scene.
+    """
+    values: dict[str, Any] = {}
+    problems = [Problem(path, "", section.empty)] if section.empty and not tree else []
+    for name in names_in(section):
+        written, place, inner = tree.get(name), (*path, name), section_within(section, name)
+        if written is None:
+            problems += _missing(section, name, place) if name in required_in(section) else ()
+        elif inner is None:
+            allowed = _allowed(section)[name]
+            try:
+                values[name] = allowed.convert(written)
+            except Refused as reason:
+                problems.append(Problem(place, as_written(written), f"{reason} Allowed: {allowed.description}."))
+        elif isinstance(written, Mapping):
+            values[name], found = read(inner, written, place)
+            problems += found
+        else:
+            name, listed = ".".join(place), ", ".join(names_in(inner))
+            message = f"is not a section. Write a line [{name}], and below it its fields: {listed}."
+            problems.append(Problem(place, as_written(written), message))
+    problems += (
+        Problem((*path, name), as_written(written), "", unknown=True)
+        for name, written in tree.items()
+        if name not in names_in(section)
+    )
+    return (None if problems else section(**values)), problems
+
+
+def given(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> Iterator[tuple[Path, Allowed, Any]]:
+    """The fields that a parsed file gives: path, what is allowed there, and what is written."""
+    for name, written in tree.items():
+        inner, allowed = section_within(section, name), allowed_in(section, name)
+        if allowed is not None:
+            yield (*path, name), allowed, written
+        elif inner is not None and isinstance(written, Mapping):
+            yield from given(inner, written, (*path, name))
+
+
+def _missing(section: type[Section], name: str, place: Path) -> Iterator[Problem]:
+    inner, allowed = section_within(section, name), allowed_in(section, name)
+    if allowed is not None:
+        yield Problem(place, None, f"is missing. Allowed: {allowed.description}.")
+    elif inner is not None:
+        listed = ", ".join(names_in(inner))
+        yield Problem(place, None, f"is missing. Add the section [{'.'.join(place)}] with its fields: {listed}.")
+
+
+@dataclass(frozen=True, kw_only=True)
+class AllowedTables(Allowed):
+    """A list of tables, each of them a ``section``, which is called ``singular``; ``empty``: what to do instead of
+    giving none."""
+
+    section: type[Section]
+    singular: str
+    empty: str
+    most: int
+
+    def convert(self, value: Any) -> tuple[Any, ...]:
+        """The sections; a refusal names the first that is wrong."""
+        if not isinstance(value, list):
+            raise Refused("is not a list.")
+        if not 0 < len(value) <= self.most:
+            raise Refused(f"has {len(value)} entries." if value else f"is empty. {self.empty}")
+        return tuple(self._entry(place, entry) for place, entry in enumerate(value, 1))
+
+    def _entry(self, place: int, entry: Any) -> Any:
+        names = names_in(self.section)
+        if not isinstance(entry, Mapping):
+            listed = f"{', '.join(names[:-1])} and {names[-1]}"
+            raise Refused(f"has the entry {as_written(entry)} at place {place}, which is no table of {listed}.")
+        found, problems = read(self.section, entry)
+        # An unknown name first: it may be what is missing.
+        for problem in sorted(problems, key=lambda each: not each.unknown):
+            name, said = problem.path[-1], problem.message
+            if problem.unknown:
+                raise Refused(
+                    f'has "{name}" at place {place}, which no {self.singular} has.{did_you_mean(name, names)}'
+                )
+            if problem.written is None:
+                raise Refused(f"has no {name} at place {place}.")
+            raise Refused(f"has {name} = {problem.written} at place {place}, which {said}")
+        return found
+
+    def spelled(self, value: Any) -> list[dict[str, Any]]:
+        """The tables."""
+        return [tree_of(each) for each in value]
+
+
+def tree_of(values: Any, section: type[Section] | None = None, leaving: Collection[str] = ()) -> dict[str, Any]:
+    """A section as a scene file has it: that of the values, or another ``section`` with fields of the same names.
+
+    What is None, or what the values have unless told, is left out, and so are the fields ``leaving``.
+    """
+    section = section or type(values)
+    found: dict[str, Any] = {}
+    for each in fields(values):
+        name, value = each.name, getattr(values, each.name)
+        if name not in names_in(section) or name in leaving or value is None:
+            continue
+        if value == _default(each) and name not in required_in(section):
+            continue
+        inner = section_within(section, name)
+        found[name] = field_of(section, name, value) if inner is None else tree_of(value, inner)
+    return found
+
+
+def field_of(section: type[Section], name: str, value: Any) -> Any:
+    """A value of a section's field as a scene file has it."""
+    return _allowed(section)[name].spelled(value)
+
+
+def _default(each: Field) -> Any:
+    """What a field holds unless told; MISSING for a required one."""
+    return each.default if each.default_factory is MISSING else each.default_factory()
