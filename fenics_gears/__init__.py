@@ -13,7 +13,7 @@ __all__ = ["__version__", "build_scene", "load_scene", "simulate"]
 _HOMES = {
     "build_scene": "fenics_gears.scene.read",
     "load_scene": "fenics_gears.scene.read",
-    "simulate": "fenics_gears.studies.simulate",
+    "simulate": "fenics_gears.simulation.simulate",
 }
 
 

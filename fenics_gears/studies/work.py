@@ -15,10 +15,10 @@ from fenics_gears.model.model import Model, model_of
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.root_stress import rows_of
 from fenics_gears.simulation.routes import route_of
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.case_files import save_case, save_failure
 from fenics_gears.studies.combine import CaseRecord
 from fenics_gears.studies.gear_store import GEARS, body_key, cycle_key, gear_key, operators_key, own_gear_store
-from fenics_gears.studies.simulate import simulate
 from fenics_gears.studies.study import Case
 from fenics_gears.system.progress import SilentProgress
 

@@ -16,8 +16,8 @@ from fenics_gears.errors import ComputationError, SceneError
 OWN = int(os.environ.get("OMPI_COMM_WORLD_RANK") or os.environ.get("PMI_RANK", 0))
 WORDS = "no more chalk"
 STAGES = {
-    "reading": "commands.run:checked_scene_and_directory",
-    "model": "simulation.simulate:model_of",
+    "reading": "commands.run:checked_model_and_directory",
+    "model": "simulation.simulate:memory_for_operators",
     "plane sections": "elasticity.gear_compliance:_drive_flank",
     "section mesh": "elasticity.face.condensed:SectionForms",
     "condensing": "elasticity.face.condensed:_condensed",

@@ -16,6 +16,7 @@ from fenics_gears.errors import GearsError
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.scene.data import Output
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.combine import record_of
 from fenics_gears.studies.gear_store import own_gear_store
 from fenics_gears.studies.optimization import run_lines
@@ -23,7 +24,6 @@ from fenics_gears.studies.optimization.conditions import trees_of
 from fenics_gears.studies.optimization.design import Bound, Design, Goal
 from fenics_gears.studies.optimization.goals import ERROR, OVER_FACE
 from fenics_gears.studies.ranks import Alone, Together
-from fenics_gears.studies.simulate import simulate
 from fenics_gears.studies.study import Case, scene_key
 from fenics_gears.studies.study_file import scene_of_tree
 from fenics_gears.studies.work import Tick, Ticking, in_order_of_sharing

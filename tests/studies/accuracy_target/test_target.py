@@ -18,13 +18,13 @@ from fenics_gears.results.summary import summary_rows
 from fenics_gears.results.validity import WINDOW_REACHED
 from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.measures import JUDGED, distance, judged_answer
 from fenics_gears.studies.accuracy.runs import run_sharing
 from fenics_gears.studies.accuracy_target import choose as choosing
 from fenics_gears.studies.accuracy_target import trial_runs
 from fenics_gears.studies.accuracy_target.choose import choose
 from fenics_gears.studies.accuracy_target.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
-from fenics_gears.studies.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
 TARGET = 0.1
