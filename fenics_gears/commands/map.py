@@ -73,7 +73,7 @@ def draw_map(options: argparse.Namespace) -> int:
             for word in (f"--{name}", *getattr(options, name))
         ]
         return under_mpirun(options, ["map", str(options.scene), *values, "--most-runs", str(options.most_runs)])
-    from fenics_gears.studies.ranks import ranks
+    from fenics_gears.runs.team import ranks
 
     with ranks() as team:
         return 0 if team is None else _run(options, team)

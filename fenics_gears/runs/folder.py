@@ -1,5 +1,4 @@
-"""The files of a study's cases: a NetCDF file for each, or a text on why it failed. A later run of the study finds them
-by their content."""
+"""Runs in a folder: a NetCDF file for each, or a text on why it failed."""
 
 from __future__ import annotations
 
@@ -8,63 +7,69 @@ import fcntl
 import json
 import logging
 import os
+import traceback
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 import xarray as xr
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
-from fenics_gears.numbers_version import NUMBERS_VERSION
-from fenics_gears.studies.combine import CaseRecord, record_of
-from fenics_gears.studies.study import Case, Study
+from fenics_gears.runs.record import Record, record_of
+from fenics_gears.runs.run import Run
+from fenics_gears.runs.runs import Failure, failure_of
 from fenics_gears.system.output import remove_left_over, write_whole
 
 LOGGER = logging.getLogger(__name__)
 ENDING, FAILED_ENDING = ".nc", ".failed.txt"
 
 
-def save_case(run: xr.Dataset, case: Case, directory: Path) -> CaseRecord:
-    """Write the run of a case and return its record; a note on an earlier failure goes."""
-    results.save(
-        run.assign_attrs(case_key=case.key, case_values=json.dumps(case.values)), directory / f"{case.name}{ENDING}"
-    )
-    (directory / f"{case.name}{FAILED_ENDING}").unlink(missing_ok=True)
-    return record_of(run)
+@dataclass(frozen=True)
+class Folder:
+    """A folder of runs. A file is known by what it holds: a run whose index is another by now gives it a new name."""
+
+    directory: Path
+
+    def known(self, runs: Iterable[Run]) -> dict[str, Record]:
+        """Records of the runs whose whole and undamaged files are there."""
+        files = {path.stem.rpartition("-")[2]: path for path in sorted(self.directory.glob(f"*{ENDING}"))}
+        found = {}
+        for run in runs:
+            path = files.get(run.name.rpartition("-")[2])
+            record = None if path is None else _undamaged(path, run)
+            if record is not None:
+                found[run.key] = record
+                if path.stem != run.name:
+                    os.replace(path, self._file(run, ENDING))
+        return found
+
+    def keep(self, run: Run, result: xr.Dataset) -> Record:
+        """Write the result and return its record; a note on an earlier failure goes."""
+        results.save(result.assign_attrs(case_key=run.key, case_values=json.dumps(run.values)), self._file(run, ENDING))
+        self._file(run, FAILED_ENDING).unlink(missing_ok=True)
+        return record_of(result)
+
+    def keep_failure(self, run: Run, error: Exception) -> Failure:
+        """Write why the run failed, and its scene; the next time it is tried again."""
+        reason, details = failure_of(error), "".join(traceback.format_exception(error))
+        text = f"{run} failed: {reason}\n\n{details}\nIts scene:\n\n{run.scene.text}"
+        try:
+            write_whole(self._file(run, FAILED_ENDING), lambda aside: aside.write_text(text, encoding="utf-8"))
+        except ComputationError as unwritten:
+            LOGGER.warning("%s: the note on its failure could not be written: %s", run, unwritten)
+        return reason
+
+    def _file(self, run: Run, ending: str) -> Path:
+        return self.directory / f"{run.name}{ending}"
 
 
-def save_failure(case: Case, reason: str, details: str, directory: Path) -> None:
-    """Write why a case failed, and its scene."""
-    text = f"{case} failed: {reason}\n\n{details}\nIts scene:\n\n{case.scene.text}"
+def _undamaged(path: Path, run: Run) -> Record | None:
     try:
-        write_whole(directory / f"{case.name}{FAILED_ENDING}", lambda aside: aside.write_text(text, encoding="utf-8"))
-    except ComputationError as error:
-        LOGGER.warning("%s: the note on its failure could not be written: %s", case, error)
-
-
-def kept_records(cases: Iterable[Case], directory: Path) -> dict[int, CaseRecord]:
-    """Records, by the case's index, of the cases whose whole and undamaged runs are there.
-
-    A file whose case has another index by now gets its new name.
-    """
-    files = {path.stem.rpartition("-")[2]: path for path in sorted(directory.glob(f"*{ENDING}"))}
-    found = {}
-    for case in cases:
-        path = files.get(case.name.rpartition("-")[2])
-        record = None if path is None else _undamaged(path, case)
-        if record is not None:
-            found[case.index] = record
-            if path.stem != case.name:
-                os.replace(path, directory / f"{case.name}{ENDING}")
-    return found
-
-
-def _undamaged(path: Path, case: Case) -> CaseRecord | None:
-    try:
-        run = results.load(path)
-        if (run.attrs.get("case_key"), run.attrs.get("complete")) != (case.key, 1):
+        result = results.load(path)
+        if (result.attrs.get("case_key"), result.attrs.get("complete")) != (run.key, 1):
             raise ValueError("it does not hold what was written into it")
-        return record_of(run)
+        return record_of(result)
     # A damaged HDF5 file is reported by many types, RuntimeError and KeyError among them.
     except Exception as error:
         LOGGER.warning("%s is not usable and its case is computed again: %s", path, error)
@@ -93,34 +98,6 @@ def sole_writer(directory: Path, inside: str = "cases") -> Iterator[None]:
             ) from None
         except OSError as error:
             LOGGER.debug("%s: no locks on this file system: %s", directory, error)
-        for left in (directory / "cases").glob(".*.part"):
-            left.unlink(missing_ok=True)
         for written in (directory, directory / inside):
             remove_left_over(written)
         yield
-
-
-def changed_since(study: Study, directory: Path) -> str:
-    """A sentence where the study was last run here by a version of the program with other numbers, or with another base
-    scene; else empty.
-
-    Writes `study.json` with the present ones, which also lists which file holds which case.
-    """
-    path = directory / "study.json"
-    try:
-        index = json.loads(path.read_text(encoding="utf-8"))
-        before, numbers = index.get("base_scene"), index.get("numbers_version")
-    except (OSError, ValueError, AttributeError):
-        before = numbers = None
-    index = {
-        "title": study.title,
-        "base_scene": study.base_key,
-        "numbers_version": NUMBERS_VERSION,
-        "cases": {case.name: case.values for case in study.cases},
-    }
-    write_whole(path, lambda aside: aside.write_text(json.dumps(index, indent=1, ensure_ascii=False), encoding="utf-8"))
-    if before is None or before == study.base_key:
-        return ""
-    if numbers != NUMBERS_VERSION:
-        return "Results that are here of a version of the program with other numbers are not used."
-    return "The base scene has changed since the last time."

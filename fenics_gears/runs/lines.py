@@ -1,5 +1,4 @@
-"""The runs of an optimisation on disk: a line of JSON for each, in a file of its own for each process, so that a kill
-loses no finished run.
+"""Runs as lines of JSON, in a file of its own for each process, so that a kill loses no finished run.
 
 A line is written at once when its run has ended. One that a kill or a full disk cut short is none: it is not read, and
 the next one begins below it.
@@ -9,19 +8,59 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fenics_gears.errors import ComputationError
+import xarray as xr
+
+from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.numbers_version import NUMBERS_VERSION
+from fenics_gears.runs.run import Run
+from fenics_gears.runs.runs import Failure, failure_of
 from fenics_gears.system.job import communicator
 
-FOLDER, ENDING = "runs", ".jsonl"
+ENDING = ".jsonl"
+Line = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Lines:
+    """A folder of lines, each with what `line_of` makes of a run and its result; with `failure` why there is nothing,
+    also of a result that has no meaning."""
+
+    directory: Path
+    line_of: Callable[[Run, xr.Dataset], Line]
+
+    def known(self, runs: Iterable[Run]) -> dict[str, Line | Failure]:
+        """All whole lines by their keys, whichever runs are asked for."""
+        return {key: _known(line) for key, line in kept(self.directory)[0].items()}
+
+    def keep(self, run: Run, result: xr.Dataset) -> Line | Failure:
+        """Write the line of a result."""
+        line = {"key": run.key, **self.line_of(run, result)}
+        append(self.directory, line)
+        return _known(line)
+
+    def keep_failure(self, run: Run, error: Exception) -> Failure:
+        """Write why the run failed. What is no error of this program is not kept, so that it is tried again."""
+        if not isinstance(error, GearsError) or isinstance(error, NotKept):
+            raise error
+        append(self.directory, {"key": run.key, "failure": str(error)})
+        return failure_of(error)
+
+
+def _known(line: Line) -> Line | Failure:
+    return Failure(line["failure"]) if "failure" in line else line
+
+
+class NotKept(ComputationError):
+    """A line that could not be written."""
 
 
 def append(directory: Path, line: Mapping[str, Any]) -> None:
-    """Add a line to this process's file. Raises ComputationError where it cannot be written."""
+    """Add a line to this process's file. Raises NotKept where it cannot be written."""
     world = communicator()
     file = directory / f"{0 if world is None else world.rank}{ENDING}"
     try:
@@ -33,10 +72,10 @@ def append(directory: Path, line: Mapping[str, Any]) -> None:
                 + b"\n"
             )
     except OSError as error:
-        raise ComputationError(f"{file}: a run could not be kept: {error.strerror or error}") from error
+        raise NotKept(f"{file}: a run could not be kept: {error.strerror or error}") from error
 
 
-def kept(directory: Path) -> tuple[dict[str, dict[str, Any]], int]:
+def kept(directory: Path) -> tuple[dict[str, Line], int]:
     """All whole lines by their `key`, and how many more there are of versions of the program with other numbers."""
     found, others = {}, 0
     for file in sorted(directory.glob(f"*{ENDING}")):

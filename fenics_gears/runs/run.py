@@ -1,29 +1,45 @@
-"""A study as frozen dataclasses: the swept fields and one case for each combination of their values."""
+"""One run of many: its scene, made when it is asked for, and what its result is known by."""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, field
+from functools import partial
 from typing import Any
 
 from fenics_gears.elasticity.cache import content_key
+from fenics_gears.model.model import Model, model_of
 from fenics_gears.numbers_version import NUMBERS_VERSION
+from fenics_gears.runs.gear_store import cycle_key, operators_key
 from fenics_gears.scene.data import Scene
-from fenics_gears.studies.axis import Axis
+
+Sharing = tuple[int, int]
 
 
 @dataclass(frozen=True)
-class Case:
-    """One run of a study.
+class Run:
+    """A scene that is to be run.
 
-    `index`: its place, the last swept field changes fastest; `values`: of the swept fields, in words; `key`: hash of
-        all that its result
-    depends on.
+    `key`: hash of all that its result depends on; `sharing`: equal numbers of runs that share contact operators, and of
+    these of runs with the same gaps; `make`: makes its model; `index`: its place among the cases of a study, `values`:
+    of the swept fields, in words.
     """
 
-    index: int
-    values: dict[str, str]
-    scene: Scene
     key: str
+    sharing: Sharing
+    make: Callable[[], Model]
+    index: int = 0
+    values: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def model(self) -> Model:
+        """The model of its scene."""
+        return self.make()
+
+    @property
+    def scene(self) -> Scene:
+        """Its scene."""
+        return self.model.scene
 
     @property
     def name(self) -> str:
@@ -31,37 +47,24 @@ class Case:
         return f"{self.index:04d}-{self.key[:16]}"
 
     def __str__(self) -> str:
-        """The case in words."""
+        """The run in words."""
         return f"case {self.index} ({', '.join(f'{name} = {value}' for name, value in self.values.items())})"
 
+    def __reduce__(self) -> tuple:
+        # To another process goes the scene; its model is made there.
+        return _received, (self.scene, self.key, self.index, self.values)
 
-@dataclass(frozen=True)
-class Study:
-    """A validated study: all its scenes are right.
 
-    `combine`: "product" (one dimension for each axis) or "zip" (one dimension, `case`); `text` and `scene_text`: the
-        files it was
-    read from; `base_key`: the base scene's hash.
-    """
+def run_of(model: Model, index: int = 0, values: dict[str, str] | None = None, make: Any = None) -> Run:
+    """The run of a model, which it holds unless it can `make` it again."""
+    # Root stress and gears whose settings are yet to be chosen are condensed in other ways.
+    apart = model.scene.output.root_stress, model.scene.accuracy.target
+    sharing = hash((operators_key(model), apart)), hash(cycle_key(model))
+    return Run(scene_key(model.scene), sharing, make or (lambda: model), index, values or {})
 
-    name: str
-    title: str
-    combine: str
-    axes: tuple[Axis, ...]
-    cases: tuple[Case, ...]
-    text: str
-    scene_text: str
-    base_key: str
 
-    @property
-    def dimensions(self) -> tuple[str, ...]:
-        """Names of the study's dimensions."""
-        return tuple(axis.name for axis in self.axes) if self.combine == "product" else ("case",)
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Lengths of the study's dimensions."""
-        return tuple(len(axis.values) for axis in self.axes) if self.combine == "product" else (len(self.cases),)
+def _received(scene: Scene, key: str, index: int, values: dict[str, str]) -> Run:
+    return Run(key, (0, 0), partial(model_of, scene), index, values)
 
 
 def scene_key(scene: Scene) -> str:

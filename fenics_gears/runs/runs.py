@@ -1,114 +1,126 @@
-"""The two tasks of a study's processes: condense a gear, run a case. Of a case that fails the reason is kept."""
+"""Runs that are asked for by their scenes: what a store has of them is taken from there, the others are computed by a
+team of processes, those that share gears and contact operators one after the other."""
 
 from __future__ import annotations
 
+import functools
+import logging
 import time
-import traceback
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Callable, Iterable
+from typing import Any, Protocol
 
-from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.elasticity.compliance import Reach
+import xarray as xr
+
 from fenics_gears.errors import GearsError
-from fenics_gears.model.model import Model, model_of
+from fenics_gears.model.model import Model
+from fenics_gears.runs.condensing import condense, gear_tasks
+from fenics_gears.runs.gear_store import own_gear_store
+from fenics_gears.runs.run import Run
+from fenics_gears.runs.team import Alone, Together
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.root_stress import rows_of
-from fenics_gears.simulation.routes import route_of
+from fenics_gears.simulation.routes import Preparation
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.case_files import save_case, save_failure
-from fenics_gears.studies.combine import CaseRecord
-from fenics_gears.studies.gear_store import GEARS, body_key, cycle_key, gear_key, operators_key, own_gear_store
-from fenics_gears.studies.study import Case
-from fenics_gears.system.progress import SilentProgress
+from fenics_gears.system.progress import Progress, SilentProgress
 
+LOGGER = logging.getLogger(__name__)
 Tick = Callable[[], None]
 
-# What is condensed of a gear.
-SECTION, BODY, ROOT_STRESS = "section", "body", "root stress"
+
+class Failure(str):
+    """Why a run has no result, in words."""
 
 
-@dataclass(frozen=True)
-class GearTask:
-    """A gear to be condensed: the "pinion" or the "wheel" of a scene, over the teeth within `reach`; its plane section,
-    its body over the face, or its root stress."""
+class Store(Protocol):
+    """Where runs are kept; another process gets a copy of it. What it returns of a run is what is known of it."""
 
-    scene: Scene
-    name: str
-    reach: Reach
-    part: str = SECTION
+    def known(self, runs: Iterable[Run]) -> dict[str, Any]:
+        """What is kept of runs, by their keys."""
 
+    def keep(self, run: Run, result: xr.Dataset) -> Any:
+        """Keep the result of a run."""
 
-def gear_tasks(cases: list[Case]) -> list[GearTask]:
-    """The distinct gears of the cases; first what takes longest."""
-    reaches: dict[tuple, Reach] = {}
-    tasks: dict[str, dict[tuple, GearTask]] = {ROOT_STRESS: {}, BODY: {}, SECTION: {}}
-    for case in cases:
-        model = model_of(case.scene)
-        # With a target the gears' meshes are known only after settings are chosen.
-        if case.scene.accuracy.target is not None or not route_of(model).condensed_once:
-            continue
-        cycle = cycle_key(model)[:4]  # the reach follows from gears and accuracy
-        if cycle not in reaches:
-            reaches[cycle] = model.touching.reach
-        for name in GEARS:
-            for part, key in _keys(model, name, reaches[cycle]):
-                # Young's modulus is a factor, so the cache keeps one entry for all its values.
-                tasks[part].setdefault(
-                    (key[0], key[1].poissons_ratio, *key[2:]), GearTask(case.scene, name, reaches[cycle], part)
-                )
-    return [task for of_part in tasks.values() for task in of_part.values()]
+    def keep_failure(self, run: Run, error: Exception) -> Failure:
+        """Keep why a run failed; raises the error where it is none of the run."""
 
 
-def _keys(model: Model, name: str, reach: Reach) -> Iterator[tuple[str, tuple]]:
-    """What is to be condensed of a gear, and what that depends on."""
-    yield SECTION, gear_key(model, name, reach)
-    if model.face is not None:
-        yield BODY, body_key(model, name, reach)
-    if model.scene.output.root_stress and route_of(model).stresses:
-        face = None if model.face is None else (model.face.slices, model.pair.common_face, model.pair.gear_middles)
-        yield (
-            ROOT_STRESS,
-            (*(gear_key if face is None else body_key)(model, name, reach), face, model.scene.coast_flanks is not None),
-        )
+class Runs:
+    """The runs of a store and a team.
+
+    `known`: by key what the store has of a run, a Failure where it has none; `kept`: how many were there before.
+    """
+
+    def __init__(self, store: Store, team: Alone | Together, runs: Iterable[Run] = ()):
+        self._store, self._team = store, team
+        self.known = store.known(runs)
+        self.kept = len(self.known)
+
+    def missing(self, runs: Iterable[Run]) -> list[Run]:
+        """Those that are not known, each once, in the order in which they share most."""
+        return in_order_of_sharing({run.key: run for run in runs if run.key not in self.known}.values())
+
+    def condense(self, runs: Iterable[Run], progress: Progress) -> None:
+        """Condense every gear of the runs once, a process a gear; one that fails fails again, with its reason, in the
+        runs."""
+        tasks, done = gear_tasks(runs), 0
+        if not tasks:
+            return
+        progress.stage("condense gears")
+
+        def finished(index: int, error: Exception | None) -> None:
+            nonlocal done
+            done += 1
+            if error is not None:
+                LOGGER.debug("condensing the %s: %s", tasks[index].name, error)
+
+        self._team.run(condense, tasks, finished, lambda: progress.update(done, len(tasks)))
+        progress.update(done, len(tasks))
+
+    def compute(self, missing: list[Run], finished: Callable[[Run, Any], None], tick: Tick) -> None:
+        """Compute runs in this order; each is `known` when `finished` is called with it and what is known of it."""
+
+        def take(index: int, found: Any) -> None:
+            # An exception is one that the worker could not even report, such as an MPI error.
+            known = failure_of(found) if isinstance(found, Exception) else found
+            self.known[missing[index].key] = known
+            finished(missing[index], known)
+
+        self._team.run(functools.partial(computed, self._store), missing, take, tick)
 
 
-def in_order_of_sharing(cases: list[Case]) -> list[Case]:
-    """The cases in their order, but those that share contact operators next to each other, and of these those with the
+def in_order_of_sharing(runs: Iterable[Run]) -> list[Run]:
+    """The runs in their order, but those that share contact operators next to each other, and of these those with the
     same gaps."""
-    groups: dict[tuple, dict[tuple, list[Case]]] = {}
-    for case in cases:
-        model = model_of(case.scene)
-        groups.setdefault(operators_key(model), {}).setdefault(cycle_key(model), []).append(case)
-    return [case for group in groups.values() for alike in group.values() for case in alike]
+    groups: dict[int, dict[int, list[Run]]] = {}
+    for run in runs:
+        operators, cycle = run.sharing
+        groups.setdefault(operators, {}).setdefault(cycle, []).append(run)
+    return [run for group in groups.values() for alike in group.values() for run in alike]
 
 
-def condense(task: GearTask, tick: Tick | None = None) -> None:
-    """Condense a gear into the cache and into this process's store."""
-    model, store = model_of(task.scene), own_gear_store()
-    if task.part == ROOT_STRESS:
-        rows_of(model, task.name, user_cache())
-    else:
-        (store.body if task.part == BODY else store.gear)(model, task.name, task.reach, user_cache())
-
-
-def run_case(directory: Path, case: Case, tick: Tick | None = None) -> CaseRecord | str:
-    """Run a case and write its file, or why it failed, into a directory; return its record, or that reason. Raises
-    KeyboardInterrupt where Ctrl-C
+def computed(store: Store, run: Run, tick: Tick | None = None) -> Any:
+    """Compute a run and keep it, or why it failed; return what is known of it. Raises KeyboardInterrupt where Ctrl-C
     ended it."""
-    begun = time.perf_counter()
     try:
-        run = simulate(case.scene, progress=Ticking(tick), preparation=own_gear_store().prepared)
-        if not run.attrs["complete"]:
-            raise KeyboardInterrupt
-        run.attrs["wall_time"] = time.perf_counter() - begun
-        return save_case(run, case, directory)
+        return store.keep(run, completed(run.model, own_gear_store().prepared, Ticking(tick)))
     except Exception as error:
         if isinstance(error.__cause__, KeyboardInterrupt):  # compiled code that a second Ctrl-C hit in the middle
             raise KeyboardInterrupt from error
-        reason = str(error) if isinstance(error, GearsError) else f"{type(error).__name__}: {error}"
-        save_failure(case, reason, traceback.format_exc(), directory)
-        return reason
+        return store.keep_failure(run, error)
+
+
+def completed(scene: Scene | Model, preparation: Preparation, progress: Progress | None = None) -> xr.Dataset:
+    """The whole result of a run and its `wall_time`, s. Raises KeyboardInterrupt where Ctrl-C ended it."""
+    begun = time.perf_counter()
+    result = simulate(scene, progress=progress, preparation=preparation)
+    if not result.attrs["complete"]:
+        raise KeyboardInterrupt
+    result.attrs["wall_time"] = time.perf_counter() - begun
+    return result
+
+
+def failure_of(error: Exception) -> Failure:
+    """An error in words."""
+    return Failure(error if isinstance(error, GearsError) else f"{type(error).__name__}: {error}")
 
 
 class Ticking(SilentProgress):

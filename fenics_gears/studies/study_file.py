@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,18 +14,21 @@ from fenics_gears.errors import SceneError
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem, counted, line_numbers
 from fenics_gears.inputs.written import as_toml, as_written
-from fenics_gears.model.model import model_of
+from fenics_gears.model.model import Model, model_of
+from fenics_gears.runs.run import Run, run_of, scene_key
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.problems import problems_of_schema, without_echoes
 from fenics_gears.scene.read import checked_scene, load_scene, name_of, parsed, text_of
 from fenics_gears.scene.rules import broken_rules
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import Axis, AxisError, label, unit_of, values_of
-from fenics_gears.studies.study import Case, Study, scene_key
+from fenics_gears.studies.study import Study
 
 KEYS = ("title", "scene", "combine", "without", "set", "sweep")
 COMBINATIONS = ("product", "zip")
 MOST_CASES = 100_000
+# Cases whose scenes and models are held, of 8 kB each.
+MOST_HELD = 1000
 # Names of the combined dataset's own variables.
 TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear"}
 
@@ -104,7 +108,7 @@ def study_of(
     scene_tree = parsed(base.text, str(scene_file))
     _check_present(changes, scene_tree, str(scene_file), mistakes)
     mistakes.check()
-    cases = _cases(path, scene_file.parent, changes, scene_tree, mistakes)
+    cases = _cases(Scenes(name_of(path), scene_file.parent, changes, scene_tree), changes, mistakes)
     mistakes.check()
     return Study(
         name=name_of(path),
@@ -284,43 +288,65 @@ def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: 
             )
 
 
-def _cases(
-    path: Path, directory: Path, changes: Changes, scene_tree: Mapping[str, Any], mistakes: Mistakes
-) -> tuple[Case, ...]:
-    """All cases, validated; a mistake that many cases share is reported once. `directory`: of the base scene."""
-    cases: list[Case] = []
-    by_key: dict[str, Case] = {}
+class Scenes:
+    """The scenes of a study's cases: of a large study each is made again when it is asked for."""
+
+    def __init__(self, name: str, directory: Path, changes: Changes, scene_tree: Mapping[str, Any]):
+        self._name, self._directory, self._changes, self._tree = name, directory, changes, scene_tree
+        self.points = list(changes.points())
+        self.model = functools.lru_cache(MOST_HELD)(self._model)
+
+    def values(self, index: int) -> dict[str, str]:
+        """The swept fields of a case, in words."""
+        return {axis.dotted: label(value) for axis, value in zip(self._changes.axes, self.points[index])}
+
+    def _model(self, index: int) -> Model:
+        tree = self._changes.apply(self._tree, self.points[index])
+        return model_of_tree(f"{self._name}-{index:04d}", tree, self._directory)
+
+
+def _cases(scenes: Scenes, changes: Changes, mistakes: Mistakes) -> tuple[Run, ...]:
+    """All cases, validated; a mistake that many cases share is reported once."""
+    cases: list[Run] = []
+    by_key: dict[str, Run] = {}
     wrong: dict[tuple, list[str]] = {}
-    points = list(changes.points())
-    for index, point in enumerate(points):
-        values = {axis.dotted: label(value) for axis, value in zip(changes.axes, point)}
-        scene, problems = scene_of_tree(f"{name_of(path)}-{index:04d}", changes.apply(scene_tree, point), directory)
-        for problem in problems:
-            wrong.setdefault((problem.path, problem.written, problem.message), []).append(_listed(values))
-        if scene is None:
+    for index in range(len(scenes.points)):
+        values = scenes.values(index)
+        try:
+            case = run_of(scenes.model(index), index, values, functools.partial(scenes.model, index))
+        except NoScene as error:
+            for problem in error.problems:
+                wrong.setdefault((problem.path, problem.written, problem.message), []).append(_listed(values))
             continue
-        case = Case(index, values, scene, scene_key(scene))
         same = by_key.setdefault(case.key, case)
         if same is not case:
             mistakes.add(("sweep",), "", f"{same} and {case} are the same scene. Leave one of them out.")
         cases.append(case)
     for (field, written, message), where in wrong.items():
-        mistakes.add(*_in_study(field, written, message, changes, where, len(points)))
+        mistakes.add(*_in_study(field, written, message, changes, where, len(scenes.points)))
     return tuple(cases)
 
 
-def scene_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> tuple[Scene | None, list[Problem]]:
-    """The validated scene of a case, or what is wrong with it."""
+class NoScene(SceneError):
+    """A parsed file that is no scene; `problems`: all that is wrong with it."""
+
+    def __init__(self, problems: list[Problem]):
+        super().__init__("; ".join(f"{'.'.join(problem.path)} {problem.message}".strip() for problem in problems))
+        self.problems = problems
+
+
+def model_of_tree(
+    name: str, tree: Mapping[str, Any], directory: Path, changed: Callable[[Scene], Scene] = lambda scene: scene
+) -> Model:
+    """The model of a parsed scene, or of what it is `changed` into. Raises NoScene."""
     checked, problems = problems_of_schema(tree)
     problems = without_echoes(problems + broken_rules(tree))
     if problems:
-        return None, problems
+        raise NoScene(problems)
     try:
-        scene = checked_scene(checked, as_toml(tree), name, directory)
-        model_of(scene)
+        return model_of(changed(checked_scene(checked, as_toml(tree), name, directory)))
     except SceneError as error:
-        return None, [Problem((), None, str(error))]
-    return scene, []
+        raise NoScene([Problem((), None, str(error))]) from error
 
 
 def _in_study(field: fields.Path, written, message: str, changes: Changes, where: list[str], points: int) -> tuple:

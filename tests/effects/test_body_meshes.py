@@ -15,12 +15,12 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.results import by_pair
+from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import load_scene, scene_from_text
 from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.refinement import checked_model
-from fenics_gears.studies.gear_store import GearStore
 from fenics_gears.studies.study_file import load_study
 from meshes.root_crack import cracked_gear_mesh
 

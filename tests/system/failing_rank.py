@@ -27,13 +27,13 @@ STAGES = {
     "march": "dynamics.march:Marcher.run",
     "writing": "results:save",
     "reading a study": "studies.run_study:load_study",
-    "condensing for a study": "studies.gear_store:GearStore.gear",
-    "a case": "studies.work:simulate",
-    "writing a case": "studies.work:save_case",
+    "condensing for a study": "runs.gear_store:GearStore.gear",
+    "a case": "runs.runs:simulate",
+    "writing a case": "runs.folder:Folder.keep",
     "combining": "studies.run_study:save_study",
     "reading a design": "studies.optimization.optimize:load_design",
-    "a design's run": "studies.optimization.evaluations:simulate",
-    "keeping a run": "studies.optimization.run_lines:append",
+    "a design's run": "runs.runs:simulate",
+    "keeping a run": "runs.lines:append",
     "choosing": "studies.optimization.optimize:chosen",
 }
 ERRORS = {

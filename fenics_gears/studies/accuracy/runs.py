@@ -9,9 +9,9 @@ import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.model.model import Model
+from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.gear_store import GearStore
 from fenics_gears.system.progress import Progress, SilentProgress
 
 STAGES = ("mesh", "condense", "march")

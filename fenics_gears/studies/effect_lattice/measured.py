@@ -14,11 +14,11 @@ from fenics_gears.errors import ComputationError, GearsError, SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, lattice
-from fenics_gears.studies.gear_store import GearStore
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
 

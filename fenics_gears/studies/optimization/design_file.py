@@ -18,7 +18,7 @@ from fenics_gears.studies.optimization.conditions import FROM_ZERO, samples, sca
 from fenics_gears.studies.optimization.design import Design, Scatter
 from fenics_gears.studies.optimization.goals import lacking
 from fenics_gears.studies.optimization.sections import Sections
-from fenics_gears.studies.study_file import Changes, entries, left_out, scene_of_tree
+from fenics_gears.studies.study_file import Changes, NoScene, entries, left_out, model_of_tree
 
 
 def load_design(path: str | Path) -> Design:
@@ -121,7 +121,10 @@ def _try(
     design: Design, sections: Sections, tree: Mapping[str, Any], place: tuple[str, ...], where: str
 ) -> Scene | None:
     """The scene of a tree; None, with its mistakes noted at a place of the design file, where it is none."""
-    scene, problems = scene_of_tree(design.name, tree, design.directory)
+    try:
+        return model_of_tree(design.name, tree, design.directory).scene
+    except NoScene as error:
+        problems = error.problems
     for problem in problems:
         said = (
             f"{'.'.join(problem.path)} {problem.message}"
@@ -129,7 +132,7 @@ def _try(
             else problem.message
         )
         sections.mistakes.add(place, problem.written or "", f"{said} ({where})")
-    return scene
+    return None
 
 
 def _with_class(design: Design, scene: Scene, tolerance_class: int | None) -> Design:

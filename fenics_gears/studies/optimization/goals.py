@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.key_numbers import HARMONIC_NAMES
+from fenics_gears.runs.record import NUMBERS
 from fenics_gears.scene.data import Scene
-from fenics_gears.studies.combine import NUMBERS
 
 ERROR = "peak_to_peak_transmission_error"
 ROOT = ("largest_root_stress_pinion", "largest_root_stress_wheel")
