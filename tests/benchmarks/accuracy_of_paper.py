@@ -22,7 +22,7 @@ from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy import table
 from fenics_gears.studies.accuracy.report import AccuracyReport, measure, scene_of
-from fenics_gears.studies.accuracy.runs import Times, run_sharing, shared_gears
+from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import LineProgress, Progress
 

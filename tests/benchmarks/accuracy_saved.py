@@ -21,7 +21,7 @@ from fenics_gears.studies.accuracy.report import (
     RefinementResult,
     WholeResult,
 )
-from fenics_gears.studies.accuracy.runs import Times
+from fenics_gears.runs.timed import Times
 from fenics_gears.studies.accuracy.setting import own_setting, without_settings
 from fenics_gears.studies.accuracy.table import ORDERED
 

@@ -11,9 +11,9 @@ import statistics
 from pathlib import Path
 
 from fenics_gears.scene.read import load_scene
-from fenics_gears.studies.effect_lattice import table
-from fenics_gears.studies.effect_lattice.measured import EffectReport, measure
-from fenics_gears.studies.effect_lattice.subsets import ALL, BARE
+from fenics_gears.studies.effect_costs import table
+from fenics_gears.studies.effect_costs.measured import EffectReport, measure
+from fenics_gears.studies.effect_costs.subsets import ALL, BARE
 from fenics_gears.system.progress import LineProgress
 
 ROOT = Path(__file__).parents[2]

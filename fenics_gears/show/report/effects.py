@@ -10,8 +10,8 @@ from fenics_gears.effects import effects_on
 from fenics_gears.model.description import effect_states
 from fenics_gears.show.report.page import Block, Fold, Picture, Section, Table, Words
 from fenics_gears.show.run import NO_SCENE, Run
-from fenics_gears.studies.effect_lattice.subsets import ALL
-from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS, MICRO, MILLI, in_percent
+from fenics_gears.studies.effect_costs.subsets import ALL
+from fenics_gears.studies.effect_costs.table import CSV_COLUMNS, MICRO, MILLI, in_percent
 
 # The columns that hold a number in each line.
 NUMBERS = CSV_COLUMNS[2:15]

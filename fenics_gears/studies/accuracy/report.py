@@ -38,7 +38,7 @@ from fenics_gears.studies.accuracy.refinement import (
     refinements,
 )
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
-from fenics_gears.studies.accuracy.runs import Times, run_sharing, shared_gears
+from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress

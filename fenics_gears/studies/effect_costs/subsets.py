@@ -103,7 +103,7 @@ def _parts(whole: Subset) -> list[Subset]:
     if not whole.scene.three_dimensional:
         return []
     # Imported here: plane scenes have none.
-    from fenics_gears.studies.effect_lattice.parts import without_parts
+    from fenics_gears.studies.effect_costs.parts import without_parts
 
     return [Subset(LEFT_OUT, name, whole.sections, scene) for name, scene in without_parts(whole.scene)]
 

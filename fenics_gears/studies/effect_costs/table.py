@@ -7,8 +7,8 @@ import statistics
 from math import isnan, nan
 from pathlib import Path
 
-from fenics_gears.studies.effect_lattice.measured import EffectReport, Row
-from fenics_gears.studies.effect_lattice.subsets import ALL, BARE, in_order
+from fenics_gears.studies.effect_costs.measured import EffectReport, Row
+from fenics_gears.studies.effect_costs.subsets import ALL, BARE, in_order
 from fenics_gears.studies.machine import write_lines
 
 MICRO, MILLI = 1e6, 1e3

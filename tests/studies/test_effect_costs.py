@@ -15,8 +15,8 @@ from fenics_gears.model.model import model_of
 from fenics_gears.runs.gear_store import operators_key
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.effect_lattice import measured, table
-from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, NOTHING, lattice
+from fenics_gears.studies.effect_costs import measured, table
+from fenics_gears.studies.effect_costs.subsets import ALL, ALONE, BARE, LEFT_OUT, NOTHING, lattice
 
 TEETH = "tooth_elasticity"
 PAPER = (TEETH, "shafts", "bearings", "inertia", "damping", "friction")

@@ -18,7 +18,7 @@ from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.warm_up import compile_kernels
-from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, lattice
+from fenics_gears.studies.effect_costs.subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, lattice
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
 
