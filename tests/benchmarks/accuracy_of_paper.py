@@ -17,12 +17,12 @@ from tests.benchmarks.accuracy_overview import TITLES, orders_section, overview,
 from tests.benchmarks.accuracy_saved import saved_report
 from tests.benchmarks.marked_section import write_section
 
+from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.scene.data import Motion, Output, Scene
 from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy import table
 from fenics_gears.studies.accuracy.report import AccuracyReport, measure, scene_of
-from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import LineProgress, Progress
 

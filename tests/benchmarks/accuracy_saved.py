@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from fenics_gears.runs.timed import Times
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy import whole
 from fenics_gears.studies.accuracy.convergence import Limit
@@ -21,7 +22,6 @@ from fenics_gears.studies.accuracy.report import (
     RefinementResult,
     WholeResult,
 )
-from fenics_gears.runs.timed import Times
 from fenics_gears.studies.accuracy.setting import own_setting, without_settings
 from fenics_gears.studies.accuracy.table import ORDERED
 

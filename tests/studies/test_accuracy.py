@@ -12,6 +12,7 @@ from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.root_stress import RootStressRows
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.model.model import model_of
+from fenics_gears.runs.timed import run_sharing, shared_gears
 from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion, Output
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy import refinement, table
@@ -19,7 +20,6 @@ from fenics_gears.studies.accuracy import report as reports
 from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, ROOT, SPAN, judged
 from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, FLANK, LENGTH, NODES, OF_FAMILY, STEPS
 from fenics_gears.studies.accuracy.root_point import peak_root_stress, point_rows
-from fenics_gears.runs.timed import run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, own_setting
 
 TEETH = "tooth_elasticity"
@@ -321,7 +321,7 @@ def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monke
 
 def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
     """Authority: the exit codes; 130, and no half of a comparison is kept."""
-    from fenics_gears.runs import timed
+    from fenics_gears.runs import runs
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(runs, "simulate", lambda scene, **options: simulate(scene, **options).assign_attrs(complete=0))

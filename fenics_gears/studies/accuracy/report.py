@@ -12,6 +12,7 @@ import xarray as xr
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.model.resolution import EVERY_STEP
+from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy, Output, Scene
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy import whole
@@ -38,7 +39,6 @@ from fenics_gears.studies.accuracy.refinement import (
     refinements,
 )
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
-from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress

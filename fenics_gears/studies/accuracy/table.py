@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import isnan
 from pathlib import Path
 
+from fenics_gears.runs.timed import STAGES, Times
 from fenics_gears.studies.accuracy.convergence import largest_part
 from fenics_gears.studies.accuracy.measures import OVER_FACE, judged, measures_of
 from fenics_gears.studies.accuracy.refinement import CONDENSATION
 from fenics_gears.studies.accuracy.report import AccuracyReport, RefinementResult, WholeResult
-from fenics_gears.runs.timed import STAGES, Times
 from fenics_gears.studies.machine import write_lines
 
 # Measures whose observed orders are shown.

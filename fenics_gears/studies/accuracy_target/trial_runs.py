@@ -17,11 +17,11 @@ from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.validity import WINDOW_REACHED
 from fenics_gears.runs.runs import Ticking
+from fenics_gears.runs.timed import run_sharing, shared_gears
 from fenics_gears.scene.data import Output, Scene
 from fenics_gears.scene.rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.schema import MOST_CONTACT_NODES
 from fenics_gears.studies.accuracy.measures import Answer, distance, judged_answer
-from fenics_gears.runs.timed import run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
 
 # Fewest steps in a mesh cycle, and the most that are taken for the sake of vibrations: if these are still faster, the

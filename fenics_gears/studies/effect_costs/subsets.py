@@ -67,7 +67,7 @@ class Skipped:
     reason: str
 
 
-def lattice(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
+def subsets_of(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
     """The subsets of a scene's effects that are run, and those that make no scene; no set of effects comes twice.
 
     The scene must have been read from its text: the rules between sections are the text's.

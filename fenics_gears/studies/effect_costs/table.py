@@ -109,7 +109,7 @@ def _words(remark: str) -> str:
 
 
 def ratio_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
-    """Rows of label, value, unit: bare against full scene, measured and expected."""
+    """Rows of label, value, unit: bare against full scene."""
     bare, full = report.row(BARE), report.row(ALL)
     if not report.ratios:
         return []
@@ -120,11 +120,6 @@ def ratio_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
         (
             "ratio measured",
             f"{statistics.median(report.ratios):.2f}, {low:.2f} to {high:.2f} in {len(report.ratios)} rounds",
-            "",
-        ),
-        (
-            "ratio expected of the arithmetic alone",
-            f"{full.operations / bare.operations:.2f}, as if a step were nothing else",
             "",
         ),
     ]
@@ -155,7 +150,7 @@ def needs_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
 CSV_COLUMNS = (
     "effects", "sections", "centre_coordinates", "contact_rows", "closed_nodes_mean", "closed_nodes_max",
     "newton_iterations_per_step",
-    "operations_per_step", "step_time_s", "step_time_least_s", "step_time_most_s", "operators_s", "condensing_s",
+    "step_time_s", "step_time_least_s", "step_time_most_s", "operators_s", "condensing_s",
     "transmission_error_peak_to_peak_mm", "peak_force_N", "change_of_transmission_error", "change_of_peak_force",
     "compared_with",
     "remarks", "peak_contact_pressure_MPa", "face_load_factor", "processor", "load", "threads", "versions",
@@ -173,7 +168,7 @@ def _line(report: EffectReport, row: Row) -> tuple:
     return (
         row.subset.name, " ".join(sorted(row.subset.sections)), row.coordinates, row.contact_rows, row.closed_nodes,
         row.most_closed_nodes,
-        row.iterations, row.operations, row.step_time, min(row.step_times), max(row.step_times), row.operators,
+        row.iterations, row.step_time, min(row.step_times), max(row.step_times), row.operators,
         row.condense,
         row.transmission_error, row.peak_force, change(report, row, "transmission_error"),
         change(report, row, "peak_force"),

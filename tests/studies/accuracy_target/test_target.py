@@ -16,11 +16,11 @@ from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import model_of
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.results.validity import WINDOW_REACHED
+from fenics_gears.runs.timed import run_sharing
 from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.measures import JUDGED, distance, judged_answer
-from fenics_gears.runs.timed import run_sharing
 from fenics_gears.studies.accuracy_target import choose as choosing
 from fenics_gears.studies.accuracy_target import trial_runs
 from fenics_gears.studies.accuracy_target.choose import choose
