@@ -99,7 +99,7 @@ def _with_chosen_settings(scene: Scene, progress: Progress) -> tuple[Scene, dict
     target = scene.accuracy.target
     if target is None:
         return scene, {}
-    from fenics_gears.studies.accuracy_target.choose import choose
+    from fenics_gears.studies.accuracy.target import choose
 
     begun = time.perf_counter()
     found = choose(scene, target, progress)

@@ -28,8 +28,8 @@ from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy.measures import JUDGED, Answer, distance, judged_answer
 from fenics_gears.studies.accuracy.setting import Setting
-from fenics_gears.studies.accuracy_target.choose import Chosen, choose
-from fenics_gears.studies.accuracy_target.trial_runs import TargetNotReached
+from fenics_gears.studies.accuracy.target import Chosen, choose
+from fenics_gears.studies.accuracy.trial_runs import TargetNotReached
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import SilentProgress
 

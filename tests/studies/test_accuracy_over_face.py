@@ -27,8 +27,8 @@ from fenics_gears.studies.accuracy.measures import (
 from fenics_gears.studies.accuracy.over_face import LAYERS, PLANE, SLICES, in_the_plane
 from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, LENGTH, STEPS, fine, refinements
 from fenics_gears.studies.accuracy.setting import own_setting
-from fenics_gears.studies.accuracy_target import trial_runs
-from fenics_gears.studies.accuracy_target.trial_runs import MESH, SAFETY, SAFETY_OF_SLICES, Sizes, TrialRuns
+from fenics_gears.studies.accuracy import trial_runs
+from fenics_gears.studies.accuracy.trial_runs import MESH, SAFETY, SAFETY_OF_SLICES, Sizes, TrialRuns
 
 LEAD = '[lead_modifications.pinion]\ncrowning = "6 um"\n'
 TILTING = '[bearings]\nstiffness = "1e6 N/mm"\naxial_stiffness = "1e5 N/mm"\nplaces = { wheel = ["-40 mm", "40 mm"] }\n'

@@ -21,10 +21,10 @@ from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.measures import JUDGED, distance, judged_answer
-from fenics_gears.studies.accuracy_target import choose as choosing
-from fenics_gears.studies.accuracy_target import trial_runs
-from fenics_gears.studies.accuracy_target.choose import choose
-from fenics_gears.studies.accuracy_target.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
+from fenics_gears.studies.accuracy import target as choosing
+from fenics_gears.studies.accuracy import trial_runs
+from fenics_gears.studies.accuracy.target import choose
+from fenics_gears.studies.accuracy.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
 from fenics_gears.system.progress import SilentProgress
 
 TARGET = 0.1
@@ -111,7 +111,7 @@ def test_the_scene_that_the_result_carries_repeats_it(run):
 def test_a_scene_changed_in_python_can_have_a_target(scene, monkeypatch):
     """The text that the result carries gives what was run, by its reader: the chosen settings, and what was changed."""
     monkeypatch.setattr(
-        "fenics_gears.studies.accuracy_target.choose.choose",
+        "fenics_gears.studies.accuracy.target.choose",
         lambda *arguments: choosing.Chosen(Accuracy("P1", 0.25), None, {"x": 0.05}, 1),
     )
     result = simulate(replace(scene, load=Load(0.9 * scene.load.wheel_torque)))

@@ -10,7 +10,7 @@ from math import ceil, inf, sqrt
 
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.studies.accuracy.setting import Setting
-from fenics_gears.studies.accuracy_target.trial_runs import (
+from fenics_gears.studies.accuracy.trial_runs import (
     FEWEST_STEPS,
     MESH,
     SLICES,
