@@ -15,7 +15,7 @@ from fenics_gears.model.model import model_of
 from fenics_gears.runs.timed import run_sharing, shared_gears
 from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion, Output
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.accuracy import refinement, table
+from fenics_gears.studies.accuracy import refinement, setting_runs, table
 from fenics_gears.studies.accuracy import report as reports
 from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, ROOT, SPAN, judged
 from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, FLANK, LENGTH, NODES, OF_FAMILY, STEPS
@@ -218,7 +218,7 @@ def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, m
     assert once.errors[CURVE] == once.errors[ROOT] == 0.0 and 0.0 < anew.errors[CURVE] < 0.2
     assert np.isnan(anew.errors[ROOT])
     assert all(
-        (value == study._known[study.base][0][name]).all() for name, value in study.reference((result,))[0].items()
+        (value == study.runs.answers[study.base][name]).all() for name, value in study.reference((result,))[0].items()
     )
 
 
@@ -267,12 +267,12 @@ def test_without_load_there_is_nothing_to_measure(scene):
 def test_a_level_that_fails_is_told_and_the_others_are_measured(scene, monkeypatch):
     """Authority: house style, a failed case is a record among the results."""
 
-    def fails(scene, gears):
+    def fails(scene, gears, progress):
         if scene.accuracy.interpolation == "collocated":
             raise ComputationError("no solution at step 3\nand a history")
-        return run_sharing(scene, gears)
+        return run_sharing(scene, gears, progress)
 
-    monkeypatch.setattr(reports, "run_sharing", fails)
+    monkeypatch.setattr(setting_runs, "run_sharing", fails)
     study = reports.AccuracyStudy(scene, reports.SilentProgress(), True, 1)
     study.refinements = tuple(each for each in study.refinements if each.name == "interpolation")
     (result,) = study.refine()

@@ -1,9 +1,11 @@
-"""Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy`.
+"""Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy` and
+`[accuracy] target`.
 
 Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5: the error of the finest
-run is the last change over r^p - 1, with r the ratio of sizes and p the order, times a safety factor of 1.25. Without
-an observed order it is three times the last
-change: 1.25 times the 2.4 that h^0.5 leaves where sizes halve.
+run is the last change over r^p - 1, with r the ratio of sizes and p the order, times a safety factor. That is 1.25 for
+three runs and more, which show their order; without an observed order the error is three times the last change: 1.25
+times the 2.4 that h^0.5 leaves where sizes halve. For two runs, of which nothing but the order that is expected is
+known, it is 2.5.
 """
 
 from __future__ import annotations
@@ -14,10 +16,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from fenics_gears.studies.accuracy.measures import comparable
+from fenics_gears.studies.accuracy.measures import Answer, comparable, distance
 
 SAFETY = 1.25
 LEFT_WITHOUT_ORDER = 2.4
+# Of two runs: at coarse sizes differences fall more slowly than with the expected order, and signs of their parts
+# differ. Of slices, whose differences keep their sign and fall with an order of 1.7: by that alone 1.3.
+EXPECTED_ORDER, SAFETY_OF_TWO, SAFETY_OF_SLICES = 2.0, 2.5, 1.8
 LEAST_ORDER, MOST_ORDER = 0.1, 10.0
 # An order is used to extrapolate only above this, for else the limit lies far off, and not further above the expected
 # order than this.
@@ -78,6 +83,13 @@ def cosine(one: np.ndarray, other: np.ndarray) -> float:
 def part_left(sizes: Sequence[float], order: float) -> float:
     """Error of the finest size in parts of the last change: 1/(r^p - 1)."""
     return 1.0 / ((sizes[-2] / sizes[-1]) ** order - 1.0)
+
+
+def error_of_two(finer: Answer, coarser: Answer, ratio: float, safety: float) -> float:
+    """Relative error of the finer of two runs in the measure that is worst, by the expected order; `ratio` of their
+    sizes."""
+    change = max(distance(coarser, finer, measure) for measure in finer)
+    return safety * part_left((ratio, 1.0), EXPECTED_ORDER) * change
 
 
 def richardson(values: Sequence[np.ndarray], sizes: Sequence[float], expected: float) -> Limit:

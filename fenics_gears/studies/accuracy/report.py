@@ -40,6 +40,7 @@ from fenics_gears.studies.accuracy.refinement import (
 )
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
 from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
+from fenics_gears.studies.accuracy.setting_runs import SettingRuns
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
 
@@ -170,8 +171,7 @@ class AccuracyStudy:
         # Length over which pressures are compared, mm.
         self.window = max(level.setting.length for each in self.refinements for level in each.levels)
         self.failures: list[tuple[str, str]] = []
-        self._known: dict[Setting, tuple[Answer, Times]] = {}
-        self._gears = shared_gears()
+        self.runs = SettingRuns(self.scene, self._answer)
 
     def refine(self) -> tuple[RefinementResult, ...]:
         """Run every level with the other settings fine."""
@@ -188,15 +188,15 @@ class AccuracyStudy:
             self.progress.update(done, len(levels), name)
             self._run(setting, name)
         self._time_single_settings()
-        results = [self._result(each) for each in self.refinements if each.base in self._known]
+        results = [self._result(each) for each in self.refinements if each.base in self.runs]
         return tuple(result for result in results if result.levels)
 
     def reference(self, results: tuple[RefinementResult, ...]) -> tuple[Answer, dict[str, float]]:
         """The reference, all settings at their limits, and its relative uncertainty by measure."""
-        base, value = self._known[self.base][0], {}
+        base, value = self.runs.answers[self.base], {}
         uncertainty = dict.fromkeys(measures_of(base), float("nan"))
         moved = [
-            (each.limits, self._known[each.refinement.base][0])
+            (each.limits, self.runs.answers[each.refinement.base])
             for each in results
             if each.refinement.name not in (*OF_FAMILY, CONDENSATION)
         ]
@@ -237,13 +237,12 @@ class AccuracyStudy:
 
     def _run(self, setting: Setting, name: str) -> bool:
         """Run a setting unless it has run before; whether it could be run."""
-        if setting in self._known:
+        if setting in self.runs:
             return True
         try:
             if not whole.fits(self.scene, setting):
                 raise ComputationError(f"its contact operators would take more than {whole.MOST_BYTES / 1e9:g} GB")
-            run, cycle = run_sharing(setting.of(self.scene), self._gears)
-            self._known[setting] = self._answer(run, setting.of(self.scene), cycle), Times().and_also(run)
+            self.runs.run(setting)
         except GearsError as error:
             self.failures.append((name, str(error).splitlines()[0]))
             return False
@@ -257,16 +256,13 @@ class AccuracyStudy:
     def _time_single_settings(self) -> None:
         """Repeat single settings to time them, the quickest first, as many as can be repeated in all rounds within the
         time limit."""
-        seconds = {setting: times.total for setting, (_, times) in self._known.items()}
+        seconds = {setting: times.total for setting, times in self.runs.times.items()}
         repeated = within(seconds, self.seconds_on_single / max(self.rounds - 1, 1))
         if self.rounds > 1:
             self.progress.stage("single settings for the time")
         for turn in range(self.rounds - 1):
-            gears = shared_gears()
-            for place, setting in enumerate(repeated):
-                self.progress.update(turn * len(repeated) + place, (self.rounds - 1) * len(repeated))
-                answers, times = self._known[setting]
-                self._known[setting] = answers, times.and_also(run_sharing(setting.of(self.scene), gears)[0])
+            done, total = turn * len(repeated), (self.rounds - 1) * len(repeated)
+            self.runs.run_again(repeated, lambda place, done=done: self.progress.update(done + place, total))
 
     def _in_turns(self, scenes: dict[str, Scene]) -> tuple[dict[str, Answer], dict[str, Times]]:
         """Run every scene once a round, with gears of its own, so that other load of the machine affects all of them
@@ -290,13 +286,15 @@ class AccuracyStudy:
     def _result(self, refinement: Refinement) -> RefinementResult:
         """Errors of the levels from the limit of their setting; a choice is compared with its base, for no choice is
         the limit of the others."""
-        base = self._known[refinement.base][0]
-        ran = [(level, *self._known[level.setting]) for level in refinement.levels if level.setting in self._known]
-        regular = [(level, found) for level, found, _ in ran if not level.own or refinement.name == LENGTH]
+        answers, base = self.runs.answers, self.runs.answers[refinement.base]
+        ran = [(level, answers[level.setting]) for level in refinement.levels if level.setting in answers]
+        regular = [(level, found) for level, found in ran if not level.own or refinement.name == LENGTH]
         limits = {name: _limit(refinement, regular, base, name) for name in base}
         levels = tuple(
-            LevelResult(level, {name: _error(found, limits, name) for name in measures_of(base)}, times)
-            for level, found, times in ran
+            LevelResult(
+                level, {name: _error(found, limits, name) for name in measures_of(base)}, self.runs.times[level.setting]
+            )
+            for level, found in ran
         )
         return RefinementResult(refinement, levels, limits)
 

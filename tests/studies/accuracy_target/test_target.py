@@ -20,9 +20,9 @@ from fenics_gears.runs.timed import run_sharing
 from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.accuracy.measures import JUDGED, distance, judged_answer
+from fenics_gears.studies.accuracy import convergence, setting_runs, trial_runs
 from fenics_gears.studies.accuracy import target as choosing
-from fenics_gears.studies.accuracy import trial_runs
+from fenics_gears.studies.accuracy.measures import JUDGED, distance, judged_answer
 from fenics_gears.studies.accuracy.target import choose
 from fenics_gears.studies.accuracy.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
 from fenics_gears.system.progress import SilentProgress
@@ -60,7 +60,7 @@ def runs_once():
         return made[scene]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(trial_runs, "run_sharing", once)
+        patch.setattr(setting_runs, "run_sharing", once)
         yield once
 
 
@@ -139,7 +139,7 @@ def test_the_clock_has_no_say(scene, run, runs_once, monkeypatch):
             cycle,
         )
 
-    monkeypatch.setattr(trial_runs, "run_sharing", timed_at_random)
+    monkeypatch.setattr(setting_runs, "run_sharing", timed_at_random)
     monkeypatch.setattr(time, "perf_counter", lambda: float(random.uniform(0.0, 1e3)))
     found = choose(scene, TARGET, SilentProgress())
     assert found.estimated_error == run.attrs["estimated_error"] and found.runs == run.attrs["target_runs"]
@@ -181,8 +181,8 @@ def test_an_error_is_that_of_order_2_with_its_factor_of_safety(scene, monkeypatc
     monkeypatch.setattr(runs, "_answer", known)
     monkeypatch.setattr(runs, "_with_window_long_enough", lambda sizes: None)
     errors = runs.errors(Sizes(0.5, 80))
-    assert errors[MESH] == pytest.approx(trial_runs.SAFETY * 0.01 * 0.25, rel=0.02)
-    assert errors[STEPS] == pytest.approx(trial_runs.SAFETY * 16.0 / 80**2, rel=0.02)
+    assert errors[MESH] == pytest.approx(convergence.SAFETY_OF_TWO * 0.01 * 0.25, rel=0.02)
+    assert errors[STEPS] == pytest.approx(convergence.SAFETY_OF_TWO * 16.0 / 80**2, rel=0.02)
 
 
 def test_costs_are_those_of_the_scene_with_the_settings(scene):
@@ -222,7 +222,7 @@ def test_memory_that_runs_out_is_a_typed_error(scene, monkeypatch):
     def no_memory(scene, gears, progress):
         raise MemoryError
 
-    monkeypatch.setattr(trial_runs, "run_sharing", no_memory)
+    monkeypatch.setattr(setting_runs, "run_sharing", no_memory)
     with pytest.raises(TargetNotReached, match="not enough memory for the run with P2"):
         choose(scene, TARGET, SilentProgress())
 
@@ -250,7 +250,7 @@ def test_choosing_can_be_interrupted_within_a_run(scene, monkeypatch):
             if self.said == 2:
                 raise KeyboardInterrupt
 
-    monkeypatch.setattr(trial_runs, "run_sharing", run_sharing)
+    monkeypatch.setattr(setting_runs, "run_sharing", run_sharing)
     progress = Interrupted()
     with pytest.raises(KeyboardInterrupt):
         choose(scene, TARGET, progress)
