@@ -45,5 +45,4 @@ def _print(report, files) -> None:
     if report.skipped:
         print_rows("Not run", [(each.name, each.reason, "") for each in report.skipped])
     print_rows("Bare and full scene", table.ratio_in_words(report))
-    print_rows("What leaving out changes, the most important first", table.needs_in_words(report))
     print_origin(report, files)

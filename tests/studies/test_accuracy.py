@@ -163,7 +163,7 @@ def test_the_root_stress_is_that_of_the_runs_own_output(sections):
     scene = replace(scene_of(*sections), motion=Motion(200.0, 2, 2), output=Output(root_stress=True))
     run, cycle = run_sharing(scene, shared_gears())
     last = run.isel(time=slice(len(run.mesh_phase) - cycle.steps, None), gear=0)
-    assert peak_root_stress(run, scene, cycle) == pytest.approx(
+    assert peak_root_stress(run, model_of(scene), cycle) == pytest.approx(
         float(last["root_stress_at_30_degrees"].max()), rel=1e-9
     )
 
@@ -267,10 +267,10 @@ def test_without_load_there_is_nothing_to_measure(scene):
 def test_a_level_that_fails_is_told_and_the_others_are_measured(scene, monkeypatch):
     """Authority: house style, a failed case is a record among the results."""
 
-    def fails(scene, gears, progress):
-        if scene.accuracy.interpolation == "collocated":
+    def fails(model, gears, progress):
+        if model.scene.accuracy.interpolation == "collocated":
             raise ComputationError("no solution at step 3\nand a history")
-        return run_sharing(scene, gears, progress)
+        return run_sharing(model, gears, progress)
 
     monkeypatch.setattr(setting_runs, "run_sharing", fails)
     study = reports.AccuracyStudy(scene, reports.SilentProgress(), True, 1)

@@ -12,19 +12,12 @@ from fenics_gears.model.resolution import EVERY_STEP, ONCE
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.defaults import NODE_SPACING
 from fenics_gears.studies.accuracy import over_face
-from fenics_gears.studies.accuracy.over_face import LAYERS, SLICES
-from fenics_gears.studies.accuracy.setting import Setting, half_width, own_setting, without_settings
+from fenics_gears.studies.accuracy.over_face import BODY, FAMILY, FLANK, LAYERS, LENGTH, SLICES, STEPS
+from fenics_gears.studies.accuracy.setting import Setting, default_setting, half_width, own_setting
 
-FLANK, NODES, BODY, STEPS, LENGTH = (
-    "flank element size",
-    "contact node spacing",
-    "body element size",
-    "steps per mesh cycle",
-    "contact length",
-)
+NODES, CONDENSATION = "contact node spacing", "condensation"
 # Flank elements and contact nodes, which stand at NODE_SPACING elements. Their errors interact: nodes refined alone
 # converge to what fixed elements give. So whole settings and the reference take both together.
-FAMILY, CONDENSATION = "flank elements and contact nodes", "condensation"
 OF_FAMILY = (FLANK, NODES)
 # Elements and contact nodes in a half-width, body elements in parts of their default, the window in parts of the
 # default, steps in a cycle.
@@ -143,13 +136,12 @@ def fine(scene: Scene, quick: bool = False) -> Setting:
 def _setting(scene: Scene, values: dict[str, float]) -> Setting:
     """A whole setting with elements of second order and, unless `values` says otherwise, contact nodes at NODE_SPACING
     of them."""
-    unit, length = half_width(scene), model_of(without_settings(scene)).resolution.contact_grid.length
+    unit, default = half_width(scene), default_setting(scene)
     flank = unit / values[FLANK]
     spacing = unit / values[NODES] if NODES in values else NODE_SPACING * flank
-    found = Setting("P2", flank, spacing, values.get(LENGTH, 1.0) * length, values[BODY], values[STEPS])
+    found = Setting("P2", flank, spacing, values.get(LENGTH, 1.0) * default.length, values[BODY], values[STEPS])
     if not scene.three_dimensional:
         return found
-    default = own_setting(without_settings(scene))
     return replace(found, slices=_whole(values[SLICES], default.slices), layers=_whole(values[LAYERS], default.layers))
 
 
@@ -165,7 +157,7 @@ def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
         values, choices = over_face.QUICK if quick else over_face.FULL, {}
     else:
         values = QUICK if quick else FULL
-    unit, orders, default = half_width(scene), expected_orders(scene), own_setting(without_settings(scene))
+    unit, orders, default = half_width(scene), expected_orders(scene), default_setting(scene)
     orders[LENGTH] = (None, "nothing, once all that touches is inside")
     whole_length = fine(scene, quick).length
     of_value = {
@@ -196,7 +188,7 @@ def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
     # The remeshed route has nodes on the drive flanks and on the path of contact alone.
     if not quick and not scene.three_dimensional and scene.coast_flanks is None and scene.corner_contact is None:
         found.append(condensation(scene))
-    mine = {SCENE: own_setting(scene), DEFAULT: own_setting(without_settings(scene))}
+    mine = {SCENE: own_setting(scene), DEFAULT: default_setting(scene)}
     return tuple(_with_own(each, mine, unit) for each in found)
 
 

@@ -11,6 +11,7 @@ import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.errors import ComputationError, GearsError
+from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy, Output, Scene
@@ -39,7 +40,7 @@ from fenics_gears.studies.accuracy.refinement import (
     refinements,
 )
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
-from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
+from fenics_gears.studies.accuracy.setting import Setting, default_setting, own_setting, without_settings
 from fenics_gears.studies.accuracy.setting_runs import SettingRuns
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
@@ -219,7 +220,7 @@ class AccuracyStudy:
         plain = without_settings(self.scene)
         chosen: dict[str, Setting | None] = {OWN: own_setting(self.scene)}
         if plain != self.scene:
-            chosen[DEFAULTS] = own_setting(plain)
+            chosen[DEFAULTS] = default_setting(self.scene)
         for setting in whole.path(
             self.base, ran, errors, lambda setting: whole.fits(self.scene, setting), whole.ENOUGH
         ):
@@ -248,10 +249,11 @@ class AccuracyStudy:
             return False
         return True
 
-    def _answer(self, run: xr.Dataset, scene: Scene, cycle: Cycle) -> Answer:
+    def _answer(self, run: xr.Dataset, model: Model, cycle: Cycle) -> Answer:
         """All measures; root stress only where contact is resolved on one mesh. Its time is not counted."""
+        scene = model.scene
         recovered = scene.resolves_contact and not scene.three_dimensional and scene.accuracy.condensation != EVERY_STEP
-        return answer(run, self.window, peak_root_stress(run, scene, cycle) if recovered else None)
+        return answer(run, self.window, peak_root_stress(run, model, cycle) if recovered else None)
 
     def _time_single_settings(self) -> None:
         """Repeat single settings to time them, the quickest first, as many as can be repeated in all rounds within the
@@ -273,9 +275,10 @@ class AccuracyStudy:
             for place, (name, scene) in enumerate(list(left.items())):
                 self.progress.update(turn * len(scenes) + place, self.rounds * len(scenes), name)
                 try:
-                    run, cycle = run_sharing(scene, shared_gears())
+                    model = model_of(scene)
+                    run, cycle = run_sharing(model, shared_gears())
                     if name not in answers:
-                        answers[name] = self._answer(run, scene, cycle)
+                        answers[name] = self._answer(run, model, cycle)
                 except GearsError as error:
                     self.failures.append((name, str(error).splitlines()[0]))
                     del left[name]

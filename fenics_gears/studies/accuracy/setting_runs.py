@@ -8,17 +8,18 @@ from collections.abc import Callable, Iterable
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.model.model import Model, model_of
 from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy.measures import Answer
 from fenics_gears.studies.accuracy.setting import Setting
 from fenics_gears.system.progress import Progress
 
-Measured = Callable[[xr.Dataset, Scene, Cycle], Answer]
+Measured = Callable[[xr.Dataset, Model, Cycle], Answer]
 
 
 class SettingRuns:
-    """The runs of a scene so far, which share gears; by setting the answer, which is `measured` of a run, its scene and
+    """The runs of a scene so far, which share gears; by setting the answer, which is `measured` of a run, its model and
     its mesh cycle, and the times. `most`: how many gears are held, None for all."""
 
     def __init__(self, scene: Scene, measured: Measured, most: int | None = None):
@@ -31,9 +32,9 @@ class SettingRuns:
 
     def run(self, setting: Setting, progress: Progress | None = None) -> xr.Dataset:
         """Run a setting. Raises GearsError, and KeyboardInterrupt on Ctrl-C."""
-        scene = setting.of(self.scene)
-        result, cycle = run_sharing(scene, self._gears, progress)
-        self.answers[setting], self.times[setting] = self._measured(result, scene, cycle), Times().and_also(result)
+        model = model_of(setting.of(self.scene))
+        result, cycle = run_sharing(model, self._gears, progress)
+        self.answers[setting], self.times[setting] = self._measured(result, model, cycle), Times().and_also(result)
         return result
 
     def run_again(self, settings: Iterable[Setting], before: Callable[[int], None]) -> None:
@@ -42,4 +43,6 @@ class SettingRuns:
         gears = shared_gears()
         for place, setting in enumerate(settings):
             before(place)
-            self.times[setting] = self.times[setting].and_also(run_sharing(setting.of(self.scene), gears, None)[0])
+            self.times[setting] = self.times[setting].and_also(
+                run_sharing(model_of(setting.of(self.scene)), gears, None)[0]
+            )

@@ -63,7 +63,7 @@ class TrialRuns:
         self._whole = without_settings(scene)
         self._trial = replace(self._whole, output=Output(), motion=replace(scene.motion, recorded_cycles=1))
         self._begun, self._tick = begun, tick
-        self._known = SettingRuns(self._trial, lambda run, scene, cycle: judged_answer(run), KEPT_GEARS)
+        self._known = SettingRuns(self._trial, lambda run, model, cycle: judged_answer(run), KEPT_GEARS)
         self._default = own_setting(self._whole)
         # Without friction and inertia the value at a step does not depend on the steps before.
         self.steps_matter = scene.friction is not None or scene.inertia is not None

@@ -175,6 +175,10 @@ class Bench:
         self.subset, self._store, self._model = subset, store, model_of(subset.scene)
         self._gears, self.cycle, self._seconds = self._build()
         self._whole = self._run(self._model, self.cycle)
+        motion = subset.scene.motion
+        cycles = min(motion.mesh_cycles, max(1, round(TIMED_STEPS / self._model.resolution.steps_per_mesh_cycle)))
+        shorter = replace(motion, mesh_cycles=cycles, recorded_cycles=1)
+        self._shorter = model_of(replace(subset.scene, motion=shorter))
         self._step_times: list[float] = []
         operators = [self.cycle.position(step).operator for step in range(self.cycle.steps)]
         self.bytes = sum(operator.compliance.nbytes for operator in operators)
@@ -188,15 +192,12 @@ class Bench:
             cycle.position(step)
         return gears, cycle, time.perf_counter() - begun
 
-    def _run(self, scene: Scene | Model, cycle: Cycle) -> xr.Dataset:
-        return completed(scene, lambda model, progress, cache: (self._gears, cycle))
+    def _run(self, model: Model, cycle: Cycle) -> xr.Dataset:
+        return completed(model, lambda model, progress, cache: (self._gears, cycle))
 
     def time_steps(self) -> None:
         """One more timed run, of the scene's first mesh cycles."""
-        motion = self._model.scene.motion
-        cycles = min(motion.mesh_cycles, max(1, round(TIMED_STEPS / self._model.resolution.steps_per_mesh_cycle)))
-        shorter = replace(self.subset.scene, motion=replace(motion, mesh_cycles=cycles, recorded_cycles=1))
-        timed = self._run(shorter, self.cycle if self.cycle is not None else self._build()[1])
+        timed = self._run(self._shorter, self.cycle if self.cycle is not None else self._build()[1])
         self._step_times.append(timed.attrs["time_march"] / timed.attrs["steps"])
 
     def row(self) -> Row:

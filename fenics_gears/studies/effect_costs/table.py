@@ -8,7 +8,7 @@ from math import isnan, nan
 from pathlib import Path
 
 from fenics_gears.studies.effect_costs.measured import EffectReport, Row
-from fenics_gears.studies.effect_costs.subsets import ALL, BARE, in_order
+from fenics_gears.studies.effect_costs.subsets import ALL, BARE
 from fenics_gears.studies.machine import write_lines
 
 MICRO, MILLI = 1e6, 1e3
@@ -73,12 +73,8 @@ def change(report: EffectReport, row: Row, name: str) -> float | None:
     """Relative change of a number of the rows, such as "transmission_error", against what the row is compared with;
     None without that."""
     reference = report.reference(row)
-    return None if reference is None else relative_change(reference, row, name)
-
-
-def relative_change(reference: Row, row: Row, name: str) -> float | None:
-    """Relative change of a number from one row to another; None where there is nothing to be relative to."""
-    changed = getattr(row, name) / getattr(reference, name) - 1.0 if getattr(reference, name) else nan
+    before = 0.0 if reference is None else getattr(reference, name)
+    changed = getattr(row, name) / before - 1.0 if before else nan
     return None if isnan(changed) else changed
 
 
@@ -123,28 +119,6 @@ def ratio_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
             "",
         ),
     ]
-
-
-def needs_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
-    """Rows of label, value, unit: what leaving an effect out changes and saves, the largest change of either answer
-    first."""
-    full, found = report.row(ALL), []
-    for section in in_order(full.subset.sections if full is not None else ()):
-        # With few effects all but one is the bare scene or that of one effect: take the largest set without this
-        # effect.
-        others = [row for row in report.rows if section not in row.subset.sections]
-        row = max(others, key=lambda each: len(each.subset.sections), default=None)
-        changes = (
-            []
-            if row is None
-            else [relative_change(full, row, name) for name in ("transmission_error", "peak_force", "step_time")]
-        )
-        if not changes or None in changes:
-            continue
-        gone = in_order(full.subset.sections - row.subset.sections - {section})
-        words = "T_EPP {}, peak force {}, time a step {}".format(*map(in_percent, changes))
-        found.append((max(map(abs, changes[:2])), (f"without {', '.join([section, *gone])}", words, "")))
-    return [words for _, words in sorted(found, key=lambda each: -each[0])]
 
 
 CSV_COLUMNS = (

@@ -54,10 +54,10 @@ def runs_once():
     """Every trial run is made once for all tests here."""
     made = {}
 
-    def once(scene, gears, progress):
-        if scene not in made:
-            made[scene] = run_sharing(scene, gears, progress)
-        return made[scene]
+    def once(model, gears, progress):
+        if model.scene not in made:
+            made[model.scene] = run_sharing(model, gears, progress)
+        return made[model.scene]
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(setting_runs, "run_sharing", once)
