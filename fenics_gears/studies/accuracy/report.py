@@ -4,7 +4,6 @@ run and timed."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import accumulate
 
 import numpy as np
 import xarray as xr
@@ -46,8 +45,6 @@ from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
 
 ROUNDS, QUICK_ROUNDS = 5, 1
-# Most seconds for repeating the runs of single settings to time them, unless the user gives another limit.
-SECONDS_ON_SINGLE = 60.0
 # Cheaper models; of flanks resolved over the face there is one, the plane.
 MODELS = (STIFFNESS_TABLE, ISO_6336, RIGID_TEETH)
 OWN, DEFAULTS = "the scene's own", "the program's defaults"
@@ -99,7 +96,7 @@ class AccuracyReport:
     """All that was measured; `uncertainty`: relative, of the reference, by measure; `failures`: what did not run, and
     why.
 
-    rounds: how often whole settings were timed; single settings as often while `seconds_on_single` lasted.
+    rounds: how often whole settings were timed.
     """
 
     scene: Scene
@@ -111,7 +108,6 @@ class AccuracyReport:
     failures: tuple[tuple[str, str], ...]
     machine: dict[str, str]
     rounds: int
-    seconds_on_single: float
 
     @property
     def own(self) -> WholeResult:
@@ -136,38 +132,29 @@ class AccuracyReport:
 
 
 def measure(
-    scene: Scene,
-    progress: Progress | None = None,
-    quick: bool = False,
-    rounds: int | None = None,
-    seconds_on_single: float = SECONDS_ON_SINGLE,
+    scene: Scene, progress: Progress | None = None, quick: bool = False, rounds: int | None = None
 ) -> AccuracyReport:
-    """Refine every setting of a scene alone, then run and time whole settings; `quick`: few levels, coarse ones;
-    `seconds_on_single`: for repeating single settings for their times.
+    """Refine every setting of a scene alone, then run and time whole settings; `quick`: few levels, coarse ones.
 
     Raises SceneError, GeometryError, ComputationError.
     """
     usual = QUICK_ROUNDS if quick or scene.three_dimensional else ROUNDS
-    study = AccuracyStudy(scene, progress or SilentProgress(), quick, rounds or usual, seconds_on_single)
+    study = AccuracyStudy(scene, progress or SilentProgress(), quick, rounds or usual)
     results = study.refine()
     reference, uncertainty = study.reference(results)
     settings, models = study.whole_runs(results, reference)
     return AccuracyReport(
         scene, study.base, results, settings, models, uncertainty, tuple(study.failures), machine(), study.rounds,
-        seconds_on_single,
     )  # fmt: skip
 
 
 class AccuracyStudy:
     """The measurement of one scene: the answers and times of each setting so far, and what failed."""
 
-    def __init__(
-        self, scene: Scene, progress: Progress, quick: bool, rounds: int, seconds_on_single: float = SECONDS_ON_SINGLE
-    ):
+    def __init__(self, scene: Scene, progress: Progress, quick: bool, rounds: int):
         checked_model(scene)
         # Root stress is taken at one point; the output of it along both fillets is not what is measured here.
         self.scene, self.progress, self.rounds = replace(scene, output=Output()), progress, rounds
-        self.seconds_on_single = seconds_on_single
         self.base, self.refinements = fine(scene, quick), refinements(scene, quick)
         # Length over which pressures are compared, mm.
         self.window = max(level.setting.length for each in self.refinements for level in each.levels)
@@ -188,7 +175,6 @@ class AccuracyStudy:
         for done, (name, setting) in enumerate(levels):
             self.progress.update(done, len(levels), name)
             self._run(setting, name)
-        self._time_single_settings()
         results = [self._result(each) for each in self.refinements if each.base in self.runs]
         return tuple(result for result in results if result.levels)
 
@@ -255,17 +241,6 @@ class AccuracyStudy:
         recovered = scene.resolves_contact and not scene.three_dimensional and scene.accuracy.condensation != EVERY_STEP
         return answer(run, self.window, peak_root_stress(run, model, cycle) if recovered else None)
 
-    def _time_single_settings(self) -> None:
-        """Repeat single settings to time them, the quickest first, as many as can be repeated in all rounds within the
-        time limit."""
-        seconds = {setting: times.total for setting, times in self.runs.times.items()}
-        repeated = within(seconds, self.seconds_on_single / max(self.rounds - 1, 1))
-        if self.rounds > 1:
-            self.progress.stage("single settings for the time")
-        for turn in range(self.rounds - 1):
-            done, total = turn * len(repeated), (self.rounds - 1) * len(repeated)
-            self.runs.run_again(repeated, lambda place, done=done: self.progress.update(done + place, total))
-
     def _in_turns(self, scenes: dict[str, Scene]) -> tuple[dict[str, Answer], dict[str, Times]]:
         """Run every scene once a round, with gears of its own, so that other load of the machine affects all of them
         alike."""
@@ -308,15 +283,6 @@ def scene_of(scene: Scene, name: str, setting: Setting | None) -> Scene:
     if setting is None:
         return in_the_plane(scene) if name == PLANE else replace(scene, accuracy=_accuracy_of(scene, name))
     return {OWN: scene, DEFAULTS: without_settings(scene)}.get(name) or setting.of(scene)
-
-
-def within(seconds: dict[Setting, float], budget: float) -> list[Setting]:
-    """The quickest settings that together take no longer than `budget` (s), in the order in which they were run."""
-    quickest = sorted(seconds, key=seconds.__getitem__)
-    chosen = {
-        setting for setting, spent in zip(quickest, accumulate(seconds[each] for each in quickest)) if spent <= budget
-    }
-    return [setting for setting in seconds if setting in chosen]
 
 
 def _error(found: Answer, limits: dict[str, Limit], name: str) -> float:

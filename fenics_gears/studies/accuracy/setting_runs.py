@@ -3,7 +3,7 @@ by."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 
 import xarray as xr
 
@@ -36,13 +36,3 @@ class SettingRuns:
         result, cycle = run_sharing(model, self._gears, progress)
         self.answers[setting], self.times[setting] = self._measured(result, model, cycle), Times().and_also(result)
         return result
-
-    def run_again(self, settings: Iterable[Setting], before: Callable[[int], None]) -> None:
-        """Run settings once more for their times, with gears condensed anew; `before` is called with the place of
-        each."""
-        gears = shared_gears()
-        for place, setting in enumerate(settings):
-            before(place)
-            self.times[setting] = self.times[setting].and_also(
-                run_sharing(model_of(setting.of(self.scene)), gears, None)[0]
-            )

@@ -187,15 +187,9 @@ def remarks(report: AccuracyReport) -> list[str]:
 
 def timed(report: AccuracyReport) -> str:
     """How often settings were timed, in words."""
-    counts = [each.times.rounds for result in report.refinements for each in result.levels]
-    again = sum(rounds >= report.rounds for rounds in counts)
-    words = f"Times are medians. Combinations of settings were timed {report.rounds} times in turns, "
-    if again == len(counts):
-        return words + "single settings as often."
     return (
-        words
-        + f"{again} of {len(counts)} single settings as often. The slowest single settings were timed once, to keep the"
-        f" time limit of {report.seconds_on_single:g} s."
+        f"Times of combinations of settings are medians of {report.rounds} rounds, in turns. Single settings were timed"
+        " once."
     )
 
 
