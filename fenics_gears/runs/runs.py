@@ -24,6 +24,7 @@ from fenics_gears.system.progress import Progress, SilentProgress
 
 LOGGER = logging.getLogger(__name__)
 Tick = Callable[[], None]
+Finished = Callable[[Run, Any], None]
 
 
 class Failure(str):
@@ -75,8 +76,9 @@ class Runs:
         self._team.run(condense, tasks, finished, lambda: progress.update(done, len(tasks)))
         progress.update(done, len(tasks))
 
-    def compute(self, missing: list[Run], finished: Callable[[Run, Any], None], tick: Tick) -> None:
-        """Compute runs in this order; each is `known` when `finished` is called with it and what is known of it."""
+    def compute(self, missing: list[Run], tick: Tick, finished: Finished = lambda run, found: None) -> None:
+        """Compute runs in this order; each is `known` when `finished` is called with it and what is known of it. `tick`
+        is called often and may raise KeyboardInterrupt."""
 
         def take(index: int, found: Any) -> None:
             # An exception is one that the worker could not even report, such as an MPI error.

@@ -110,7 +110,7 @@ def _compute(runs: Runs, missing: list[Run], progress: Interruption) -> None:
             failed += 1
             LOGGER.warning("%s failed: %s", case, found.splitlines()[0])
 
-    runs.compute(missing, finished, count)
+    runs.compute(missing, count, finished)
     count()
 
 

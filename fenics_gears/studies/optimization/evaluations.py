@@ -127,21 +127,17 @@ class Evaluator:
 
     def _run(self, cases: list[Run], batch: int) -> None:
         """Compute the runs of a `batch` of designs that are not kept; their processes keep them."""
-        missing, begun, done = self.runs.missing(cases), time.perf_counter(), 0
+        missing, begun, known = self.runs.missing(cases), time.perf_counter(), len(self.runs.known)
         if not missing:
             return
-
-        def finished(run: Run, found: Any) -> None:
-            nonlocal done
-            done += 1
-
         before, total = self.designs
 
         def tick() -> None:
+            done = len(self.runs.known) - known
             self._progress.update(before + batch * done // len(missing), max(total, before + batch))
 
-        self.runs.compute(missing, finished, tick)
-        self.computed += done
+        self.runs.compute(missing, tick)
+        self.computed += len(missing)
         self.seconds += time.perf_counter() - begun
 
     def _evaluation(self, values: dict[str, float | str], cases: list[Run | Failure], samples: int) -> Evaluation:
