@@ -12,7 +12,7 @@ from fenics_gears.commands.shared import (
     add_memory_argument,
     add_processes_argument,
     add_scene_argument,
-    checked_scene,
+    checked_model,
     plots,
     positive_count,
     print_files,
@@ -87,7 +87,7 @@ def _run(options: argparse.Namespace, team) -> int:
     from fenics_gears.system.console import print_rows
     from fenics_gears.system.progress import seconds_in_words
 
-    scene = checked_scene(options.scene)
+    scene = checked_model(options.scene).scene
     wanted = load_map(options.scene, scene, options.loads, options.speeds, options.most_runs)
     directory, outcomes = options.output or Path("results") / f"{scene.name}_map", {}
     check_writable(directory, "map.nc", "harris_map.png", "over_load.png", "over_speed.png", "campbell.png")

@@ -124,11 +124,6 @@ def checked_model(path: Path):
         raise GeometryError(f"{path}: {error}\nNothing was computed or written.") from error
 
 
-def checked_scene(path: Path):
-    """The scene of a file, found right as by `checked_model`."""
-    return checked_model(path).scene
-
-
 def checked_model_and_directory(options, *names: str):
     """The model of a command's scene, found right, and the directory to write into, which takes files of these names.
 
