@@ -7,7 +7,7 @@ from math import isclose
 
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.errors import SceneError
-from fenics_gears.model.model import Model, model_of
+from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.defaults import NODE_SPACING
@@ -88,15 +88,14 @@ class Refinement:
         return replace(setting, **{field: getattr(self.levels[place].setting, field) for field in self.fields})
 
 
-def checked_model(scene: Scene) -> Model:
-    """The model of a scene whose accuracy can be measured. Raises SceneError for others."""
-    model = model_of(scene)
+def check_measurable(scene: Scene) -> None:
+    """Raise SceneError for a scene whose accuracy cannot be measured."""
     if not scene.resolves_contact:
         raise SceneError(
             "gears accuracy needs the full contact of elastic flanks: give [gears.material], and leave out"
             " accuracy.model"
         )
-    if model.resolution.condensation == EVERY_STEP:
+    if model_of(scene).resolution.condensation == EVERY_STEP:
         raise SceneError(
             'accuracy.condensation = "every step": accuracy is measured on the fast route. Take "once", or leave it'
             " out."
@@ -110,7 +109,6 @@ def checked_model(scene: Scene) -> Model:
         raise SceneError(
             "load.wheel_torque is 0: without load nothing gives way and there is no error to measure. Give a torque."
         )
-    return model
 
 
 def expected_orders(scene: Scene) -> dict[str, tuple[float, str]]:

@@ -34,7 +34,7 @@ from fenics_gears.studies.accuracy.refinement import (
     OF_FAMILY,
     Level,
     Refinement,
-    checked_model,
+    check_measurable,
     fine,
     refinements,
 )
@@ -152,7 +152,7 @@ class AccuracyStudy:
     """The measurement of one scene: the answers and times of each setting so far, and what failed."""
 
     def __init__(self, scene: Scene, progress: Progress, quick: bool, rounds: int):
-        checked_model(scene)
+        check_measurable(scene)
         # Root stress is taken at one point; the output of it along both fillets is not what is measured here.
         self.scene, self.progress, self.rounds = replace(scene, output=Output()), progress, rounds
         self.base, self.refinements = fine(scene, quick), refinements(scene, quick)
