@@ -17,7 +17,7 @@ from fenics_gears.studies.optimization.design import QUANTILE, Goal, Variable
 from fenics_gears.studies.optimization.evaluations import Evaluation
 from fenics_gears.studies.optimization.optimize import Outcome, score
 from fenics_gears.studies.optimization.result import harris_dataset
-from fenics_gears.studies.study_file import model_of_tree
+from fenics_gears.studies.scenes import model_of_tree
 
 BEFORE, BEST = "before", "chosen design"
 MOST_TIMES = 3.0

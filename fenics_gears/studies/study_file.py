@@ -3,59 +3,27 @@
 from __future__ import annotations
 
 import functools
-import itertools
 import math
-from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem, counted, line_numbers
-from fenics_gears.inputs.written import as_toml, as_written
-from fenics_gears.model.model import Model, model_of
+from fenics_gears.inputs.written import as_written
 from fenics_gears.runs.run import Run, run_of, scene_key
-from fenics_gears.scene.data import Scene
-from fenics_gears.scene.problems import problems_of_schema, without_echoes
-from fenics_gears.scene.read import checked_scene, load_scene, name_of, parsed, text_of
-from fenics_gears.scene.rules import broken_rules
+from fenics_gears.scene.read import load_scene, name_of, parsed, text_of
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import Axis, AxisError, label, unit_of, values_of
+from fenics_gears.studies.scenes import Changes, NoScene, Scenes
 from fenics_gears.studies.study import Study
 
 KEYS = ("title", "scene", "combine", "without", "set", "sweep")
 COMBINATIONS = ("product", "zip")
 MOST_CASES = 100_000
-# Cases whose scenes and models are held, of 8 kB each.
-MOST_HELD = 1000
 # Names of the combined dataset's own variables.
 TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear"}
-
-
-@dataclass(frozen=True)
-class Changes:
-    """The changes that a study file makes to the base scene, by the paths of its fields."""
-
-    without: tuple[fields.Path, ...]
-    fixed: dict[fields.Path, Any]
-    axes: tuple[Axis, ...]
-    combine: str
-
-    def points(self) -> Iterator[tuple[Any, ...]]:
-        """The swept values of each case; the last axis changes fastest."""
-        values = [axis.values for axis in self.axes]
-        return itertools.product(*values) if self.combine == "product" else zip(*values)
-
-    def apply(self, tree: Mapping[str, Any], point: tuple[Any, ...]) -> dict[str, Any]:
-        """The scene of one case: first what is left out, then what is set, then what is swept."""
-        for path in self.without:
-            tree = fields.changed(tree, path, fields.ABSENT)
-        for path, value in self.fixed.items():
-            tree = fields.with_section(tree, path) if value == {} else fields.changed(tree, path, value)
-        for axis, value in zip(self.axes, point):
-            tree = fields.changed(tree, axis.path, value)
-        return dict(tree)
 
 
 class Mistakes:
@@ -288,23 +256,6 @@ def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: 
             )
 
 
-class Scenes:
-    """The scenes of a study's cases: of a large study each is made again when it is asked for."""
-
-    def __init__(self, name: str, directory: Path, changes: Changes, scene_tree: Mapping[str, Any]):
-        self._name, self._directory, self._changes, self._tree = name, directory, changes, scene_tree
-        self.points = list(changes.points())
-        self.model = functools.lru_cache(MOST_HELD)(self._model)
-
-    def values(self, index: int) -> dict[str, str]:
-        """The swept fields of a case, in words."""
-        return {axis.dotted: label(value) for axis, value in zip(self._changes.axes, self.points[index])}
-
-    def _model(self, index: int) -> Model:
-        tree = self._changes.apply(self._tree, self.points[index])
-        return model_of_tree(f"{self._name}-{index:04d}", tree, self._directory)
-
-
 def _cases(scenes: Scenes, changes: Changes, mistakes: Mistakes) -> tuple[Run, ...]:
     """All cases, validated; a mistake that many cases share is reported once."""
     cases: list[Run] = []
@@ -325,28 +276,6 @@ def _cases(scenes: Scenes, changes: Changes, mistakes: Mistakes) -> tuple[Run, .
     for (field, written, message), where in wrong.items():
         mistakes.add(*_in_study(field, written, message, changes, where, len(scenes.points)))
     return tuple(cases)
-
-
-class NoScene(SceneError):
-    """A parsed file that is no scene; `problems`: all that is wrong with it."""
-
-    def __init__(self, problems: list[Problem]):
-        super().__init__("; ".join(f"{'.'.join(problem.path)} {problem.message}".strip() for problem in problems))
-        self.problems = problems
-
-
-def model_of_tree(
-    name: str, tree: Mapping[str, Any], directory: Path, changed: Callable[[Scene], Scene] = lambda scene: scene
-) -> Model:
-    """The model of a parsed scene, or of what it is `changed` into. Raises NoScene."""
-    checked, problems = problems_of_schema(tree)
-    problems = without_echoes(problems + broken_rules(tree))
-    if problems:
-        raise NoScene(problems)
-    try:
-        return model_of(changed(checked_scene(checked, as_toml(tree), name, directory)))
-    except SceneError as error:
-        raise NoScene([Problem((), None, str(error))]) from error
 
 
 def _in_study(field: fields.Path, written, message: str, changes: Changes, where: list[str], points: int) -> tuple:

@@ -16,7 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from fenics_gears.studies.accuracy.measures import Answer, comparable, distance
+from fenics_gears.studies.accuracy.measures import DEFECT, Answer, comparable, distance
+from fenics_gears.studies.accuracy.refinement import LENGTH, Level, Refinement
 
 SAFETY = 1.25
 LEFT_WITHOUT_ORDER = 2.4
@@ -109,6 +110,28 @@ def last_of(values: Sequence[np.ndarray]) -> Limit:
     """The limit of a sequence without a power law: its last term."""
     away = float(np.linalg.norm(values[-2] - values[-1])) if len(values) > 1 else 0.0
     return Limit(values[-1], None, away, away)
+
+
+def limit_of(refinement: Refinement, ran: Sequence[tuple[Level, Answer]], base: Answer, name: str) -> Limit:
+    """The limit of a measure as a setting is refined; that of its base where the setting has no finest value."""
+    if len(ran) < 2 or (refinement.expected is None and refinement.name != LENGTH):
+        return Limit(base[name], None, 0.0)
+    last = ran[-LAST_TERMS:]
+    values = comparable([found[name] for _, found in last], name)
+    if refinement.expected is None:
+        return last_of(values)
+    return richardson(values, [level.size for level, _ in last], refinement.expected)
+
+
+def error_from(limits: Mapping[str, Limit], found: Answer, name: str) -> float:
+    """Relative distance of a measure from its limit; at least `least_error`, where the limit is the finest level
+    itself."""
+    if name not in limits or name not in found:
+        return float("nan")
+    limit = limits[name]
+    scale = float(np.linalg.norm(limit.value))
+    least = limit.least_error / scale if scale and name != DEFECT else 0.0
+    return max(distance(found, {name: limit.value}, name), least)
 
 
 def together(base: np.ndarray, changes: Sequence[tuple[Limit, np.ndarray]], name: str) -> Limit:

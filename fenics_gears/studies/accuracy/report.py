@@ -16,17 +16,8 @@ from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy, Output, Scene
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy import whole
-from fenics_gears.studies.accuracy.convergence import LAST_TERMS, Limit, last_of, richardson, together
-from fenics_gears.studies.accuracy.measures import (
-    DEFECT,
-    Answer,
-    answer,
-    comparable,
-    distance,
-    distances,
-    judged,
-    measures_of,
-)
+from fenics_gears.studies.accuracy.convergence import Limit, error_from, limit_of, together
+from fenics_gears.studies.accuracy.measures import DEFECT, Answer, answer, distances, judged, measures_of
 from fenics_gears.studies.accuracy.over_face import PLANE, in_the_plane
 from fenics_gears.studies.accuracy.refinement import (
     CONDENSATION,
@@ -267,10 +258,12 @@ class AccuracyStudy:
         answers, base = self.runs.answers, self.runs.answers[refinement.base]
         ran = [(level, answers[level.setting]) for level in refinement.levels if level.setting in answers]
         regular = [(level, found) for level, found in ran if not level.own or refinement.name == LENGTH]
-        limits = {name: _limit(refinement, regular, base, name) for name in base}
+        limits = {name: limit_of(refinement, regular, base, name) for name in base}
         levels = tuple(
             LevelResult(
-                level, {name: _error(found, limits, name) for name in measures_of(base)}, self.runs.times[level.setting]
+                level,
+                {name: error_from(limits, found, name) for name in measures_of(base)},
+                self.runs.times[level.setting],
             )
             for level, found in ran
         )
@@ -283,28 +276,6 @@ def scene_of(scene: Scene, name: str, setting: Setting | None) -> Scene:
     if setting is None:
         return in_the_plane(scene) if name == PLANE else replace(scene, accuracy=_accuracy_of(scene, name))
     return {OWN: scene, DEFAULTS: without_settings(scene)}.get(name) or setting.of(scene)
-
-
-def _error(found: Answer, limits: dict[str, Limit], name: str) -> float:
-    """Relative distance from a limit; at least `least_error`, where the limit is the finest level itself."""
-    if name not in limits or name not in found:
-        return float("nan")
-    limit = limits[name]
-    scale = float(np.linalg.norm(limit.value))
-    least = limit.least_error / scale if scale and name != DEFECT else 0.0
-    return max(distance(found, {name: limit.value}, name), least)
-
-
-def _limit(refinement: Refinement, ran: list, base: Answer, name: str) -> Limit:
-    if len(ran) > 1 and (refinement.expected is not None or refinement.name == LENGTH):
-        last = ran[-LAST_TERMS:]
-        values = comparable([found[name] for _, found in last], name)
-        return (
-            last_of(values)
-            if refinement.expected is None
-            else richardson(values, [level.size for level, _ in last], refinement.expected)
-        )
-    return Limit(base[name], None, 0.0)
 
 
 def _accuracy_of(scene: Scene, name: str) -> Accuracy:

@@ -18,7 +18,8 @@ from fenics_gears.studies.optimization.conditions import FROM_ZERO, samples, sca
 from fenics_gears.studies.optimization.design import Design, Scatter
 from fenics_gears.studies.optimization.goals import lacking
 from fenics_gears.studies.optimization.sections import Sections
-from fenics_gears.studies.study_file import Changes, NoScene, entries, left_out, model_of_tree
+from fenics_gears.studies.scenes import Changes, NoScene, model_of_tree
+from fenics_gears.studies.study_file import entries, left_out
 
 
 def load_design(path: str | Path) -> Design:

@@ -23,7 +23,7 @@ from fenics_gears.scene.data import Output, Scene
 from fenics_gears.studies.optimization.conditions import trees_of
 from fenics_gears.studies.optimization.design import Bound, Design, Goal
 from fenics_gears.studies.optimization.goals import ERROR, OVER_FACE
-from fenics_gears.studies.study_file import NoScene, model_of_tree
+from fenics_gears.studies.scenes import NoScene, model_of_tree
 from fenics_gears.system.interruption import Interruption
 
 UNUSABLE = 1e6

@@ -13,7 +13,7 @@ from fenics_gears.runs.gear_store import operators_key
 from fenics_gears.runs.run import Run, run_of
 from fenics_gears.studies.optimization.conditions import FRESH
 from fenics_gears.studies.optimization.design import Design
-from fenics_gears.studies.study_file import NoScene, model_of_tree
+from fenics_gears.studies.scenes import NoScene, model_of_tree
 from fenics_gears.system.progress import seconds_in_words
 
 MOST_HOURS = 8.0

@@ -22,7 +22,7 @@ from fenics_gears.studies.optimization.design_file import load_design
 from fenics_gears.studies.optimization.evaluations import Evaluation, Evaluator
 from fenics_gears.studies.optimization.expected import TORQUES, VALUES, Work, at_ends, expected_work
 from fenics_gears.studies.optimization.search import front, optimiser, search
-from fenics_gears.studies.study_file import model_of_tree
+from fenics_gears.studies.scenes import model_of_tree
 from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.output import check_writable
 from fenics_gears.system.progress import Progress
