@@ -14,7 +14,7 @@ from demos.arguments import output_directory
 from fenics_gears.extensions.optimization.conditions import samples
 from fenics_gears.extensions.optimization.evaluations import Evaluation, Evaluator
 from fenics_gears.extensions.optimization.optimize import Outcome, optimize
-from fenics_gears.studies.ranks import Alone
+from fenics_gears.runs.team import Alone
 from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.progress import LineProgress
 

@@ -103,7 +103,7 @@ figure.savefig(PICTURES / "curves.png", dpi=110)
 # that a stopped study goes on from.)
 
 # %%
-from fenics_gears.studies.gear_store import GearStore
+from fenics_gears.runs.gear_store import GearStore
 
 store = GearStore()
 frequencies = [100, 150, 180, 200, 210, 220, 240, 280, 350, 500]  # Hz

@@ -24,7 +24,7 @@ def main(arguments: list[str] | None = None) -> int:
     from fenics_gears.geometry.pair import gear_pair
     from fenics_gears.system.output import written_aside
     from fenics_gears.show.panels import DOTS_PER_INCH
-    from fenics_gears.studies.gear_store import GearStore
+    from fenics_gears.runs.gear_store import GearStore
 
     begun, store = time.perf_counter(), GearStore()
     passed = ramps(store)

@@ -17,7 +17,7 @@ from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.system.progress import SilentProgress
 from fenics_gears.scene.data import Motion, Scene
-from fenics_gears.studies.gear_store import GearStore
+from fenics_gears.runs.gear_store import GearStore
 
 HERE = Path(__file__).parent
 # A run at a steady speed: so many cycles until it is steady, and so many to tell its amplitude from.

@@ -34,7 +34,7 @@ def measured(directory: Path) -> list[Path]:
     from demos.tip_relief.table import table
     from fenics_gears.system.output import written_aside
     from fenics_gears.show.plots import save_figure
-    from fenics_gears.studies.gear_store import GearStore
+    from fenics_gears.runs.gear_store import GearStore
 
     store = GearStore()
     benches = {name: Bench(scene, store) for name, scene in conditions(paper_scene()).items()}

@@ -16,7 +16,7 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.model import model_of
 from fenics_gears.results import shown
 from fenics_gears.scene.data import Accuracy, Load, Motion, Scene
-from fenics_gears.studies.gear_store import GearStore
+from fenics_gears.runs.gear_store import GearStore
 
 SHAPES = (LINEAR, PARABOLIC)
 SHORT, LONG = 0.5, 1.0

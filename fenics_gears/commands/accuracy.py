@@ -18,11 +18,6 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     add_scene_argument(command)
     add_output_argument(command)
     command.add_argument("--quick", action="store_true", help="few, coarse values of each setting, each timed once")
-    command.add_argument(
-        "--timing-seconds", type=float, metavar="SECONDS",
-        help="time limit for repeating runs of single settings, which are timed five times each, the quickest first "
-            "(default: 60)",
-    )  # fmt: skip
     add_memory_argument(command)
     command.set_defaults(command=accuracy)
 
@@ -31,13 +26,10 @@ def accuracy(options: argparse.Namespace) -> int:
     """Measure the settings of a scene, print and write the report."""
     scene, directory = scene_to_measure(options, "accuracy")
     from fenics_gears.show.work_precision import work_precision
-    from fenics_gears.studies.accuracy.report import SECONDS_ON_SINGLE, measure
+    from fenics_gears.studies.accuracy.report import measure
     from fenics_gears.studies.accuracy.table import write_csv
 
-    seconds = SECONDS_ON_SINGLE if options.timing_seconds is None else options.timing_seconds
-    report = measured(
-        lambda progress: measure(scene, progress, options.quick, seconds_on_single=seconds), options.quiet
-    )
+    report = measured(lambda progress: measure(scene, progress, options.quick), options.quiet)
     files = write_report(report, directory, "accuracy", write_csv, work_precision)
     if not options.quiet:
         _print(report, files)

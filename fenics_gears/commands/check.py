@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from fenics_gears.commands.shared import add_memory_argument, add_scene_argument, checked_scene
+from fenics_gears.commands.shared import add_memory_argument, add_scene_argument, checked_model
 from fenics_gears.errors import ComputationError
 from fenics_gears.system.memory import allowed_memory
 
@@ -25,10 +25,10 @@ def check(options: argparse.Namespace) -> int:
     """Print the description of a scene and its effects. Raises ComputationError, as a run of it would, where memory
     does not hold it."""
     from fenics_gears.model.cost import expected_cost, too_large
-    from fenics_gears.model.model import model_of
     from fenics_gears.system.console import print_rows
 
-    scene = checked_scene(options.scene)
+    model = checked_model(options.scene)
+    scene = model.scene
     from fenics_gears.model.description import describe
 
     description = describe(scene)
@@ -36,7 +36,6 @@ def check(options: argparse.Namespace) -> int:
     for heading, rows in description:
         print_rows(heading, rows)
     print_rows("Effects", effect_rows(scene))
-    model = model_of(scene)
     # With a target a run computes with settings of its own.
     if scene.accuracy.target is None and (said := too_large(model, expected_cost(model), allowed_memory())):
         raise ComputationError(f"CANNOT FIT: {said}")

@@ -25,8 +25,8 @@ def effects(options: argparse.Namespace) -> int:
     """Measure the subsets of a scene's effects, print and write the report."""
     scene, directory = scene_to_measure(options, "effects")
     from fenics_gears.show.effect_costs import effect_costs
-    from fenics_gears.studies.effect_lattice.measured import measure
-    from fenics_gears.studies.effect_lattice.table import write_csv
+    from fenics_gears.studies.effect_costs.measured import measure
+    from fenics_gears.studies.effect_costs.table import write_csv
 
     report = measured(lambda progress: measure(scene, progress), options.quiet)
     files = write_report(report, directory, "effects", write_csv, effect_costs)
@@ -36,7 +36,7 @@ def effects(options: argparse.Namespace) -> int:
 
 
 def _print(report, files) -> None:
-    from fenics_gears.studies.effect_lattice import table
+    from fenics_gears.studies.effect_costs import table
     from fenics_gears.system.console import print_rows, print_table
 
     heading = f"{report.scene.title}: effects, one more than the bare scene and one less than all"
@@ -45,5 +45,4 @@ def _print(report, files) -> None:
     if report.skipped:
         print_rows("Not run", [(each.name, each.reason, "") for each in report.skipped])
     print_rows("Bare and full scene", table.ratio_in_words(report))
-    print_rows("What leaving out changes, the most important first", table.needs_in_words(report))
     print_origin(report, files)

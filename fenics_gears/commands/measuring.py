@@ -6,23 +6,23 @@ from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
-from fenics_gears.commands.shared import checked_scene_and_directory, shown_progress
+from fenics_gears.commands.shared import checked_model_and_directory, shown_progress
 from fenics_gears.errors import SceneError
 from fenics_gears.system.job import communicator
 
 
 def scene_to_measure(options, command: str):
     """The scene and the directory of a command that measures times. Raises SceneError under mpirun, and as
-    `checked_scene` does."""
-    scene, directory = checked_scene_and_directory(options, f"{command}.csv", f"{command}.png")
+    `checked_model` does."""
+    model, directory = checked_model_and_directory(options, f"{command}.csv", f"{command}.png")
     if communicator() is not None:
         raise SceneError(
             f"gears {command} measures times, which mean nothing while processes share the machine. Start it without"
             " mpirun."
         )
-    if scene.accuracy.target is not None:
+    if model.scene.accuracy.target is not None:
         raise SceneError(f"gears {command} takes settings as they stand: leave accuracy.target out.")
-    return scene, directory
+    return model.scene, directory
 
 
 def measured(measure: Callable, quiet: bool):

@@ -139,8 +139,8 @@ def _measure_effects(run, progress) -> list[Path]:
     """Measure the effects of the run's scene, and write what `gears effects` writes beside it."""
     from fenics_gears.commands.measuring import write_report
     from fenics_gears.show.effect_costs import effect_costs
-    from fenics_gears.studies.effect_lattice.measured import measure
-    from fenics_gears.studies.effect_lattice.table import write_csv
+    from fenics_gears.studies.effect_costs.measured import measure
+    from fenics_gears.studies.effect_costs.table import write_csv
     from fenics_gears.system.job import communicator
 
     if run.scene is None:

@@ -16,7 +16,7 @@ from fenics_gears.commands.shared import (
     add_memory_argument,
     add_output_argument,
     add_scene_argument,
-    checked_scene_and_directory,
+    checked_model_and_directory,
     plots,
     shown_progress,
 )
@@ -45,16 +45,16 @@ def run(options: argparse.Namespace) -> int:
 
 def _run(options: argparse.Namespace, job: Job | None) -> int:
     """The stages of a run, on rank 0."""
-    scene, directory = checked_scene_and_directory(options, RUN_FILE, *PICTURE_FILES, *FACE_PICTURE_FILES)
+    model, directory = checked_model_and_directory(options, RUN_FILE, *PICTURE_FILES, *FACE_PICTURE_FILES)
     from fenics_gears.results.journal import Place
-    from fenics_gears.studies.simulate import simulate
+    from fenics_gears.simulation.simulate import simulate
 
     # The quarter of a million objects that imports have made stay: the search for garbage need not look at them.
     gc.freeze()
     journal = Place(directory / JOURNAL, options.scene.parent)
     with Interruption(shown_progress(options.quiet)) as interruption:
         try:
-            dataset = simulate(scene, progress=interruption, job=job, journal=journal)
+            dataset = simulate(model, progress=interruption, job=job, journal=journal)
         except ComputationError as error:
             if getattr(error, "partial", None) is None or not error.partial.sizes["time"]:
                 # Nothing was done that an earlier result in the directory should give way to.
@@ -75,7 +75,7 @@ def _run(options: argparse.Namespace, job: Job | None) -> int:
                     f" {directory}` draws them."
                 )
     if not options.quiet:
-        _print_summary(scene.title, dataset, files, interruption.finished)
+        _print_summary(model.scene.title, dataset, files, interruption.finished)
     if last_words:
         print(last_words, file=sys.stderr)
         return INTERRUPTED

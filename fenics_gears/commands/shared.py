@@ -127,33 +127,30 @@ def add_run_argument(command) -> None:
     command.add_argument("run", type=Path, metavar="RUN", help="folder of a run or its run.nc")
 
 
-def checked_scene(path: Path):
-    """The scene of a file, its values and its geometry found right. Raises SceneError and GeometryError."""
+def checked_model(path: Path):
+    """The model of a scene file, its values, geometry and files found right. Raises SceneError and GeometryError."""
     from fenics_gears.scene.read import load_scene
 
     scene = load_scene(path)
-    from fenics_gears.effects import check_files
-    from fenics_gears.model.modification import check_geometry
+    from fenics_gears.model.model import model_of
 
     try:
-        pair = check_geometry(scene)
+        return model_of(scene)
     except GeometryError as error:
         raise GeometryError(f"{path}: {error}\nNothing was computed or written.") from error
-    check_files(scene, pair)
-    return scene
 
 
-def checked_scene_and_directory(options, *names: str):
-    """The scene of a command's options, found right, and the directory to write into, which takes files of these names.
+def checked_model_and_directory(options, *names: str):
+    """The model of a command's scene, found right, and the directory to write into, which takes files of these names.
 
-    Raises as `checked_scene` does, and SceneError for the directory.
+    Raises as `checked_model` does, and SceneError for the directory.
     """
     from fenics_gears.system.output import check_writable
 
-    scene = checked_scene(options.scene)
-    directory = options.output or Path("results") / scene.name
+    model = checked_model(options.scene)
+    directory = options.output or Path("results") / model.scene.name
     check_writable(directory, *names)
-    return scene, directory
+    return model, directory
 
 
 def run_file(path: Path) -> Path:

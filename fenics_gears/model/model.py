@@ -245,6 +245,7 @@ def model_of(scene: Scene) -> Model:
     """
     pair = gear_pair(scene.gears)
     check_files(scene, pair)
+    corner(scene, pair)  # refused here, before the run asks for it
     shafts = drivetrain(scene, pair)
     model = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
     if model.face is not None:

@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from fenics_gears.show.run import conditions
-from fenics_gears.studies.effect_lattice.measured import EffectReport, Row
-from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT
-from fenics_gears.studies.effect_lattice.table import MICRO, MILLI, change, in_percent, own_remarks
+from fenics_gears.studies.effect_costs.measured import EffectReport, Row
+from fenics_gears.studies.effect_costs.subsets import ALL, ALONE, BARE, LEFT_OUT
+from fenics_gears.studies.effect_costs.table import MICRO, MILLI, change, in_percent, own_remarks
 
 COLOURS = {BARE: DARK, ALONE: PALETTE[2], LEFT_OUT: PALETTE[1], ALL: DARK}
 WORDS = {ALONE: "bare scene and one effect (change from bare)", LEFT_OUT: "all effects but one (change from all)"}

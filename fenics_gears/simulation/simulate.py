@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING
+import time
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -15,6 +17,7 @@ from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.errors import ComputationError
 from fenics_gears.model.cost import expected_cost, too_large
 from fenics_gears.model.model import Model, model_of
+from fenics_gears.results.attributes import ESTIMATED
 from fenics_gears.results.dataset import dataset
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.validity import worst_first
@@ -28,9 +31,15 @@ from fenics_gears.system.progress import Progress, SilentProgress
 if TYPE_CHECKING:
     from fenics_gears.results.journal import Place
 
+# The remedy where a warning recommends a setting, for settings may not stand beside a target.
+OTHER_SETTINGS = (
+    "a warning names settings of [accuracy]: take a smaller target, or the chosen settings, which the result's scene"
+    " has, and change them"
+)
+
 
 def simulate(
-    scene: Scene,
+    scene: Scene | Model,
     *,
     progress: Progress | None = None,
     cache: Cache | None = None,
@@ -38,39 +47,83 @@ def simulate(
     job: Job | None = None,
     journal: Place | None = None,
 ) -> xr.Dataset:
-    """Run a scene whose settings are decided and return its result (docs/result.md); `studies.simulate` chooses them by
-    a target first.
+    """Run a scene and return its result, an `xarray.Dataset` (docs/result.md).
 
-    `preparation`: what comes before the march, `prepared` unless given; a study keeps what its runs share. `job`: of
-        rank 0,
-    whose ranks share the bodies over the face and the remeshing of `condensation = "every step"`.
-    `journal`: where a march that lasts longer than a few seconds is written down as it goes (`results.journal`); the
+    Its variables, over time, tooth pairs and contact nodes, have their units as `attrs["units"]`: rotations and the
+    transmission error are in rad, displacements in mm, forces in N, pressures and stresses in MPa, torques and energies
+    in N mm, times in s. Numbers of the whole run, such as `mean_transmission_error` (rad), the warnings, and the text
+    of the scene that was run are in `result.attrs`.
+
+    With `[accuracy] target` settings are chosen first, by trial runs. The result then has the attributes `target`,
+    `estimated_error`, and `estimated_error: ...` by setting, all in parts of 1, `time_choose` (s), `target_runs`,
+    `target_remarks`; its scene has the settings in place of the target, so that it repeats the run.
+
+    scene: from `load_scene` or `build_scene`, as it is or changed by `dataclasses.replace`; or its `model_of`.
+    progress: is told the stages and how far they are (`system.progress`); nothing is shown unless given.
+    cache: where condensed gears are kept (`elasticity.cache.Cache`); that of the user unless given.
+    preparation: what comes before the march, `prepared` unless given; `runs.gear_store` has one for runs that share
+        gears and contact operators.
+    job: of rank 0, whose ranks share the bodies over the face and the remeshing of `condensation = "every step"`.
+    journal: where a march that lasts longer than a few seconds is written down as it goes (`results.journal`); the
         caller removes it.
-    Ctrl-C during the march returns what was done, with the attribute `complete` 0. Raises GeometryError before any
-    computation, ComputationError where the run does not fit into the memory it may take; and when a stage fails, with
-    what was done before as its attribute `partial`.
+
+    Raises GeometryError before any computation where the gears are impossible; ComputationError where the run does not
+    fit into the memory that it may take, or a stage fails: steps that were computed before are then in its attribute
+    `partial`; TargetNotReached where no settings keep the target.
+    Ctrl-C during the march returns the steps computed so far, with the attribute `complete` 0.
+
+    >>> from fenics_gears import load_scene, simulate
+    >>> result = simulate(load_scene("demos/lundvall2004.toml"))
+    >>> result.transmission_error.dims, result.transmission_error.attrs["units"]
+    (('time',), 'rad')
+    >>> mm = result.transmission_error.max().item() * result.attrs["base_radius_wheel"]
+    >>> print(f"{mm:.2f} mm along the line of action at most")
+    0.16 mm along the line of action at most
     """
+    progress, chosen = progress or SilentProgress(), {}
     try:
-        return _simulated(scene, progress or SilentProgress(), cache or user_cache(), preparation, job, journal)
+        said = scene.scene if isinstance(scene, Model) else scene
+        decided, chosen = _with_chosen_settings(said, progress)
+        model = scene if isinstance(scene, Model) and decided is said else model_of(decided)
+        result = _simulated(model, progress, cache or user_cache(), preparation, job, journal)
     finally:
         # Here, where the run's own arrays are free.
         give_back()
+    if chosen:
+        chosen["target_remarks"] = OTHER_SETTINGS if "accuracy." in result.attrs["warnings"] else ""
+    return result.assign_attrs(chosen)
+
+
+def _with_chosen_settings(scene: Scene, progress: Progress) -> tuple[Scene, dict[str, Any]]:
+    """The scene with settings in place of its target, and attributes on how they were chosen; as it is without one."""
+    target = scene.accuracy.target
+    if target is None:
+        return scene, {}
+    from fenics_gears.studies.accuracy.target import choose
+
+    begun = time.perf_counter()
+    found = choose(scene, target, progress)
+    how = {"target": target, "estimated_error": found.estimated_error}
+    how |= {f"{ESTIMATED}{name}": part for name, part in found.parts.items()}
+    how |= {"target_runs": found.runs, "target_remarks": "", "time_choose": time.perf_counter() - begun}
+    if found.accuracy.slices:
+        how |= {"slices": found.accuracy.slices, "layers": found.accuracy.layers}
+    return replace(scene, accuracy=found.accuracy), how
 
 
 def _simulated(
-    scene: Scene,
+    model: Model,
     progress: Progress,
     cache: Cache,
     preparation: Preparation | None,
     job: Job | None,
     journal: Place | None,
 ) -> xr.Dataset:
-    model = model_of(scene)
     for_operators = memory_for_operators(model, 1 if job is None else job.size)
     gears, cycle = (preparation or functools.partial(prepared, job=job))(model, progress, cache)
     cycle.kept.most = for_operators
     progress.stage("compile")
-    compiled = compile_kernels(tangential=scene.friction is not None)
+    compiled = compile_kernels(tangential=model.scene.friction is not None)
     recorder = Recorder(model, cycle, stress=root_stress_of(model, cycle, progress, cache), journal=journal)
     march = _marched(recorder, gears, compiled, progress)
     result = result_of(recorder, march, gears, compiled, "interrupted" if march.interrupted else "")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +12,10 @@ import xarray as xr
 import fenics_gears
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
-from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.files import read, save
 from fenics_gears.results.key_numbers import STUDIED
-from fenics_gears.results.pairs import shown_steps
-from fenics_gears.results.settled import settled_steps
 from fenics_gears.results.validity import NO_MEANING
+from fenics_gears.runs.record import CURVES, NUMBERS, Record
 from fenics_gears.studies.axis import Axis
 from fenics_gears.studies.study import Study
 from fenics_gears.system.output import write_whole
@@ -27,58 +24,8 @@ STUDY_FILE = "study.nc"
 # 800 MB; beyond, the curves stay in the files of the cases.
 MOST_CURVE_VALUES = 100_000_000
 
-# Units and long name of each number that every record has.
-NUMBERS = {
-    "peak_to_peak_transmission_error": ("rad", "transmission error, peak to peak"),
-    "mean_transmission_error": ("rad", "transmission error, mean"),
-    "max_normal_force": ("N", "largest contact force of the mesh, on its drive or its coast flanks"),
-    "newton_iterations": ("1", "Newton iterations of the run"),
-    "steps_per_mesh_cycle": ("1", "steps per mesh cycle"),
-    "wall_time": ("s", "wall time of the run"),
-}
-# Curves of the last cycles, taken where a run has them.
-CURVES = (
-    "transmission_error", "centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y", "shaft_end_rotation",
-    "normal_force", "friction_force", "mesh_stiffness",
-)  # fmt: skip
 
-
-@dataclass(frozen=True)
-class CaseRecord:
-    """Numbers and curves of one run.
-
-    `numbers`: by name, also those of `STUDIED` that the run has; `curves`: (steps,) or (steps, 2), in the units of the
-        run; `mesh_phase`
-    (steps,): mesh cycles since the first recorded step; `labels`: units and long name of each curve; `warnings`: those
-    of the run.
-    """
-
-    numbers: dict[str, float]
-    mesh_phase: np.ndarray
-    curves: dict[str, np.ndarray]
-    labels: dict[str, dict[str, str]] = field(default_factory=dict)
-    warnings: str = ""
-
-
-def record_of(run: xr.Dataset) -> CaseRecord:
-    """The record of a complete run; the wall time is the attribute `wall_time`, s."""
-    numbers = {
-        "peak_to_peak_transmission_error": float(run.attrs["peak_to_peak_transmission_error"]),
-        "mean_transmission_error": float(run.attrs["mean_transmission_error"]),
-        "max_normal_force": largest_normal_force(run, settled_steps(run)),
-        "newton_iterations": float(run.attrs["newton_iterations_total"]),
-        "steps_per_mesh_cycle": float(run.attrs["steps_per_mesh_cycle"]),
-        "wall_time": float(run.attrs["wall_time"]),
-    }
-    numbers |= {name: float(run.attrs[name]) for name in STUDIED if name in run.attrs}
-    last = shown_steps(run)
-    phase = run["mesh_phase"].values[last]
-    curves = {name: run[name].values[last] for name in CURVES if name in run}
-    labels = {name: {key: run[name].attrs[key] for key in ("units", "long_name")} for name in curves}
-    return CaseRecord(numbers, phase - np.floor(phase[0]), curves, labels, run.attrs.get("warnings", ""))
-
-
-def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[int, str]) -> xr.Dataset:
+def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int, str]) -> xr.Dataset:
     """The dataset of the cases so far; NaN where a case has no result or lacks a number.
 
     The dimensions are the swept fields, or `case` where they are varied together. `failed` is 1 for cases that failed
@@ -110,7 +57,7 @@ def combined(study: Study, records: Mapping[int, CaseRecord], failures: Mapping[
 
 
 def _variables(
-    study: Study, records: Mapping[int, CaseRecord], failures: Mapping[int, str]
+    study: Study, records: Mapping[int, Record], failures: Mapping[int, str]
 ) -> dict[str, tuple[dict, Any, dict]]:
     """By name the values of the cases that have one, what stands for the others, and the attributes."""
     known = {name for record in records.values() for name in record.numbers}
@@ -161,7 +108,7 @@ def _coordinate(axis: Axis, study: Study) -> tuple[str, tuple]:
     return axis.name, (axis.name if study.combine == "product" else "case", values, attributes)
 
 
-def _curves(study: Study, records: Mapping[int, CaseRecord]) -> tuple[dict[str, tuple], str]:
+def _curves(study: Study, records: Mapping[int, Record]) -> tuple[dict[str, tuple], str]:
     """The curves that some case has, over the study's dimensions and the mesh phase; or why there are none."""
     if not records:
         return {}, "none: no case has a result"

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-import functools
+import json
 import logging
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
-from fenics_gears.studies.case_files import changed_since, kept_records, sole_writer
-from fenics_gears.studies.combine import STUDY_FILE, CaseRecord, combined, save_study
-from fenics_gears.studies.ranks import Alone, Together, ranks
-from fenics_gears.studies.study import Case, Study
+from fenics_gears.numbers_version import NUMBERS_VERSION
+from fenics_gears.runs.folder import Folder, sole_writer
+from fenics_gears.runs.record import Record
+from fenics_gears.runs.run import Run
+from fenics_gears.runs.runs import Failure, Runs
+from fenics_gears.runs.team import Alone, Together, ranks
+from fenics_gears.studies.combine import STUDY_FILE, combined, save_study
+from fenics_gears.studies.study import Study
 from fenics_gears.studies.study_file import load_study
-from fenics_gears.studies.work import condense, gear_tasks, in_order_of_sharing, run_case
 from fenics_gears.system.interruption import Interruption
-from fenics_gears.system.output import check_writable
+from fenics_gears.system.output import check_writable, write_whole
 from fenics_gears.system.progress import Progress
 
 LOGGER = logging.getLogger(__name__)
@@ -29,7 +33,7 @@ class Outcome:
     study: Study
     file: Path | None = None
     kept: int = 0
-    records: dict[int, CaseRecord] = field(default_factory=dict)
+    records: dict[int, Record] = field(default_factory=dict)
     failures: dict[int, str] = field(default_factory=dict)
     interrupted: bool = False
 
@@ -57,19 +61,24 @@ def run_with(team: Alone | Together, study: Study, directory: Path, progress: Pr
 
 
 def _run(study: Study, directory: Path, team: Alone | Together, progress: Progress, quiet: bool) -> Outcome:
-    outcome = Outcome(study)
-    outcome.records = kept_records(study.cases, directory / "cases")
-    outcome.kept = len(outcome.records)
-    missing = [case for case in study.cases if case.index not in outcome.records]
-    say = (lambda text: None) if quiet else (lambda text: print(text, file=sys.stderr, flush=True))
-    say(_opening(study, outcome.kept, len(missing), changed_since(study, directory), team.size))
+    runs = Runs(Folder(directory / "cases"), team, study.cases)
+    outcome, missing = Outcome(study, kept=runs.kept), runs.missing(study.cases)
+    opening = _opening(study, runs.kept, len(missing), changed_since(study, directory), team.size)
+    if not quiet:
+        print(opening, file=sys.stderr, flush=True)
     with Interruption(progress) as interruption:
         try:
-            condense_gears(missing, team, interruption)
-            _compute(in_order_of_sharing(missing), directory / "cases", team, outcome, interruption)
+            runs.condense(missing, interruption)
+            _compute(runs, missing, interruption)
         except KeyboardInterrupt:
             outcome.interrupted = True
         interruption.ignore()
+        for case in study.cases:
+            found = runs.known.get(case.key)
+            if isinstance(found, Failure):
+                outcome.failures[case.index] = str(found)
+            elif found is not None:
+                outcome.records[case.index] = found
         outcome.file = save_study(combined(study, outcome.records, outcome.failures), directory)
     return outcome
 
@@ -84,48 +93,48 @@ def _opening(study: Study, kept: int, missing: int, changed: str, size: int) -> 
     )
 
 
-def condense_gears(missing: list[Case], team: Alone | Together, progress: Interruption) -> None:
-    """Condense every gear of the study once, a process a gear; a gear that fails fails again, with its reason, in its
-    cases."""
-    tasks = gear_tasks(missing)
-    if not tasks:
-        return
-    progress.stage("condense gears")
-    done = 0
-
-    def finished(index: int, result: Exception | None) -> None:
-        nonlocal done
-        done += 1
-        if result is not None:
-            LOGGER.debug("condensing the %s: %s", tasks[index].name, result)
-
-    team.run(condense, tasks, finished, lambda: progress.update(done, len(tasks)))
-    progress.update(done, len(tasks))
-
-
-def _compute(
-    missing: list[Case], directory: Path, team: Alone | Together, outcome: Outcome, progress: Interruption
-) -> None:
-    """Run every missing case; results and failures go into ``outcome`` as they come."""
+def _compute(runs: Runs, missing: list[Run], progress: Interruption) -> None:
+    """Run every missing case."""
     if not missing:
         return
     progress.stage("cases")
+    done = failed = 0
 
     def count() -> None:
-        failed = len(outcome.failures)
-        progress.update(
-            len(outcome.records) - outcome.kept + failed, len(missing), f"{failed} failed" if failed else ""
-        )
+        progress.update(done, len(missing), f"{failed} failed" if failed else "")
 
-    def finished(index: int, result: CaseRecord | str | Exception) -> None:
-        case = missing[index]
-        if isinstance(result, CaseRecord):
-            outcome.records[case.index] = result
-            return
-        # An exception is one that the worker could not even report, such as an MPI error.
-        reason = result if isinstance(result, str) else f"{type(result).__name__}: {result}"
-        outcome.failures[case.index] = reason
-        LOGGER.warning("%s failed: %s", case, reason.splitlines()[0])
+    def finished(case: Run, found: Any) -> None:
+        nonlocal done, failed
+        done += 1
+        if isinstance(found, Failure):
+            failed += 1
+            LOGGER.warning("%s failed: %s", case, found.splitlines()[0])
 
-    team.run(functools.partial(run_case, directory), missing, finished, count)
+    runs.compute(missing, count, finished)
     count()
+
+
+def changed_since(study: Study, directory: Path) -> str:
+    """A sentence where the study was last run here by a version of the program with other numbers, or with another base
+    scene; else empty.
+
+    Writes `study.json` with the present ones, which also lists which file holds which case.
+    """
+    path = directory / "study.json"
+    try:
+        index = json.loads(path.read_text(encoding="utf-8"))
+        before, numbers = index.get("base_scene"), index.get("numbers_version")
+    except (OSError, ValueError, AttributeError):
+        before = numbers = None
+    index = {
+        "title": study.title,
+        "base_scene": study.base_key,
+        "numbers_version": NUMBERS_VERSION,
+        "cases": {case.name: case.values for case in study.cases},
+    }
+    write_whole(path, lambda aside: aside.write_text(json.dumps(index, indent=1, ensure_ascii=False), encoding="utf-8"))
+    if before is None or before == study.base_key:
+        return ""
+    if numbers != NUMBERS_VERSION:
+        return "Results that are here of a version of the program with other numbers are not used."
+    return "The base scene has changed since the last time."

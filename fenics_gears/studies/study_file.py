@@ -2,54 +2,28 @@
 
 from __future__ import annotations
 
-import itertools
+import functools
 import math
-from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem, counted, line_numbers
-from fenics_gears.inputs.written import as_toml, as_written
-from fenics_gears.model.model import model_of
-from fenics_gears.scene.data import Scene
-from fenics_gears.scene.read import load_scene, name_of, parsed, scene_of, text_of
+from fenics_gears.inputs.written import as_written
+from fenics_gears.runs.run import Run, run_of, scene_key
+from fenics_gears.scene.read import load_scene, name_of, parsed, text_of
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import Axis, AxisError, label, unit_of, values_of
-from fenics_gears.studies.study import Case, Study, scene_key
+from fenics_gears.studies.scenes import Changes, NoScene, Scenes
+from fenics_gears.studies.study import Study
 
 KEYS = ("title", "scene", "combine", "without", "set", "sweep")
 COMBINATIONS = ("product", "zip")
 MOST_CASES = 100_000
 # Names of the combined dataset's own variables.
 TAKEN = {"case", "failed", "failure", "meaningless", "mesh_phase", "gear"}
-
-
-@dataclass(frozen=True)
-class Changes:
-    """The changes that a study file makes to the base scene, by the paths of its fields."""
-
-    without: tuple[fields.Path, ...]
-    fixed: dict[fields.Path, Any]
-    axes: tuple[Axis, ...]
-    combine: str
-
-    def points(self) -> Iterator[tuple[Any, ...]]:
-        """The swept values of each case; the last axis changes fastest."""
-        values = [axis.values for axis in self.axes]
-        return itertools.product(*values) if self.combine == "product" else zip(*values)
-
-    def apply(self, tree: Mapping[str, Any], point: tuple[Any, ...]) -> dict[str, Any]:
-        """The scene of one case: first what is left out, then what is set, then what is swept."""
-        for path in self.without:
-            tree = fields.changed(tree, path, fields.ABSENT)
-        for path, value in self.fixed.items():
-            tree = fields.with_section(tree, path) if value == {} else fields.changed(tree, path, value)
-        for axis, value in zip(self.axes, point):
-            tree = fields.changed(tree, axis.path, value)
-        return dict(tree)
 
 
 class Mistakes:
@@ -102,7 +76,7 @@ def study_of(
     scene_tree = parsed(base.text, str(scene_file))
     _check_present(changes, scene_tree, str(scene_file), mistakes)
     mistakes.check()
-    cases = _cases(path, scene_file.parent, changes, scene_tree, mistakes)
+    cases = _cases(Scenes(name_of(path), scene_file.parent, changes, scene_tree), changes, mistakes)
     mistakes.check()
     return Study(
         name=name_of(path),
@@ -282,40 +256,26 @@ def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: 
             )
 
 
-def _cases(
-    path: Path, directory: Path, changes: Changes, scene_tree: Mapping[str, Any], mistakes: Mistakes
-) -> tuple[Case, ...]:
-    """All cases, validated; a mistake that many cases share is reported once. `directory`: of the base scene."""
-    cases: list[Case] = []
-    by_key: dict[str, Case] = {}
+def _cases(scenes: Scenes, changes: Changes, mistakes: Mistakes) -> tuple[Run, ...]:
+    """All cases, validated; a mistake that many cases share is reported once."""
+    cases: list[Run] = []
+    by_key: dict[str, Run] = {}
     wrong: dict[tuple, list[str]] = {}
-    points = list(changes.points())
-    for index, point in enumerate(points):
-        values = {axis.dotted: label(value) for axis, value in zip(changes.axes, point)}
-        scene, problems = scene_of_tree(f"{name_of(path)}-{index:04d}", changes.apply(scene_tree, point), directory)
-        for problem in problems:
-            wrong.setdefault((problem.path, problem.written, problem.message), []).append(_listed(values))
-        if scene is None:
+    for index in range(len(scenes.points)):
+        values = scenes.values(index)
+        try:
+            case = run_of(scenes.model(index), index, values, functools.partial(scenes.model, index))
+        except NoScene as error:
+            for problem in error.problems:
+                wrong.setdefault((problem.path, problem.written, problem.message), []).append(_listed(values))
             continue
-        case = Case(index, values, scene, scene_key(scene))
         same = by_key.setdefault(case.key, case)
         if same is not case:
             mistakes.add(("sweep",), "", f"{same} and {case} are the same scene. Leave one of them out.")
         cases.append(case)
     for (field, written, message), where in wrong.items():
-        mistakes.add(*_in_study(field, written, message, changes, where, len(points)))
+        mistakes.add(*_in_study(field, written, message, changes, where, len(scenes.points)))
     return tuple(cases)
-
-
-def scene_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> tuple[Scene | None, list[Problem]]:
-    """The validated scene of a case, or what is wrong with it."""
-    try:
-        scene, problems = scene_of(tree, as_toml(tree), name, directory)
-        if scene is not None:
-            model_of(scene)
-    except SceneError as error:
-        return None, [Problem((), None, str(error))]
-    return scene, problems
 
 
 def _in_study(field: fields.Path, written, message: str, changes: Changes, where: list[str], points: int) -> tuple:

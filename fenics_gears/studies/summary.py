@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.results.summary import MICROMETRES
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.studies.run_study import Outcome
@@ -34,9 +33,7 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
 def _transmission_errors(outcome: Outcome) -> str:
     """Smallest and largest of all cases, as lengths at the wheel's base circle and as angles of the wheel."""
     angles = {index: record.numbers["peak_to_peak_transmission_error"] for index, record in outcome.records.items()}
-    gears = {index: outcome.study.cases[index].scene.gears for index in angles}
-    radii = {each: gear_pair(each).wheel.base_radius * MICROMETRES for each in set(gears.values())}
-    lengths = [angle * radii[gears[index]] for index, angle in angles.items()]
+    lengths = [angle * outcome.records[index].base_radius * MICROMETRES for index, angle in angles.items()]
     return f"{min(lengths):.4g} to {max(lengths):.4g} um = {min(angles.values()):.4g} to {max(angles.values()):.4g} rad"
 
 

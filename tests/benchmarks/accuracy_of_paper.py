@@ -17,12 +17,12 @@ from tests.benchmarks.accuracy_overview import TITLES, orders_section, overview,
 from tests.benchmarks.accuracy_saved import saved_report
 from tests.benchmarks.marked_section import write_section
 
+from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.scene.data import Motion, Output, Scene
 from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy import table
 from fenics_gears.studies.accuracy.report import AccuracyReport, measure, scene_of
-from fenics_gears.studies.accuracy.runs import Times, run_sharing, shared_gears
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import LineProgress, Progress
 
@@ -86,12 +86,6 @@ def main() -> None:
     parser.add_argument("names", nargs="*", default=list(all_scenes), help="of scenes; all unless given")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument(
-        "--timing-seconds",
-        type=float,
-        default=300.0,
-        help="for each scene, on single settings run again for their times",
-    )
-    parser.add_argument(
         "--write-again",
         action="store_true",
         help="all pictures, and the table of docs/performance.md, from what is saved, without measuring",
@@ -112,9 +106,7 @@ def main() -> None:
         if options.times_again:
             report = timed_again(saved_report(all_scenes[name], saved), options.rounds, progress)
         else:
-            report = measure(
-                all_scenes[name], progress, rounds=options.rounds, seconds_on_single=options.timing_seconds
-            )
+            report = measure(all_scenes[name], progress, rounds=options.rounds)
         progress.close()
         save_figure(work_precision(report), saved.with_suffix(".png"))
         table.write_csv(report, saved)

@@ -54,7 +54,7 @@ import json, sys
 from dataclasses import replace
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.scene.read import load_scene
-from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
+from fenics_gears.runs.timed import run_sharing, shared_gears
 given = json.load(sys.stdin)
 scene = load_scene(given["scene"])
 if given["quasi_static"]:

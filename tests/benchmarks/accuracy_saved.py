@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from fenics_gears.runs.timed import Times
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy import whole
 from fenics_gears.studies.accuracy.convergence import Limit
@@ -15,20 +16,18 @@ from fenics_gears.studies.accuracy.refinement import fine, refinements
 from fenics_gears.studies.accuracy.report import (
     DEFAULTS,
     OWN,
-    SECONDS_ON_SINGLE,
     AccuracyReport,
     LevelResult,
     RefinementResult,
     WholeResult,
 )
-from fenics_gears.studies.accuracy.runs import Times
 from fenics_gears.studies.accuracy.setting import own_setting, without_settings
 from fenics_gears.studies.accuracy.table import ORDERED
 
 MACHINE = ("processor", "load", "threads", "versions")
 
 
-def saved_report(scene: Scene, file: Path, seconds_on_single: float = SECONDS_ON_SINGLE) -> AccuracyReport:
+def saved_report(scene: Scene, file: Path) -> AccuracyReport:
     """A scene's report with the errors and median times of its CSV; limits have orders alone, times no stages.
 
     Raises ValueError where the program would refine the scene otherwise than the CSV did.
@@ -63,7 +62,7 @@ def saved_report(scene: Scene, file: Path, seconds_on_single: float = SECONDS_ON
     rounds = max(each.times.rounds for each in settings)
     return AccuracyReport(
         scene, fine(scene), results, tuple(settings), tuple(models), _errors(reference), failures,
-        {name: reference[name] for name in MACHINE}, rounds, seconds_on_single,
+        {name: reference[name] for name in MACHINE}, rounds,
     )  # fmt: skip
 
 

@@ -22,14 +22,14 @@ from tests.benchmarks.marked_section import write_section
 from tests.benchmarks.target_pairs import pairs
 from tests.benchmarks.target_reference import Reference, at_sizes, reference
 
+from fenics_gears.runs.timed import run_sharing, shared_gears
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy.measures import JUDGED, Answer, distance, judged_answer
-from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import Setting
-from fenics_gears.studies.accuracy_target.choose import Chosen, choose
-from fenics_gears.studies.accuracy_target.trial_runs import TargetNotReached
+from fenics_gears.studies.accuracy.target import Chosen, choose
+from fenics_gears.studies.accuracy.trial_runs import TargetNotReached
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import SilentProgress
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fenics_gears.runs.timed import run_sharing, shared_gears
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy.measures import JUDGED, Answer, comparable, judged_answer
-from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
 from fenics_gears.studies.accuracy.setting import own_setting, without_settings
 
 # Meshes in parts of the default, and steps in a mesh cycle: the fine mesh has few, the coarser one few and many.

@@ -51,7 +51,7 @@ def simulation(monkeypatch, tmp_path):
     """A module in the place of the simulation, whose ``outcome`` is returned or raised; the test runs in an empty
     directory."""
     monkeypatch.chdir(tmp_path)
-    stand_in = types.ModuleType("fenics_gears.studies.simulate")
+    stand_in = types.ModuleType("fenics_gears.simulation.simulate")
     stand_in.outcome, stand_in.calls = small_result(), []
 
     def simulate(scene, *, progress=None, job=None, journal=None):
@@ -71,7 +71,7 @@ def simulation(monkeypatch, tmp_path):
         return [picture]
 
     plots.draw_run = draw_run
-    monkeypatch.setitem(sys.modules, "fenics_gears.studies.simulate", stand_in)
+    monkeypatch.setitem(sys.modules, "fenics_gears.simulation.simulate", stand_in)
     monkeypatch.setitem(sys.modules, "fenics_gears.show.plots", plots)
     return stand_in
 

@@ -10,8 +10,8 @@ from tests.coarse import COARSE
 
 from fenics_gears import load_scene
 from fenics_gears.model.model import model_of
+from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Motion
-from fenics_gears.studies.gear_store import GearStore
 
 
 def test_both_scenes_are_one_pair_each_way_and_warn_of_nothing():

@@ -11,7 +11,7 @@ from demos.tip_relief.optimum import ALLOWED, Optimum, optimum
 from demos.tip_relief.table import table
 from tests.coarse import COARSE
 
-from fenics_gears.studies.gear_store import GearStore
+from fenics_gears.runs.gear_store import GearStore
 
 
 @pytest.fixture(scope="module")

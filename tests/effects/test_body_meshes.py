@@ -15,12 +15,12 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.results import by_pair
+from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import load_scene, scene_from_text
 from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.accuracy.refinement import checked_model
-from fenics_gears.studies.gear_store import GearStore
+from fenics_gears.studies.accuracy.refinement import check_measurable
 from fenics_gears.studies.study_file import load_study
 from meshes.root_crack import cracked_gear_mesh
 
@@ -208,4 +208,4 @@ def test_pictures_of_stress_say_that_they_know_equal_sectors_only(turn, cache):
 def test_the_accuracy_of_a_given_mesh_is_not_measured():
     """Its elements are not the program's to refine."""
     with pytest.raises(SceneError, match="a mesh that is given cannot be refined"):
-        checked_model(scene_from_text(text_of(TEETH, "body_meshes")))
+        check_measurable(scene_from_text(text_of(TEETH, "body_meshes")))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from fenics_gears.commands.cli import main
-from fenics_gears.commands.shared import checked_scene
+from fenics_gears.commands.shared import checked_model
 from fenics_gears.effects.flank_errors_sections import GearErrors
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import flank_deviations
@@ -29,7 +29,7 @@ def scene_with(tmp_path):
         (tmp_path / "pair.toml").write_text(
             f'{PAPER}\n[flank_errors.pinion]\nfile = "pinion.csv"\n{more}\n', encoding="utf-8"
         )
-        return checked_scene(tmp_path / "pair.toml")
+        return checked_model(tmp_path / "pair.toml").scene
 
     return read
 

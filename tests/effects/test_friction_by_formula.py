@@ -3,7 +3,7 @@
 import pytest
 from tests.effects.examples import text_of
 
-from fenics_gears.commands.shared import checked_scene
+from fenics_gears.commands.shared import checked_model
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.friction_formulas import schlenk
 from fenics_gears.model.model import model_of
@@ -64,12 +64,12 @@ def test_a_formula_outside_its_range_is_refused_by_name(tmp_path):
     with pytest.raises(
         SceneError, match=r'^friction.formula = "Benedict and Kelley": .* more than 1. Here that is 0\.'
     ):
-        checked_scene(tmp_path / "light.toml")
+        checked_model(tmp_path / "light.toml")
     (tmp_path / "slow.toml").write_text(
         FAST_AND_LIGHT.replace("Benedict and Kelley", "Schlenk").replace("4000", "100"), encoding="utf-8"
     )
     with pytest.raises(SceneError, match=r'^friction.formula = "Schlenk": .* from 1 to 50 m/s .* this pair has 0.3'):
-        checked_scene(tmp_path / "slow.toml")
+        checked_model(tmp_path / "slow.toml")
 
 
 @pytest.mark.parametrize(

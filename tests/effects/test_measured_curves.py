@@ -10,7 +10,7 @@ from tests.coarse import coarse_scene, frictionless, teeth_alone
 from tests.effects.examples import text_of
 from tests.stand_in import stand_in_compliance
 
-from fenics_gears.commands.shared import checked_scene
+from fenics_gears.commands.shared import checked_model
 from fenics_gears.contact.flank_gaps import flank_gaps
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.tooth_pair import Flanks
@@ -202,7 +202,7 @@ def scene_with(tmp_path, text, more="", name="profile_curves", face=""):
     (tmp_path / "pair.toml").write_text(
         f'{text_of("tooth_elasticity")}{face}\n[flank_errors.pinion]\n{name} = "curves.csv"\n{more}\n', encoding="utf-8"
     )
-    return checked_scene(tmp_path / "pair.toml")
+    return checked_model(tmp_path / "pair.toml").scene
 
 
 POINTS = "tooth, roll_length (mm), deviation (um)\n" + "".join(f"1, {place}, 0.5\n" for place in range(3, 24))
@@ -262,7 +262,7 @@ def test_a_scene_whose_curves_are_gone_can_be_looked_at():
 
 def test_the_example_is_a_scene():
     """The demonstration: four measured teeth of the pinion; ISO 1328-1 class 6 allows slopes of 10 um."""
-    scene = checked_scene(DEMOS / "flank_errors" / "measured_curves.toml")
+    scene = checked_model(DEMOS / "flank_errors" / "measured_curves.toml").scene
     assert [each.tooth for each in scene.flank_errors.pinion.measured_profile.curves] == [1, 5, 9, 13]
 
 

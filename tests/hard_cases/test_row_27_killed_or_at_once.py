@@ -23,8 +23,8 @@ from fenics_gears import results
 from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.results.journal import is_journal
+from fenics_gears.runs.folder import sole_writer
 from fenics_gears.simulation.unfinished import unfinished
-from fenics_gears.studies.case_files import sole_writer
 
 
 def killed_after(seconds, call, folder, **settings):

@@ -96,7 +96,7 @@ def test_an_outcome_that_cannot_be_reported_is_the_failure_of_its_case(folder, m
     program = (
         "import time\n"
         "from fenics_gears.system import environment; environment.prepare()\n"
-        "from fenics_gears.studies.ranks import ranks\n"
+        "from fenics_gears.runs.team import ranks\n"
         "class Odd(Exception):\n"
         "    def __init__(self, one, two): super().__init__('odd')\n"
         "def task(number, tick=None):\n"

@@ -12,9 +12,9 @@ from fenics_gears.model.model import model_of
 from fenics_gears.results import journal
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.pairs import by_pair, in_middle_slice
+from fenics_gears.runs.record import record_of
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.measures import FACE_LOAD, LINE_LOAD, OVER_FACE, PART_OF_FACE, answer
-from fenics_gears.studies.combine import record_of
 
 OF_FACE = {
     "overlap_ratio",

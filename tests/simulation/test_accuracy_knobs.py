@@ -10,11 +10,11 @@ from fenics_gears.contact.interpolation import AVERAGED, COLLOCATED, INTERPOLATI
 from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
+from fenics_gears.runs.gear_store import cycle_key, gear_key
 from fenics_gears.scene.data import GearData, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.reference_route import reference_route
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.gear_store import cycle_key, gear_key
 from fenics_gears.system.progress import SilentProgress
 
 

@@ -12,15 +12,16 @@ from fenics_gears.effects import OVER_CONTACT_NODES
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
 from fenics_gears.model.model import model_of
+from fenics_gears.runs.condensing import gear_tasks
+from fenics_gears.runs.gear_store import GearStore, cycle_key
+from fenics_gears.runs.run import run_of
+from fenics_gears.runs.runs import in_order_of_sharing
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion, Output
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.deviations import deviating
 from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
 from fenics_gears.simulation.mesh_springs import table_cycle
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.gear_store import GearStore, cycle_key
-from fenics_gears.studies.study import Case
-from fenics_gears.studies.work import gear_tasks, in_order_of_sharing
 
 MODELS = (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336)
 
@@ -289,7 +290,7 @@ def test_what_a_model_lacks_is_refused(name, line, said, paper_scene):
 def test_a_study_condenses_what_its_models_need(static):
     """From the task: a sweep over the models of the mesh meshes the gears once, for the full contact and the table
     alone."""
-    cases = [Case(i, {"accuracy.model": name}, by(static, name), str(i)) for i, name in enumerate(("elastic", *MODELS))]
+    cases = [run_of(model_of(by(static, name))) for name in ("elastic", *MODELS)]
     tasks = gear_tasks(cases)
     assert [task.name for task in tasks] == ["pinion", "wheel"]
     assert gear_tasks(cases[1:2] + cases[3:]) == []
@@ -298,10 +299,11 @@ def test_a_study_condenses_what_its_models_need(static):
 
 def test_a_study_over_the_face_condenses_each_body_once():
     """From the task: misalignments share plane sections and bodies, which take longest and come first."""
-    cases = [Case(i, {}, helical_scene(f'[misalignment]\nin_plane = "{i} um"\n'), str(i)) for i in range(3)]
+    scenes = [helical_scene(f'[misalignment]\nin_plane = "{i} um"\n') for i in range(3)]
+    cases = [run_of(model_of(scene)) for scene in scenes]
     parts = [(task.name, task.part) for task in gear_tasks(cases)]
     assert parts == [("pinion", "body"), ("wheel", "body"), ("pinion", "section"), ("wheel", "section")]
-    stressed = [replace(case, scene=replace(case.scene, output=Output(root_stress=True))) for case in cases]
+    stressed = [run_of(model_of(replace(each, output=Output(root_stress=True)))) for each in scenes]
     assert [(task.name, task.part) for task in gear_tasks(stressed)] == [
         ("pinion", "root stress"),
         ("wheel", "root stress"),

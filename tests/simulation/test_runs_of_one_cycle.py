@@ -6,10 +6,10 @@ import numpy as np
 from tests.coarse import coarse_scene
 
 from fenics_gears.results.recorder import Recorder
+from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Motion
 from fenics_gears.simulation import dynamic_factor
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.gear_store import GearStore
 
 
 def variants(paper_scene) -> list:

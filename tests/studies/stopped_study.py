@@ -14,15 +14,17 @@ if "OMPI_COMM_WORLD_RANK" not in os.environ:
     sys.modules["mpi4py"] = None
 
 from fenics_gears.commands import cli
-from fenics_gears.studies import run_study, work
+from fenics_gears.runs import runs
+
+computed = runs.computed
 
 done = 0
 
 
-def run_case(directory, case, tick=None):
+def stopped(store, run, tick=None):
     """As the program does, then the signal."""
     global done
-    outcome = work.run_case(directory, case, tick)
+    outcome = computed(store, run, tick)
     done += 1
     if done == int(sys.argv[2]):
         if os.environ.get("OMPI_COMM_WORLD_RANK", "0") != sys.argv[3]:
@@ -32,5 +34,5 @@ def run_case(directory, case, tick=None):
 
 
 if __name__ == "__main__":
-    run_study.run_case = run_case
+    runs.computed = stopped
     sys.exit(cli.main(sys.argv[4:]))

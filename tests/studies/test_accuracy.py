@@ -12,15 +12,15 @@ from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.root_stress import RootStressRows
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.model.model import model_of
+from fenics_gears.runs.timed import run_sharing, shared_gears
 from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion, Output
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.accuracy import refinement, table
+from fenics_gears.studies.accuracy import refinement, setting_runs, table
 from fenics_gears.studies.accuracy import report as reports
 from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, ROOT, SPAN, judged
 from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, FLANK, LENGTH, NODES, OF_FAMILY, STEPS
 from fenics_gears.studies.accuracy.root_point import peak_root_stress, point_rows
-from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
-from fenics_gears.studies.accuracy.setting import Setting, own_setting
+from fenics_gears.studies.accuracy.setting import own_setting
 
 TEETH = "tooth_elasticity"
 # Fewer and coarser than --quick: what is tested here is the way, not the numbers.
@@ -147,14 +147,16 @@ def test_times_are_split(report):
 
 @pytest.mark.nightly
 def test_times_are_of_every_round(scene, monkeypatch):
-    """Authority: identity; levels, whole settings and models are timed in all rounds, and a median is of these."""
+    """Authority: identity; whole settings and models are timed in all rounds, a median is of these; single settings
+    once."""
     monkeypatch.setattr(reports, "MODELS", (RIGID_TEETH,))
     study = reports.AccuracyStudy(scene, reports.SilentProgress(), True, 2)
     study.refinements = tuple(each for each in study.refinements if each.name == "interpolation")
     results = study.refine()
     settings, models = study.whole_runs(results, study.reference(results)[0])
     assert [each.name for each in (*settings, *models)] == [reports.OWN, reports.DEFAULTS, RIGID_TEETH]
-    for each in (*settings, *models, *results[0].levels):
+    assert all(each.times.rounds == 1 for each in results[0].levels)
+    for each in (*settings, *models):
         assert each.times.rounds == 2 and each.times.total == pytest.approx(np.mean(each.times.totals))
 
 
@@ -165,7 +167,7 @@ def test_the_root_stress_is_that_of_the_runs_own_output(sections):
     scene = replace(scene_of(*sections), motion=Motion(200.0, 2, 2), output=Output(root_stress=True))
     run, cycle = run_sharing(scene, shared_gears())
     last = run.isel(time=slice(len(run.mesh_phase) - cycle.steps, None), gear=0)
-    assert peak_root_stress(run, scene, cycle) == pytest.approx(
+    assert peak_root_stress(run, model_of(scene), cycle) == pytest.approx(
         float(last["root_stress_at_30_degrees"].max()), rel=1e-9
     )
 
@@ -190,21 +192,9 @@ def test_root_stress_has_errors_and_orders(report):
     assert "root stress" in table.headings(report)[0]
 
 
-def test_single_settings_are_repeated_the_quickest_first_as_far_as_there_is_time():
-    """Authority: by hand; 1 + 2 fit into 4, 3 more do not; what is left out is said."""
-    settings = [replace(Setting("P2", 0.1, 0.1, 3.0, 1.0, 20), steps=steps) for steps in (40, 20, 80)]
-    seconds = dict(zip(settings, (2.0, 1.0, 3.0)))
-    assert reports.within(seconds, 4.0) == settings[:2]
-    assert reports.within(seconds, 6.0) == settings and reports.within(seconds, 0.5) == []
-
-
-def test_what_was_timed_less_often_is_told(report):
+def test_how_often_settings_were_timed_is_told(report):
     """Authority: house rule; a number says how it was measured."""
-    assert table.timed(report).endswith("single settings as often.")
-    fewer = replace(report, rounds=5)
-    assert f"0 of {sum(len(each.levels) for each in report.refinements)} single settings" in table.timed(
-        fewer
-    ) and "time limit of 60 s" in table.timed(fewer)
+    assert "medians of 5 rounds" in table.timed(replace(report, rounds=5))
 
 
 def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, monkeypatch):
@@ -220,7 +210,7 @@ def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, m
     assert once.errors[CURVE] == once.errors[ROOT] == 0.0 and 0.0 < anew.errors[CURVE] < 0.2
     assert np.isnan(anew.errors[ROOT])
     assert all(
-        (value == study._known[study.base][0][name]).all() for name, value in study.reference((result,))[0].items()
+        (value == study.runs.answers[study.base][name]).all() for name, value in study.reference((result,))[0].items()
     )
 
 
@@ -269,12 +259,12 @@ def test_without_load_there_is_nothing_to_measure(scene):
 def test_a_level_that_fails_is_told_and_the_others_are_measured(scene, monkeypatch):
     """Authority: house style, a failed case is a record among the results."""
 
-    def fails(scene, gears):
-        if scene.accuracy.interpolation == "collocated":
+    def fails(model, gears, progress):
+        if model.scene.accuracy.interpolation == "collocated":
             raise ComputationError("no solution at step 3\nand a history")
-        return run_sharing(scene, gears)
+        return run_sharing(model, gears, progress)
 
-    monkeypatch.setattr(reports, "run_sharing", fails)
+    monkeypatch.setattr(setting_runs, "run_sharing", fails)
     study = reports.AccuracyStudy(scene, reports.SilentProgress(), True, 1)
     study.refinements = tuple(each for each in study.refinements if each.name == "interpolation")
     (result,) = study.refine()
@@ -323,7 +313,7 @@ def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monke
 
 def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
     """Authority: the exit codes; 130, and no half of a comparison is kept."""
-    from fenics_gears.studies.accuracy import runs
+    from fenics_gears.runs import runs
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(runs, "simulate", lambda scene, **options: simulate(scene, **options).assign_attrs(complete=0))

@@ -11,7 +11,7 @@ from tests.helical import wide_pair
 from fenics_gears.model.face_resolution import face_discretisation, face_warnings
 from fenics_gears.model.model import model_of
 from fenics_gears.studies.accuracy import report as reports
-from fenics_gears.studies.accuracy import table
+from fenics_gears.studies.accuracy import table, trial_runs
 from fenics_gears.studies.accuracy.measures import (
     CURVE,
     DEFECT,
@@ -27,8 +27,7 @@ from fenics_gears.studies.accuracy.measures import (
 from fenics_gears.studies.accuracy.over_face import LAYERS, PLANE, SLICES, in_the_plane
 from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, LENGTH, STEPS, fine, refinements
 from fenics_gears.studies.accuracy.setting import own_setting
-from fenics_gears.studies.accuracy_target import trial_runs
-from fenics_gears.studies.accuracy_target.trial_runs import MESH, SAFETY, SAFETY_OF_SLICES, Sizes, TrialRuns
+from fenics_gears.studies.accuracy.trial_runs import MESH, SAFETY_OF_SLICES, SAFETY_OF_TWO, Sizes, TrialRuns
 
 LEAD = '[lead_modifications.pinion]\ncrowning = "6 um"\n'
 TILTING = '[bearings]\nstiffness = "1e6 N/mm"\naxial_stiffness = "1e5 N/mm"\nplaces = { wheel = ["-40 mm", "40 mm"] }\n'
@@ -98,7 +97,7 @@ def test_errors_of_a_target_are_measured_beside_fewer_slices(scene, monkeypatch)
     runs = TrialRuns(scene, lambda words: None)
     assert runs.slices == model_of(scene).face.slices
     found = runs.errors(Sizes(2.0, 40, 14))
-    assert found[MESH] == pytest.approx(SAFETY * mesh_error * 4.0, rel=0.05)
+    assert found[MESH] == pytest.approx(SAFETY_OF_TWO * mesh_error * 4.0, rel=0.05)
     assert found[trial_runs.SLICES] == pytest.approx(SAFETY_OF_SLICES * slice_error / 14**2, rel=0.05)
     assert set(seen) == {Sizes(2.0, 40, 14), Sizes(2.0, 40, 7), Sizes(4.0, 40, 7)}
     setting = runs.setting(Sizes(2.0, 40, 14))

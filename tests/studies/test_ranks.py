@@ -11,7 +11,7 @@ from tests.studies.test_run_study import FOUR, load
 from tests.system.test_failing_ranks import FACE
 
 from fenics_gears.commands.cli import main
-from fenics_gears.studies.ranks import Alone
+from fenics_gears.runs.team import Alone
 
 pytestmark = pytest.mark.ranks
 
@@ -37,7 +37,7 @@ def test_both_of_two_ranks_compute_and_a_wrong_study_ends_both(folder):
         "from pathlib import Path\n"
         "from fenics_gears.system import environment; environment.prepare()\n"
         "from fenics_gears.commands.cli import main\n"
-        "from fenics_gears.studies.ranks import ranks\n"
+        "from fenics_gears.runs.team import ranks\n"
         "def rank(task, tick=None):\n"
         "    own = os.environ['OMPI_COMM_WORLD_RANK']\n"
         "    Path(own).touch()\n"

@@ -13,10 +13,12 @@ from fenics_gears.commands.cli import main
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import model_of
+from fenics_gears.runs import runs
 from fenics_gears.scene.read import load_scene
+from fenics_gears.simulation import simulate as simulation
 from fenics_gears.simulation.elastic_route import gear_compliances
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies import work
+from fenics_gears.studies import scenes
 from fenics_gears.studies.combine import combined
 from fenics_gears.studies.study_file import load_study
 from fenics_gears.system.progress import SilentProgress
@@ -76,6 +78,27 @@ def test_cases_that_differ_in_relief_are_what_runs_of_their_scenes_give(folder):
         for name in ("transmission_error", "normal_force"):
             assert np.array_equal(row[name].values, alone[name].values)
     assert not np.array_equal(combined["transmission_error"][0], combined["transmission_error"][1])
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_a_case_makes_its_model_once_and_again_where_there_are_too_many_to_hold(folder, monkeypatch):
+    """Count: a model for each case, from reading the study to its run; the results of models made again are the
+    same."""
+    made = []
+
+    def counted(scene):
+        made.append(scene)
+        return model_of(scene)
+
+    for module in (scenes, simulation):
+        monkeypatch.setattr(module, "model_of", counted)
+    study = write_study(folder, TWO)
+    assert main(["study", str(study), "--quiet", "--output", "held"]) == 0
+    assert len(made) == 2
+    monkeypatch.setattr(scenes, "MOST_HELD", 1)
+    assert main(["study", str(study), "--quiet", "--output", "here"]) == 0
+    assert len(made) > 4
+    assert load("here").drop_vars("wall_time").equals(load("held").drop_vars("wall_time"))
 
 
 def test_zip_has_one_dimension_with_the_fields_along_it(folder):
@@ -139,8 +162,8 @@ def test_a_changed_base_scene_is_noticed_and_so_are_other_numbers(folder, capsys
     after = stamps("here")
     assert {name: after[name] for name in before} == before and len(after) == 4
     with monkeypatch.context() as updated:
-        for module in ("study", "case_files"):
-            updated.setattr(f"fenics_gears.studies.{module}.NUMBERS_VERSION", 10**6)
+        for module in ("runs.run", "studies.run_study"):
+            updated.setattr(f"fenics_gears.{module}.NUMBERS_VERSION", 10**6)
         assert main(["study", str(study), "--output", "here"]) == 0
         assert (
             "2 to be computed. Results that are here of a version of the program with other numbers are not used."
@@ -161,12 +184,12 @@ def test_a_changed_base_scene_is_noticed_and_so_are_other_numbers(folder, capsys
 def test_a_failed_case_is_a_record_and_the_others_go_on(folder, capsys, monkeypatch):
     """Authority: issue 3; the error is the contact's own. Exit code 3; tried again the next time."""
 
-    def fails_once(scene, **options):
-        if scene.friction.coefficient == 0.3:
+    def fails_once(model, **options):
+        if model.scene.friction.coefficient == 0.3:
             raise ContactNotConverged([], "self-locking", time=0.1, step=3)
-        return simulate(scene, **options)
+        return simulate(model, **options)
 
-    monkeypatch.setattr(work, "simulate", fails_once)
+    monkeypatch.setattr(runs, "simulate", fails_once)
     study = write_study(folder, THREE)
     assert main(["study", str(study), "--output", "here"]) == 3
     assert "1 of 3 cases failed" in capsys.readouterr().err

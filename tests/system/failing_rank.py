@@ -16,8 +16,8 @@ from fenics_gears.errors import ComputationError, SceneError
 OWN = int(os.environ.get("OMPI_COMM_WORLD_RANK") or os.environ.get("PMI_RANK", 0))
 WORDS = "no more chalk"
 STAGES = {
-    "reading": "commands.run:checked_scene_and_directory",
-    "model": "simulation.simulate:model_of",
+    "reading": "commands.run:checked_model_and_directory",
+    "model": "simulation.simulate:memory_for_operators",
     "plane sections": "elasticity.gear_compliance:_drive_flank",
     "section mesh": "elasticity.face.condensed:SectionForms",
     "condensing": "elasticity.face.condensed:_condensed",
@@ -27,9 +27,9 @@ STAGES = {
     "march": "dynamics.march:Marcher.run",
     "writing": "results:save",
     "reading a study": "studies.run_study:load_study",
-    "condensing for a study": "studies.gear_store:GearStore.gear",
-    "a case": "studies.work:simulate",
-    "writing a case": "studies.work:save_case",
+    "condensing for a study": "runs.gear_store:GearStore.gear",
+    "a case": "runs.runs:simulate",
+    "writing a case": "runs.folder:Folder.keep",
     "combining": "studies.run_study:save_study",
 }
 ERRORS = {

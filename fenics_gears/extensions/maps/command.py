@@ -15,7 +15,7 @@ from fenics_gears.command_line import (
     add_processes_argument,
     add_scene_argument,
     check_writable,
-    checked_scene,
+    checked_model,
     positive_count,
     print_files,
     print_rows,
@@ -69,7 +69,7 @@ def draw_map(options: argparse.Namespace) -> int:
             for word in (f"--{name}", *getattr(options, name))
         ]
         return under_mpirun(options, ["map", str(options.scene), *values, "--most-runs", str(options.most_runs)])
-    from fenics_gears.studies.ranks import ranks
+    from fenics_gears.runs.team import ranks
 
     with ranks() as team:
         return 0 if team is None else _run(options, team)
@@ -81,7 +81,7 @@ def _run(options: argparse.Namespace, team) -> int:
     from fenics_gears.studies.run_study import run_with
     from fenics_gears.studies.summary import last_words, summary_rows
 
-    scene = checked_scene(options.scene)
+    scene = checked_model(options.scene).scene
     wanted = load_map(options.scene, scene, options.loads, options.speeds, options.most_runs)
     directory, outcomes = options.output or Path("results") / f"{scene.name}_map", {}
     check_writable(directory, "map.nc", "harris_map.png", "over_load.png", "over_speed.png", "campbell.png")

@@ -81,7 +81,7 @@ class LoadMap:
         ends = replace(self, loads=_ends(self.loads), speeds=_ends(self.speeds))
         seconds, gears = 0.0, 0.0
         for name, study in ends.studies.items():
-            costs = [expected_cost(model_of(case.scene)) for case in study.cases]
+            costs = [expected_cost(case.model) for case in study.cases]
             runs = self.count - len(self.loads) if name == OVER_SPEED else len(self.loads)
             seconds += runs * sum(cost.marching for cost in costs) / len(costs)
             gears = max([gears, *(cost.condensing or 0.0 for cost in costs)])

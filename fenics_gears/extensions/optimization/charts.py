@@ -8,13 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
-from fenics_gears import gear_pair
 from fenics_gears.charts import GREY, MARKED_LINES, MARKERS, PALETTE, Chart, Curve, draw_charts, harris_map
 from fenics_gears.extensions.optimization.design import QUANTILE, Goal, Variable
 from fenics_gears.extensions.optimization.evaluations import Evaluation
 from fenics_gears.extensions.optimization.optimize import Outcome, score
 from fenics_gears.extensions.optimization.result import harris_dataset
-from fenics_gears.studies.study_file import scene_of_tree
+from fenics_gears.studies.scenes import model_of_tree
 
 BEFORE, BEST = "before", "chosen design"
 MOST_TIMES = 3.0
@@ -168,8 +167,8 @@ def harris_charts(outcome: Outcome) -> list[Chart]:
     found = harris_dataset(outcome)
     if "transmission_error" not in found:
         return []
-    scene, _ = scene_of_tree("", outcome.design.before, outcome.design.directory)
-    found.attrs["base_radius_wheel"] = gear_pair(scene.gears).wheel.base_radius
+    before = model_of_tree("", outcome.design.before, outcome.design.directory)
+    found.attrs["base_radius_wheel"] = before.pair.wheel.base_radius
     charts = [
         harris_map(found.sel(choice=choice).drop_vars("choice"), f"Harris map, {words}")
         for choice, words in (("before", BEFORE), ("best", BEST))

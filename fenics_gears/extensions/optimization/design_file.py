@@ -15,7 +15,8 @@ from fenics_gears.extensions.optimization.sections import Sections
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.read import name_of, parsed, text_of
 from fenics_gears.studies import fields
-from fenics_gears.studies.study_file import Changes, entries, left_out, scene_of_tree
+from fenics_gears.studies.scenes import Changes, NoScene, model_of_tree
+from fenics_gears.studies.study_file import entries, left_out
 
 
 def load_design(path: str | Path) -> Design:
@@ -118,7 +119,10 @@ def _try(
     design: Design, sections: Sections, tree: Mapping[str, Any], place: tuple[str, ...], where: str
 ) -> Scene | None:
     """The scene of a tree; None, with its mistakes noted at a place of the design file, where it is none."""
-    scene, problems = scene_of_tree(design.name, tree, design.directory)
+    try:
+        return model_of_tree(design.name, tree, design.directory).scene
+    except NoScene as error:
+        problems = error.problems
     for problem in problems:
         said = (
             f"{'.'.join(problem.path)} {problem.message}"
@@ -126,7 +130,7 @@ def _try(
             else problem.message
         )
         sections.mistakes.add(place, problem.written or "", f"{said} ({where})")
-    return scene
+    return None
 
 
 def _with_class(design: Design, scene: Scene, tolerance_class: int | None) -> Design:

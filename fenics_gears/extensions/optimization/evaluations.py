@@ -11,20 +11,19 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
-from fenics_gears import GearsError, gear_pair, simulate
-from fenics_gears.extensions.optimization import run_lines
 from fenics_gears.extensions.optimization.conditions import trees_of
 from fenics_gears.extensions.optimization.design import Bound, Design, Goal
 from fenics_gears.extensions.optimization.goals import ERROR, OVER_FACE
 from fenics_gears.results.validity import NO_MEANING
-from fenics_gears.scene.data import Output
-from fenics_gears.studies.combine import record_of
-from fenics_gears.studies.gear_store import own_gear_store
-from fenics_gears.studies.ranks import Alone, Together
-from fenics_gears.studies.study import Case, scene_key
-from fenics_gears.studies.study_file import scene_of_tree
-from fenics_gears.studies.work import Tick, Ticking, in_order_of_sharing
+from fenics_gears.runs.lines import Lines, kept
+from fenics_gears.runs.record import record_of
+from fenics_gears.runs.run import Run, run_of
+from fenics_gears.runs.runs import Failure, Runs
+from fenics_gears.runs.team import Alone, Together
+from fenics_gears.scene.data import Output, Scene
+from fenics_gears.studies.scenes import NoScene, model_of_tree
 from fenics_gears.system.interruption import Interruption
 
 UNUSABLE = 1e6
@@ -74,9 +73,9 @@ class Evaluator:
     """
 
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
-        self.design, self.directory, self._team, self._progress = design, directory, team, progress
-        self._lines, self.others = run_lines.kept(directory)
-        self.designs, self.kept, self.computed, self.seconds = (0, 0), len(self._lines), 0, 0.0
+        self.design, self._progress = design, progress
+        self.runs, self.others = Runs(Lines(directory, line_of), team), kept(directory)[1]
+        self.designs, self.kept, self.computed, self.seconds = (0, 0), self.runs.kept, 0, 0.0
 
     def of_designs(self, designs: Sequence[Mapping[str, float | str]], deviations: np.ndarray) -> list[Evaluation]:
         """Designs, by the values of their variables, under deviations (samples, scatters) in parts of their limits."""
@@ -87,7 +86,7 @@ class Evaluator:
     ) -> list[Evaluation]:
         """The same for parsed scenes; `designs` are only noted."""
         cases = [[self._case(each) for each in trees_of(self.design, tree, deviations)] for tree in trees]
-        self._run([case for of_tree in cases for case in of_tree if isinstance(case, Case)], len(trees))
+        self._run([case for of_tree in cases for case in of_tree if isinstance(case, Run)], len(trees))
         return [self._evaluation(dict(values), of_tree, len(deviations)) for values, of_tree in zip(designs, cases)]
 
     def curves(self, trees: Sequence[Mapping[str, Any]]) -> list[np.ndarray | None]:
@@ -95,25 +94,28 @@ class Evaluator:
         cases = [
             replace(case, key=f"{case.key} curve", values={"curve": ""})
             for case in map(self._case, trees)
-            if isinstance(case, Case)
+            if isinstance(case, Run)
         ]
         self._run(cases, len(trees))
-        lines = [self._lines[case.key] for case in cases]
+        lines = [self.runs.known[case.key] for case in cases]
         return (
-            [np.array(line["curve"]) if "curve" in line else None for line in lines]
+            [np.array(line["curve"]) if not isinstance(line, Failure) else None for line in lines]
             if len(lines) == len(trees)
             else [None] * len(trees)
         )
 
-    def _case(self, tree: Mapping[str, Any]) -> Case | str:
+    def _case(self, tree: Mapping[str, Any]) -> Run | Failure:
         """The run of a parsed scene, or why it is no scene."""
-        scene, problems = scene_of_tree(self.design.name, tree, self.design.directory)
-        if scene is None:
-            return "; ".join(f"{'.'.join(problem.path)} {problem.message}".strip() for problem in problems)
-        # Fields over the flanks take memory and time, and only face load factors need them.
-        if not any(name in OVER_FACE for name in self._names):
-            scene = replace(scene, output=Output(scene.output.root_stress, contact_fields=False))
-        return Case(0, {}, scene, scene_key(scene))
+        try:
+            return run_of(model_of_tree(self.design.name, tree, self.design.directory, self._without_fields))
+        except NoScene as error:
+            return Failure(error)
+
+    def _without_fields(self, scene: Scene) -> Scene:
+        """Fields over the flanks take memory and time, and only face load factors need them."""
+        if any(name in OVER_FACE for name in self._names):
+            return scene
+        return replace(scene, output=Output(scene.output.root_stress, contact_fields=False))
 
     @functools.cached_property
     def _names(self) -> list[str]:
@@ -123,35 +125,28 @@ class Evaluator:
             )
         ]
 
-    def _run(self, cases: list[Case], batch: int) -> None:
+    def _run(self, cases: list[Run], batch: int) -> None:
         """Compute the runs of a `batch` of designs that are not kept; their processes keep them."""
-        missing = list({case.key: case for case in cases if case.key not in self._lines}.values())
+        missing, begun, known = self.runs.missing(cases), time.perf_counter(), len(self.runs.known)
         if not missing:
             return
-        missing, begun, done = in_order_of_sharing(missing), time.perf_counter(), 0
-
-        def finished(index: int, result: dict[str, Any] | Exception) -> None:
-            nonlocal done
-            done += 1
-            failed = {"failure": f"{type(result).__name__}: {result}"} if isinstance(result, Exception) else result
-            self._lines[missing[index].key] = failed
-
         before, total = self.designs
 
         def tick() -> None:
+            done = len(self.runs.known) - known
             self._progress.update(before + batch * done // len(missing), max(total, before + batch))
 
-        self._team.run(functools.partial(run_and_keep, self.directory), missing, finished, tick)
-        self.computed += done
+        self.runs.compute(missing, tick)
+        self.computed += len(missing)
         self.seconds += time.perf_counter() - begun
 
-    def _evaluation(self, values: dict[str, float | str], cases: list[Case | str], samples: int) -> Evaluation:
-        lines = [{"failure": case} if isinstance(case, str) else self._lines[case.key] for case in cases]
-        failures = [line["failure"] for line in lines if "failure" in line]
+    def _evaluation(self, values: dict[str, float | str], cases: list[Run | Failure], samples: int) -> Evaluation:
+        lines = [case if isinstance(case, Failure) else self.runs.known[case.key] for case in cases]
+        failures = [str(line) for line in lines if isinstance(line, Failure)]
         lacking = [
             f"the run has no {name}"
             for line in lines
-            if "failure" not in line
+            if not isinstance(line, Failure)
             for name in self._names
             if name not in line["numbers"]
         ]
@@ -183,29 +178,12 @@ def _curve(run) -> list[list[float]]:
     return [(phase - np.floor(phase[0] + 1e-9)).tolist(), run["transmission_error"].values.tolist()]
 
 
-def run_and_keep(directory: Path, case: Case, tick: Tick | None = None) -> dict[str, Any]:
-    """Run a case and keep its line: its numbers, or as `failure` why it has none. What is no error of this program is
-    not kept, so that it is tried again."""
-    begun = time.perf_counter()
-    try:
-        run = simulate(case.scene, progress=Ticking(tick), preparation=own_gear_store().prepared)
-        if not run.attrs["complete"]:
-            raise KeyboardInterrupt
-        if NO_MEANING in run.attrs.get("warnings", ""):
-            line = {
-                "key": case.key,
-                "failure": next(said for said in run.attrs["warnings"].splitlines() if NO_MEANING in said),
-            }
-        else:
-            run.attrs["wall_time"] = time.perf_counter() - begun
-            numbers = record_of(run).numbers
-            numbers[ERROR] *= 1e3 * gear_pair(case.scene.gears).wheel.base_radius
-            line = {"key": case.key, "numbers": numbers, "curve": _curve(run) if case.values else []}
-    except GearsError as error:
-        line = {"key": case.key, "failure": str(error)}
-    except Exception as error:
-        if isinstance(error.__cause__, KeyboardInterrupt):
-            raise KeyboardInterrupt from error
-        raise
-    run_lines.append(directory, line)
-    return line
+def line_of(run: Run, result: xr.Dataset) -> dict[str, Any]:
+    """What is kept of a run: its numbers and, where its values ask for it, its curve; or as `failure` that it has no
+    meaning."""
+    worthless = [said for said in result.attrs.get("warnings", "").splitlines() if NO_MEANING in said]
+    if worthless:
+        return {"failure": worthless[0]}
+    found = record_of(result)
+    found.numbers[ERROR] *= 1e3 * found.base_radius
+    return {"numbers": found.numbers, "curve": _curve(result) if run.values else []}

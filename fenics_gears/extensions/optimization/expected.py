@@ -6,14 +6,14 @@ from __future__ import annotations
 from contextlib import suppress
 from dataclasses import dataclass
 
-from fenics_gears import GeometryError, SceneError, expected_cost, model_of
+from fenics_gears import SceneError, expected_cost
 from fenics_gears.command_line import seconds_in_words
 from fenics_gears.extensions.optimization.conditions import FRESH
 from fenics_gears.extensions.optimization.design import Design
-from fenics_gears.studies.gear_store import operators_key
-from fenics_gears.studies.study import Case
-from fenics_gears.studies.study_file import scene_of_tree
-from fenics_gears.studies.work import gear_tasks
+from fenics_gears.runs.condensing import gear_tasks
+from fenics_gears.runs.gear_store import operators_key
+from fenics_gears.runs.run import Run, run_of
+from fenics_gears.studies.scenes import NoScene, model_of_tree
 
 MOST_HOURS = 8.0
 # Of a run beside its march: seconds, and positions whose operators extremes between steps take (measured on the paper's
@@ -63,7 +63,7 @@ def expected_work(design: Design, kept: int) -> Work:
     cases = at_ends(design)
     if not cases:
         return Work(runs, None)
-    models = [model_of(case.scene) for case in cases]
+    models = [case.model for case in cases]
     costs = [expected_cost(model) for model in models]
     marching, building, condensing = (
         sum(getattr(cost, name) or 0.0 for cost in costs) / len(costs)
@@ -76,14 +76,12 @@ def expected_work(design: Design, kept: int) -> Work:
     return Work(runs, runs * each + (bodies * condensing if runs else 0.0))
 
 
-def at_ends(design: Design) -> list[Case]:
+def at_ends(design: Design) -> list[Run]:
     """The scenes with all variables at the beginning and at the end of their ranges, where they are scenes."""
     found = []
     for end in (0, -1):
         values = {each.name: (each.words or (each.low, each.high))[end] for each in design.variables}
-        scene, _ = scene_of_tree(design.name, design.scene_tree(values), design.directory)
         # All variables at their ends together may be gears that cannot be.
-        with suppress(GeometryError):
-            if scene is not None and model_of(scene):
-                found.append(Case(len(found), {}, scene, ""))
+        with suppress(NoScene):
+            found.append(run_of(model_of_tree(design.name, design.scene_tree(values), design.directory)))
     return found

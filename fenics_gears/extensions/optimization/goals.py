@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fenics_gears import HARMONIC_NAMES, Scene
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
-from fenics_gears.studies.combine import NUMBERS
+from fenics_gears.runs.record import NUMBERS
 
 ERROR = "peak_to_peak_transmission_error"
 ROOT = ("largest_root_stress_pinion", "largest_root_stress_wheel")

@@ -19,12 +19,11 @@ from fenics_gears.extensions.optimization.evaluations import Evaluation, Evaluat
 from fenics_gears.extensions.optimization.expected import TORQUES, VALUES, Work, at_ends, expected_work
 from fenics_gears.extensions.optimization.search import front, optimiser, search
 from fenics_gears.inputs.tree import Tree
+from fenics_gears.runs.folder import sole_writer
+from fenics_gears.runs.team import Alone, Together, ranks
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import number_in
-from fenics_gears.studies.case_files import sole_writer
-from fenics_gears.studies.ranks import Alone, Together, ranks
-from fenics_gears.studies.run_study import condense_gears
-from fenics_gears.studies.study_file import scene_of_tree
+from fenics_gears.studies.scenes import model_of_tree
 from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.progress import Progress
 
@@ -98,7 +97,7 @@ def _run(
         work.check(design.title, team.size)
     if not quiet:
         print(_opening(design, len(deviations), evaluator, work, team.size), file=sys.stderr, flush=True)
-    condense_gears(at_ends(design)[-1:], team, progress)
+    evaluator.runs.condense(at_ends(design)[-1:], progress)
     progress.stage("before")
     (before,) = evaluator.of_trees([design.before], [{}], deviations)
     progress.stage("search")
@@ -186,8 +185,7 @@ def _look_around(outcome: Outcome, evaluator: Evaluator) -> None:
 
 def _torque_of(design: Design, tree: Tree) -> float:
     """The torque (N m) on the wheel of a scene that names it, the pinion's or a power."""
-    scene, _ = scene_of_tree(design.name, tree, design.directory)
-    return 1e-3 * scene.load.wheel_torque
+    return 1e-3 * model_of_tree(design.name, tree, design.directory).scene.load.wheel_torque
 
 
 def _harris(design: Design, evaluator: Evaluator, best: Evaluation) -> tuple[np.ndarray, list[list[np.ndarray | None]]]:

@@ -9,8 +9,8 @@ from fenics_gears.effects import effects_on
 from fenics_gears.model.description import effect_states
 from fenics_gears.show.report.page import Block, Fold, Picture, Section, Table, Words
 from fenics_gears.show.run import NO_SCENE, Run
-from fenics_gears.studies.effect_lattice.subsets import ALL
-from fenics_gears.studies.effect_lattice.table import MILLI
+from fenics_gears.studies.effect_costs.subsets import ALL
+from fenics_gears.studies.effect_costs.table import MILLI
 
 MEASURED_TABLE, MEASURED_PICTURE = "effects.csv", "effects.png"
 # Relative; the same scene gives the same transmission error, on another processor to round-off.

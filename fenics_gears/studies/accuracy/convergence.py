@@ -1,9 +1,11 @@
-"""Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy`.
+"""Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy` and
+`[accuracy] target`.
 
 Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5: the error of the finest
-run is the last change over r^p - 1, with r the ratio of sizes and p the order, times a safety factor of 1.25. Without
-an observed order it is three times the last
-change: 1.25 times the 2.4 that h^0.5 leaves where sizes halve.
+run is the last change over r^p - 1, with r the ratio of sizes and p the order, times a safety factor. That is 1.25 for
+three runs and more, which show their order; without an observed order the error is three times the last change: 1.25
+times the 2.4 that h^0.5 leaves where sizes halve. For two runs, of which nothing but the order that is expected is
+known, it is 2.5.
 """
 
 from __future__ import annotations
@@ -14,10 +16,14 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from fenics_gears.studies.accuracy.measures import comparable
+from fenics_gears.studies.accuracy.measures import DEFECT, Answer, comparable, distance
+from fenics_gears.studies.accuracy.refinement import LENGTH, Level, Refinement
 
 SAFETY = 1.25
 LEFT_WITHOUT_ORDER = 2.4
+# Of two runs: at coarse sizes differences fall more slowly than with the expected order, and signs of their parts
+# differ. Of slices, whose differences keep their sign and fall with an order of 1.7: by that alone 1.3.
+EXPECTED_ORDER, SAFETY_OF_TWO, SAFETY_OF_SLICES = 2.0, 2.5, 1.8
 LEAST_ORDER, MOST_ORDER = 0.1, 10.0
 # An order is used to extrapolate only above this, for else the limit lies far off, and not further above the expected
 # order than this.
@@ -80,6 +86,13 @@ def part_left(sizes: Sequence[float], order: float) -> float:
     return 1.0 / ((sizes[-2] / sizes[-1]) ** order - 1.0)
 
 
+def error_of_two(finer: Answer, coarser: Answer, ratio: float, safety: float) -> float:
+    """Relative error of the finer of two runs in the measure that is worst, by the expected order; `ratio` of their
+    sizes."""
+    change = max(distance(coarser, finer, measure) for measure in finer)
+    return safety * part_left((ratio, 1.0), EXPECTED_ORDER) * change
+
+
 def richardson(values: Sequence[np.ndarray], sizes: Sequence[float], expected: float) -> Limit:
     """The limit of a sequence as its sizes go to zero; its last term where it cannot be extrapolated."""
     order, last = observed_order(values, sizes), values[-1]
@@ -97,6 +110,28 @@ def last_of(values: Sequence[np.ndarray]) -> Limit:
     """The limit of a sequence without a power law: its last term."""
     away = float(np.linalg.norm(values[-2] - values[-1])) if len(values) > 1 else 0.0
     return Limit(values[-1], None, away, away)
+
+
+def limit_of(refinement: Refinement, ran: Sequence[tuple[Level, Answer]], base: Answer, name: str) -> Limit:
+    """The limit of a measure as a setting is refined; that of its base where the setting has no finest value."""
+    if len(ran) < 2 or (refinement.expected is None and refinement.name != LENGTH):
+        return Limit(base[name], None, 0.0)
+    last = ran[-LAST_TERMS:]
+    values = comparable([found[name] for _, found in last], name)
+    if refinement.expected is None:
+        return last_of(values)
+    return richardson(values, [level.size for level, _ in last], refinement.expected)
+
+
+def error_from(limits: Mapping[str, Limit], found: Answer, name: str) -> float:
+    """Relative distance of a measure from its limit; at least `least_error`, where the limit is the finest level
+    itself."""
+    if name not in limits or name not in found:
+        return float("nan")
+    limit = limits[name]
+    scale = float(np.linalg.norm(limit.value))
+    least = limit.least_error / scale if scale and name != DEFECT else 0.0
+    return max(distance(found, {name: limit.value}, name), least)
 
 
 def together(base: np.ndarray, changes: Sequence[tuple[Limit, np.ndarray]], name: str) -> Limit:

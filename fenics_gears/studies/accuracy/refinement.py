@@ -7,24 +7,17 @@ from math import isclose
 
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.errors import SceneError
-from fenics_gears.model.model import Model, model_of
+from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.defaults import NODE_SPACING
 from fenics_gears.studies.accuracy import over_face
-from fenics_gears.studies.accuracy.over_face import LAYERS, SLICES
-from fenics_gears.studies.accuracy.setting import Setting, half_width, own_setting, without_settings
+from fenics_gears.studies.accuracy.over_face import BODY, FAMILY, FLANK, LAYERS, LENGTH, SLICES, STEPS
+from fenics_gears.studies.accuracy.setting import Setting, default_setting, half_width, own_setting
 
-FLANK, NODES, BODY, STEPS, LENGTH = (
-    "flank element size",
-    "contact node spacing",
-    "body element size",
-    "steps per mesh cycle",
-    "contact length",
-)
+NODES, CONDENSATION = "contact node spacing", "condensation"
 # Flank elements and contact nodes, which stand at NODE_SPACING elements. Their errors interact: nodes refined alone
 # converge to what fixed elements give. So whole settings and the reference take both together.
-FAMILY, CONDENSATION = "flank elements and contact nodes", "condensation"
 OF_FAMILY = (FLANK, NODES)
 # Elements and contact nodes in a half-width, body elements in parts of their default, the window in parts of the
 # default, steps in a cycle.
@@ -95,15 +88,14 @@ class Refinement:
         return replace(setting, **{field: getattr(self.levels[place].setting, field) for field in self.fields})
 
 
-def checked_model(scene: Scene) -> Model:
-    """The model of a scene whose accuracy can be measured. Raises SceneError for others."""
-    model = model_of(scene)
+def check_measurable(scene: Scene) -> None:
+    """Raise SceneError for a scene whose accuracy cannot be measured."""
     if not scene.resolves_contact:
         raise SceneError(
             "gears accuracy needs the full contact of elastic flanks: give [gears.material], and leave out"
             " accuracy.model"
         )
-    if model.resolution.condensation == EVERY_STEP:
+    if model_of(scene).resolution.condensation == EVERY_STEP:
         raise SceneError(
             'accuracy.condensation = "every step": accuracy is measured on the fast route. Take "once", or leave it'
             " out."
@@ -117,7 +109,6 @@ def checked_model(scene: Scene) -> Model:
         raise SceneError(
             "load.wheel_torque is 0: without load nothing gives way and there is no error to measure. Give a torque."
         )
-    return model
 
 
 def expected_orders(scene: Scene) -> dict[str, tuple[float, str]]:
@@ -143,13 +134,12 @@ def fine(scene: Scene, quick: bool = False) -> Setting:
 def _setting(scene: Scene, values: dict[str, float]) -> Setting:
     """A whole setting with elements of second order and, unless `values` says otherwise, contact nodes at NODE_SPACING
     of them."""
-    unit, length = half_width(scene), model_of(without_settings(scene)).resolution.contact_grid.length
+    unit, default = half_width(scene), default_setting(scene)
     flank = unit / values[FLANK]
     spacing = unit / values[NODES] if NODES in values else NODE_SPACING * flank
-    found = Setting("P2", flank, spacing, values.get(LENGTH, 1.0) * length, values[BODY], values[STEPS])
+    found = Setting("P2", flank, spacing, values.get(LENGTH, 1.0) * default.length, values[BODY], values[STEPS])
     if not scene.three_dimensional:
         return found
-    default = own_setting(without_settings(scene))
     return replace(found, slices=_whole(values[SLICES], default.slices), layers=_whole(values[LAYERS], default.layers))
 
 
@@ -165,7 +155,7 @@ def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
         values, choices = over_face.QUICK if quick else over_face.FULL, {}
     else:
         values = QUICK if quick else FULL
-    unit, orders, default = half_width(scene), expected_orders(scene), own_setting(without_settings(scene))
+    unit, orders, default = half_width(scene), expected_orders(scene), default_setting(scene)
     orders[LENGTH] = (None, "nothing, once all that touches is inside")
     whole_length = fine(scene, quick).length
     of_value = {
@@ -196,7 +186,7 @@ def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
     # The remeshed route has nodes on the drive flanks and on the path of contact alone.
     if not quick and not scene.three_dimensional and scene.coast_flanks is None and scene.corner_contact is None:
         found.append(condensation(scene))
-    mine = {SCENE: own_setting(scene), DEFAULT: own_setting(without_settings(scene))}
+    mine = {SCENE: own_setting(scene), DEFAULT: default_setting(scene)}
     return tuple(_with_own(each, mine, unit) for each in found)
 
 

@@ -4,28 +4,20 @@ run and timed."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import accumulate
 
 import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.errors import ComputationError, GearsError
+from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
+from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy, Output, Scene
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy import whole
-from fenics_gears.studies.accuracy.convergence import LAST_TERMS, Limit, last_of, richardson, together
-from fenics_gears.studies.accuracy.measures import (
-    DEFECT,
-    Answer,
-    answer,
-    comparable,
-    distance,
-    distances,
-    judged,
-    measures_of,
-)
+from fenics_gears.studies.accuracy.convergence import Limit, error_from, limit_of, together
+from fenics_gears.studies.accuracy.measures import DEFECT, Answer, answer, distances, judged, measures_of
 from fenics_gears.studies.accuracy.over_face import PLANE, in_the_plane
 from fenics_gears.studies.accuracy.refinement import (
     CONDENSATION,
@@ -33,19 +25,17 @@ from fenics_gears.studies.accuracy.refinement import (
     OF_FAMILY,
     Level,
     Refinement,
-    checked_model,
+    check_measurable,
     fine,
     refinements,
 )
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
-from fenics_gears.studies.accuracy.runs import Times, run_sharing, shared_gears
-from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
+from fenics_gears.studies.accuracy.setting import Setting, default_setting, own_setting, without_settings
+from fenics_gears.studies.accuracy.setting_runs import SettingRuns
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
 
 ROUNDS, QUICK_ROUNDS = 5, 1
-# Most seconds for repeating the runs of single settings to time them, unless the user gives another limit.
-SECONDS_ON_SINGLE = 60.0
 # Cheaper models; of flanks resolved over the face there is one, the plane.
 MODELS = (STIFFNESS_TABLE, ISO_6336, RIGID_TEETH)
 OWN, DEFAULTS = "the scene's own", "the program's defaults"
@@ -97,7 +87,7 @@ class AccuracyReport:
     """All that was measured; `uncertainty`: relative, of the reference, by measure; `failures`: what did not run, and
     why.
 
-    rounds: how often whole settings were timed; single settings as often while `seconds_on_single` lasted.
+    rounds: how often whole settings were timed.
     """
 
     scene: Scene
@@ -109,7 +99,6 @@ class AccuracyReport:
     failures: tuple[tuple[str, str], ...]
     machine: dict[str, str]
     rounds: int
-    seconds_on_single: float
 
     @property
     def own(self) -> WholeResult:
@@ -134,44 +123,34 @@ class AccuracyReport:
 
 
 def measure(
-    scene: Scene,
-    progress: Progress | None = None,
-    quick: bool = False,
-    rounds: int | None = None,
-    seconds_on_single: float = SECONDS_ON_SINGLE,
+    scene: Scene, progress: Progress | None = None, quick: bool = False, rounds: int | None = None
 ) -> AccuracyReport:
-    """Refine every setting of a scene alone, then run and time whole settings; `quick`: few levels, coarse ones;
-    `seconds_on_single`: for repeating single settings for their times.
+    """Refine every setting of a scene alone, then run and time whole settings; `quick`: few levels, coarse ones.
 
     Raises SceneError, GeometryError, ComputationError.
     """
     usual = QUICK_ROUNDS if quick or scene.three_dimensional else ROUNDS
-    study = AccuracyStudy(scene, progress or SilentProgress(), quick, rounds or usual, seconds_on_single)
+    study = AccuracyStudy(scene, progress or SilentProgress(), quick, rounds or usual)
     results = study.refine()
     reference, uncertainty = study.reference(results)
     settings, models = study.whole_runs(results, reference)
     return AccuracyReport(
         scene, study.base, results, settings, models, uncertainty, tuple(study.failures), machine(), study.rounds,
-        seconds_on_single,
     )  # fmt: skip
 
 
 class AccuracyStudy:
     """The measurement of one scene: the answers and times of each setting so far, and what failed."""
 
-    def __init__(
-        self, scene: Scene, progress: Progress, quick: bool, rounds: int, seconds_on_single: float = SECONDS_ON_SINGLE
-    ):
-        checked_model(scene)
+    def __init__(self, scene: Scene, progress: Progress, quick: bool, rounds: int):
+        check_measurable(scene)
         # Root stress is taken at one point; the output of it along both fillets is not what is measured here.
         self.scene, self.progress, self.rounds = replace(scene, output=Output()), progress, rounds
-        self.seconds_on_single = seconds_on_single
         self.base, self.refinements = fine(scene, quick), refinements(scene, quick)
         # Length over which pressures are compared, mm.
         self.window = max(level.setting.length for each in self.refinements for level in each.levels)
         self.failures: list[tuple[str, str]] = []
-        self._known: dict[Setting, tuple[Answer, Times]] = {}
-        self._gears = shared_gears()
+        self.runs = SettingRuns(self.scene, self._answer)
 
     def refine(self) -> tuple[RefinementResult, ...]:
         """Run every level with the other settings fine."""
@@ -187,16 +166,15 @@ class AccuracyStudy:
         for done, (name, setting) in enumerate(levels):
             self.progress.update(done, len(levels), name)
             self._run(setting, name)
-        self._time_single_settings()
-        results = [self._result(each) for each in self.refinements if each.base in self._known]
+        results = [self._result(each) for each in self.refinements if each.base in self.runs]
         return tuple(result for result in results if result.levels)
 
     def reference(self, results: tuple[RefinementResult, ...]) -> tuple[Answer, dict[str, float]]:
         """The reference, all settings at their limits, and its relative uncertainty by measure."""
-        base, value = self._known[self.base][0], {}
+        base, value = self.runs.answers[self.base], {}
         uncertainty = dict.fromkeys(measures_of(base), float("nan"))
         moved = [
-            (each.limits, self._known[each.refinement.base][0])
+            (each.limits, self.runs.answers[each.refinement.base])
             for each in results
             if each.refinement.name not in (*OF_FAMILY, CONDENSATION)
         ]
@@ -219,7 +197,7 @@ class AccuracyStudy:
         plain = without_settings(self.scene)
         chosen: dict[str, Setting | None] = {OWN: own_setting(self.scene)}
         if plain != self.scene:
-            chosen[DEFAULTS] = own_setting(plain)
+            chosen[DEFAULTS] = default_setting(self.scene)
         for setting in whole.path(
             self.base, ran, errors, lambda setting: whole.fits(self.scene, setting), whole.ENOUGH
         ):
@@ -237,36 +215,22 @@ class AccuracyStudy:
 
     def _run(self, setting: Setting, name: str) -> bool:
         """Run a setting unless it has run before; whether it could be run."""
-        if setting in self._known:
+        if setting in self.runs:
             return True
         try:
             if not whole.fits(self.scene, setting):
                 raise ComputationError(f"its contact operators would take more than {whole.MOST_BYTES / 1e9:g} GB")
-            run, cycle = run_sharing(setting.of(self.scene), self._gears)
-            self._known[setting] = self._answer(run, setting.of(self.scene), cycle), Times().and_also(run)
+            self.runs.run(setting)
         except GearsError as error:
             self.failures.append((name, str(error).splitlines()[0]))
             return False
         return True
 
-    def _answer(self, run: xr.Dataset, scene: Scene, cycle: Cycle) -> Answer:
+    def _answer(self, run: xr.Dataset, model: Model, cycle: Cycle) -> Answer:
         """All measures; root stress only where contact is resolved on one mesh. Its time is not counted."""
+        scene = model.scene
         recovered = scene.resolves_contact and not scene.three_dimensional and scene.accuracy.condensation != EVERY_STEP
-        return answer(run, self.window, peak_root_stress(run, scene, cycle) if recovered else None)
-
-    def _time_single_settings(self) -> None:
-        """Repeat single settings to time them, the quickest first, as many as can be repeated in all rounds within the
-        time limit."""
-        seconds = {setting: times.total for setting, (_, times) in self._known.items()}
-        repeated = within(seconds, self.seconds_on_single / max(self.rounds - 1, 1))
-        if self.rounds > 1:
-            self.progress.stage("single settings for the time")
-        for turn in range(self.rounds - 1):
-            gears = shared_gears()
-            for place, setting in enumerate(repeated):
-                self.progress.update(turn * len(repeated) + place, (self.rounds - 1) * len(repeated))
-                answers, times = self._known[setting]
-                self._known[setting] = answers, times.and_also(run_sharing(setting.of(self.scene), gears)[0])
+        return answer(run, self.window, peak_root_stress(run, model, cycle) if recovered else None)
 
     def _in_turns(self, scenes: dict[str, Scene]) -> tuple[dict[str, Answer], dict[str, Times]]:
         """Run every scene once a round, with gears of its own, so that other load of the machine affects all of them
@@ -277,9 +241,10 @@ class AccuracyStudy:
             for place, (name, scene) in enumerate(list(left.items())):
                 self.progress.update(turn * len(scenes) + place, self.rounds * len(scenes), name)
                 try:
-                    run, cycle = run_sharing(scene, shared_gears())
+                    model = model_of(scene)
+                    run, cycle = run_sharing(model, shared_gears())
                     if name not in answers:
-                        answers[name] = self._answer(run, scene, cycle)
+                        answers[name] = self._answer(run, model, cycle)
                 except GearsError as error:
                     self.failures.append((name, str(error).splitlines()[0]))
                     del left[name]
@@ -290,13 +255,17 @@ class AccuracyStudy:
     def _result(self, refinement: Refinement) -> RefinementResult:
         """Errors of the levels from the limit of their setting; a choice is compared with its base, for no choice is
         the limit of the others."""
-        base = self._known[refinement.base][0]
-        ran = [(level, *self._known[level.setting]) for level in refinement.levels if level.setting in self._known]
-        regular = [(level, found) for level, found, _ in ran if not level.own or refinement.name == LENGTH]
-        limits = {name: _limit(refinement, regular, base, name) for name in base}
+        answers, base = self.runs.answers, self.runs.answers[refinement.base]
+        ran = [(level, answers[level.setting]) for level in refinement.levels if level.setting in answers]
+        regular = [(level, found) for level, found in ran if not level.own or refinement.name == LENGTH]
+        limits = {name: limit_of(refinement, regular, base, name) for name in base}
         levels = tuple(
-            LevelResult(level, {name: _error(found, limits, name) for name in measures_of(base)}, times)
-            for level, found, times in ran
+            LevelResult(
+                level,
+                {name: error_from(limits, found, name) for name in measures_of(base)},
+                self.runs.times[level.setting],
+            )
+            for level, found in ran
         )
         return RefinementResult(refinement, levels, limits)
 
@@ -307,37 +276,6 @@ def scene_of(scene: Scene, name: str, setting: Setting | None) -> Scene:
     if setting is None:
         return in_the_plane(scene) if name == PLANE else replace(scene, accuracy=_accuracy_of(scene, name))
     return {OWN: scene, DEFAULTS: without_settings(scene)}.get(name) or setting.of(scene)
-
-
-def within(seconds: dict[Setting, float], budget: float) -> list[Setting]:
-    """The quickest settings that together take no longer than `budget` (s), in the order in which they were run."""
-    quickest = sorted(seconds, key=seconds.__getitem__)
-    chosen = {
-        setting for setting, spent in zip(quickest, accumulate(seconds[each] for each in quickest)) if spent <= budget
-    }
-    return [setting for setting in seconds if setting in chosen]
-
-
-def _error(found: Answer, limits: dict[str, Limit], name: str) -> float:
-    """Relative distance from a limit; at least `least_error`, where the limit is the finest level itself."""
-    if name not in limits or name not in found:
-        return float("nan")
-    limit = limits[name]
-    scale = float(np.linalg.norm(limit.value))
-    least = limit.least_error / scale if scale and name != DEFECT else 0.0
-    return max(distance(found, {name: limit.value}, name), least)
-
-
-def _limit(refinement: Refinement, ran: list, base: Answer, name: str) -> Limit:
-    if len(ran) > 1 and (refinement.expected is not None or refinement.name == LENGTH):
-        last = ran[-LAST_TERMS:]
-        values = comparable([found[name] for _, found in last], name)
-        return (
-            last_of(values)
-            if refinement.expected is None
-            else richardson(values, [level.size for level, _ in last], refinement.expected)
-        )
-    return Limit(base[name], None, 0.0)
 
 
 def _accuracy_of(scene: Scene, name: str) -> Accuracy:

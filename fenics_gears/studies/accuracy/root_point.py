@@ -14,24 +14,22 @@ import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
-from fenics_gears.model.model import model_of
-from fenics_gears.scene.data import Scene
+from fenics_gears.model.model import Model
 from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
 
 PINION = 0
 
 
-def peak_root_stress(run: xr.Dataset, scene: Scene, cycle: Cycle) -> float:
+def peak_root_stress(run: xr.Dataset, model: Model, cycle: Cycle) -> float:
     """Largest tension (MPa) at the point over the last stored mesh cycle, of both fillets: it is that on the loaded
     side.
 
-    run: a result of `scene` with contact fields; cycle: its mesh cycle.
+    run: a result of `model` with contact fields; cycle: its mesh cycle.
     """
-    model = model_of(scene)
     rows = _rows(
-        model.pair.pinion, scene.gears.material_of("pinion"), model.resolution.discretisation(0),
+        model.pair.pinion, model.scene.gears.material_of("pinion"), model.resolution.discretisation(0),
         model.touching.reach.farthest + 1,
-        scene.coast_flanks is not None,
+        model.scene.coast_flanks is not None,
     )  # fmt: skip
     point = point_rows(rows)
     steps = range(run.sizes["contact_time"] - cycle.steps, run.sizes["contact_time"])

@@ -4,6 +4,7 @@ given."""
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
@@ -91,7 +92,13 @@ def body_size(order: int, over_face: bool) -> float:
 def half_width(scene: Scene) -> float:
     """The contact half-width (mm) in which sizes are given: Hertz's, within bounds, for it vanishes with the load."""
     elements = ELEMENTS_PER_HALF_WIDTH_ON_FACE if scene.three_dimensional else ELEMENTS_PER_HALF_WIDTH
-    return model_of(without_settings(scene)).resolution.flank_element_size * elements
+    return default_setting(scene).flank * elements
+
+
+@lru_cache(maxsize=4)
+def default_setting(scene: Scene) -> Setting:
+    """The setting that the program would choose."""
+    return own_setting(without_settings(scene))
 
 
 def own_setting(scene: Scene) -> Setting:

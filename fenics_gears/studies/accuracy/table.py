@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import isnan
 from pathlib import Path
 
+from fenics_gears.runs.timed import STAGES, Times
 from fenics_gears.studies.accuracy.convergence import largest_part
 from fenics_gears.studies.accuracy.measures import OVER_FACE, judged, measures_of
 from fenics_gears.studies.accuracy.refinement import CONDENSATION
 from fenics_gears.studies.accuracy.report import AccuracyReport, RefinementResult, WholeResult
-from fenics_gears.studies.accuracy.runs import STAGES, Times
 from fenics_gears.studies.machine import write_lines
 
 # Measures whose observed orders are shown.
@@ -187,15 +187,9 @@ def remarks(report: AccuracyReport) -> list[str]:
 
 def timed(report: AccuracyReport) -> str:
     """How often settings were timed, in words."""
-    counts = [each.times.rounds for result in report.refinements for each in result.levels]
-    again = sum(rounds >= report.rounds for rounds in counts)
-    words = f"Times are medians. Combinations of settings were timed {report.rounds} times in turns, "
-    if again == len(counts):
-        return words + "single settings as often."
     return (
-        words
-        + f"{again} of {len(counts)} single settings as often. The slowest single settings were timed once, to keep the"
-        f" time limit of {report.seconds_on_single:g} s."
+        f"Times of combinations of settings are medians of {report.rounds} rounds, in turns. Single settings were timed"
+        " once."
     )
 
 

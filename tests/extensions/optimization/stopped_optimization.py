@@ -13,9 +13,9 @@ if "OMPI_COMM_WORLD_RANK" not in os.environ:
     sys.modules["mpi4py"] = None
 
 from fenics_gears.commands import cli
-from fenics_gears.extensions.optimization import run_lines
+from fenics_gears.runs import lines
 
-done, append = 0, run_lines.append
+done, append = 0, lines.append
 
 
 def killed_in_time(directory, line):
@@ -30,5 +30,5 @@ def killed_in_time(directory, line):
 
 
 if __name__ == "__main__":
-    run_lines.append = killed_in_time
+    lines.append = killed_in_time
     sys.exit(cli.main(sys.argv[2:]))

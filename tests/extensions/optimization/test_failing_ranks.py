@@ -9,8 +9,8 @@ pytestmark = [pytest.mark.ranks, pytest.mark.nightly]
 COMMAND = (["optimize", "design.toml"], {"pair.toml": PLANE, "design.toml": RIGID + VARIABLES + GOAL + FEWER})
 STAGES = {
     "reading a design": "extensions.optimization.optimize:load_design",
-    "a design's run": "extensions.optimization.evaluations:simulate",
-    "keeping a run": "extensions.optimization.run_lines:append",
+    "a design's run": "runs.runs:simulate",
+    "keeping a run": "runs.lines:append",
     "choosing": "extensions.optimization.optimize:chosen",
 }
 # Every rank comes to them; a run that fails is a design without numbers.

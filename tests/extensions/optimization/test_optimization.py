@@ -14,7 +14,6 @@ from tests.studies.conftest import CHECKOUT, command, environment
 
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.extensions.optimization import evaluations, run_lines
 from fenics_gears.extensions.optimization import optimize as optimization
 from fenics_gears.extensions.optimization.conditions import samples, scattered
 from fenics_gears.extensions.optimization.design import QUANTILE, WORST, Bound, Goal, Loads, Tolerances
@@ -26,11 +25,13 @@ from fenics_gears.extensions.optimization.search import front
 from fenics_gears.geometry.flank_tolerance import flank_tolerance, helix_tolerance
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.results.files import read
+from fenics_gears.runs import lines as run_lines
+from fenics_gears.runs import runs
+from fenics_gears.runs.record import record_of
+from fenics_gears.runs.team import Alone
 from fenics_gears.scene.read import build_scene, load_scene
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.combine import record_of
 from fenics_gears.studies.fields import changed
-from fenics_gears.studies.ranks import Alone
 from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.progress import SilentProgress
 
@@ -322,19 +323,20 @@ def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):
     """Authority: the promise of the page; a design whose run fails has no numbers and the reason, is not chosen, and is
     not tried again."""
 
-    def failing(scene, **arguments):
-        if scene.tip_relief is not None and scene.tip_relief.pinion.depth > 0.025:
+    def failing(model, **arguments):
+        relief = model.scene.tip_relief
+        if relief is not None and relief.pinion.depth > 0.025:
             raise ComputationError("deep reliefs fail here")
-        return simulate(scene, **arguments)
+        return simulate(model, **arguments)
 
-    monkeypatch.setattr(evaluations, "simulate", failing)
+    monkeypatch.setattr(runs, "simulate", failing)
     path = write(folder, STILL + VARIABLES + GOAL + FEW)
     outcome = found(path)
     failed = [each for each in outcome.tried if each.failure]
     assert failed and len(failed) < len(outcome.tried)
     assert all(each.failure == "deep reliefs fail here" and not each.goals for each in failed)
     assert outcome.chosen.values["tip_relief.depth"] <= 25.0 and not outcome.chosen.failure
-    monkeypatch.setattr(evaluations, "simulate", None)
+    monkeypatch.setattr(runs, "simulate", None)
     again = found(path)
     assert again.computed == 0 and [each.failure for each in again.tried] == [each.failure for each in outcome.tried]
 
@@ -386,7 +388,7 @@ def test_words_and_single_gears_may_vary(folder):
 
 
 def test_a_cut_line_harms_no_other(tmp_path):
-    """Authority: the promise of run_lines; what is cut short is no run, and the next line begins below it."""
+    """Authority: the promise of runs.lines; what is cut short is no run, and the next line begins below it."""
     run_lines.append(tmp_path, {"key": "one"})
     with open(tmp_path / "0.jsonl", "ab") as file:
         file.write(b'{"key": "two", "numb')

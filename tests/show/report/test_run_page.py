@@ -21,7 +21,7 @@ from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.report.effects import effects
 from fenics_gears.show.report.stress import stress
 from fenics_gears.show.run import Run
-from fenics_gears.studies.effect_lattice.table import CSV_COLUMNS
+from fenics_gears.studies.effect_costs.table import CSV_COLUMNS
 
 CHECKOUT = Path(__file__).parents[3]
 pytestmark = pytest.mark.usefixtures("without_stills")
@@ -256,7 +256,7 @@ def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
     """--effects measures the run's own scene and writes what `gears effects` writes beside the run, before the page
     reads it."""
     from fenics_gears.commands import measuring
-    from fenics_gears.studies.effect_lattice import measured
+    from fenics_gears.studies.effect_costs import measured
 
     dataset = results.load(run / "run.nc")
     error = dataset.attrs["peak_to_peak_transmission_error"] * dataset.attrs["base_radius_wheel"]

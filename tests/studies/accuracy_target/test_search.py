@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from fenics_gears.studies.accuracy_target.choose import (
+from fenics_gears.studies.accuracy.target import (
     EXTRAPOLATED,
     RATIO,
     RATIO_OF_SLICES,
@@ -15,7 +15,7 @@ from fenics_gears.studies.accuracy_target.choose import (
     round_steps,
     search,
 )
-from fenics_gears.studies.accuracy_target.trial_runs import FEWEST_STEPS, MESH, SLICES, STEPS, Sizes, TargetNotReached
+from fenics_gears.studies.accuracy.trial_runs import FEWEST_STEPS, MESH, SLICES, STEPS, Sizes, TargetNotReached
 
 TRIED = Sizes(2.0, 60)
 MODULE = 4.5

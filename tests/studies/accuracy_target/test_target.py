@@ -16,15 +16,15 @@ from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import model_of
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.results.validity import WINDOW_REACHED
+from fenics_gears.runs.timed import run_sharing
 from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.studies.accuracy import convergence, setting_runs, trial_runs
+from fenics_gears.studies.accuracy import target as choosing
 from fenics_gears.studies.accuracy.measures import JUDGED, distance, judged_answer
-from fenics_gears.studies.accuracy.runs import run_sharing
-from fenics_gears.studies.accuracy_target import choose as choosing
-from fenics_gears.studies.accuracy_target import trial_runs
-from fenics_gears.studies.accuracy_target.choose import choose
-from fenics_gears.studies.accuracy_target.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
-from fenics_gears.studies.simulate import simulate
+from fenics_gears.studies.accuracy.target import choose
+from fenics_gears.studies.accuracy.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
 from fenics_gears.system.progress import SilentProgress
 
 TARGET = 0.1
@@ -54,13 +54,13 @@ def runs_once():
     """Every trial run is made once for all tests here."""
     made = {}
 
-    def once(scene, gears, progress):
-        if scene not in made:
-            made[scene] = run_sharing(scene, gears, progress)
-        return made[scene]
+    def once(model, gears, progress):
+        if model.scene not in made:
+            made[model.scene] = run_sharing(model, gears, progress)
+        return made[model.scene]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(trial_runs, "run_sharing", once)
+        patch.setattr(setting_runs, "run_sharing", once)
         yield once
 
 
@@ -111,7 +111,7 @@ def test_the_scene_that_the_result_carries_repeats_it(run):
 def test_a_scene_changed_in_python_can_have_a_target(scene, monkeypatch):
     """The text that the result carries gives what was run, by its reader: the chosen settings, and what was changed."""
     monkeypatch.setattr(
-        "fenics_gears.studies.accuracy_target.choose.choose",
+        "fenics_gears.studies.accuracy.target.choose",
         lambda *arguments: choosing.Chosen(Accuracy(element="P1", flank_element_size=0.25), None, {"x": 0.05}, 1),
     )
     result = simulate(replace(scene, load=Load(0.9 * scene.load.wheel_torque)))
@@ -142,7 +142,7 @@ def test_the_clock_has_no_say(scene, run, runs_once, monkeypatch):
             cycle,
         )
 
-    monkeypatch.setattr(trial_runs, "run_sharing", timed_at_random)
+    monkeypatch.setattr(setting_runs, "run_sharing", timed_at_random)
     monkeypatch.setattr(time, "perf_counter", lambda: float(random.uniform(0.0, 1e3)))
     found = choose(scene, TARGET, SilentProgress())
     assert found.estimated_error == run.attrs["estimated_error"] and found.runs == run.attrs["target_runs"]
@@ -184,8 +184,8 @@ def test_an_error_is_that_of_order_2_with_its_factor_of_safety(scene, monkeypatc
     monkeypatch.setattr(runs, "_answer", known)
     monkeypatch.setattr(runs, "_with_window_long_enough", lambda sizes: None)
     errors = runs.errors(Sizes(0.5, 80))
-    assert errors[MESH] == pytest.approx(trial_runs.SAFETY * 0.01 * 0.25, rel=0.02)
-    assert errors[STEPS] == pytest.approx(trial_runs.SAFETY * 16.0 / 80**2, rel=0.02)
+    assert errors[MESH] == pytest.approx(convergence.SAFETY_OF_TWO * 0.01 * 0.25, rel=0.02)
+    assert errors[STEPS] == pytest.approx(convergence.SAFETY_OF_TWO * 16.0 / 80**2, rel=0.02)
 
 
 def test_costs_are_those_of_the_scene_with_the_settings(scene):
@@ -225,7 +225,7 @@ def test_memory_that_runs_out_is_a_typed_error(scene, monkeypatch):
     def no_memory(scene, gears, progress):
         raise MemoryError
 
-    monkeypatch.setattr(trial_runs, "run_sharing", no_memory)
+    monkeypatch.setattr(setting_runs, "run_sharing", no_memory)
     with pytest.raises(TargetNotReached, match="not enough memory for the run with P2"):
         choose(scene, TARGET, SilentProgress())
 
@@ -253,7 +253,7 @@ def test_choosing_can_be_interrupted_within_a_run(scene, monkeypatch):
             if self.said == 2:
                 raise KeyboardInterrupt
 
-    monkeypatch.setattr(trial_runs, "run_sharing", run_sharing)
+    monkeypatch.setattr(setting_runs, "run_sharing", run_sharing)
     progress = Interrupted()
     with pytest.raises(KeyboardInterrupt):
         choose(scene, TARGET, progress)

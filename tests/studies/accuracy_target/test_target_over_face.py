@@ -10,8 +10,8 @@ from fenics_gears.model.face_resolution import face_warnings
 from fenics_gears.model.model import model_of
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.measures import JUDGED, OVER_FACE, distance, judged_answer
-from fenics_gears.studies.simulate import simulate
 
 TARGET = 0.03
 PAIRS = {

@@ -7,8 +7,8 @@ import statistics
 from math import isnan, nan
 from pathlib import Path
 
-from fenics_gears.studies.effect_lattice.measured import EffectReport, Row
-from fenics_gears.studies.effect_lattice.subsets import ALL, BARE, in_order
+from fenics_gears.studies.effect_costs.measured import EffectReport, Row
+from fenics_gears.studies.effect_costs.subsets import ALL, BARE
 from fenics_gears.studies.machine import write_lines
 
 MICRO, MILLI = 1e6, 1e3
@@ -73,12 +73,8 @@ def change(report: EffectReport, row: Row, name: str) -> float | None:
     """Relative change of a number of the rows, such as "transmission_error", against what the row is compared with;
     None without that."""
     reference = report.reference(row)
-    return None if reference is None else relative_change(reference, row, name)
-
-
-def relative_change(reference: Row, row: Row, name: str) -> float | None:
-    """Relative change of a number from one row to another; None where there is nothing to be relative to."""
-    changed = getattr(row, name) / getattr(reference, name) - 1.0 if getattr(reference, name) else nan
+    before = 0.0 if reference is None else getattr(reference, name)
+    changed = getattr(row, name) / before - 1.0 if before else nan
     return None if isnan(changed) else changed
 
 
@@ -109,7 +105,7 @@ def _words(remark: str) -> str:
 
 
 def ratio_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
-    """Rows of label, value, unit: bare against full scene, measured and expected."""
+    """Rows of label, value, unit: bare against full scene."""
     bare, full = report.row(BARE), report.row(ALL)
     if not report.ratios:
         return []
@@ -122,40 +118,13 @@ def ratio_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
             f"{statistics.median(report.ratios):.2f}, {low:.2f} to {high:.2f} in {len(report.ratios)} rounds",
             "",
         ),
-        (
-            "ratio expected of the arithmetic alone",
-            f"{full.operations / bare.operations:.2f}, as if a step were nothing else",
-            "",
-        ),
     ]
-
-
-def needs_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
-    """Rows of label, value, unit: what leaving an effect out changes and saves, the largest change of either answer
-    first."""
-    full, found = report.row(ALL), []
-    for section in in_order(full.subset.sections if full is not None else ()):
-        # With few effects all but one is the bare scene or that of one effect: take the largest set without this
-        # effect.
-        others = [row for row in report.rows if section not in row.subset.sections]
-        row = max(others, key=lambda each: len(each.subset.sections), default=None)
-        changes = (
-            []
-            if row is None
-            else [relative_change(full, row, name) for name in ("transmission_error", "peak_force", "step_time")]
-        )
-        if not changes or None in changes:
-            continue
-        gone = in_order(full.subset.sections - row.subset.sections - {section})
-        words = "T_EPP {}, peak force {}, time a step {}".format(*map(in_percent, changes))
-        found.append((max(map(abs, changes[:2])), (f"without {', '.join([section, *gone])}", words, "")))
-    return [words for _, words in sorted(found, key=lambda each: -each[0])]
 
 
 CSV_COLUMNS = (
     "effects", "sections", "centre_coordinates", "contact_rows", "closed_nodes_mean", "closed_nodes_max",
     "newton_iterations_per_step",
-    "operations_per_step", "step_time_s", "step_time_least_s", "step_time_most_s", "operators_s", "condensing_s",
+    "step_time_s", "step_time_least_s", "step_time_most_s", "operators_s", "condensing_s",
     "transmission_error_peak_to_peak_mm", "peak_force_N", "change_of_transmission_error", "change_of_peak_force",
     "compared_with",
     "remarks", "peak_contact_pressure_MPa", "face_load_factor", "processor", "load", "threads", "versions",
@@ -173,7 +142,7 @@ def _line(report: EffectReport, row: Row) -> tuple:
     return (
         row.subset.name, " ".join(sorted(row.subset.sections)), row.coordinates, row.contact_rows, row.closed_nodes,
         row.most_closed_nodes,
-        row.iterations, row.operations, row.step_time, min(row.step_times), max(row.step_times), row.operators,
+        row.iterations, row.step_time, min(row.step_times), max(row.step_times), row.operators,
         row.condense,
         row.transmission_error, row.peak_force, change(report, row, "transmission_error"),
         change(report, row, "peak_force"),

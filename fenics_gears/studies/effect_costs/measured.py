@@ -11,14 +11,15 @@ import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.errors import ComputationError, GearsError, SceneError
-from fenics_gears.model.model import model_of
+from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.runs.gear_store import GearStore
+from fenics_gears.runs.runs import completed
+from fenics_gears.runs.timed import shared_gears
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.warm_up import compile_kernels
-from fenics_gears.studies.effect_lattice.subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, lattice
-from fenics_gears.studies.gear_store import GearStore
+from fenics_gears.studies.effect_costs.subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, subsets_of
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
 
@@ -67,27 +68,6 @@ class Row:
         return self.coordinates + self.contact_rows
 
     @property
-    def operations(self) -> float:
-        """Floating-point operations of a step, as many as its Newton iterations need.
-
-        An iteration of `contact.newton` sets up and solves a dense system of N = c closed nodes + k centre coordinates
-        (a slipping node's tangential force is no unknown) and multiplies out the displacement of all m contact rows:
-        2/3 N^3 + 2 N^2 (elimination, substitution) + N^2, and 2 c^2 with friction (assembly) + 2 m (l + k), with l = c
-        loaded rows, 2 c with friction. With friction a step multiplies out once, m (m + k), what the material points
-        had moved before.
-        """
-        friction = self.subset.scene.friction is not None
-        closed, rows, size = self.closed_nodes, self.contact_rows, self.closed_nodes + self.coordinates
-        loaded, assembling, history = (
-            (2.0 * closed, 2.0 * closed**2, rows * (rows + self.coordinates)) if friction else (closed, 0.0, 0.0)
-        )
-        return (
-            self.iterations
-            * (2.0 / 3.0 * size**3 + 3.0 * size**2 + assembling + 2.0 * rows * (loaded + self.coordinates))
-            + history
-        )
-
-    @property
     def step_time(self) -> float:
         """Median time of a step, s."""
         return statistics.median(self.step_times)
@@ -133,12 +113,12 @@ def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS
     subset runs."""
     progress = progress or SilentProgress()
     scene = at_one_accuracy(scene)
-    subsets, skipped = lattice(scene)
+    subsets, skipped = subsets_of(scene)
     progress.stage("compile")
     for tangential in (False, True):
         compile_kernels(tangential)
     progress.stage("condense, and answers")
-    store, benches, kept = GearStore(None, cycles=False), [], 0.0
+    store, benches, kept = shared_gears(), [], 0.0
     for done, subset in enumerate(subsets):
         progress.update(done, len(subsets), subset.name)
         try:
@@ -194,7 +174,11 @@ class Bench:
     def __init__(self, subset: Subset, store: GearStore):
         self.subset, self._store, self._model = subset, store, model_of(subset.scene)
         self._gears, self.cycle, self._seconds = self._build()
-        self._whole = self._run(subset.scene, self.cycle)
+        self._whole = self._run(self._model, self.cycle)
+        motion = subset.scene.motion
+        cycles = min(motion.mesh_cycles, max(1, round(TIMED_STEPS / self._model.resolution.steps_per_mesh_cycle)))
+        shorter = replace(motion, mesh_cycles=cycles, recorded_cycles=1)
+        self._shorter = model_of(replace(subset.scene, motion=shorter))
         self._step_times: list[float] = []
         operators = [self.cycle.position(step).operator for step in range(self.cycle.steps)]
         self.bytes = sum(operator.compliance.nbytes for operator in operators)
@@ -208,18 +192,12 @@ class Bench:
             cycle.position(step)
         return gears, cycle, time.perf_counter() - begun
 
-    def _run(self, scene: Scene, cycle: Cycle) -> xr.Dataset:
-        result = simulate(scene, preparation=lambda model, progress, cache: (self._gears, cycle))
-        if not result.attrs["complete"]:
-            raise KeyboardInterrupt
-        return result
+    def _run(self, model: Model, cycle: Cycle) -> xr.Dataset:
+        return completed(model, lambda model, progress, cache: (self._gears, cycle))
 
     def time_steps(self) -> None:
         """One more timed run, of the scene's first mesh cycles."""
-        motion = self._model.scene.motion
-        cycles = min(motion.mesh_cycles, max(1, round(TIMED_STEPS / self._model.resolution.steps_per_mesh_cycle)))
-        shorter = replace(self.subset.scene, motion=replace(motion, mesh_cycles=cycles, recorded_cycles=1))
-        timed = self._run(shorter, self.cycle if self.cycle is not None else self._build()[1])
+        timed = self._run(self._shorter, self.cycle if self.cycle is not None else self._build()[1])
         self._step_times.append(timed.attrs["time_march"] / timed.attrs["steps"])
 
     def row(self) -> Row:

@@ -9,8 +9,9 @@ from dataclasses import dataclass, replace
 from math import ceil, inf, sqrt
 
 from fenics_gears.scene.data import Accuracy, Scene
+from fenics_gears.studies.accuracy.convergence import EXPECTED_ORDER
 from fenics_gears.studies.accuracy.setting import Setting
-from fenics_gears.studies.accuracy_target.trial_runs import (
+from fenics_gears.studies.accuracy.trial_runs import (
     FEWEST_STEPS,
     MESH,
     SLICES,
@@ -151,7 +152,7 @@ def errors_at(tried: Sizes, errors: Errors, sizes: Sizes) -> Errors:
         STEPS: tried.steps / sizes.steps,
         SLICES: tried.slices / (sizes.slices or 1),
     }
-    return {name: error * ratios[name] ** 2 for name, error in errors.items()}
+    return {name: error * ratios[name] ** EXPECTED_ORDER for name, error in errors.items()}
 
 
 def _cheapest(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Sizes:

@@ -67,7 +67,7 @@ class Skipped:
     reason: str
 
 
-def lattice(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
+def subsets_of(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
     """The subsets of a scene's effects that are run, and those that make no scene; no set of effects comes twice.
 
     The scene must have been read from its text: the rules between sections are the text's.
@@ -103,7 +103,7 @@ def _parts(whole: Subset) -> list[Subset]:
     if not whole.scene.three_dimensional:
         return []
     # Imported here: plane scenes have none.
-    from fenics_gears.studies.effect_lattice.parts import without_parts
+    from fenics_gears.studies.effect_costs.parts import without_parts
 
     return [Subset(LEFT_OUT, name, whole.sections, scene) for name, scene in without_parts(whole.scene)]
 

@@ -16,13 +16,14 @@ from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.validity import WINDOW_REACHED
+from fenics_gears.runs.runs import Ticking
 from fenics_gears.scene.accuracy import MOST_CONTACT_NODES
 from fenics_gears.scene.data import Output, Scene
 from fenics_gears.scene.rules import FINEST_BODY, FINEST_ELEMENT
-from fenics_gears.studies.accuracy.measures import Answer, distance, judged_answer
-from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
+from fenics_gears.studies.accuracy.convergence import SAFETY_OF_SLICES, SAFETY_OF_TWO, error_of_two
+from fenics_gears.studies.accuracy.measures import Answer, judged_answer
 from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
-from fenics_gears.studies.work import Ticking
+from fenics_gears.studies.accuracy.setting_runs import SettingRuns
 
 # Fewest steps in a mesh cycle, and the most that are taken for the sake of vibrations: if these are still faster, the
 # motion follows the static one.
@@ -30,11 +31,6 @@ FEWEST_STEPS, MOST_STEPS = 40, 1280
 MESH, STEPS, SLICES = "finite elements and contact nodes", "steps per mesh cycle", "slices"
 FEWEST_LAYERS, ROUNDING = 2, 1e-9
 COARSER = 2
-# Errors are taken to be so many times what order 2 makes of the difference: at coarse sizes it falls more slowly, and
-# signs of its parts differ.
-SAFETY = 2.5
-# Of slices, whose differences keep their sign and fall with an order of 1.7: by that alone 1.3.
-SAFETY_OF_SLICES = 1.8
 # Gears kept in memory: pinion and wheel of two meshes.
 KEPT_GEARS = 4
 # Factor by which the contact window is lengthened where contact reaches its end, and how often.
@@ -66,9 +62,9 @@ class TrialRuns:
     def __init__(self, scene: Scene, begun: Callable[[str], None], tick: Callable[[], None] | None = None):
         self._whole = without_settings(scene)
         self._trial = replace(self._whole, output=Output(), motion=replace(scene.motion, recorded_cycles=1))
-        self._begun, self._tick, self._gears = begun, tick, shared_gears(KEPT_GEARS)
+        self._begun, self._tick = begun, tick
+        self._known = SettingRuns(self._trial, lambda run, model, cycle: judged_answer(run), KEPT_GEARS)
         self._default = own_setting(self._whole)
-        self._known: dict[Setting, Answer] = {}
         # Without friction and inertia the value at a step does not depend on the steps before.
         self.steps_matter = scene.friction is not None or scene.inertia is not None
         self.runs = 0
@@ -151,16 +147,15 @@ class TrialRuns:
         except GearsError as error:
             raise TargetNotReached(f"{setting.words}: {error}") from None
 
-    def _error(self, sizes: Sizes, coarser: Sizes, safety: float = SAFETY) -> float:
+    def _error(self, sizes: Sizes, coarser: Sizes, safety: float = SAFETY_OF_TWO) -> float:
         """Error of `sizes`, from the difference to a run that is coarser in one of them."""
-        one, other = self._answer(sizes), self._answer(coarser)
-        return safety / (COARSER**2 - 1.0) * max(distance(other, one, measure) for measure in one)
+        return error_of_two(self._answer(sizes), self._answer(coarser), COARSER, safety)
 
     def _answer(self, sizes: Sizes) -> Answer:
         setting = self.setting(sizes)
         if setting not in self._known:
-            self._known[setting] = judged_answer(self._run(setting))
-        return self._known[setting]
+            self._run(setting)
+        return self._known.answers[setting]
 
     def _with_window_long_enough(self, sizes: Sizes) -> None:
         """Lengthen the contact window until no contact reaches its ends: a longer one then only moves the contact
@@ -169,9 +164,7 @@ class TrialRuns:
             setting = self.setting(sizes)
             if setting in self._known:
                 return
-            run = self._run(setting)
-            if WINDOW_REACHED not in run.attrs["warnings"]:
-                self._known[setting] = judged_answer(run)
+            if WINDOW_REACHED not in self._run(setting).attrs["warnings"]:
                 return
             self._default = replace(self._default, length=LONGER * self._default.length)
         raise TargetNotReached("contact reaches the ends of the contact window however long it is")
@@ -180,7 +173,7 @@ class TrialRuns:
         self.runs += 1
         self._begun(setting.words)
         try:
-            return run_sharing(setting.of(self._trial), self._gears, Ticking(self._tick))[0]
+            return self._known.run(setting, Ticking(self._tick))
         except MemoryError:
             raise TargetNotReached(f"there is not enough memory for the run with {setting.words}") from None
         except GearsError as error:

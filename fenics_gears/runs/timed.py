@@ -8,10 +8,12 @@ from dataclasses import dataclass
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.model import Model
+from fenics_gears.runs.gear_store import GearStore
+from fenics_gears.runs.runs import completed
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.gear_store import GearStore
+from fenics_gears.simulation.routes import Prepared
 from fenics_gears.system.progress import Progress, SilentProgress
 
 STAGES = ("mesh", "condense", "march")
@@ -54,7 +56,7 @@ def shared_gears(most: int | None = None) -> GearStore:
     return GearStore(most, cycles=False)
 
 
-def run_sharing(scene: Scene, gears: GearStore, progress: Progress | None = None) -> tuple[xr.Dataset, Cycle]:
+def run_sharing(scene: Scene | Model, gears: GearStore, progress: Progress | None = None) -> tuple[xr.Dataset, Cycle]:
     """A run that shares gears with others, without the cache, and its mesh cycle; its times include condensing these
     gears.
 
@@ -62,12 +64,9 @@ def run_sharing(scene: Scene, gears: GearStore, progress: Progress | None = None
     """
     cycles = []
 
-    def preparation(model: Model, progress, cache):
-        compliances, cycle = gears.prepared(model, SilentProgress(), None)
-        cycles.append(cycle)
-        return compliances, cycle
+    def preparation(model: Model, progress: Progress, cache: Cache | None) -> Prepared:
+        found = gears.prepared(model, SilentProgress(), None)
+        cycles.append(found[1])
+        return found
 
-    result = simulate(scene, progress=progress, preparation=preparation)
-    if not result.attrs["complete"]:
-        raise KeyboardInterrupt
-    return result, cycles[0]
+    return completed(scene, preparation, progress), cycles[0]

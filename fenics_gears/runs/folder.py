@@ -1,0 +1,103 @@
+"""Runs in a folder: a NetCDF file for each, or a text on why it failed."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import json
+import logging
+import os
+import traceback
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import xarray as xr
+
+from fenics_gears import results
+from fenics_gears.errors import ComputationError
+from fenics_gears.runs.record import Record, record_of
+from fenics_gears.runs.run import Run
+from fenics_gears.runs.runs import Failure, failure_of
+from fenics_gears.system.output import remove_left_over, write_whole
+
+LOGGER = logging.getLogger(__name__)
+ENDING, FAILED_ENDING = ".nc", ".failed.txt"
+
+
+@dataclass(frozen=True)
+class Folder:
+    """A folder of runs. A file is known by what it holds: a run whose index is another by now gives it a new name."""
+
+    directory: Path
+
+    def known(self, runs: Iterable[Run]) -> dict[str, Record]:
+        """Records of the runs whose whole and undamaged files are there."""
+        files = {path.stem.rpartition("-")[2]: path for path in sorted(self.directory.glob(f"*{ENDING}"))}
+        found = {}
+        for run in runs:
+            path = files.get(run.name.rpartition("-")[2])
+            record = None if path is None else _undamaged(path, run)
+            if record is not None:
+                found[run.key] = record
+                if path.stem != run.name:
+                    os.replace(path, self._file(run, ENDING))
+        return found
+
+    def keep(self, run: Run, result: xr.Dataset) -> Record:
+        """Write the result and return its record; a note on an earlier failure goes."""
+        results.save(result.assign_attrs(case_key=run.key, case_values=json.dumps(run.values)), self._file(run, ENDING))
+        self._file(run, FAILED_ENDING).unlink(missing_ok=True)
+        return record_of(result)
+
+    def keep_failure(self, run: Run, error: Exception) -> Failure:
+        """Write why the run failed, and its scene; the next time it is tried again."""
+        reason, details = failure_of(error), "".join(traceback.format_exception(error))
+        text = f"{run} failed: {reason}\n\n{details}\nIts scene:\n\n{run.scene.text}"
+        try:
+            write_whole(self._file(run, FAILED_ENDING), lambda aside: aside.write_text(text, encoding="utf-8"))
+        except ComputationError as unwritten:
+            LOGGER.warning("%s: the note on its failure could not be written: %s", run, unwritten)
+        return reason
+
+    def _file(self, run: Run, ending: str) -> Path:
+        return self.directory / f"{run.name}{ending}"
+
+
+def _undamaged(path: Path, run: Run) -> Record | None:
+    try:
+        result = results.load(path)
+        if (result.attrs.get("case_key"), result.attrs.get("complete")) != (run.key, 1):
+            raise ValueError("it does not hold what was written into it")
+        return record_of(result)
+    # A damaged HDF5 file is reported by many types, RuntimeError and KeyError among them.
+    except Exception as error:
+        LOGGER.warning("%s is not usable and its case is computed again: %s", path, error)
+        return None
+
+
+@contextlib.contextmanager
+def sole_writer(directory: Path, inside: str = "cases") -> Iterator[None]:
+    """Lock the study's directory for this process, make the folder `inside` it, and remove half-written files of a
+    study that was killed.
+
+    Raises ComputationError where another study is writing there, or nothing can be written.
+    """
+    try:
+        (directory / inside).mkdir(parents=True, exist_ok=True)
+        lock = open(directory / ".lock", "w")
+    except OSError as error:
+        raise ComputationError(f"{directory}: cannot be written to: {error.strerror or error}") from error
+    with lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise ComputationError(
+                f"{directory}: another study is writing there. Wait for it, or choose another directory with --output"
+                " DIR."
+            ) from None
+        except OSError as error:
+            LOGGER.debug("%s: no locks on this file system: %s", directory, error)
+        for written in (directory, directory / inside):
+            remove_left_over(written)
+        yield

@@ -1,0 +1,91 @@
+"""Runs as lines of JSON, in a file of its own for each process, so that a kill loses no finished run.
+
+A line is written at once when its run has ended. One that a kill or a full disk cut short is none: it is not read, and
+the next one begins below it.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from fenics_gears.errors import ComputationError, GearsError
+from fenics_gears.numbers_version import NUMBERS_VERSION
+from fenics_gears.runs.run import Run
+from fenics_gears.runs.runs import Failure, failure_of
+from fenics_gears.system.job import communicator
+
+ENDING = ".jsonl"
+Line = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Lines:
+    """A folder of lines, each with what `line_of` makes of a run and its result; with `failure` why there is nothing,
+    also of a result that has no meaning."""
+
+    directory: Path
+    line_of: Callable[[Run, xr.Dataset], Line]
+
+    def known(self, runs: Iterable[Run]) -> dict[str, Line | Failure]:
+        """All whole lines by their keys, whichever runs are asked for."""
+        return {key: _known(line) for key, line in kept(self.directory)[0].items()}
+
+    def keep(self, run: Run, result: xr.Dataset) -> Line | Failure:
+        """Write the line of a result."""
+        line = {"key": run.key, **self.line_of(run, result)}
+        append(self.directory, line)
+        return _known(line)
+
+    def keep_failure(self, run: Run, error: Exception) -> Failure:
+        """Write why the run failed. What is no error of this program is not kept, so that it is tried again."""
+        if not isinstance(error, GearsError) or isinstance(error, NotKept):
+            raise error
+        append(self.directory, {"key": run.key, "failure": str(error)})
+        return failure_of(error)
+
+
+def _known(line: Line) -> Line | Failure:
+    return Failure(line["failure"]) if "failure" in line else line
+
+
+class NotKept(ComputationError):
+    """A line that could not be written."""
+
+
+def append(directory: Path, line: Mapping[str, Any]) -> None:
+    """Add a line to this process's file. Raises NotKept where it cannot be written."""
+    world = communicator()
+    file = directory / f"{0 if world is None else world.rank}{ENDING}"
+    try:
+        with open(file, "ab+", buffering=0) as out:
+            torn = out.seek(0, os.SEEK_END) and (out.seek(-1, os.SEEK_END), out.read(1))[1] != b"\n"
+            out.write(
+                (b"\n" if torn else b"")
+                + json.dumps({"numbers_version": NUMBERS_VERSION, **line}, ensure_ascii=False).encode()
+                + b"\n"
+            )
+    except OSError as error:
+        raise NotKept(f"{file}: a run could not be kept: {error.strerror or error}") from error
+
+
+def kept(directory: Path) -> tuple[dict[str, Line], int]:
+    """All whole lines by their `key`, and how many more there are of versions of the program with other numbers."""
+    found, others = {}, 0
+    for file in sorted(directory.glob(f"*{ENDING}")):
+        for text in file.read_bytes().split(b"\n"):
+            try:
+                line = json.loads(text)
+                if line.get("numbers_version") == NUMBERS_VERSION:
+                    found[line["key"]] = line
+                else:
+                    others += 1
+            except (ValueError, KeyError, TypeError, AttributeError):
+                continue
+    return found, others

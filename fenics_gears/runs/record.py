@@ -1,0 +1,70 @@
+"""What is kept of a run in memory: its numbers, curves and warnings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import xarray as xr
+
+from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.results.key_numbers import STUDIED
+from fenics_gears.results.pairs import shown_steps
+from fenics_gears.results.settled import settled_steps
+
+# Units and long name of each number that every record has.
+NUMBERS = {
+    "peak_to_peak_transmission_error": ("rad", "transmission error, peak to peak"),
+    "mean_transmission_error": ("rad", "transmission error, mean"),
+    "max_normal_force": ("N", "largest contact force of the mesh, on its drive or its coast flanks"),
+    "newton_iterations": ("1", "Newton iterations of the run"),
+    "steps_per_mesh_cycle": ("1", "steps per mesh cycle"),
+    "wall_time": ("s", "wall time of the run"),
+}
+# Curves of the last cycles, taken where a run has them.
+CURVES = (
+    "transmission_error", "centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y", "shaft_end_rotation",
+    "normal_force", "friction_force", "mesh_stiffness",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Record:
+    """Numbers and curves of one run.
+
+    `numbers`: by name, also those of `STUDIED` that the run has; `curves`: (steps,) or (steps, 2), in the units of the
+    run; `mesh_phase` (steps,): mesh cycles since the first recorded step; `base_radius`: of the wheel, mm; `labels`:
+    units and long name of each curve; `warnings`: those of the run.
+    """
+
+    numbers: dict[str, float]
+    mesh_phase: np.ndarray
+    curves: dict[str, np.ndarray]
+    base_radius: float
+    labels: dict[str, dict[str, str]] = field(default_factory=dict)
+    warnings: str = ""
+
+
+def record_of(run: xr.Dataset) -> Record:
+    """The record of a complete run; the wall time is the attribute `wall_time`, s."""
+    numbers = {
+        "peak_to_peak_transmission_error": float(run.attrs["peak_to_peak_transmission_error"]),
+        "mean_transmission_error": float(run.attrs["mean_transmission_error"]),
+        "max_normal_force": largest_normal_force(run, settled_steps(run)),
+        "newton_iterations": float(run.attrs["newton_iterations_total"]),
+        "steps_per_mesh_cycle": float(run.attrs["steps_per_mesh_cycle"]),
+        "wall_time": float(run.attrs["wall_time"]),
+    }
+    numbers |= {name: float(run.attrs[name]) for name in STUDIED if name in run.attrs}
+    last = shown_steps(run)
+    phase = run["mesh_phase"].values[last]
+    curves = {name: run[name].values[last] for name in CURVES if name in run}
+    labels = {name: {key: run[name].attrs[key] for key in ("units", "long_name")} for name in curves}
+    return Record(
+        numbers,
+        phase - np.floor(phase[0]),
+        curves,
+        float(run.attrs["base_radius_wheel"]),
+        labels,
+        run.attrs.get("warnings", ""),
+    )

@@ -1,0 +1,137 @@
+"""Runs that are asked for by their scenes: what a store has of them is taken from there, the others are computed by a
+team of processes, those that share gears and contact operators one after the other."""
+
+from __future__ import annotations
+
+import functools
+import logging
+import time
+from collections.abc import Callable, Iterable
+from typing import Any, Protocol
+
+import xarray as xr
+
+from fenics_gears.errors import GearsError
+from fenics_gears.model.model import Model
+from fenics_gears.runs.condensing import condense, gear_tasks
+from fenics_gears.runs.gear_store import own_gear_store
+from fenics_gears.runs.run import Run
+from fenics_gears.runs.team import Alone, Together
+from fenics_gears.scene.data import Scene
+from fenics_gears.simulation.routes import Preparation
+from fenics_gears.simulation.simulate import simulate
+from fenics_gears.system.progress import Progress, SilentProgress
+
+LOGGER = logging.getLogger(__name__)
+Tick = Callable[[], None]
+Finished = Callable[[Run, Any], None]
+
+
+class Failure(str):
+    """Why a run has no result, in words."""
+
+
+class Store(Protocol):
+    """Where runs are kept; another process gets a copy of it. What it returns of a run is what is known of it."""
+
+    def known(self, runs: Iterable[Run]) -> dict[str, Any]:
+        """What is kept of runs, by their keys."""
+
+    def keep(self, run: Run, result: xr.Dataset) -> Any:
+        """Keep the result of a run."""
+
+    def keep_failure(self, run: Run, error: Exception) -> Failure:
+        """Keep why a run failed; raises the error where it is none of the run."""
+
+
+class Runs:
+    """The runs of a store and a team.
+
+    `known`: by key what the store has of a run, a Failure where it has none; `kept`: how many were there before.
+    """
+
+    def __init__(self, store: Store, team: Alone | Together, runs: Iterable[Run] = ()):
+        self._store, self._team = store, team
+        self.known = store.known(runs)
+        self.kept = len(self.known)
+
+    def missing(self, runs: Iterable[Run]) -> list[Run]:
+        """Those that are not known, each once, in the order in which they share most."""
+        return in_order_of_sharing({run.key: run for run in runs if run.key not in self.known}.values())
+
+    def condense(self, runs: Iterable[Run], progress: Progress) -> None:
+        """Condense every gear of the runs once, a process a gear; one that fails fails again, with its reason, in the
+        runs."""
+        tasks, done = gear_tasks(runs), 0
+        if not tasks:
+            return
+        progress.stage("condense gears")
+
+        def finished(index: int, error: Exception | None) -> None:
+            nonlocal done
+            done += 1
+            if error is not None:
+                LOGGER.debug("condensing the %s: %s", tasks[index].name, error)
+
+        self._team.run(condense, tasks, finished, lambda: progress.update(done, len(tasks)))
+        progress.update(done, len(tasks))
+
+    def compute(self, missing: list[Run], tick: Tick, finished: Finished = lambda run, found: None) -> None:
+        """Compute runs in this order; each is `known` when `finished` is called with it and what is known of it. `tick`
+        is called often and may raise KeyboardInterrupt."""
+
+        def take(index: int, found: Any) -> None:
+            # An exception is one that the worker could not even report, such as an MPI error.
+            known = failure_of(found) if isinstance(found, Exception) else found
+            self.known[missing[index].key] = known
+            finished(missing[index], known)
+
+        self._team.run(functools.partial(computed, self._store), missing, take, tick)
+
+
+def in_order_of_sharing(runs: Iterable[Run]) -> list[Run]:
+    """The runs in their order, but those that share contact operators next to each other, and of these those with the
+    same gaps."""
+    groups: dict[int, dict[int, list[Run]]] = {}
+    for run in runs:
+        operators, cycle = run.sharing
+        groups.setdefault(operators, {}).setdefault(cycle, []).append(run)
+    return [run for group in groups.values() for alike in group.values() for run in alike]
+
+
+def computed(store: Store, run: Run, tick: Tick | None = None) -> Any:
+    """Compute a run and keep it, or why it failed; return what is known of it. Raises KeyboardInterrupt where Ctrl-C
+    ended it."""
+    try:
+        return store.keep(run, completed(run.model, own_gear_store().prepared, Ticking(tick)))
+    except Exception as error:
+        if isinstance(error.__cause__, KeyboardInterrupt):  # compiled code that a second Ctrl-C hit in the middle
+            raise KeyboardInterrupt from error
+        return store.keep_failure(run, error)
+
+
+def completed(scene: Scene | Model, preparation: Preparation, progress: Progress | None = None) -> xr.Dataset:
+    """The whole result of a run and its `wall_time`, s. Raises KeyboardInterrupt where Ctrl-C ended it."""
+    begun = time.perf_counter()
+    result = simulate(scene, progress=progress, preparation=preparation)
+    if not result.attrs["complete"]:
+        raise KeyboardInterrupt
+    result.attrs["wall_time"] = time.perf_counter() - begun
+    return result
+
+
+def failure_of(error: Exception) -> Failure:
+    """An error in words."""
+    return Failure(error if isinstance(error, GearsError) else f"{type(error).__name__}: {error}")
+
+
+class Ticking(SilentProgress):
+    """Calls ``tick`` as often as a simulation reports; it may raise KeyboardInterrupt."""
+
+    def __init__(self, tick: Tick | None):
+        self._tick = tick
+
+    def update(self, done: int, total: int, note: str = "") -> None:
+        """Call ``tick``."""
+        if self._tick is not None:
+            self._tick()

@@ -1,0 +1,38 @@
+"""Runs of a scene with whole settings, each setting once: what `gears accuracy` and `[accuracy] target` measure errors
+by."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import xarray as xr
+
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.model.model import Model, model_of
+from fenics_gears.runs.timed import Times, run_sharing, shared_gears
+from fenics_gears.scene.data import Scene
+from fenics_gears.studies.accuracy.measures import Answer
+from fenics_gears.studies.accuracy.setting import Setting
+from fenics_gears.system.progress import Progress
+
+Measured = Callable[[xr.Dataset, Model, Cycle], Answer]
+
+
+class SettingRuns:
+    """The runs of a scene so far, which share gears; by setting the answer, which is `measured` of a run, its model and
+    its mesh cycle, and the times. `most`: how many gears are held, None for all."""
+
+    def __init__(self, scene: Scene, measured: Measured, most: int | None = None):
+        self.scene, self._measured, self._gears = scene, measured, shared_gears(most)
+        self.times: dict[Setting, Times] = {}
+        self.answers: dict[Setting, Answer] = {}
+
+    def __contains__(self, setting: Setting) -> bool:
+        return setting in self.answers
+
+    def run(self, setting: Setting, progress: Progress | None = None) -> xr.Dataset:
+        """Run a setting. Raises GearsError, and KeyboardInterrupt on Ctrl-C."""
+        model = model_of(setting.of(self.scene))
+        result, cycle = run_sharing(model, self._gears, progress)
+        self.answers[setting], self.times[setting] = self._measured(result, model, cycle), Times().and_also(result)
+        return result

@@ -1,2 +1,0 @@
-"""`[accuracy] target`: choose the cheapest settings that reach it, from errors measured by trial runs and from counted
-costs."""
