@@ -1,4 +1,5 @@
-"""The gears of a run in mesh at one time, deformed and coloured by von Mises stress."""
+"""The gears of a run in mesh at one time, deformed and coloured by von Mises stress: in the plane here, over the face
+in three dimensions by `face_picture`."""
 
 from __future__ import annotations
 
@@ -6,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
 import xarray as xr
@@ -27,9 +28,6 @@ from fenics_gears.show.panels import DARK, WARNING, styled
 from fenics_gears.show.run import conditions, scene_of
 from fenics_gears.show.stress_grid import shown_points, upright
 from fenics_gears.simulation.run_stresses import GearsInMesh
-
-if TYPE_CHECKING:
-    from fenics_gears.simulation.face_stresses import GearsInSpace
 
 # Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots
 # are.
@@ -72,9 +70,11 @@ class View:
 
 def colour_limit(meshes: list[GearsInMesh]) -> float:
     """Stress (MPa) at which the colours end: the largest, or a multiple of that in the fillets where contact exceeds it
-    by far."""
-    peak = max(float(body.von_mises.max()) for mesh in meshes for body in mesh.gears)
+    by far; over the face, where the pressure has colours of its own, the largest in the roots."""
     roots = max(_stress_of_roots(mesh) for mesh in meshes)
+    if meshes[0].over_face:
+        return rounded_up(roots)
+    peak = max(float(body.von_mises.max()) for mesh in meshes for body in mesh.gears)
     return rounded_up(min(peak, ROOTS_IN_COLOURS * roots) if roots > 0.0 else peak)
 
 
@@ -87,28 +87,31 @@ def rounded_up(stress: float) -> float:
 
 
 def _stress_of_roots(mesh: GearsInMesh) -> float:
-    found = 0.0
-    for body, gear in zip(mesh.gears, (mesh.pair.pinion, mesh.pair.wheel)):
-        radius = np.linalg.norm(body.points - body.centre, axis=1)
-        below = (radius < gear.form_radius) & (radius > 0.5 * (gear.bore_radius + gear.root_radius))
-        found = max(found, float(body.von_mises[below].max(initial=0.0)))
-    return found
+    return max(float(body.von_mises[..., body.in_root].max(initial=0.0)) for body in mesh.gears)
 
 
 def still(mesh: GearsInMesh, dataset: xr.Dataset, scale: float | None = None) -> Figure:
-    """The picture of one time; `scale` of the displacements, the largest suitable one unless given."""
-    return stress_picture(
-        mesh, dataset, scale=automatic_scale([mesh]) if scale is None else scale, limit=colour_limit([mesh])
-    )
+    """The picture of one time; `scale` of the displacements: unless given the largest suitable one, in three dimensions
+    true."""
+    return frames(dataset, scale, [mesh], moving=False)(mesh)
 
 
-def frames(dataset: xr.Dataset, scale: float | None, sampled: list[GearsInMesh]) -> Callable[[GearsInMesh], Figure]:
-    """What draws the frames of a moving picture, with the colours and the scale that suit some of its meshes."""
-    limit, scale = colour_limit(sampled), automatic_scale(sampled) if scale is None else scale
+def frames(
+    dataset: xr.Dataset, scale: float | None, sampled: list[GearsInMesh], moving: bool = True
+) -> Callable[[GearsInMesh], Figure]:
+    """What draws the pictures of a run, with the colours and the scale that suit some of its meshes; `moving`: as
+    frames, smaller and without the single contact."""
+    limit = colour_limit(sampled)
     beyond = any(exceeds(mesh, limit) for mesh in sampled)
-    return lambda mesh: stress_picture(
-        mesh, dataset, scale=scale, limit=limit, close_up=False, width=FRAME_WIDTH, beyond=beyond
-    )
+    if sampled[0].over_face:
+        # Imported here: plane runs have no picture in three dimensions.
+        from fenics_gears.show.face_picture import DPI, DPI_OF_FRAMES, face_picture
+
+        dots, scale = DPI_OF_FRAMES if moving else DPI, 1.0 if scale is None else scale
+        return lambda mesh: face_picture(mesh, dataset, scale, limit, beyond, dots)
+    scale = automatic_scale(sampled) if scale is None else scale
+    size = {"close_up": False, "width": FRAME_WIDTH} if moving else {}
+    return lambda mesh: stress_picture(mesh, dataset, scale=scale, limit=limit, beyond=beyond, **size)
 
 
 @styled
@@ -197,9 +200,9 @@ def _panel(figure: Figure, place, wanted: View, mesh: GearsInMesh, scale: float,
     view = fitted(wanted, place[2] * 16.0, place[3] * 9.0)
     for gear, body in enumerate(mesh.gears):
         points = shown_points(mesh, gear, scale)
-        cells, sides = (_in_view(points, part, view) for part in (body.cells, body.outline))
+        cells, sides = (_in_view(points, body.of_sectors(part), view) for part in (body.section.subcells, body.outline))
         if len(cells):
-            x, y, stress = _triangles(points, cells, body.von_mises).reshape(-1, 3).T
+            x, y, stress = _triangles(points, cells, body.von_mises.ravel()).reshape(-1, 3).T
             # `tripcolor` does the same and takes three times as long, for the edges of all triangles.
             triangles = Triangulation(x, y, np.arange(len(x)).reshape(-1, 3))
             axes.add_collection(
@@ -356,8 +359,10 @@ def _numbers(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, place) -> N
 
 
 def exceeds(mesh: GearsInMesh, limit: float) -> bool:
-    """Whether there is more stress than the colours go to."""
-    return max(float(body.von_mises.max()) for body in mesh.gears) > limit * (1.0 + 1e-9)
+    """Whether there is more stress than the colours go to; over the face on other surfaces than the flanks that
+    carry."""
+    drawn = (body.von_mises[..., ~body.on_flank] if mesh.over_face else body.von_mises for body in mesh.gears)
+    return max(float(each.max()) for each in drawn) > limit * (1.0 + 1e-9)
 
 
 def colour_bar(
@@ -378,7 +383,7 @@ def colour_bar(
     axes.grid(False)
 
 
-def heading(figure: Figure, mesh: GearsInMesh | GearsInSpace, dataset: xr.Dataset) -> None:
+def heading(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset) -> None:
     """Title of the run, its conditions, and the time of the picture."""
     title = " ".join(str(dataset.attrs.get("title", "")).split())
     complete = bool(dataset.attrs.get("complete", 1))

@@ -116,7 +116,7 @@ def test_no_tooth_is_missing(run):
     """Count: going round each drawn gear at its pitch circle one passes every tooth's two flanks."""
     from fenics_gears.show.drawn_scale import outer_loop
     from fenics_gears.show.run import scene_of
-    from fenics_gears.show.stress_grid import shown_points
+    from fenics_gears.show.stress_grid import in_plane, shown_points
     from fenics_gears.simulation.run_stresses import RunStresses
 
     dataset = results.load(run / "run.nc")
@@ -130,7 +130,8 @@ def test_no_tooth_is_missing(run):
         # Green's theorem: the area of the outline less that of the bore is that of the cells.
         x, y = (points - centre).T
         area = 0.5 * abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) - np.pi * gear.bore_radius**2
-        corners = (body := mesh.gears[number]).points[body.cells]
+        body = mesh.gears[number]
+        corners = in_plane(body.points)[body.of_sectors(body.section.subcells)]
         along, across = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         assert 0.5 * np.sum(along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]) == pytest.approx(area, rel=2e-3)
 
