@@ -1,10 +1,10 @@
-"""Ring of swept sectors whose section is symmetric about the tooth's centreline: half a turn about that line maps a
-sector on itself.
+"""Ring of swept sectors that half a turn about the tooth's centreline maps on themselves (theorem of `fold`).
 
-It exchanges the cuts and takes z to -z. With P what it does to a cut's dofs (an involution), the harmonics D of the
-ring (`elasticity.ring`) have ``P D P = conj(D)``: over P's eigenvectors the blocks of D for equal eigenvalues are real
-and those for opposite ones imaginary. Multiplied by i, the eigenvectors of one sign make D real and symmetric, which
-takes a quarter of the operations of a complex matrix.
+It exchanges a sector's cuts. Of the ring, turning about a cut's own middle line therefore maps the sectors ahead on
+those behind: with P what that does to a cut's dofs (an involution), the link between cuts has ``P ahead P = ahead^T``,
+and the harmonics D of the ring (`elasticity.ring`) have ``P D P = conj(D)``. Over P's eigenvectors the blocks of D for
+equal eigenvalues are real and those for opposite ones imaginary. Multiplied by i, the eigenvectors of one sign make D
+real and symmetric, which takes a quarter of the operations of a complex matrix.
 """
 
 from __future__ import annotations
