@@ -6,7 +6,7 @@ Pictures have the line of centres upright, the pinion above; files have the fram
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -65,6 +65,43 @@ def largest_movement(mesh: GearsInMesh) -> float:
         float(np.linalg.norm(shown_points(mesh, gear, 1.0) - shown_points(mesh, gear, 0.0), axis=1).max())
         for gear in (0, 1)
     )
+
+
+@dataclass(frozen=True)
+class View:
+    """A part of the picture's plane: its centre (x, y) and half its width and height, mm."""
+
+    centre: np.ndarray
+    half: np.ndarray
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """Left, right, bottom, top, mm."""
+        (x, y), (w, h) = self.centre, self.half
+        return x - w, x + w, y - h, y + h
+
+
+def whole_view(mesh: GearsInMesh) -> View:
+    """Both gears with some room around them."""
+    tips = mesh.pair.pinion.tip_radius, mesh.pair.wheel.tip_radius
+    low, high = -mesh.pair.centre_distance - tips[1], tips[0]
+    half = np.array([max(tips), 0.5 * (high - low)]) * 1.04
+    return View(np.array([0.0, 0.5 * (low + high)]), half)
+
+
+def teeth_view(mesh: GearsInMesh, coast: bool) -> View:
+    """The teeth along the path of contact of drive or coast flanks, their roots included."""
+    pair = mesh.pair
+    middle = 0.5 * (pair.path_start + pair.path_end)
+    centre = upright(pair, np.array([middle, -pair.pinion.base_radius]), coast)
+    depth = pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance + 4.0 * pair.pinion.module
+    return View(centre, np.array([0.75 * (pair.path_end - pair.path_start), 0.5 * depth]))
+
+
+def fitted(view: View, width: float, height: float) -> View:
+    """The view widened one way until it has a panel's shape."""
+    half = view.half
+    return View(view.centre, np.array([max(half[0], half[1] * width / height), max(half[1], half[0] * height / width)]))
 
 
 def surface(points: np.ndarray, gear: GearInSpace) -> np.ndarray:

@@ -12,7 +12,8 @@ from tests.coarse import coarse_scene
 from fenics_gears import results
 from fenics_gears.commands.cli import main
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.show.stress_picture import _place_of_name, _time
+from fenics_gears.show.picture_marks import place_of_name
+from fenics_gears.show.stress_picture import _time
 from fenics_gears.system import environment
 
 environment.prepare()
@@ -143,13 +144,13 @@ def test_no_tooth_is_missing(run):
 def test_names_stand_in_the_bores_or_above_those_too_small(bore, place, alignment):
     """A name in a bore of a few points would lie over its edge; a large body has room for it, beside a small gear there
     is some."""
-    found, *aligned = _place_of_name(SimpleNamespace(bore_radius=bore, root_radius=100.0, tip_radius=120.0), point=1.0)
+    found, *aligned = place_of_name(SimpleNamespace(bore_radius=bore, root_radius=100.0, tip_radius=120.0), point=1.0)
     assert tuple(found) == place and tuple(aligned) == alignment
 
 
 def test_names_stand_beside_small_gears():
     """The gear's teeth end where its name does."""
-    found, *aligned = _place_of_name(SimpleNamespace(bore_radius=10.0, root_radius=30.0, tip_radius=40.0), point=1.0)
+    found, *aligned = place_of_name(SimpleNamespace(bore_radius=10.0, root_radius=30.0, tip_radius=40.0), point=1.0)
     assert found[0] < -40.0 and aligned == ["right", "center"]
 
 
