@@ -93,19 +93,26 @@ class RootStress:
         at_rest = np.stack([0.0 * rows.rows[rows.reach, ..., 0] for rows in self.rows])
         # By gear and distance of the tooth from the loaded one, so that all steps are one product.
         asked: dict[tuple[int, int], list[tuple[int, int, np.ndarray]]] = defaultdict(list)
+        known: list[tuple[int, int]] = []
         for i, record in enumerate(nodes.steps.records):
             teeth, gears = self.on_flanks(record)
             slots = [nodes.slot_of(i, index) for index in teeth]
-            values[i, :, slots] = at_rest
+            known += [(i, slot) for slot in slots]
             for gear, (sectors, matrix) in enumerate(gears):
-                for sector, force in zip(sectors, (matrix @ record.solution.forces).reshape(len(sectors), -1)):
-                    if force.any():
-                        for index, slot in zip(teeth, slots):
-                            asked[gear, SENSE_OF_TEETH[gear] * index - sector].append((i, slot, force))
+                forces = (matrix @ record.solution.forces).reshape(len(sectors), -1)
+                for loaded in np.flatnonzero(forces.any(axis=1)):
+                    for index, slot in zip(teeth, slots):
+                        ahead = SENSE_OF_TEETH[gear] * index - sectors[loaded]
+                        asked[gear, ahead].append((i, slot, forces[loaded]))
+        if known:
+            steps, slots = np.array(known).T
+            values[steps, :, slots] = at_rest
         for (gear, ahead), found in asked.items():
             steps, slots, forces = zip(*found)
-            stress = np.stack(forces) @ self._known(gear, ahead).reshape(slices * points, -1).T
-            np.add.at(values, (np.array(steps), gear, np.array(slots)), stress.reshape(-1, slices, points))
+            stacked = np.concatenate(forces).reshape(len(forces), -1)
+            stress = stacked @ self._known(gear, ahead).reshape(slices * points, -1).T
+            # At a step a tooth stands so far ahead of one loaded tooth alone: no place is there twice.
+            values[list(steps), gear, list(slots)] += stress.reshape(-1, slices, points)
         return self._variables(values.reshape(*values.shape[:4], 2, points // 2))
 
     def _variables(self, values: np.ndarray) -> dict[str, np.ndarray]:

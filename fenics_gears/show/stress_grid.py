@@ -5,7 +5,6 @@ Pictures have the line of centres upright, the pinion above; files have the fram
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -142,35 +141,32 @@ def save_vtu(mesh: GearsInMesh, path: Path, *, precision: type = np.float64) -> 
         import pyvista
     except ImportError as error:
         raise ComputationError("a .vtu file needs pyvista, which is not installed") from error
-    if mesh.over_face:
-        bodies, cells_of = mesh.gears, wedges
-    else:
-        bodies = tuple(in_tooth_order(mesh, gear) for gear in (0, 1))
-        cells_of = lambda body: body.of_sectors(body.section.subcells)  # noqa: E731
-
-    def both(values: Callable[[GearInSpace], np.ndarray], *shape: int) -> np.ndarray:
-        return np.concatenate([values(body).reshape(-1, *shape) for body in bodies]).astype(precision)
-
-    count = [body.von_mises.size for body in bodies]
-    cells = np.vstack([cells_of(bodies[0]), cells_of(bodies[1]) + count[0]])
-    grid = pyvista.UnstructuredGrid({VTK_CELL[cells.shape[1]]: cells}, both(lambda body: body.points, 3))
-    stress = both(lambda body: body.stress, 3, 3)
-    if mesh.over_face:
-        data = {"displacement": both(lambda body: body.elastic, 3)}
-        data["largest_principal_stress"] = both(lambda body: body.principal)
-    else:
-        data = {"displacement": both(lambda body: body.displacement, 3)}
-        data["elastic_displacement"] = both(lambda body: body.elastic, 3)
-    components = STRESSES if mesh.over_face else PLANE_STRESSES
-    data |= {f"stress_{name}": stress[:, i, j] for name, (i, j) in components.items()}
-    data["von_mises_stress"] = both(lambda body: body.von_mises)
-    data["gear"] = np.repeat([1, 2], count).astype(np.int32)
-    data["sector" if mesh.over_face else "tooth"] = np.concatenate(
-        [np.repeat(np.array(body.sectors, dtype=np.int32), body.points[0, ..., 0].size) for body in bodies]
-    )
-    for name, values in data.items():
-        grid.point_data[name] = values
+    bodies = mesh.gears if mesh.over_face else tuple(in_tooth_order(mesh, gear) for gear in (0, 1))
+    first, second = (wedges(each) if mesh.over_face else each.of_sectors(each.section.subcells) for each in bodies)
+    cells = np.vstack([first, second + bodies[0].von_mises.size])
+    points = np.vstack([body.points.reshape(-1, 3) for body in bodies]).astype(precision)
+    grid = pyvista.UnstructuredGrid({VTK_CELL[cells.shape[1]]: cells}, points)
+    fields = [_fields(body, number, mesh.over_face) for number, body in enumerate(bodies, 1)]
+    for name, values in fields[0].items():
+        both = np.concatenate([values, fields[1][name]])
+        grid.point_data[name] = both.astype(precision if both.dtype == float else np.int32)
     grid.save(str(path))
+
+
+def _fields(body: GearInSpace, number: int, over_face: bool) -> dict[str, np.ndarray]:
+    """What is written of each node of a gear, by name."""
+    if over_face:
+        fields, components = {"displacement": body.elastic}, STRESSES
+        fields["largest_principal_stress"] = body.principal
+    else:
+        fields, components = {"displacement": body.displacement}, PLANE_STRESSES
+        fields["elastic_displacement"] = body.elastic
+    fields |= {f"stress_{name}": body.stress[..., i, j] for name, (i, j) in components.items()}
+    fields["von_mises_stress"] = body.von_mises
+    found = {name: values.reshape(-1, *values.shape[3:]) for name, values in fields.items()}
+    found["gear"] = np.full(body.von_mises.size, number)
+    found["sector" if over_face else "tooth"] = np.repeat(body.sectors, body.points[0, ..., 0].size)
+    return found
 
 
 def in_tooth_order(mesh: GearsInMesh, gear: int) -> GearInSpace:
