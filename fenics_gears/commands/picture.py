@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 from contextlib import closing
-from functools import partial
 from pathlib import Path
 
 from fenics_gears.commands.shared import add_run_argument, loaded_run, print_files, run_file, shown_progress
@@ -79,7 +78,7 @@ def _written(options, dataset, scene, index: int, output: Path | None, progress)
     """What is asked for."""
     from fenics_gears.show.stress_animation import animate
     from fenics_gears.show.stress_grid import save_vtu
-    from fenics_gears.show.stress_picture import frames, save_picture, still
+    from fenics_gears.show.stress_picture import save_picture, still
     from fenics_gears.show.stress_series import save_series
     from fenics_gears.simulation.run_stresses import RunStresses
     from fenics_gears.system.output import write_whole
@@ -95,12 +94,7 @@ def _written(options, dataset, scene, index: int, output: Path | None, progress)
             progress.stage("draw")
             if options.animate:
                 written.append(
-                    write_whole(
-                        output,
-                        lambda path: animate(
-                            runs, dataset, path, partial(frames, dataset, options.scale), progress.update
-                        ),
-                    )
+                    write_whole(output, lambda path: animate(runs, dataset, path, options.scale, progress.update))
                 )
             else:
                 written.append(

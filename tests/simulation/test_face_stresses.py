@@ -1,7 +1,6 @@
 """Stresses of teeth over the face, recovered at stored times."""
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
@@ -19,7 +18,7 @@ from fenics_gears.show.face_picture import root_tension
 from fenics_gears.show.flank_pressure import STAND_OFF, pressed_tiles
 from fenics_gears.show.run import scene_of
 from fenics_gears.show.stress_grid import save_vtu, surface
-from fenics_gears.show.stress_picture import colour_limit, frames, still
+from fenics_gears.show.stress_picture import colour_limit, still
 from fenics_gears.simulation.run_stresses import RunStresses, standing
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.stored_forces import stored_forces
@@ -150,9 +149,7 @@ def test_moving_picture_goes_through_the_cycle(stresses, tmp_path, monkeypatch):
     monkeypatch.setattr(stress_animation, "FRAMES_PER_CYCLE", 2)
     monkeypatch.setattr(stress_animation, "SAMPLED", 1)
     file = tmp_path / "turn.gif"
-    stress_animation.animate(
-        stresses, helical_run(), file, partial(frames, helical_run(), None), lambda done, whole: None
-    )
+    stress_animation.animate(stresses, helical_run(), file, None, lambda done, whole: None)
     with image.open(file) as moving:
         assert (moving.n_frames, moving.size) == (2, (960, 540))
         found = []
