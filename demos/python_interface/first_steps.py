@@ -176,7 +176,7 @@ with RunStresses(result, paper) as stresses:
         int(result.attrs["steps_per_mesh_cycle"]) // 4
     )  # a quarter of a mesh cycle after the first stored step
 for name, gear in zip(("pinion", "wheel"), mesh.gears):
-    print(f"{name}: {len(gear.points)} nodes, largest von Mises stress {gear.von_mises.max():.0f} MPa")
+    print(f"{name}: {gear.von_mises.size} nodes, largest von Mises stress {gear.von_mises.max():.0f} MPa")
 figure = stress_picture(mesh, result, scale=automatic_scale([mesh]), limit=colour_limit([mesh]))
 figure.savefig(PICTURES / "stress.png")
 figure  # a notebook shows it

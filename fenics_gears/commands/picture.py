@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import argparse
 from contextlib import closing
-from functools import partial
 from pathlib import Path
 
 from fenics_gears.commands.shared import (
@@ -77,44 +76,26 @@ def picture(options: argparse.Namespace) -> int:
 
 
 def _written(options, dataset, scene, index: int, output: Path | None, progress) -> list[Path]:
-    """What is asked for: in the plane, or of a run whose flanks are resolved over the face in three dimensions."""
+    """What is asked for."""
     from fenics_gears.show.stress_animation import animate
+    from fenics_gears.show.stress_grid import save_vtu
+    from fenics_gears.show.stress_picture import save_picture, still
     from fenics_gears.show.stress_series import save_series
+    from fenics_gears.simulation.run_stresses import RunStresses
     from fenics_gears.system.output import write_whole
 
-    if "face_position" in dataset.dims:
-        from fenics_gears.show.face_grid import save_vtu
-        from fenics_gears.show.face_picture import frames, still
-        from fenics_gears.simulation.face_stresses import FaceStresses as Stresses
-
-        save_step = save_vtu
-    else:
-        from fenics_gears.show.stress_grid import save_vtu
-        from fenics_gears.show.stress_picture import frames, still
-        from fenics_gears.simulation.run_stresses import RunStresses as Stresses
-
-        save_step = None
-    from fenics_gears.show.stress_picture import save_picture
-
     written: list[Path] = []
-    with Stresses(dataset, scene) as runs:
+    with RunStresses(dataset, scene) as runs:
         if options.vtu is not None:
             written.append(write_whole(options.vtu, lambda path: save_vtu(runs.at(index), path)))
         if options.pvd is not None:
             progress.stage("recover stresses")
-            written.append(
-                write_whole(options.pvd, lambda path: save_series(runs, dataset, path, progress.update, save_step))
-            )
+            written.append(write_whole(options.pvd, lambda path: save_series(runs, dataset, path, progress.update)))
         if output is not None:
             progress.stage("draw")
             if options.animate:
                 written.append(
-                    write_whole(
-                        output,
-                        lambda path: animate(
-                            runs, dataset, path, partial(frames, dataset, options.scale), progress.update
-                        ),
-                    )
+                    write_whole(output, lambda path: animate(runs, dataset, path, options.scale, progress.update))
                 )
             else:
                 written.append(

@@ -34,6 +34,7 @@ _load_vtk_before_old_dolfinx()
 # Before DOLFINx, which would start PETSc itself.
 from fenics_gears.elasticity.petsc import PETSc  # noqa: E402 I001
 
+import basix  # noqa: E402
 import dolfinx  # noqa: E402
 import dolfinx.fem.petsc  # noqa: E402
 import ufl  # noqa: E402
@@ -99,6 +100,16 @@ def node_coordinates(space) -> np.ndarray:
     """Coordinates of the space's nodes, (nodes, 2); node i carries its components one after the other: of two, dofs 2 i
     and 2 i + 1."""
     return space.tabulate_dof_coordinates()[:, :2]
+
+
+def lagrange(nodes: np.ndarray, order: int, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Shape functions (p, k) of the nodes (k, 2) of a reference triangle or square, both from 0 to 1, at points (p, 2);
+    their derivatives (p, k, 2)."""
+    cell = basix.CellType.triangle if len(nodes) in (3, 6) else basix.CellType.quadrilateral
+    element = basix.create_element(basix.ElementFamily.P, cell, order, basix.LagrangeVariant.gll_warped)
+    number = [np.linalg.norm(element.points - node, axis=1).argmin() for node in nodes]
+    values, *slopes = element.tabulate(1, np.asarray(points, dtype=float))[..., number, 0]
+    return values, np.stack(slopes, axis=-1)
 
 
 def constant(mesh, value):

@@ -6,9 +6,11 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh, distinct, sides_of
+from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, roll_angle_at_arc_length
 
@@ -64,6 +66,22 @@ def element_nodes(mesh: BodyMesh, element: Element) -> ElementNodes:
         points.append(mesh.points[mesh.cells].mean(axis=1))
         cells.append(len(mesh.points) + len(unique) + np.arange(len(mesh.cells))[:, None])
     return ElementNodes(np.vstack(points), np.hstack(cells), element.corners, 2)
+
+
+def numbers_at(nodes: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Numbers (k,) of the nodes (n, 2) at places (k, 2).
+
+    Raises ComputationError where there is no node, or more than one (as on the faces of a crack).
+    """
+    distance, found = cKDTree(nodes).query(places, k=2)
+    tolerance = 1e-9 * np.abs(nodes).max()
+    for wrong, what in ((distance[:, 0] > tolerance, "no node"), (distance[:, 1] <= tolerance, "more than one node")):
+        if wrong.any():
+            x, y = places[np.flatnonzero(wrong)[0]]
+            raise ComputationError(
+                f"body: {what} at x = {x:.6f}, y = {y:.6f} in the mesh's unit of length, of a part of the boundary"
+            )
+    return found[:, 0]
 
 
 def node_roll_angles(gear: Gear, vertices: np.ndarray, order: int) -> np.ndarray:

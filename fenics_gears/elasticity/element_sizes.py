@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -86,6 +86,11 @@ class Discretisation:
         """Element sizes (mm) of a gear's sector mesh; both_flanks: the coast flank works too."""
         sizes = element_sizes(gear, element_named(self.element), self.flank_element_size, self.body_element_size)
         return replace(sizes, both_flanks=both_flanks, mate_tip=self.mate_tip)
+
+    def inputs(self, gear: Gear, both_flanks: bool = False) -> dict:
+        """What a gear's mesh follows from besides the gear, with lengths in modules."""
+        sizes = self.sizes(gear, both_flanks).in_modules_of(gear)
+        return {"element": element_named(self.element).name, "sizes": asdict(sizes)}
 
 
 def element_sizes(gear: Gear, element: Element, flank: float, body: float | None = None) -> ElementSizes:

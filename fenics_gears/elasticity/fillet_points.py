@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy import sparse
 from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.element_nodes import ElementNodes
 from fenics_gears.elasticity.element_sizes import arc_lengths
-from fenics_gears.elasticity.nodal_stress import NodalStress
 from fenics_gears.elasticity.sector_boundary import root_curve
-from fenics_gears.elasticity.sector_interior import SectorInterior
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import ToothOutline, tooth_outline
+
+if TYPE_CHECKING:
+    from fenics_gears.elasticity.recovery import GearRecovery
 
 # Points of one fillet, without the one where the tangent stands at 30 degrees to the tooth's centreline, in the section
 # normal to the tooth.
@@ -22,6 +25,8 @@ POINTS = 24
 POINTS_OVER_FACE = 12
 SECTION_ANGLE = np.radians(30.0)
 CURVE_SAMPLES = 2001
+# The one slice of a plane sector.
+WHOLE = np.ones((1, 1))
 
 
 @dataclass(frozen=True)
@@ -66,16 +71,28 @@ def section_angle(gear: Gear) -> float:
     return float(np.arctan(np.tan(SECTION_ANGLE) * gear.rack_stretch)) if gear.helix_angle else SECTION_ANGLE
 
 
-def fillet_rows(curve: FilletCurve, interior: SectorInterior, stress: NodalStress) -> np.ndarray:
-    """Stress along the surface (2 p, 2 n), MPa per displacement in the mesh's unit, E = 1 MPa: drive side, then coast
-    side."""
-    parts, held = [], np.concatenate([interior.lower, interior.upper, interior.hub])
+def fillet_rows(recovery: GearRecovery, curve: FilletCurve, averages: np.ndarray = WHOLE) -> sparse.csr_matrix:
+    """Stress (S 2 p, dofs) at the points of the drive side's fillet, then the coast side's, slice by slice, per
+    displacement of a sector in modules, E = 1 MPa; zero where the fillet has no such point.
+
+    Along the fillet's profile and across the tooth's trace, which is the direction that a section normal to the tooth
+    has. averages: (S, h), of slices over the sector's heights.
+    """
+    sector, parts = recovery.sector, []
+    twist = 0.0 if sector.sweep is None else sector.sweep.twist
     for side in (0, 1):
-        nodes, interpolation, tangents = fillet_weights(curve, interior.nodes, held, side)
-        x, y = tangents.T
-        weights = interpolation[:, :, None] * np.column_stack([x**2, y**2, 2.0 * x * y])[:, None]
-        parts.append(weights.reshape(len(weights), -1) @ stress.rows(nodes))
-    return np.vstack(parts)
+        nodes, *found = fillet_weights(curve, sector.section, sector.held, side)
+        weights, tangents = (np.nan_to_num(each) for each in found)
+        x, y = (weights @ sector.section.points[nodes]).T
+        trace = np.column_stack([-twist * y, twist * x, np.ones(len(x))])
+        profile = np.pad(tangents, ((0, 0), (0, 1)))
+        across = profile - ((profile * trace).sum(axis=1) / (trace**2).sum(axis=1))[:, None] * trace
+        length = np.linalg.norm(across, axis=1)[:, None]
+        directions = np.divide(across, length, out=np.zeros_like(across), where=length > 0.0)
+        parts.append(recovery.stress.rows(nodes, weights, directions, averages))
+    points = len(curve.length)
+    order = np.arange(2 * points * len(averages)).reshape(2, len(averages), points).swapaxes(0, 1).ravel()
+    return sparse.vstack(parts, format="csr")[order]
 
 
 def fillet_weights(

@@ -36,15 +36,8 @@ def flank_compliance(
     check_inputs(gear, material, reach)
     similar, sizes = gear.of_module_one, sizes.in_modules_of(gear)
     coupled = _coupled(reach, discretisation.elastic_teeth)
-    inputs = {
-        "kind": "plane strain",
-        "version": NUMBERS_VERSION,
-        "gear": asdict(similar),
-        "poissons_ratio": material.poissons_ratio,
-        "element": chosen.name,
-        "sizes": asdict(sizes),
-        "reach": asdict(coupled),
-    }
+    inputs = similar_inputs("plane strain", gear, material, discretisation, reach.across is not None)
+    inputs["reach"] = asdict(coupled)
     arrays, timings = kept(cache, inputs, lambda: _computed(similar, chosen, sizes, material.poissons_ratio, coupled))
     # In place: the arrays are large, and nothing else refers to them.
     for name in {"blocks", "across"} & arrays.keys():
@@ -59,6 +52,17 @@ def flank_compliance(
     else:
         found = FlankCompliance(element_order=chosen.order, timings={**counts, **timings}, **arrays)
     return found if coupled == reach else _with_uncoupled_teeth(found, reach.farthest)
+
+
+def similar_inputs(kind: str, gear: Gear, material: Material, discretisation, both_flanks: bool = True) -> dict:
+    """What any quantity of a gear's body follows from, the same for similar gears: key of an entry in the cache."""
+    return {
+        "kind": kind,
+        "version": NUMBERS_VERSION,
+        "gear": asdict(gear.of_module_one),
+        "poissons_ratio": material.poissons_ratio,
+        **discretisation.inputs(gear, both_flanks),
+    }
 
 
 def _coupled(reach: Reach, elastic_teeth: int | None) -> Reach:

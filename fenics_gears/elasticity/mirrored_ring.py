@@ -19,6 +19,10 @@ from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import cut_response, definite_inverse, sector_response, turned_nodes
 
+# Compliance (f, f) of the flank with the cuts held, its response (f, c) to motions of the cut, stiffness (c, c) of the
+# cut with the flank free.
+Parts = tuple[np.ndarray, np.ndarray, np.ndarray]
+
 
 def condensed_half(mesh: BodyMesh, element: Element, poissons_ratio: float) -> CondensedBody:
     """The sector's half (`sector_mesh.half_sector_mesh`) condensed onto "flank", "cut", "centreline" (both without hub
@@ -45,17 +49,11 @@ def both_flanks_compliance(
         flank_free(_constrained(half, direction), len(half.dofs("flank")))
         for direction in (along, np.array([-along[1], along[0]]))
     ]
-    (held, to_cut, cut), (held_cross, to_cut_cross, cut_cross) = (
-        tuple(0.5 * (same + sign * opposite) for same, opposite in zip(*parts)) for sign in (1.0, -1.0)
-    )
+    (held, to_cut, cut), (held_cross, to_cut_cross, cut_cross) = within_and_across(*parts)
     nodes = len(half.points["cut"])
     turn, mirror = turned_nodes(teeth, nodes), np.kron(np.eye(nodes), 2.0 * np.outer(along, along) - np.eye(2))
-    link = np.block(
-        [[mirror @ cut @ mirror, mirror @ cut_cross @ turn], [turn.T @ cut_cross.T @ mirror, turn.T @ cut @ turn]]
-    )
-    joint = cut_response(link, teeth, reach.farthest + 1)
-    # From forces on either flank to the lower and the upper cut, both in the frame of a lower cut.
-    drive, coast = np.hstack([to_cut_cross @ mirror, to_cut @ turn]), np.hstack([to_cut @ mirror, to_cut_cross @ turn])
+    joint = cut_response(unfolded_link(cut, cut_cross, mirror, turn), teeth, reach.farthest + 1)
+    drive, coast = unfolded(to_cut, to_cut_cross, mirror, turn), unfolded(to_cut_cross, to_cut, mirror, turn)
 
     first, last = reach.across
     blocks, across = (np.empty((count, *held.shape)) for count in (reach.same + 1, last - first + 1))
@@ -67,6 +65,28 @@ def both_flanks_compliance(
     if first <= 0 <= last:
         across[-first] += held_cross
     return blocks, across
+
+
+def within_and_across(same: Parts, opposite: Parts) -> tuple[Parts, Parts]:
+    """What a half has of itself and of the other half, from the parts (`flank_free`) of both kinds of motion."""
+    within, across = (tuple(0.5 * (one + sign * other) for one, other in zip(same, opposite)) for sign in (1.0, -1.0))
+    return within, across
+
+
+def unfolded(own: np.ndarray, other: np.ndarray, image, turn) -> np.ndarray:
+    """(Minus) a flank's motion (f, 2 c) per motion of the lower and the upper cut, from that per motion of the cut on
+    its own side and on the other's.
+
+    image: from motions of the upper cut to those of the lower one, its image; turn: of a pitch, so that both are in the
+        frame of a lower cut.
+    """
+    return np.hstack([(image @ other.T).T, own @ turn])
+
+
+def unfolded_link(cut: np.ndarray, cross: np.ndarray, image, turn) -> np.ndarray:
+    """Stiffness (2 c, 2 c) between a sector's cuts, from that (c, c) of a half's cut and that between the halves'."""
+    across = image @ (cross @ turn)
+    return np.block([[image @ (image @ cut).T, across], [across.T, turn.T @ (cut @ turn)]])
 
 
 def _constrained(half: CondensedBody, direction: np.ndarray) -> np.ndarray:

@@ -1,113 +1,160 @@
-"""Stress at the nodes of a body from its displacement: taken in each element where it is most accurate, averaged where
-elements meet.
+"""Stress at the nodes of a body, plane or swept, from its displacement: taken in each element where it is most
+accurate, averaged where elements meet.
 
 The points of an element where the error of its stress is one order smaller (Barlow, International Journal for Numerical
 Methods in Engineering 10, 1976) are the middle of first-order cells and the 2 x 2 Gauss points of Q2; that of P2 is
-linear and taken at the nodes.
+linear and taken at the nodes. The geometry of swept elements is that of `face.swept_stiffness`.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 import numpy as np
 from scipy import sparse
 
+from fenics_gears.elasticity import dolfinx_adapter as adapter
+from fenics_gears.elasticity.condensation import dofs_of
 from fenics_gears.elasticity.element_nodes import ElementNodes
+from fenics_gears.elasticity.face.layers import Sweep, shapes
+from fenics_gears.elasticity.ring import rotation
 
+# Of the reference triangle and square: corners counter-clockwise, middles of sides, middle, as of ElementNodes.
+REFERENCE = {
+    3: np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]]),
+    4: np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0.5, 0], [1, 0.5], [0.5, 1], [0, 0.5], [0.5, 0.5]]),
+}
 GAUSS = 1.0 / np.sqrt(3.0)
-# Corners, middles of sides, middle of the reference triangle (0, 1) and quadrilateral (-1, 1).
-TRIANGLE_NODES = np.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
-SQUARE_NODES = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [0, -1], [1, 0], [0, 1], [-1, 0], [0, 0]], dtype=float)
-TRIANGLE_POWERS = {1: [(0, 0), (1, 0), (0, 1)], 2: [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)]}
-SQUARE_POWERS = {order: [(i, j) for i in range(order + 1) for j in range(order + 1)] for order in (1, 2)}
 
 
-@dataclass(frozen=True)
 class NodalStress:
-    """Averaged stress as a sparse operator, for Young's modulus 1 MPa and displacements in the mesh's unit of length.
+    """Stress of a body in plane strain or, with a `sweep`, of the one swept from that section; Young's modulus 1 MPa,
+    displacements in the mesh's unit of length.
 
-    weighted: (3 n, 2 n): displacement (2 n,) to sums over elements of area times stress, xx, yy, xy at each node;
-        weight: (n,), the
-    sums of areas. A node on a cut has part of its elements in the neighbouring sector, whose sums are added before
-    dividing.
+    weight: (n,), areas of the elements that meet at the section's nodes. On a sector's cut some of its elements are in
+        the neighbouring sector, whose stress counts by its own weight.
     """
 
-    weighted: sparse.csr_matrix
-    weight: np.ndarray
+    def __init__(self, nodes: ElementNodes, poissons_ratio: float, sweep: Sweep | None = None):
+        self.nodes, self.sweep = nodes, sweep
+        self.components, self._heights = (2, 1) if sweep is None else (3, len(sweep.heights))
+        self._slopes, self.weight = _averaged_slopes(nodes)
+        self._shear = 0.5 / (1.0 + poissons_ratio)
+        self._lame = poissons_ratio / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))
+        self._layers = [*self._gradients()]
+        # Between two layers their mean counts.
+        self._layers_at = np.bincount(np.concatenate([[*heights] for heights, _ in self._layers]))
 
-    def rows(self, nodes: np.ndarray) -> sparse.csr_matrix:
-        """Stress xx, yy, xy (3 k, 2 n) at nodes (k,) all of whose elements are in this body."""
-        chosen = (3 * nodes[:, None] + [0, 1, 2]).ravel()
-        return sparse.diags(np.repeat(1.0 / self.weight[nodes], 3)) @ self.weighted[chosen]
+    def at_nodes(self, displacement: np.ndarray) -> np.ndarray:
+        """Stress (h, n, 3, 3) from displacement (h, n, 2) or (h, n, 3), both in the section's frame at each height."""
+        total = np.zeros((*displacement.shape[:2], 3, 3))
+        for heights, gradients in self._layers:
+            moved = displacement[heights.start : heights.stop].ravel()
+            for height, gradient in zip(heights, gradients):
+                total[height] += self._stress((gradient @ moved).reshape(-1, 3, 3))
+        return total / self._layers_at[:, None, None, None]
+
+    def rows(
+        self, nodes: np.ndarray, weights: np.ndarray, directions: np.ndarray, averages: np.ndarray
+    ) -> sparse.csr_matrix:
+        """Normal stress (S p, dofs) along `directions` (p, 3) at points between `nodes` (k,) by `weights` (p, k),
+        averaged over the heights by `averages` (S, h).
+
+        As of `at_nodes`, per displacement: dofs by height, node, component; directions in the section's frame at each
+            height; rows by average, then point.
+        """
+        # t . sigma t over the nine entries of a gradient.
+        normal = 2.0 * self._shear * np.einsum("pi,pj->pij", directions, directions) + self._lame * np.eye(3)
+        between = sparse.csr_matrix((weights[:, :, None] * normal.reshape(-1, 1, 9)).reshape(len(weights), -1))
+        chosen, of_height = dofs_of(nodes, 9), self.components * len(self.nodes.points)
+        found = sparse.csr_matrix((len(averages) * len(weights), of_height * self._heights))
+        for heights, gradients in self._layers:
+            for height, gradient in zip(heights, gradients):
+                own = between @ gradient[chosen]
+                # Columns of the layer's dofs among those of the body.
+                placed = sparse.csr_matrix(
+                    (own.data, own.indices + of_height * heights.start, own.indptr), (len(weights), found.shape[1])
+                )
+                found = found + sparse.kron(averages[:, [height]] / self._layers_at[height], placed, format="csr")
+        return found
+
+    def _stress(self, gradient: np.ndarray) -> np.ndarray:
+        strain = 0.5 * (gradient + gradient.swapaxes(-1, -2))
+        trace = np.trace(strain, axis1=-2, axis2=-1)[..., None, None]
+        return 2.0 * self._shear * strain + self._lame * trace * np.eye(3)
+
+    def _gradients(self) -> Iterator[tuple[range, list[sparse.csr_matrix]]]:
+        """Heights of each layer, and for each of them the displacement's gradient (9 n, dofs of the layer) in the
+        section's frame at that height."""
+        if self.sweep is None:
+            yield range(1), [_along_section(self._slopes, np.eye(3)[:2], components=2)]
+            return
+        known: dict[float, list[sparse.csr_matrix]] = {}
+        for layer, thickness in enumerate(self.sweep.thicknesses.tolist()):
+            if thickness not in known:
+                known[thickness] = [*self._of_layer(thickness)]
+            yield range(2 * layer, 2 * layer + 3), known[thickness]
+
+    def _of_layer(self, thickness: float) -> Iterator[sparse.csr_matrix]:
+        """The gradient at a layer's three heights, from `face.swept_stiffness`: taken in the frame of its middle."""
+        points, angles = self.nodes.points, 0.5 * self.sweep.twist * thickness * np.array([-1.0, 0.0, 1.0])
+        frames, turns, axial = [rotation(angle, 3) for angle in angles], np.exp(1j * angles), np.eye(3)[2:]
+        for place, frame in enumerate(frames):
+            change = shapes(place - 1.0)[1] / (0.5 * thickness)
+            swept = points @ _as_matrix(change @ turns / turns[place]).T
+            of_height = [slope * _along_section([sparse.eye(len(points))], axial) for slope in change]
+            of_height[place] = (
+                of_height[place]
+                + _along_section(self._slopes, np.pad(_as_matrix(1.0 / turns[place]), ((0, 0), (0, 1))))
+                - sum(_along_section([sparse.diags(swept[:, b]) @ self._slopes[b]], axial) for b in (0, 1))
+            )
+            back = sparse.kron(sparse.eye(len(points)), np.kron(frame.T, frame.T), format="csr")
+            to_middle = [sparse.kron(sparse.eye(len(points)), each, format="csr") for each in frames]
+            yield sparse.hstack([back @ part @ turn for part, turn in zip(of_height, to_middle)], format="csr")
 
 
-def nodal_stress(nodes: ElementNodes, poissons_ratio: float) -> NodalStress:
-    """The operator of a body in plane strain."""
-    gradients, areas = gradients_at_nodes(nodes)
+def _along_section(slopes, axes: np.ndarray, components: int = 3) -> sparse.csr_matrix:
+    """Gradients (9 n, components n), displacement by place, from derivatives (n, n) and the axes (j, 3) that each is
+    along."""
+    return sum(
+        sparse.kron(slope, np.kron(np.eye(3)[:, :components], axis[:, None]), format="csr")
+        for slope, axis in zip(slopes, axes)
+    )
+
+
+def _as_matrix(number: complex) -> np.ndarray:
+    """Matrix (2, 2) that multiplies by a complex number."""
+    return np.array([[number.real, -number.imag], [number.imag, number.real]])
+
+
+def _averaged_slopes(nodes: ElementNodes) -> tuple[list[sparse.csr_matrix], np.ndarray]:
+    """Operators (n, n) from values at the nodes to their derivatives by x and y there, averaged by area over the
+    elements that meet; those areas' sums (n,)."""
+    gradients, areas = _gradients_in_cells(nodes)
     cells, count = nodes.cells, len(nodes.points)
-    per_cell = cells.shape[1]
-    # Stress xx, yy, xy of (cell, node) by displacement x, y of (cell, other node).
-    shear = 0.5 / (1.0 + poissons_ratio)
-    lame = poissons_ratio / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))
-    d_x, d_y = gradients[..., 0], gradients[..., 1]
-    stress = (
-        np.array(
-            [
-                [(lame + 2.0 * shear) * d_x, lame * d_y],
-                [lame * d_x, (lame + 2.0 * shear) * d_y],
-                [shear * d_y, shear * d_x],
-            ]
-        )
-        * areas[:, None, None]
-    )  # (3, 2, cells, nodes, nodes)
-    component, direction = np.arange(3)[:, None, None, None, None], np.arange(2)[None, :, None, None, None]
-    rows = np.broadcast_to(3 * cells[None, None, :, :, None] + component, stress.shape)
-    columns = np.broadcast_to(2 * cells[None, None, :, None, :] + direction, stress.shape)
-    weighted = sparse.coo_matrix(
-        (stress.ravel(), (rows.ravel(), columns.ravel())), shape=(3 * count, 2 * count)
-    ).tocsr()
-    weight = np.bincount(cells.ravel(), np.repeat(areas, per_cell), count)
-    return NodalStress(weighted, weight)
+    weight = np.bincount(cells.ravel(), np.repeat(areas, cells.shape[1]), count)
+    rows = np.broadcast_to(cells[:, :, None], gradients.shape[:3]).ravel()
+    columns = np.broadcast_to(cells[:, None, :], gradients.shape[:3]).ravel()
+    values = (gradients * areas[:, None, None, None]).reshape(-1, 2) / weight[rows, None]
+    return [sparse.coo_matrix((each, (rows, columns)), shape=(count, count)).tocsr() for each in values.T], weight
 
 
-def gradients_at_nodes(nodes: ElementNodes) -> tuple[np.ndarray, np.ndarray]:
+def _gradients_in_cells(nodes: ElementNodes) -> tuple[np.ndarray, np.ndarray]:
     """Gradients (cells, nodes, nodes, 2) of the shape functions (third index) that count at each node (second), and
     areas (cells,)."""
-    square = nodes.corners == 4
-    reference = (SQUARE_NODES if square else TRIANGLE_NODES)[: nodes.cells.shape[1]]
-    powers = (SQUARE_POWERS if square else TRIANGLE_POWERS)[nodes.order]
+    kind = nodes.corners
+    vertices, own = (REFERENCE[kind][:count] for count in (kind, nodes.cells.shape[1]))
     if nodes.order == 1:
-        samples, to_nodes = reference.mean(axis=0, keepdims=True), np.ones((len(reference), 1))
-    elif square:
-        samples = GAUSS * SQUARE_NODES[:4]
-        to_nodes = _shapes(reference / GAUSS, SQUARE_NODES[:4], SQUARE_POWERS[1])
+        samples, to_nodes = own.mean(axis=0, keepdims=True), np.ones((len(own), 1))
+    elif kind == 4:
+        samples = 0.5 + GAUSS * (vertices - 0.5)
+        # Bilinear between the Gauss points.
+        to_nodes = adapter.lagrange(vertices, 1, 0.5 + (own - 0.5) / GAUSS)[0]
     else:
-        samples, to_nodes = reference, np.eye(len(reference))
-    geometry = (SQUARE_POWERS if square else TRIANGLE_POWERS)[1]
-    corners = nodes.points[nodes.cells[:, : nodes.corners]]
-    jacobian = np.einsum("sad,cax->csxd", _slopes(samples, reference[: nodes.corners], geometry), corners)
-    inverse = np.linalg.inv(jacobian)
-    gradients = np.einsum("sad,csdx->csax", _slopes(samples, reference, powers), inverse)
+        samples, to_nodes = own, np.eye(len(own))
+    corners = nodes.points[nodes.cells[:, :kind]]
+    jacobian = np.einsum("sad,cax->csxd", adapter.lagrange(vertices, 1, samples)[1], corners)
+    gradients = np.einsum("sad,csdx->csax", adapter.lagrange(own, nodes.order, samples)[1], np.linalg.inv(jacobian))
     along, across = corners[:, 1:-1] - corners[:, :1], corners[:, 2:] - corners[:, :1]
     areas = 0.5 * (along[..., 0] * across[..., 1] - along[..., 1] * across[..., 0]).sum(axis=1)
     return np.einsum("ns,csax->cnax", to_nodes, gradients), areas
-
-
-def _shapes(points: np.ndarray, nodes: np.ndarray, powers) -> np.ndarray:
-    """Shape functions (points, nodes) of the nodes (k, 2) at points (j, 2)."""
-    return _monomials(points, powers) @ np.linalg.inv(_monomials(nodes, powers))
-
-
-def _slopes(points: np.ndarray, nodes: np.ndarray, powers) -> np.ndarray:
-    """Derivatives (points, nodes, 2) of the shape functions by the reference coordinates."""
-    x, y = points.T
-    by_x = np.stack([i * x ** max(i - 1, 0) * y**j for i, j in powers], axis=-1)
-    by_y = np.stack([j * x**i * y ** max(j - 1, 0) for i, j in powers], axis=-1)
-    coefficients = np.linalg.inv(_monomials(nodes, powers))
-    return np.stack([by_x @ coefficients, by_y @ coefficients], axis=-1)
-
-
-def _monomials(points: np.ndarray, powers) -> np.ndarray:
-    x, y = points.T
-    return np.stack([x**i * y**j for i, j in powers], axis=-1)

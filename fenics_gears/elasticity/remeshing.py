@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
-from time import perf_counter
 
 import numpy as np
 
-from fenics_gears.elasticity.cache import Cache, content_key
+from fenics_gears.elasticity.cache import Cache, kept
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.geometry.gear import Gear
@@ -40,28 +39,22 @@ def remeshed_stiffness(
         report: called with
     positions done and in all, of this process. Raises ComputationError when a position fails.
     """
-    key = content_key(
-        {
-            "remeshed": NUMBERS_VERSION,
-            "gear": asdict(gear),
-            "poissons_ratio": material.poissons_ratio,
-            "element": discretisation.element,
-            "sizes": asdict(discretisation.sizes(gear)),
-            "positions": [[[tooth.angle, tooth.rolls.tolist()] for tooth in teeth] for teeth in positions],
-        }
-    )
-    clock = perf_counter()
-    cached = None if cache is None else cache.load(key)
-    if cached is not None:
-        stiffness = [material.youngs_modulus * cached[str(i)] for i in range(len(positions))]
-        timings = {"from_cache": True, "time_mesh": 0.0, "time_compile": 0.0, "time_condense": perf_counter() - clock}
-        return RemeshedStiffness(stiffness, timings)
-    shares = together(job, _computed, gear, material, discretisation, positions, report=report)
-    parts = {index: stiffness for share, _ in shares for index, stiffness in share.items()}
-    timings = {name: max(times[name] for _, times in shares) for name in shares[0][1]}
-    if cache is not None:
-        cache.store(key, {str(i): parts[i] / material.youngs_modulus for i in parts})
-    return RemeshedStiffness([parts[i] for i in sorted(parts)], {"from_cache": False, **timings})
+    inputs = {
+        "remeshed": NUMBERS_VERSION,
+        "gear": asdict(gear),
+        "poissons_ratio": material.poissons_ratio,
+        "element": discretisation.element,
+        "sizes": asdict(discretisation.sizes(gear)),
+        "positions": [[[tooth.angle, tooth.rolls.tolist()] for tooth in teeth] for teeth in positions],
+    }
+
+    def compute() -> tuple[dict, dict]:
+        shares = together(job, _computed, gear, material, discretisation, positions, report=report)
+        found = {str(i): stiffness / material.youngs_modulus for share, _ in shares for i, stiffness in share.items()}
+        return found, {name: max(times[name] for _, times in shares) for name in shares[0][1]}
+
+    arrays, timings = kept(cache, inputs, compute)
+    return RemeshedStiffness([material.youngs_modulus * arrays[str(i)] for i in range(len(positions))], timings)
 
 
 def _computed(gear, material, discretisation, positions, comm, report=None) -> tuple[dict[int, np.ndarray], dict]:

@@ -1,34 +1,37 @@
-"""Stress in a tooth's fillets per force on the flanks: a row for each fillet point, so that a time step's stress is one
-small product.
+"""Stress in a tooth's fillets per force on the flanks, in the plane or over the face in slices: a row for each fillet
+point and slice, so that a time step's stress is one small product.
 
-The rows come by reciprocity (Betti): under the load that is dual to the stress at a fillet point, the displacement of
-the flanks is that stress per unit force on them. One solve for each fillet point serves all flank nodes of all teeth.
+The rows come by reciprocity (Betti): one solve serves a fillet point in a slice, and one a dof of a flank in a slice;
+ring and neighbours follow by dense products. A swept section has few elements along a fillet. What it errs by at a
+point hardly depends on the load, so that a finer section in plane strain corrects it.
 """
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
+from scipy import sparse
 
 from fenics_gears.elasticity.cache import Cache, kept
-from fenics_gears.elasticity.element_sizes import Discretisation
-from fenics_gears.elasticity.elements import element_named
+from fenics_gears.elasticity.gear_compliance import similar_inputs
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
-from fenics_gears.numbers_version import NUMBERS_VERSION
+
+# Right-hand sides in memory at once.
+COLUMNS = 64
 
 
 @dataclass(frozen=True)
 class RootStressRows:
-    """Stress along the surface at the fillet points of a tooth per line force on flank nodes, MPa per N/mm.
+    """Stress along the surface at the fillet points of a tooth per force on flank nodes: MPa per N/mm in the plane,
+    where there is one slice, MPa/N over the face.
 
-    rows: (2 reach + 1, 2 p, d): rows[reach + m] are those of the tooth m pitches ahead (counter-clockwise) of the
-        loaded one; the drive
-    side's p points, then the coast side's; d dofs of the loaded tooth's flank or flanks in its own frame, as the flank
-    compliance has them
-    but not mirrored. tangent_angle: (p,), rad, between the fillet's tangent and the tooth's centreline; the last point
-    is the one at 30 degrees.
+    rows: (2 reach + 1, S, 2 p, d): rows[reach + m] are those of the tooth m pitches ahead (counter-clockwise) of the
+        loaded one; the drive side's p points, then the coast side's; d dofs of the loaded tooth by flank, slice, node
+        and component in its own frame (at that height), not mirrored.
+    tangent_angle: (p,), rad, between the fillet's tangent and the tooth's centreline; the last point is the one at 30
+        degrees.
     """
 
     rows: np.ndarray
@@ -43,46 +46,87 @@ class RootStressRows:
 def root_stress_rows(
     gear: Gear,
     material: Material,
-    discretisation: Discretisation,
+    discretisation,
     reach: int,
     coast_flank: bool = False,
     cache: Cache | None = None,
+    slices: tuple[np.ndarray, np.ndarray] | None = None,
 ) -> RootStressRows:
-    """The rows of a gear, from the cache or by solving; settings as in `flank_compliance`. Stress does not depend on
-    Young's modulus."""
-    chosen = element_named(discretisation.element)
-    sizes = discretisation.sizes(gear, both_flanks=coast_flank).in_modules_of(gear)
-    similar = gear.of_module_one
-    inputs = {
-        "kind": "root stress",
-        "version": NUMBERS_VERSION,
-        "gear": asdict(similar),
-        "poissons_ratio": material.poissons_ratio,
-        "element": chosen.name,
-        "sizes": asdict(sizes),
+    """The rows of a gear, or of its transverse section over the face, from the cache or by solving, on the mesh of its
+    compliance. Stress does not depend on Young's modulus.
+
+    discretisation: of the plane section (Discretisation), or of the body over the face (FaceDiscretisation), which
+        takes slices.
+    slices: of the face, middles from the gear's mid-width and widths (S,), mm; stress is averaged over a slice, and its
+    force spreads over it.
+    """
+    inputs = similar_inputs("root stress", gear, material, discretisation, coast_flank) | {
+        "slices": [gear.in_modules(*each.tolist()) for each in slices or ()],
         "reach": reach,
+        "both flanks": coast_flank,
     }
-    arrays, _ = kept(cache, inputs, lambda: (_computed(similar, material, chosen, sizes, reach), {}))
-    # A stress is a force over a length, which is in modules there.
-    return RootStressRows(arrays["unit_rows"] / gear.module, arrays["tangent_angle"])
+    averages = np.ones((1, 1))
+    if slices is not None:
+        # Imported here: plane scenes have none.
+        from fenics_gears.elasticity.slice_averages import slice_averages
+
+        averages = slice_averages(gear.module * discretisation.in_modules_of(gear).sweep.heights, 2, *slices)
+    arrays, _ = kept(
+        cache,
+        inputs,
+        lambda: (_computed(gear, discretisation, material.poissons_ratio, averages, reach, coast_flank), {}),
+    )
+    # A stress is a force over a length or an area, which is in modules there.
+    unit = gear.module if slices is None else gear.module**2
+    return RootStressRows(arrays["unit_rows"] / unit, arrays["tangent_angle"])
 
 
-def _computed(gear: Gear, material: Material, element, sizes, reach: int) -> dict[str, np.ndarray]:
+def _computed(
+    gear: Gear, discretisation, poissons_ratio: float, averages: np.ndarray, reach: int, coast_flank: bool
+) -> dict[str, np.ndarray]:
+    """Rows for lengths in modules, and the points' angles."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
-    from fenics_gears.elasticity.condensation import dofs_of
-    from fenics_gears.elasticity.fillet_points import fillet_curve, fillet_rows
-    from fenics_gears.elasticity.recovery import GearRecovery
-    from fenics_gears.elasticity.sector_mesh import sector_mesh
+    from fenics_gears.elasticity.fillet_points import POINTS, POINTS_OVER_FACE, fillet_curve, fillet_rows
+    from fenics_gears.elasticity.recovery import gear_recovery
 
-    mesh = sector_mesh(gear, sizes, element.quadrilateral)
-    with GearRecovery(gear, material, mesh, element) as recovery:
-        curve = fillet_curve(gear)
-        wanted = fillet_rows(curve, recovery.interior, recovery.nodal_stress)
-        sides = ("flank", "coast") if sizes.both_flanks else ("flank",)
-        flank = np.concatenate([dofs_of(recovery.interior.flank_nodes(side)) for side in sides])
-        # A tooth m pitches ahead of the loaded one: the loaded one is m pitches behind the tooth whose stress is
-        # wanted.
-        responses = recovery.unit_displacement({0: np.nan_to_num(wanted).T}, [-m for m in range(-reach, reach + 1)])
-    rows = np.stack([response[flank].T for response in responses])
-    rows[:, ~np.isfinite(wanted).all(axis=1)] = np.nan
+    over_face = averages.shape[1] > 1
+    curve = fillet_curve(gear.of_module_one, POINTS_OVER_FACE if over_face else POINTS)
+    with gear_recovery(gear, Material(1.0, poissons_ratio), discretisation, coast_flank) as recovery:
+        stress = fillet_rows(recovery, curve, averages)
+        flanks = _slice_loads(recovery.sector, averages, coast_flank)
+        at_flanks, from_points = _moved(recovery.sector, stress.T.tocsc(), flanks)
+        _, from_flanks = _moved(recovery.sector, flanks.tocsc(), flanks[:, :0])
+        rows = recovery.between_teeth(from_points, from_flanks, reach)
+    rows[reach] += at_flanks.T
+    rows = rows.reshape(len(rows), len(averages), 2 * len(curve.length), -1)
+    if over_face:
+        from fenics_gears.elasticity.face.fine_fillet import fine_over_swept
+
+        sizes = discretisation.in_modules_of(gear).sizes
+        rows *= fine_over_swept(gear.of_module_one, sizes, poissons_ratio, curve)[:, None]
+    rows[:, :, np.tile(~np.isfinite(curve.length), 2)] = np.nan
     return {"unit_rows": rows, "tangent_angle": curve.tangent_angle}
+
+
+def _slice_loads(sector, averages: np.ndarray, coast_flank: bool) -> sparse.csr_matrix:
+    """Loads (dofs, d) of unit forces on the nodes of the flanks in the slices."""
+    parts, components = [], sector.components
+    for side in ("flank", "coast") if coast_flank else ("flank",):
+        at = sector.flank_nodes(side).reshape(averages.shape[1], -1)
+        spread = sparse.kron(averages.T, sparse.eye(components * at.shape[1]), format="csr")
+        dofs = (components * at[:, :, None] + np.arange(components)).ravel()
+        placed = (np.ones(len(dofs)), (dofs, np.arange(len(dofs))))
+        parts.append(sparse.csr_matrix(placed, shape=(components * sector.nodes, len(dofs))) @ spread)
+    return sparse.hstack(parts, format="csr")
+
+
+def _moved(sector, loads: sparse.csc_matrix, averaged: sparse.csr_matrix) -> tuple[np.ndarray, np.ndarray]:
+    """Of loads (dofs, k) on a sector with free cuts: the displacement (d, k) on average over `averaged` (dofs, d), and
+    that of the cuts (2 c, k)."""
+    found, at_cuts, columns = np.empty((averaged.shape[1], loads.shape[1])), [], averaged.T.tocsr()
+    for first in range(0, loads.shape[1], COLUMNS):
+        part = slice(first, first + COLUMNS)
+        moved = sector.free_motion(loads[:, part].toarray())
+        found[:, part] = columns @ moved
+        at_cuts.append(sector.at_cuts(moved))
+    return found, np.hstack(at_cuts)

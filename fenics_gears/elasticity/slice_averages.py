@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from fenics_gears.elasticity.face.layers import shapes
+
 GAUSS_POINTS, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(3)
 
 
@@ -31,15 +33,9 @@ def slice_averages(heights: np.ndarray, order: int, positions: np.ndarray, width
                 (points - ends[layer]) / (ends[layer + 1] - ends[layer]),
                 0.5 * (top - bottom) / width * GAUSS_WEIGHTS,
             )
-            for node, values in enumerate(_shapes(local, order)):
+            for node, values in enumerate(shapes(2.0 * local - 1.0)[0] if order == 2 else (1.0 - local, local)):
                 weights[number, order * layer + node] += share @ values
     return weights
-
-
-def _shapes(local: np.ndarray, order: int) -> tuple[np.ndarray, ...]:
-    if order == 1:
-        return 1.0 - local, local
-    return (1.0 - local) * (1.0 - 2.0 * local), 4.0 * local * (1.0 - local), local * (2.0 * local - 1.0)
 
 
 def on_slices(blocks: np.ndarray, weights: np.ndarray, flanks: int = 1) -> np.ndarray:

@@ -6,9 +6,11 @@ from functools import cache
 
 import numpy as np
 import ufl
+from scipy import sparse
 from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
+from fenics_gears.elasticity.element_nodes import numbers_at
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.errors import ComputationError
@@ -85,20 +87,17 @@ def compile_ahead(element: Element) -> None:
         adapter.with_compiled(lambda: stiffness_matrix(displacement_space(cell, element), element, 0.3)).destroy()
 
 
-def nodes_at(space, coordinates: np.ndarray) -> np.ndarray:
-    """Numbers (k,) of the space's nodes at coordinates (k, 2).
+def assembled(matrix) -> sparse.csr_matrix:
+    """A PETSc matrix as scipy's; the former is given back."""
+    starts, columns, values = matrix.getValuesCSR()
+    found = sparse.csr_matrix((values.copy(), columns.copy(), starts.copy()), shape=matrix.getSize())
+    matrix.destroy()
+    return found
 
-    Raises ComputationError where there is no node, or more than one (as on the faces of a crack).
-    """
-    nodes = adapter.node_coordinates(space)
-    distance, found = cKDTree(nodes).query(coordinates, k=2)
-    tolerance = 1e-9 * np.abs(nodes).max()
-    for wrong, what in ((distance[:, 0] > tolerance, "no node"), (distance[:, 1] <= tolerance, "more than one node")):
-        if wrong.any():
-            x, y = coordinates[np.flatnonzero(wrong)[0]]
-            place = f"x = {x:.6f}, y = {y:.6f} in the mesh's unit of length"
-            raise ComputationError(f"stiffness: {what} at {place} of a loaded or held boundary")
-    return found[:, 0]
+
+def nodes_at(space, coordinates: np.ndarray) -> np.ndarray:
+    """Numbers (k,) of the space's nodes at coordinates (k, 2), as of `numbers_at`."""
+    return numbers_at(adapter.node_coordinates(space), coordinates)
 
 
 def nodes_in_cells(space, coordinates: np.ndarray, centres: np.ndarray) -> np.ndarray:

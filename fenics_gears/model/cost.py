@@ -17,6 +17,7 @@ from fenics_gears.effects import body_meshes, effects_on
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP
+from fenics_gears.model.storage import FILLET_POINTS, FILLET_POINTS_OVER_FACE
 
 Number = float | np.ndarray
 
@@ -54,6 +55,10 @@ UNLIKE_CYCLES = 5
 # For the reference route, seconds: an unknown of a remeshed sector, a step, the cube of its contact rows; matrices of a
 # position.
 REMESHED_UNKNOWN, REMESHED_STEP, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 4e-4, 1.5e-10, 7.0
+# Of root stress, seconds: an unknown for each column solved, in the plane and over the face, and a step for each stress
+# of a tooth per force on one (measured; several loaded teeth). Bytes for each contact row of a position: matrices from
+# its force to forces on the flank nodes of both gears (measured).
+SOLVED_UNKNOWN, SOLVED_OVER_FACE, STEP_STRESS, ON_FLANKS = 1.4e-7, 4e-7, 5e-9, 200.0
 # Bytes: the program with its libraries; the same with those that mesh and condense; one number.
 PROGRAM, CONDENSING_PROGRAM, BYTES_OF_A_NUMBER = 200e6, 300e6, 8.0
 # What a result needs to know of a contact node at a position, numbers, and their copies side by side.
@@ -143,20 +148,15 @@ def expected_cost(model: Model, ranks: int = 1) -> ExpectedCost:
     if scene.tooth_elasticity is None or resolution.element not in SECTOR_UNKNOWNS:
         return ExpectedCost(None, _marching(model, 0.0), PROGRAM + model.stored_bytes)
     gears = [_condensed(model, name) for name in ("pinion", "wheel")]
-    if model.face is not None:
-        return _face_cost(model, gears, ranks)
-    cost = _remeshed_cost if resolution.condensation == EVERY_STEP else _condensed_once_cost
-    condensing, marching, held, operators = cost(model, gears)
-    unknowns = tuple((gear.words, gear.unknowns) for gear in gears)
-    building = 0.0 if cost is _remeshed_cost else _building(model, contact_rows(model))
-    return ExpectedCost(
-        condensing,
-        marching,
-        CONDENSING_PROGRAM + model.stored_bytes + held + operators,
-        operators,
-        unknowns,
-        building=building,
-    )
+    if resolution.condensation == EVERY_STEP:
+        return _remeshed_cost(model, gears)
+    sections = _sections(model, gears)
+    if model.face is None:
+        return sections
+    # Imported here: plane scenes have none.
+    from fenics_gears.model.face_cost import face_cost
+
+    return face_cost(model, sections, ranks)
 
 
 @dataclass(frozen=True)
@@ -222,9 +222,9 @@ def _building(model: Model, rows: float) -> float:
     return _positions(model) * (PAIR * loaded_pairs(model) + NODES_SQUARE * nodes**2)
 
 
-def _condensed_once_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, float, float]:
-    """Seconds of condensing and of marching, bytes that are held all the time and those of the contact operators."""
-    rows = contact_rows(model)
+def _sections(model: Model, gears: list[_Gear]) -> ExpectedCost:
+    """Of gears condensed once in the plane, and of marching on them."""
+    rows, positions, friction = contact_rows(model), _positions(model), model.scene.friction is not None
     condensing = sum(
         GEAR
         + UNKNOWN * gear.unknowns
@@ -232,45 +232,43 @@ def _condensed_once_cost(model: Model, gears: list[_Gear]) -> tuple[float, float
         + gear.blocks * FLANK_SQUARE * gear.flank_dofs**2
         for gear in gears
     )
-    nodes = _positions(model) * rows / (2 if model.scene.friction is not None else 1)
+    nodes = positions * rows / (2 if friction else 1)
     held = BYTES_OF_A_NUMBER * NUMBERS_OF_A_NODE * nodes + sum(
         flank_bytes(gear.flank_dofs) + BYTES_OF_A_NUMBER * (gear.blocks + gear.copied) * gear.flank_dofs**2
         for gear in gears
     )
-    return (
-        condensing,
-        _marching(model, rows),
-        held,
-        operator_bytes(_positions(model), rows, model.scene.friction is not None),
-    )
-
-
-def _face_cost(model: Model, gears: list[_Gear], ranks: int) -> ExpectedCost:
-    """Of flanks resolved over the face, whose plane sections are as `gears`."""
-    # Imported here: plane scenes have none.
-    from fenics_gears.model.face_cost import face_cost
-
-    condensing, _, held, _ = _condensed_once_cost(model, gears)
-    over_face = face_cost(model, ranks)
-    sections = tuple((gear.words, gear.unknowns) for gear in gears)
-    names = ("the pinion's body", "the wheel's body")
-    bodies = tuple(zip(names, over_face.unknowns))
-    memory = (
-        CONDENSING_PROGRAM + model.stored_bytes + max(held + over_face.kept + over_face.operators, over_face.memory)
-    )
+    marching, operators = _marching(model, rows), operator_bytes(positions, rows, friction)
+    if model.scene.output.root_stress and model.face is None:
+        held += ON_FLANKS * positions * rows
+        for gear in gears:
+            seconds, kept, step = root_stress_cost(model, gear.unknowns, UNKNOWN, gear.flank_dofs)
+            condensing, held, marching = condensing + seconds, held + kept, marching + model.steps * step
     return ExpectedCost(
-        condensing + over_face.condensing,
-        over_face.marching,
-        memory,
-        over_face.operators,
-        (*sections, *bodies),
-        tuple(zip(names, over_face.ways)),
-        over_face.building,
+        condensing,
+        marching,
+        CONDENSING_PROGRAM + model.stored_bytes + held + operators,
+        operators,
+        tuple((gear.words, gear.unknowns) for gear in gears),
+        building=_building(model, rows),
     )
 
 
-def _remeshed_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, float, float]:
-    """The same where every loaded sector is meshed anew at every position."""
+def root_stress_cost(model: Model, unknowns: float, factorised: float, flank: float) -> tuple[float, float, float]:
+    """Of the root stress of a gear, in the plane or in slices: seconds of condensing, bytes of its rows, seconds of a
+    step. factorised: seconds of an unknown; flank: dofs of the flank or flanks."""
+    points, solved = 2.0 * (FILLET_POINTS + 1), SOLVED_UNKNOWN
+    if model.face is not None:
+        points, solved = 2.0 * (FILLET_POINTS_OVER_FACE + 1) * model.face.slices, SOLVED_OVER_FACE
+    teeth = 2 * model.touching.reach.farthest + (3 if model.scene.coast_flanks is not None else 1)
+    return (
+        unknowns * (factorised + solved * (points + flank)),
+        BYTES_OF_A_NUMBER * teeth * points * flank,
+        STEP_STRESS * points * flank,
+    )
+
+
+def _remeshed_cost(model: Model, gears: list[_Gear]) -> ExpectedCost:
+    """Of a run where every loaded sector is meshed anew at every position."""
     order = 2 if model.resolution.element.endswith("2") else 1
     positions, nodes, pairs = (
         model.resolution.steps_per_mesh_cycle,
@@ -278,6 +276,9 @@ def _remeshed_cost(model: Model, gears: list[_Gear]) -> tuple[float, float, floa
         loaded_pairs(model),
     )
     rows = 2.0 * pairs * (order * (nodes - 1) + 1)
-    condensing = positions * pairs * REMESHED_UNKNOWN * sum(gear.unknowns for gear in gears)
-    marching = model.steps * (REMESHED_STEP + ROW_CUBE * rows**3)
-    return condensing, marching, BYTES_OF_A_NUMBER * positions * MATRICES_OF_A_POSITION * rows**2, 0.0
+    return ExpectedCost(
+        positions * pairs * REMESHED_UNKNOWN * sum(gear.unknowns for gear in gears),
+        model.steps * (REMESHED_STEP + ROW_CUBE * rows**3),
+        CONDENSING_PROGRAM + model.stored_bytes + BYTES_OF_A_NUMBER * positions * MATRICES_OF_A_POSITION * rows**2,
+        unknowns=tuple((gear.words, gear.unknowns) for gear in gears),
+    )

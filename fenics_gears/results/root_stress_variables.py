@@ -1,10 +1,13 @@
-"""Root stress in the result: stress along the surface of both fillets of each loaded tooth, over time."""
+"""Root stress in the result: stress along the surface of both fillets of each loaded tooth, over time, slice by slice
+where flanks are resolved over the face."""
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Sequence
 
 import numpy as np
+from scipy import sparse
 
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, flank_rows, sector_of, unmirrored
 from fenics_gears.contact.mesh_cycle import Cycle
@@ -20,42 +23,58 @@ Rows = tuple[RootStressRows, RootStressRows]
 SIDES = ("drive", "coast")
 
 
+# Of a gear: the teeth loaded at a position, by `sector_of`, and the forces on their flanks' slices per contact force
+# (loaded d, forces).
+OnFlanks = tuple[list[int], sparse.csr_matrix]
+
+
 class RootStress:
-    """Root stress at the steps of a cycle: for each position a matrix from contact forces to stresses, built when first
-    asked for."""
+    """Root stress at the steps of a cycle: forces on the flanks, in slices of a face if it has some, from the contact
+    forces, times the stress per force on a flank."""
 
     def __init__(self, pair: GearPair, cycle: Cycle, rows: Rows):
         self.pair, self.cycle, self.rows = pair, cycle, rows
-        self._matrices: dict[float, tuple[list[int], np.ndarray]] = {}
+        self._matrices: dict[float, tuple[list[int], tuple[OnFlanks, OnFlanks]]] = {}
 
-    def at(self, record: Record) -> tuple[list[int], np.ndarray]:
-        """Indices of the tooth pairs in reach, and their stress (gears, pairs, points), MPa, at a step."""
+    def on_flanks(self, record: Record) -> tuple[list[int], tuple[OnFlanks, OnFlanks]]:
+        """Indices of the tooth pairs in reach, and matrices from contact forces to forces on both gears' flanks, built
+        when first asked for."""
         phase = record.step % self.cycle.steps
         if phase not in self._matrices:
+            pairs = record.position.operator.pairs
             tangential = len(record.solution.forces) > record.position.operator.nodes
-            self._matrices[phase] = self._matrix(record.position.operator.pairs, tangential)
-        teeth, matrix = self._matrices[phase]
-        return teeth, matrix @ record.solution.forces
+            teeth = sorted({pair.place.index for pair in pairs}, reverse=True)
+            self._matrices[phase] = teeth, tuple(self._of_gear(gear, pairs, tangential) for gear in (0, 1))
+        return self._matrices[phase]
 
-    def _matrix(self, pairs: Sequence[ToothPair], tangential: bool) -> tuple[list[int], np.ndarray]:
-        """Indices of the pairs, and stress (gears, pairs, points, forces) per contact force, N; forces as the operator
-        has them."""
-        teeth = sorted({pair.place.index for pair in pairs}, reverse=True)
+    def _of_gear(self, gear: int, pairs: Sequence[ToothPair], tangential: bool) -> OnFlanks:
+        sectors, dofs = sorted({sector_of(gear, pair) for pair in pairs}), self.rows[gear].rows.shape[-1]
         count = sum(len(pair.offsets) for pair in pairs)
-        points = self.rows[0].rows.shape[1]
-        matrix = np.zeros((2, len(teeth), points, (2 if tangential else 1) * count))
-        for gear, data in enumerate((self.pair.pinion, self.pair.wheel)):
-            for nodes, pair in zip(node_slices(pairs), pairs):
-                line = flank_rows(gear, pair, tangential) / self.pair.face_width
-                line = unmirrored(data, line) if pair.place.flank == COAST else line
-                columns = np.r_[nodes, count + nodes.start : count + nodes.stop] if tangential else np.r_[nodes]
-                for place, index in enumerate(teeth):
-                    known, first = (
-                        self._known(gear, SENSE_OF_TEETH[gear] * index - sector_of(gear, pair)),
-                        pair.place.flank * len(line),
-                    )
-                    matrix[gear, place][:, columns] += known[:, first : first + len(line)] @ line
-        return teeth, matrix
+        slices, entries = self.rows[gear].rows.shape[1], []
+        for nodes, pair in zip(node_slices(pairs), pairs):
+            number, forces = self._forces(gear, pair, tangential)
+            columns = np.r_[nodes, count + nodes.start : count + nodes.stop] if tangential else np.r_[nodes]
+            first = dofs * sectors.index(sector_of(gear, pair)) + len(forces) * (slices * pair.place.flank + number)
+            row, column = np.nonzero(forces)
+            entries.append((forces[row, column], first + row, columns[column]))
+        values, row, column = (
+            (np.concatenate(each) for each in zip(*entries)) if entries else np.empty((3, 0), dtype=int)
+        )
+        return sectors, sparse.csr_matrix(
+            (values, (row, column)), shape=(dofs * len(sectors), (2 if tangential else 1) * count)
+        )
+
+    def _forces(self, gear: int, pair: ToothPair, tangential: bool) -> tuple[int, np.ndarray]:
+        """The slice that a pair is in, and forces (f components, n or 2 n) on a flank's nodes there per contact
+        force."""
+        face, data = self.cycle.face, (self.pair.pinion, self.pair.wheel)[gear]
+        if face is not None:
+            # Imported here: plane scenes have none.
+            from fenics_gears.contact.face_forces import slice_rows
+
+            return pair.place.slice, slice_rows(gear, data, face, pair, tangential)
+        line = flank_rows(gear, pair, tangential) / self.pair.face_width
+        return 0, unmirrored(data, line) if pair.place.flank == COAST else line
 
     def _known(self, gear: int, ahead: int) -> np.ndarray:
         rows = self.rows[gear]
@@ -68,18 +87,45 @@ class RootStress:
 
     def values(self, nodes: SideBySide) -> dict[str, np.ndarray]:
         """Root stress at consecutive steps; not a number where a slot's pair is out of reach."""
-        points = self.rows[0].rows.shape[1] // 2
-        values = np.full((len(nodes.steps), 2, nodes.slots, 2, points), np.nan)
+        slices, points = self.rows[0].rows.shape[1:3]
+        values = np.full((len(nodes.steps), 2, nodes.slots, slices, points), np.nan)
+        # Not a number at points that a fillet does not have.
+        at_rest = np.stack([0.0 * rows.rows[rows.reach, ..., 0] for rows in self.rows])
+        # By gear and distance of the tooth from the loaded one, so that all steps are one product.
+        asked: dict[tuple[int, int], list[tuple[int, int, np.ndarray]]] = defaultdict(list)
+        known: list[tuple[int, int]] = []
         for i, record in enumerate(nodes.steps.records):
-            teeth, stresses = self.at(record)
-            for place, index in enumerate(teeth):
-                values[i, :, nodes.slot_of(i, index)] = stresses[:, place].reshape(2, 2, points)
-        along = values[..., :-1].reshape(*values.shape[:3], -1)
+            teeth, gears = self.on_flanks(record)
+            slots = [nodes.slot_of(i, index) for index in teeth]
+            known += [(i, slot) for slot in slots]
+            for gear, (sectors, matrix) in enumerate(gears):
+                forces = (matrix @ record.solution.forces).reshape(len(sectors), -1)
+                for loaded in np.flatnonzero(forces.any(axis=1)):
+                    for index, slot in zip(teeth, slots):
+                        ahead = SENSE_OF_TEETH[gear] * index - sectors[loaded]
+                        asked[gear, ahead].append((i, slot, forces[loaded]))
+        if known:
+            steps, slots = np.array(known).T
+            values[steps, :, slots] = at_rest
+        for (gear, ahead), found in asked.items():
+            steps, slots, forces = zip(*found)
+            stacked = np.concatenate(forces).reshape(len(forces), -1)
+            stress = stacked @ self._known(gear, ahead).reshape(slices * points, -1).T
+            # At a step a tooth stands so far ahead of one loaded tooth alone: no place is there twice.
+            values[list(steps), gear, list(slots)] += stress.reshape(-1, slices, points)
+        return self._variables(values.reshape(*values.shape[:4], 2, points // 2))
+
+    def _variables(self, values: np.ndarray) -> dict[str, np.ndarray]:
+        """The variables of a result from stresses (steps, gears, slots, slices, sides, points)."""
+        along = np.moveaxis(values[..., :-1], 3, -1)
+        along = along.reshape(*along.shape[:3], -1, along.shape[-1])
+        section = values[..., -1].swapaxes(-1, -2)
+        over_face = self.cycle.face is not None
         return {
-            "root_stress": along,
-            "root_stress_maximum": np.fmax.reduce(along, axis=-1),
-            "root_stress_at_30_degrees": values[..., -1],
-        }
+            "root_stress": along if over_face else along[..., 0],
+            "root_stress_maximum": np.fmax.reduce(along, axis=(-1, -2)),
+            "root_stress_at_30_degrees": np.fmax.reduce(section, axis=-1),
+        } | ({"root_stress_over_face": section} if over_face else {})
 
     def labels(self) -> tuple[dict[str, str], dict[str, tuple]]:
         """Long names of the variables, and the coordinates of their fillet points."""
@@ -91,6 +137,9 @@ class RootStress:
                 "stress where the fillet's tangent stands at 30 degrees to the tooth's centreline"
             ),
         }
+        if self.cycle.face is not None:
+            section = words["root_stress_at_30_degrees"]
+            words |= {"root_stress_at_30_degrees": f"largest {section}", "root_stress_over_face": section}
         return words, {
             "fillet": ("fillet", list(SIDES), {"long_name": "side of the tooth"}),
             "fillet_side": ("fillet_point", np.repeat(SIDES, angles.shape[1]), {"long_name": "side of the tooth that "

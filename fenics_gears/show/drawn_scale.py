@@ -8,7 +8,7 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import depth_first_order
 from scipy.spatial import cKDTree
 
-from fenics_gears.show.stress_grid import largest_movement, shown_points
+from fenics_gears.show.stress_grid import in_plane, largest_movement, shown_points
 from fenics_gears.simulation.run_stresses import GearsInMesh
 
 # In modules: how far the largest displacement may be drawn, and how deep one tooth into another. Gaps are drawn as
@@ -47,12 +47,13 @@ def overlap(mesh: GearsInMesh, scale: float) -> float:
 def outer_loop(mesh: GearsInMesh, gear: int) -> np.ndarray:
     """Nodes along a gear's outline without the bore, by the angle at which they are reached going round it."""
     body = mesh.gears[gear]
-    nodes, count = np.unique(body.outline), len(body.points)
+    points, outline = in_plane(body.points), body.of_sectors(body.outline)
+    nodes = np.unique(outline)
     # Nodes at the ends of sectors are there twice, once for either sector.
-    twins = nodes[cKDTree(body.points[nodes]).query_pairs(1e-7 * mesh.pair.pinion.module, output_type="ndarray")]
-    first, second = np.vstack([body.outline, twins]).T
-    sides = csr_matrix((np.ones(len(first)), (first, second)), shape=(count, count))
-    start = nodes[np.argmax(np.linalg.norm(body.points[nodes] - body.centre, axis=1))]
+    twins = nodes[cKDTree(points[nodes]).query_pairs(1e-7 * mesh.pair.pinion.module, output_type="ndarray")]
+    first, second = np.vstack([outline, twins]).T
+    sides = csr_matrix((np.ones(len(first)), (first, second)), shape=(len(points),) * 2)
+    start = nodes[np.argmax(np.linalg.norm(points[nodes] - body.centre, axis=1))]
     # Each node has two neighbours, so that going ever deeper goes round.
     return depth_first_order(sides, start, directed=False, return_predecessors=False)
 

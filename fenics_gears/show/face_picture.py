@@ -4,9 +4,8 @@ stress."""
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 import xarray as xr
@@ -17,15 +16,17 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.chart import MARKED_LINES, Chart, Curve
 from fenics_gears.show.contact_pattern import ACROSS
-from fenics_gears.show.face_grid import surface
 from fenics_gears.show.flank_pressure import PressedTiles, pressed_tiles
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from fenics_gears.show.pressure import COLOURS as PRESSURE_COLOURS
+from fenics_gears.show.stress_grid import surface
 from fenics_gears.show.stress_picture import COLOURS, colour_bar, heading, rounded_up
-from fenics_gears.simulation.face_stresses import GearsInSpace, TeethInSpace
+from fenics_gears.simulation.run_stresses import GearInSpace, GearsInMesh
 
 UNLOADED, EDGES = "#E4E7EA", "#5A6068"
 PIXELS = 150  # an inch
+# Dots an inch of the figure, and of one in a moving picture.
+DPI, DPI_OF_FRAMES = 100.0, 60.0
 LIGHT = {"ambient": 0.55, "diffuse": 0.5, "specular": 0.0}
 CAPTION = (
     "On the flanks that carry: the run's contact pressure. Elsewhere: von Mises stress of the bodies' mesh, which"
@@ -50,25 +51,9 @@ class Sight:
     half: float
 
 
-def still(mesh: GearsInSpace, dataset: xr.Dataset, scale: float | None = None) -> Figure:
-    """The picture of one time; `scale` of the displacements, true unless given."""
-    return frames(dataset, scale, [mesh])(mesh, dpi=100.0)
-
-
-def frames(dataset: xr.Dataset, scale: float | None, sampled: list[GearsInSpace]) -> Callable[..., Figure]:
-    """What draws the frames of a moving picture, with the colours that suit some of its meshes."""
-    limit = max(map(colour_limit, sampled))
-    beyond = any(
-        float(gear.von_mises[..., ~gear.on_flank].max()) > limit * (1.0 + 1e-9)
-        for mesh in sampled
-        for gear in mesh.gears
-    )
-    return partial(face_picture, dataset=dataset, scale=1.0 if scale is None else scale, limit=limit, beyond=beyond)
-
-
 @styled
 def face_picture(
-    mesh: GearsInSpace, dataset: xr.Dataset, scale: float, limit: float, beyond: bool, dpi: float = 60.0
+    mesh: GearsInMesh, dataset: xr.Dataset, scale: float, limit: float, beyond: bool, dpi: float
 ) -> Figure:
     """Both gears in mesh, and the loaded teeth of each alone; `scale`: of the displacements of the teeth from the hubs.
 
@@ -95,12 +80,7 @@ def face_picture(
     return figure
 
 
-def colour_limit(mesh: GearsInSpace) -> float:
-    """Stress (MPa) at which the colours end: the largest in the roots, rounded up to two digits."""
-    return rounded_up(max(float(gear.von_mises[..., gear.in_root].max()) for gear in mesh.gears))
-
-
-def sights(mesh: GearsInSpace) -> tuple[Sight, Sight, Sight]:
+def sights(mesh: GearsInMesh) -> tuple[Sight, Sight, Sight]:
     """The whole pair, and the loaded teeth of pinion and wheel from the side of their loaded flanks."""
     pair = mesh.pair
     across, along = _upright(pair)
@@ -128,7 +108,7 @@ def sights(mesh: GearsInSpace) -> tuple[Sight, Sight, Sight]:
     return whole, pinion, wheel
 
 
-def root_tension(mesh: GearsInSpace) -> Chart:
+def root_tension(mesh: GearsInMesh) -> Chart:
     """Largest tension in the roots of either gear's loaded teeth at each place of its face."""
     curves = []
     for name, gear, colour in zip(NAMES, mesh.gears, PALETTE):
@@ -151,7 +131,7 @@ def _upright(pair) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _rendered(
-    mesh: GearsInSpace, sight: Sight, scale: float, limit: float, tiles: Sequence[PressedTiles], highest: float
+    mesh: GearsInMesh, sight: Sight, scale: float, limit: float, tiles: Sequence[PressedTiles], highest: float
 ) -> np.ndarray:
     """The image of a panel."""
     try:
@@ -188,12 +168,12 @@ def _rendered(
         plotter.close()
 
 
-def _add_gear(plotter, gear: TeethInSpace, scale: float, limit: float, tiles: PressedTiles, highest: float) -> None:
+def _add_gear(plotter, gear: GearInSpace, scale: float, limit: float, tiles: PressedTiles, highest: float) -> None:
     """One gear: stress on its recovered teeth but on their flanks that carry, there the contact pressure; the other
     teeth and all edges."""
     from pyvista import PolyData
 
-    moved = gear.points + scale * gear.displacement
+    moved = gear.points + scale * gear.elastic
     points, sides = moved.reshape(-1, 3), surface(moved, gear)
     flank = np.tile(gear.on_flank, moved[..., 0, 0].size)[sides].all(axis=1)
     stressed = PolyData.from_regular_faces(points, sides[~flank])
@@ -222,7 +202,7 @@ def _add_gear(plotter, gear: TeethInSpace, scale: float, limit: float, tiles: Pr
         )
 
 
-def _words(figure: Figure, mesh: GearsInSpace, dataset: xr.Dataset, scale: float) -> None:
+def _words(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, scale: float) -> None:
     stored = contact_times(dataset)
     index = int(np.argmin(np.abs(stored["contact_mesh_phase"].values - mesh.mesh_phase)))
     name = "coast_normal_force" if mesh.coast else "normal_force"

@@ -16,7 +16,7 @@ from fenics_gears.results.face_ends import slice_ends
 from fenics_gears.show.contact_pattern import rolls_on_wheel
 from fenics_gears.show.loaded_contact import stored_place
 from fenics_gears.show.pressure import node_edges
-from fenics_gears.simulation.face_stresses import GearsInSpace
+from fenics_gears.simulation.run_stresses import GearsInMesh
 
 # Tiles stand off the flank by this part of a module, so that the facets of the bodies' mesh do not cover them.
 STAND_OFF = 0.02
@@ -32,7 +32,7 @@ class PressedTiles:
     pressure: np.ndarray
 
 
-def pressed_tiles(mesh: GearsInSpace, dataset: xr.Dataset, gear: int, scale: float) -> PressedTiles:
+def pressed_tiles(mesh: GearsInMesh, dataset: xr.Dataset, gear: int, scale: float) -> PressedTiles:
     """The tiles of a gear at the time of a mesh, moved as its teeth are; `scale`: of their displacements."""
     side, pair = "coast_" if mesh.coast else "", mesh.pair
     part = dataset.isel(contact_time=[stored_place(mesh, dataset)])
@@ -79,12 +79,10 @@ def _placed(pair: GearPair, gear: int, coast: bool, rolls: np.ndarray, touching:
     return 2.0 * np.outer(points @ along, along) - points
 
 
-def _displacement(mesh: GearsInSpace, gear: int, points: np.ndarray) -> np.ndarray:
+def _displacement(mesh: GearsInMesh, gear: int, points: np.ndarray) -> np.ndarray:
     """Displacement of the teeth's nodes around points (..., 3)."""
     teeth = mesh.gears[gear]
     distance, node = cKDTree(teeth.points.reshape(-1, 3)).query(points.reshape(-1, 3), NEAREST)
     weight = 1.0 / np.maximum(distance, 1e-9)
-    found = (weight[..., None] * teeth.displacement.reshape(-1, 3)[node]).sum(axis=1) / weight.sum(
-        axis=1, keepdims=True
-    )
+    found = (weight[..., None] * teeth.elastic.reshape(-1, 3)[node]).sum(axis=1) / weight.sum(axis=1, keepdims=True)
     return found.reshape(points.shape)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -13,9 +12,6 @@ from fenics_gears.geometry.involute import flank_point
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.stress_grid import upright
 from fenics_gears.simulation.run_stresses import GearsInMesh
-
-if TYPE_CHECKING:
-    from fenics_gears.simulation.face_stresses import GearsInSpace
 
 FEWEST_NODES = 4
 
@@ -28,7 +24,7 @@ class LoadedContact:
     half_width: float
 
 
-def stored_place(mesh: GearsInMesh | GearsInSpace, dataset: xr.Dataset) -> int:
+def stored_place(mesh: GearsInMesh, dataset: xr.Dataset) -> int:
     """Which of the steps with contact fields a recovered pair is at."""
     return int(np.argmin(np.abs(dataset["contact_mesh_phase"].values - mesh.mesh_phase)))
 

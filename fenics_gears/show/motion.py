@@ -3,8 +3,6 @@ vary."""
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from fenics_gears.show.chart import BAND, LEAST_SHARE, Chart, Curve, Second, of_variables, over_time
@@ -104,42 +102,22 @@ def _shafts(run: Run) -> list[Chart]:
         of_variables(run, f"{caption} {words} the line of action", "Displacement", "µm", {name: ""}, least=LEAST_LENGTH)
         for name, words in sides.items()
     ]
-    alone: dict[str, Any] = {"colours": PALETTE[3:], "height": 300}
-    return [
-        *sum(centres, []),
-        *of_variables(
-            run,
-            "Displacement of the gears along their axes",
-            "Displacement",
-            "µm",
-            {"axial_position": ""},
-            least=LEAST_LENGTH,
-        ),
-        *of_variables(
-            run, "Tilt of the gears about the line of action", "Tilt", "µrad", {"tilt_x": ""}, least=LEAST_ANGLE
-        ),
-        *of_variables(
-            run, "Tilt of the gears in the plane of action", "Tilt", "µrad", {"tilt_y": ""}, least=LEAST_ANGLE
-        ),
-        *of_variables(
-            run,
-            "Rotation of the hubs from their nominal motion",
-            "Rotation",
-            "µrad",
-            {"rotation": ""},
-            least=LEAST_ANGLE,
-        ),
-        *of_variables(
-            run,
-            "Rotation of the output shaft's end",
-            "Rotation",
-            "µrad",
-            {"shaft_end_rotation": "rotation"},
-            least=LEAST_ANGLE,
-            **alone,
-        ),
-        *of_variables(
-            run, "Torque on the wheel's shaft", "Torque", "N m", {"wheel_couple": "torque"}, least=1e-6, **alone
-        ),
-        *of_variables(run, "Mesh frequency", "Mesh frequency", "Hz", {"mesh_frequency": "mesh frequency"}, **alone),
+    of_gears = [
+        ("Displacement of the gears along their axes", "Displacement", "µm", "axial_position", LEAST_LENGTH),
+        ("Tilt of the gears about the line of action", "Tilt", "µrad", "tilt_x", LEAST_ANGLE),
+        ("Tilt of the gears in the plane of action", "Tilt", "µrad", "tilt_y", LEAST_ANGLE),
+        ("Rotation of the hubs from their nominal motion", "Rotation", "µrad", "rotation", LEAST_ANGLE),
     ]
+    of_one = [
+        ("Rotation of the output shaft's end", "Rotation", "µrad", {"shaft_end_rotation": "rotation"}, LEAST_ANGLE),
+        ("Torque on the wheel's shaft", "Torque", "N m", {"wheel_couple": "torque"}, 1e-6),
+        ("Mesh frequency", "Mesh frequency", "Hz", {"mesh_frequency": "mesh frequency"}, 0.0),
+    ]
+    charts = [
+        of_variables(run, words, what, unit, {name: ""}, least=least) for words, what, unit, name, least in of_gears
+    ]
+    charts += [
+        of_variables(run, words, what, unit, names, least=least, colours=PALETTE[3:], height=300)
+        for words, what, unit, names, least in of_one
+    ]
+    return sum(centres + charts, [])

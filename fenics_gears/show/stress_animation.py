@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.show.stress_picture import COLOURS
+from fenics_gears.show.stress_picture import COLOURS, frames
 
 FRAMES_PER_CYCLE, MOST_FRAMES = 24, 120
 FRAMES_PER_SECOND = 12
@@ -35,21 +35,14 @@ def check_suffix(path: Path) -> None:
         )
 
 
-def animate(
-    runs,
-    dataset: xr.Dataset,
-    path: Path,
-    frames: Callable[[list], Callable[..., Figure]],
-    report: Callable[[int, int], None],
-) -> None:
+def animate(runs, dataset: xr.Dataset, path: Path, scale: float | None, report: Callable[[int, int], None]) -> None:
     """Write the moving picture of a run's stresses; `report(done, all)` is called for every frame.
 
-    frames: given some of the meshes that `runs` has, it fixes colours and scale and returns what draws a mesh. The
-        first and the last stored step are the same position in the mesh where whole cycles
-    are stored, so that the last is left out and the turn has no seam.
+    scale: of the displacements, None for a suitable one. The first and the last stored step are the same position in
+    the mesh where whole cycles are stored, so that the last is left out and the turn has no seam.
     """
     steps = frame_steps(dataset)
-    drawn = frames([runs.at(index) for index in steps[:: max(1, len(steps) // SAMPLED)]])
+    drawn = frames(dataset, scale, [runs.at(index) for index in steps[:: max(1, len(steps) // SAMPLED)]])
     images = []
     for done, index in enumerate(steps):
         report(done, len(steps))

@@ -5,7 +5,7 @@ Pictures have the line of centres upright, the pinion above; files have the fram
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +15,15 @@ from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.simulation.run_stresses import GearInSpace, GearsInMesh
 
-# VTK's numbers of cell types, by corners.
-VTK_CELL = {3: 5, 4: 9}
+# VTK's numbers of cell types, by the number of their nodes; where the nodes of its wedge of second order in section and
+# layer lie: (height, node of the triangle).
+VTK_CELL = {3: 5, 4: 9, 18: 32}
+WEDGE_NODES = [
+    *((height, node) for node_group in ((0, 1, 2), (3, 4, 5)) for height in (0, 2) for node in node_group),
+    *((1, node) for node in range(6)),
+]
+PLANE_STRESSES = {"xx": (0, 0), "yy": (1, 1), "xy": (0, 1), "zz": (2, 2)}
+STRESSES = PLANE_STRESSES | {"yz": (1, 2), "xz": (0, 2)}
 # Mesh cycles: whole ones may be written a little less.
 ROUNDING = 1e-9
 MIRROR = np.array([-1.0, 1.0])
@@ -32,18 +39,23 @@ def upright(pair: GearPair, points: np.ndarray, coast: bool = False) -> np.ndarr
     return shown * MIRROR if coast else shown
 
 
+def in_plane(values: np.ndarray) -> np.ndarray:
+    """Points or vectors (m, 2) of all nodes of a plane gear, from (s, 1, n, 3)."""
+    return values[..., :2].reshape(-1, 2)
+
+
 def shown_points(mesh: GearsInMesh, gear: int, scale: float) -> np.ndarray:
-    """Nodes (n, 2), mm, of a gear in the picture, their displacement `scale` times as large as it is.
+    """Nodes (m, 2), mm, of a plane gear in the picture, their displacement `scale` times as large as it is.
 
     The hubs stay on their nominal centres and either gear turns by half of the approach of the flanks, which their
     teeth give way to: so flanks that touch are drawn touching at any scale.
     """
     body = mesh.gears[gear]
-    radius = (mesh.pair.pinion, mesh.pair.wheel)[gear].base_radius
-    arm = body.points - body.centre
+    radius, points = (mesh.pair.pinion, mesh.pair.wheel)[gear].base_radius, in_plane(body.points)
+    arm = points - body.centre
     arc = -0.5 * mesh.approach if mesh.coast else 0.5 * mesh.approach
     turned = arc / radius * np.column_stack([-arm[:, 1], arm[:, 0]])
-    return upright(mesh.pair, body.points + scale * (body.elastic + turned))
+    return upright(mesh.pair, points + scale * (in_plane(body.elastic) + turned))
 
 
 def largest_movement(mesh: GearsInMesh) -> float:
@@ -54,44 +66,112 @@ def largest_movement(mesh: GearsInMesh) -> float:
     )
 
 
+@dataclass(frozen=True)
+class View:
+    """A part of the picture's plane: its centre (x, y) and half its width and height, mm."""
+
+    centre: np.ndarray
+    half: np.ndarray
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """Left, right, bottom, top, mm."""
+        (x, y), (w, h) = self.centre, self.half
+        return x - w, x + w, y - h, y + h
+
+
+def whole_view(mesh: GearsInMesh) -> View:
+    """Both gears with some room around them."""
+    tips = mesh.pair.pinion.tip_radius, mesh.pair.wheel.tip_radius
+    low, high = -mesh.pair.centre_distance - tips[1], tips[0]
+    half = np.array([max(tips), 0.5 * (high - low)]) * 1.04
+    return View(np.array([0.0, 0.5 * (low + high)]), half)
+
+
+def teeth_view(mesh: GearsInMesh, coast: bool) -> View:
+    """The teeth along the path of contact of drive or coast flanks, their roots included."""
+    pair = mesh.pair
+    middle = 0.5 * (pair.path_start + pair.path_end)
+    centre = upright(pair, np.array([middle, -pair.pinion.base_radius]), coast)
+    depth = pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance + 4.0 * pair.pinion.module
+    return View(centre, np.array([0.75 * (pair.path_end - pair.path_start), 0.5 * depth]))
+
+
+def fitted(view: View, width: float, height: float) -> View:
+    """The view widened one way until it has a panel's shape."""
+    half = view.half
+    return View(view.centre, np.array([max(half[0], half[1] * width / height), max(half[1], half[0] * height / width)]))
+
+
+def surface(points: np.ndarray, gear: GearInSpace) -> np.ndarray:
+    """Triangles (k, 3) of the surface of sectors whose nodes are points (s, h, n, 3): sides swept over the heights, and
+    both end faces."""
+    sectors, heights, nodes = points.shape[:3]
+    near, far = gear.outline[:, 0], gear.outline[:, 1]
+    quads = np.concatenate(
+        [
+            np.vstack([np.column_stack([near, far, far + nodes]), np.column_stack([near, far + nodes, near + nodes])])
+            + nodes * low
+            for low in range(heights - 1)
+        ]
+    )
+    # Seen from outside, all are counter-clockwise.
+    subcells = gear.section.subcells
+    ends = np.vstack([subcells[:, ::-1], subcells + nodes * (heights - 1)])
+    one = np.vstack([quads, ends])
+    return (one[None] + heights * nodes * np.arange(sectors)[:, None, None]).reshape(-1, 3)
+
+
+def wedges(gear: GearInSpace) -> np.ndarray:
+    """Cells (k, 18) of VTK's wedge of second order over all nodes, by sector and layer."""
+    sectors, heights, nodes = gear.points.shape[:3]
+    one = np.column_stack([nodes * height + gear.section.cells[:, node] for height, node in WEDGE_NODES])
+    layers = np.concatenate([one + 2 * nodes * layer for layer in range(heights // 2)])
+    return (layers[None] + heights * nodes * np.arange(sectors)[:, None, None]).reshape(-1, 18)
+
+
 def save_vtu(mesh: GearsInMesh, path: Path, *, precision: type = np.float64) -> None:
     """Both gears' displacement (mm) and stress (MPa) as a .vtu file, in the frame of the line of action.
 
-    Its points are the same material points at every stored time; ``precision`` is that of what is written. Raises
-    ComputationError without pyvista.
+    In the plane whole gears, whose points are the same material points at every stored time; over the face the
+    recovered sectors as wedges of second order, displaced from where their hubs are held. `precision` is that of what
+    is written. Raises ComputationError without pyvista.
     """
     try:
         import pyvista
     except ImportError as error:
         raise ComputationError("a .vtu file needs pyvista, which is not installed") from error
-    bodies, gears = [in_tooth_order(mesh, gear) for gear in (0, 1)], (mesh.pair.pinion, mesh.pair.wheel)
-
-    def in_space(name: str) -> np.ndarray:
-        plane = np.vstack([getattr(body, name) for body in bodies])
-        return np.column_stack([plane, np.zeros(len(plane))]).astype(precision)
-
-    cells = np.vstack([bodies[0].cells, bodies[1].cells + len(bodies[0].points)])
-    grid = pyvista.UnstructuredGrid({VTK_CELL[cells.shape[1]]: cells}, in_space("points"))
-    data = {"displacement": in_space("displacement"), "elastic_displacement": in_space("elastic")}
-    data |= dict(
-        zip(
-            ("stress_xx", "stress_yy", "stress_xy", "stress_zz"),
-            np.vstack([body.stress for body in bodies]).T.astype(precision),
-        )
-    )
-    data["von_mises_stress"] = np.concatenate([body.von_mises for body in bodies]).astype(precision)
-    data["gear"] = np.repeat([1, 2], [len(body.points) for body in bodies]).astype(np.int32)
-    data["tooth"] = np.concatenate(
-        [np.repeat(np.arange(gear.teeth), len(body.points) // gear.teeth) for gear, body in zip(gears, bodies)]
-    ).astype(np.int32)
-    for name, values in data.items():
-        grid.point_data[name] = values
+    bodies = mesh.gears if mesh.over_face else tuple(in_tooth_order(mesh, gear) for gear in (0, 1))
+    first, second = (wedges(each) if mesh.over_face else each.of_sectors(each.section.subcells) for each in bodies)
+    cells = np.vstack([first, second + bodies[0].von_mises.size])
+    points = np.vstack([body.points.reshape(-1, 3) for body in bodies]).astype(precision)
+    grid = pyvista.UnstructuredGrid({VTK_CELL[cells.shape[1]]: cells}, points)
+    fields = [_fields(body, number, mesh.over_face) for number, body in enumerate(bodies, 1)]
+    for name, values in fields[0].items():
+        both = np.concatenate([values, fields[1][name]])
+        grid.point_data[name] = both.astype(precision if both.dtype == float else np.int32)
     grid.save(str(path))
 
 
+def _fields(body: GearInSpace, number: int, over_face: bool) -> dict[str, np.ndarray]:
+    """What is written of each node of a gear, by name."""
+    if over_face:
+        fields, components = {"displacement": body.elastic}, STRESSES
+        fields["largest_principal_stress"] = body.principal
+    else:
+        fields, components = {"displacement": body.displacement}, PLANE_STRESSES
+        fields["elastic_displacement"] = body.elastic
+    fields |= {f"stress_{name}": body.stress[..., i, j] for name, (i, j) in components.items()}
+    fields["von_mises_stress"] = body.von_mises
+    found = {name: values.reshape(-1, *values.shape[3:]) for name, values in fields.items()}
+    found["gear"] = np.full(body.von_mises.size, number)
+    found["sector" if over_face else "tooth"] = np.repeat(body.sectors, body.points[0, ..., 0].size)
+    return found
+
+
 def in_tooth_order(mesh: GearsInMesh, gear: int) -> GearInSpace:
-    """A gear whose sectors stand in the order of its teeth, which turn with it: tooth j is the one that tooth pair j
-    loads.
+    """A plane gear whose sectors stand in the order of its teeth, which turn with it: tooth j is the one that tooth
+    pair j loads; `sectors` are the numbers of teeth.
 
     The sectors of a `GearInSpace` begin anew in each mesh cycle, with the tooth that last reached the start of contact.
     """
@@ -99,10 +179,5 @@ def in_tooth_order(mesh: GearsInMesh, gear: int) -> GearInSpace:
     # Sectors are counted counterclockwise; so turns the pinion.
     sectors = (cycles - np.arange(teeth)) * (1 if gear == 0 else -1) % teeth
     body = mesh.gears[gear]
-
-    def ordered(values: np.ndarray) -> np.ndarray:
-        return values.reshape(teeth, -1, values.shape[1])[sectors].reshape(values.shape)
-
-    return replace(
-        body, **{name: ordered(getattr(body, name)) for name in ("points", "elastic", "displacement", "stress")}
-    )
+    ordered = {name: getattr(body, name)[sectors] for name in ("points", "elastic", "stress")}
+    return replace(body, sectors=tuple(range(teeth)), **ordered)

@@ -1,12 +1,11 @@
-"""The gears of a run in mesh at one time, deformed and coloured by von Mises stress."""
+"""The gears of a run in mesh at one time, deformed and coloured by von Mises stress: in the plane here, over the face
+in three dimensions by `face_picture`."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
 import xarray as xr
@@ -16,20 +15,16 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import TriMesh
 from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.figure import Figure
-from matplotlib.patches import Arc, FancyArrowPatch, Rectangle
-from matplotlib.patheffects import withStroke
 from matplotlib.tri import Triangulation
 
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.drawn_scale import automatic_scale
 from fenics_gears.show.loaded_contact import LoadedContact, loaded_contact, stored_place
 from fenics_gears.show.panels import DARK, WARNING, styled
+from fenics_gears.show.picture_marks import frame_in, length_bar, line_of_action, name_gears
 from fenics_gears.show.run import conditions, scene_of
-from fenics_gears.show.stress_grid import shown_points, upright
+from fenics_gears.show.stress_grid import View, fitted, shown_points, teeth_view, whole_view
 from fenics_gears.simulation.run_stresses import GearsInMesh
-
-if TYPE_CHECKING:
-    from fenics_gears.simulation.face_stresses import GearsInSpace
 
 # Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots
 # are.
@@ -52,29 +47,15 @@ PRESSURES = {
 }
 # Inches at 100 dots of a frame of a moving picture.
 FRAME_WIDTH = 9.6
-# Radii, points: of a bore that a gear's name fits into with its arrow, and of that arrow.
-LEAST_BORE, LEAST_ARROW = 28.0, 12.0
-
-
-@dataclass(frozen=True)
-class View:
-    """A part of the picture's plane: its centre (x, y) and half its width and height, mm."""
-
-    centre: np.ndarray
-    half: np.ndarray
-
-    @property
-    def extent(self) -> tuple[float, float, float, float]:
-        """Left, right, bottom, top, mm."""
-        (x, y), (w, h) = self.centre, self.half
-        return x - w, x + w, y - h, y + h
 
 
 def colour_limit(meshes: list[GearsInMesh]) -> float:
     """Stress (MPa) at which the colours end: the largest, or a multiple of that in the fillets where contact exceeds it
-    by far."""
-    peak = max(float(body.von_mises.max()) for mesh in meshes for body in mesh.gears)
+    by far; over the face, where the pressure has colours of its own, the largest in the roots."""
     roots = max(_stress_of_roots(mesh) for mesh in meshes)
+    if meshes[0].over_face:
+        return rounded_up(roots)
+    peak = max(float(body.von_mises.max()) for mesh in meshes for body in mesh.gears)
     return rounded_up(min(peak, ROOTS_IN_COLOURS * roots) if roots > 0.0 else peak)
 
 
@@ -87,28 +68,31 @@ def rounded_up(stress: float) -> float:
 
 
 def _stress_of_roots(mesh: GearsInMesh) -> float:
-    found = 0.0
-    for body, gear in zip(mesh.gears, (mesh.pair.pinion, mesh.pair.wheel)):
-        radius = np.linalg.norm(body.points - body.centre, axis=1)
-        below = (radius < gear.form_radius) & (radius > 0.5 * (gear.bore_radius + gear.root_radius))
-        found = max(found, float(body.von_mises[below].max(initial=0.0)))
-    return found
+    return max(float(body.von_mises[..., body.in_root].max(initial=0.0)) for body in mesh.gears)
 
 
 def still(mesh: GearsInMesh, dataset: xr.Dataset, scale: float | None = None) -> Figure:
-    """The picture of one time; `scale` of the displacements, the largest suitable one unless given."""
-    return stress_picture(
-        mesh, dataset, scale=automatic_scale([mesh]) if scale is None else scale, limit=colour_limit([mesh])
-    )
+    """The picture of one time; `scale` of the displacements: unless given the largest suitable one, in three dimensions
+    true."""
+    return frames(dataset, scale, [mesh], moving=False)(mesh)
 
 
-def frames(dataset: xr.Dataset, scale: float | None, sampled: list[GearsInMesh]) -> Callable[[GearsInMesh], Figure]:
-    """What draws the frames of a moving picture, with the colours and the scale that suit some of its meshes."""
-    limit, scale = colour_limit(sampled), automatic_scale(sampled) if scale is None else scale
+def frames(
+    dataset: xr.Dataset, scale: float | None, sampled: list[GearsInMesh], moving: bool = True
+) -> Callable[[GearsInMesh], Figure]:
+    """What draws the pictures of a run, with the colours and the scale that suit some of its meshes; `moving`: as
+    frames, smaller and without the single contact."""
+    limit = colour_limit(sampled)
     beyond = any(exceeds(mesh, limit) for mesh in sampled)
-    return lambda mesh: stress_picture(
-        mesh, dataset, scale=scale, limit=limit, close_up=False, width=FRAME_WIDTH, beyond=beyond
-    )
+    if sampled[0].over_face:
+        # Imported here: plane runs have no picture in three dimensions.
+        from fenics_gears.show.face_picture import DPI, DPI_OF_FRAMES, face_picture
+
+        dots, scale = DPI_OF_FRAMES if moving else DPI, 1.0 if scale is None else scale
+        return lambda mesh: face_picture(mesh, dataset, scale, limit, beyond, dots)
+    scale = automatic_scale(sampled) if scale is None else scale
+    size = {"close_up": False, "width": FRAME_WIDTH} if moving else {}
+    return lambda mesh: stress_picture(mesh, dataset, scale=scale, limit=limit, beyond=beyond, **size)
 
 
 @styled
@@ -137,36 +121,19 @@ def stress_picture(
     middle = _panel(figure, (0.325, bottom, wide, high), teeth_view(mesh, coast), mesh, scale, limit)
     left.set_title(f"The pair, displacements × {scale:g}")
     middle.set_title(f"Teeth in contact, displacements × {scale:g}")
-    _name_gears(left, mesh, driving=1 if coast else 0)
+    name_gears(left, mesh, driving=1 if coast else 0)
     for axes in (left, middle):
-        _line_of_action(axes, mesh, coast, labelled=axes is middle)
-    _frame_in(left, middle)
+        line_of_action(axes, mesh, coast, labelled=axes is middle)
+    frame_in(left, middle)
     if enlarged:
         right = _panel(figure, (0.735, 0.36, 0.19, 0.49), contact_view(loaded), mesh, 1.0, limit)
         right.set_title("Most loaded contact, displacements × 1")
-        _frame_in(middle, right, moved=_moved(mesh, loaded.point, scale))
-        _length_bar(right)
+        frame_in(middle, right, moved=_moved(mesh, loaded.point, scale))
+        length_bar(right)
         _numbers(figure, mesh, dataset, (0.735, 0.30))
     colour_bar(figure, limit, beyond or exceeds(mesh, limit), "von Mises stress (MPa), plane strain")
     heading(figure, mesh, dataset)
     return figure
-
-
-def whole_view(mesh: GearsInMesh) -> View:
-    """Both gears with some room around them."""
-    tips = mesh.pair.pinion.tip_radius, mesh.pair.wheel.tip_radius
-    low, high = -mesh.pair.centre_distance - tips[1], tips[0]
-    half = np.array([max(tips), 0.5 * (high - low)]) * 1.04
-    return View(np.array([0.0, 0.5 * (low + high)]), half)
-
-
-def teeth_view(mesh: GearsInMesh, coast: bool) -> View:
-    """The teeth along the path of contact of drive or coast flanks, their roots included."""
-    pair = mesh.pair
-    middle = 0.5 * (pair.path_start + pair.path_end)
-    centre = upright(pair, np.array([middle, -pair.pinion.base_radius]), coast)
-    depth = pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance + 4.0 * pair.pinion.module
-    return View(centre, np.array([0.75 * (pair.path_end - pair.path_start), 0.5 * depth]))
 
 
 def contact_view(contact: LoadedContact) -> View:
@@ -186,20 +153,14 @@ def _moved(mesh: GearsInMesh, point: np.ndarray, scale: float) -> np.ndarray:
     )
 
 
-def fitted(view: View, width: float, height: float) -> View:
-    """The view widened one way until it has a panel's shape."""
-    half = view.half
-    return View(view.centre, np.array([max(half[0], half[1] * width / height), max(half[1], half[0] * height / width)]))
-
-
 def _panel(figure: Figure, place, wanted: View, mesh: GearsInMesh, scale: float, limit: float) -> Axes:
     axes = figure.add_axes(place, xticks=[], yticks=[])
     view = fitted(wanted, place[2] * 16.0, place[3] * 9.0)
     for gear, body in enumerate(mesh.gears):
         points = shown_points(mesh, gear, scale)
-        cells, sides = (_in_view(points, part, view) for part in (body.cells, body.outline))
+        cells, sides = (_in_view(points, body.of_sectors(part), view) for part in (body.section.subcells, body.outline))
         if len(cells):
-            x, y, stress = _triangles(points, cells, body.von_mises).reshape(-1, 3).T
+            x, y, stress = _triangles(points, cells, body.von_mises.ravel()).reshape(-1, 3).T
             # `tripcolor` does the same and takes three times as long, for the edges of all triangles.
             triangles = Triangulation(x, y, np.arange(len(x)).reshape(-1, 3))
             axes.add_collection(
@@ -238,105 +199,6 @@ def _in_view(points: np.ndarray, parts: np.ndarray, view: View) -> np.ndarray:
     return parts[(x.max(axis=1) > left) & (x.min(axis=1) < right) & (y.max(axis=1) > bottom) & (y.min(axis=1) < top)]
 
 
-def _line_of_action(axes: Axes, mesh: GearsInMesh, coast: bool, labelled: bool) -> None:
-    """The line between the base circles, its part that is the path of contact, and the pitch point."""
-    pair, frame = mesh.pair, partial(upright, mesh.pair, coast=coast)
-    height = -pair.pinion.base_radius
-    ends = frame(np.array([[0.0, height], [pair.line_of_action_length, height]]))
-    path = frame(np.array([[pair.path_start, height], [pair.path_end, height]]))
-    pitch = frame(np.array([pair.pitch_point, height]))
-    for colour, wider in (("white", 1.6), (DARK, 0.0)):
-        axes.plot(*ends.T, color=colour, linewidth=1.0 + wider, solid_capstyle="butt", linestyle="-")
-        axes.plot(*path.T, color=colour, linewidth=2.4 + wider, solid_capstyle="butt")
-    axes.plot(
-        *pitch,
-        "o",
-        markersize=8 if labelled else 5,
-        markerfacecolor="white",
-        markeredgecolor="black",
-        markeredgewidth=1.4,
-    )
-    if labelled:
-        side = -1 if coast else 1
-        _note(axes, "pitch point", pitch, (side * 14, 16))
-        _note(
-            axes, "line of action", frame(np.array([pair.path_start - 0.12 * pair.base_pitch, height])), (side * 12, 30)
-        )
-
-
-def _note(axes: Axes, words: str, point, offset) -> None:
-    box = {"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": "#BBBBBB", "alpha": 0.92}
-    axes.annotate(
-        words,
-        point,
-        xytext=offset,
-        textcoords="offset points",
-        fontsize=11.5,
-        color=DARK,
-        bbox=box,
-        ha="left" if offset[0] > 0 else "right",
-    )
-
-
-def _name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
-    """Names in the bores, or above or beside too small ones; which gear drives, and the sense in which either turns."""
-    (bottom, top), height = axes.get_ylim(), axes.get_position().height * axes.figure.get_figheight() * 72.0
-    point = (top - bottom) / height
-    for number, (gear, name, turns) in enumerate(((mesh.pair.pinion, "pinion", 1), (mesh.pair.wheel, "wheel", -1))):
-        name += "\ndrives" if number == driving else ""
-        centre = np.zeros(2) if turns > 0 else np.array([0.0, -mesh.pair.centre_distance])
-        place, ha, va = _place_of_name(gear, point)
-        axes.text(*(centre + place), name, ha=ha, va=va, fontsize=11.5, color=DARK)
-        radius = max(0.78 * gear.bore_radius, LEAST_ARROW * point)
-        start, end = 200.0, 340.0
-        axes.add_patch(Arc(centre, 2 * radius, 2 * radius, theta1=start, theta2=end, color=DARK, linewidth=1.4))
-        tip = np.radians(end if turns > 0 else start)
-        head = centre + radius * np.array([np.cos(tip), np.sin(tip)])
-        back = centre + radius * np.array([np.cos(tip - turns * 0.06), np.sin(tip - turns * 0.06)])
-        axes.add_patch(
-            FancyArrowPatch(back, head, arrowstyle="-|>", mutation_scale=14, color=DARK, shrinkA=0, shrinkB=0)
-        )
-
-
-def _place_of_name(gear, point: float) -> tuple[np.ndarray, str, str]:
-    """Where a gear's name stands from its centre (mm), with its alignment: in the bore, above it in the body, or left
-    of the teeth."""
-    if gear.bore_radius >= LEAST_BORE * point:
-        return np.zeros(2), "center", "center"
-    if gear.root_radius - gear.bore_radius > 2.0 * LEAST_BORE * point:
-        return np.array([0.0, gear.bore_radius + 6.0 * point]), "center", "bottom"
-    return np.array([-gear.tip_radius - 4.0 * point, 0.0]), "right", "center"
-
-
-def _frame_in(axes: Axes, enlarged: Axes, moved: np.ndarray | None = None) -> None:
-    """Where in one panel another one is."""
-    (left, right), (bottom, top) = enlarged.get_xlim(), enlarged.get_ylim()
-    x, y = (0.0, 0.0) if moved is None else moved
-    for colour, width in (("black", 2.6), ("white", 1.2)):
-        axes.add_patch(
-            Rectangle((left + x, bottom + y), right - left, top - bottom, fill=False, edgecolor=colour, linewidth=width)
-        )
-
-
-def _length_bar(axes: Axes) -> None:
-    """A bar of a round length at the panel's lower edge."""
-    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
-    wanted = 0.3 * (right - left)
-    power = 10.0 ** np.floor(np.log10(wanted))
-    length = max(step * power for step in (1.0, 2.0, 5.0) if step * power <= wanted)
-    x, y = left + 0.06 * (right - left), bottom + 0.06 * (top - bottom)
-    axes.plot([x, x + length], [y, y], color="black", linewidth=5.0, solid_capstyle="butt")
-    axes.plot([x, x + length], [y, y], color="white", linewidth=2.5, solid_capstyle="butt")
-    axes.text(
-        x,
-        y + 0.03 * (top - bottom),
-        f"{length:g} mm",
-        fontsize=11.0,
-        color="black",
-        path_effects=[withStroke(linewidth=3.0, foreground="white")],
-    )
-
-
 def _numbers(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, place) -> None:
     index, dataset = stored_place(mesh, dataset), contact_times(dataset)
     values = {
@@ -356,8 +218,10 @@ def _numbers(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset, place) -> N
 
 
 def exceeds(mesh: GearsInMesh, limit: float) -> bool:
-    """Whether there is more stress than the colours go to."""
-    return max(float(body.von_mises.max()) for body in mesh.gears) > limit * (1.0 + 1e-9)
+    """Whether there is more stress than the colours go to; over the face on other surfaces than the flanks that
+    carry."""
+    drawn = (body.von_mises[..., ~body.on_flank] if mesh.over_face else body.von_mises for body in mesh.gears)
+    return max(float(each.max()) for each in drawn) > limit * (1.0 + 1e-9)
 
 
 def colour_bar(
@@ -378,7 +242,7 @@ def colour_bar(
     axes.grid(False)
 
 
-def heading(figure: Figure, mesh: GearsInMesh | GearsInSpace, dataset: xr.Dataset) -> None:
+def heading(figure: Figure, mesh: GearsInMesh, dataset: xr.Dataset) -> None:
     """Title of the run, its conditions, and the time of the picture."""
     title = " ".join(str(dataset.attrs.get("title", "")).split())
     complete = bool(dataset.attrs.get("complete", 1))

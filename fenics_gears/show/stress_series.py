@@ -4,9 +4,7 @@ times."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
 import numpy as np
@@ -16,25 +14,13 @@ from fenics_gears.show.stress_animation import frame_steps
 from fenics_gears.show.stress_grid import save_vtu
 from fenics_gears.simulation.run_stresses import RunStresses
 
-if TYPE_CHECKING:
-    from fenics_gears.simulation.face_stresses import FaceStresses
 
-
-def save_series(
-    runs: RunStresses | FaceStresses,
-    dataset: xr.Dataset,
-    collection: Path,
-    report: Callable[[int, int], None],
-    save=None,
-) -> None:
+def save_series(runs: RunStresses, dataset: xr.Dataset, collection: Path, report: Callable[[int, int], None]) -> None:
     """Write a .pvd file and the .vtu files that it lists, beside it and named after it; `report(done, all)` is called
     for each.
 
-    The steps are those of the moving picture, their times in s as the run has them. save: writes what `runs` has at a
-    step to a file; in the plane unless given. Raises what `save_vtu` raises.
+    The steps are those of the moving picture, their times in s as the run has them. Raises what `save_vtu` raises.
     """
-    # To look at; files of half the size.
-    save = save or partial(save_vtu, precision=np.float32)
     root = ElementTree.Element("VTKFile", {"type": "Collection", "version": "0.1"})
     listed = ElementTree.SubElement(root, "Collection")
     steps = frame_steps(dataset)
@@ -42,7 +28,8 @@ def save_series(
         report(done, len(steps))
         file = collection.with_name(f"{collection.stem}_{done:04d}.vtu")
         mesh = runs.at(index)
-        save(mesh, file)
+        # To look at; files of half the size.
+        save_vtu(mesh, file, precision=np.float32)
         ElementTree.SubElement(listed, "DataSet", {"timestep": repr(mesh.time), "part": "0", "file": file.name})
     report(len(steps), len(steps))
     ElementTree.indent(root)

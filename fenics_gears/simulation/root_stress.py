@@ -3,59 +3,50 @@ it."""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
 from fenics_gears.model.model import Model
 from fenics_gears.results.root_stress_variables import RootStress
 from fenics_gears.system.progress import Progress
 
+if TYPE_CHECKING:
+    from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+
 
 def root_stress(model: Model, cycle: Cycle, progress: Progress, cache: Cache | None) -> RootStress:
     """The root stress of both gears at the steps of a cycle, ready to be taken at each."""
-    made = RootStress
-    if cycle.face is not None:
-        # Imported here: plane scenes have none.
-        from fenics_gears.results.face_root_stress import FaceRootStress
-
-        made = FaceRootStress
     rows = []
     for name in ("pinion", "wheel"):
         progress.stage(f"root stress of the {name}")
         rows.append(rows_of(model, name, cache))
-    return made(model.pair, cycle, (rows[0], rows[1]))
+    return RootStress(model.pair, cycle, (rows[0], rows[1]))
 
 
 def rows_of(model: Model, name: str, cache: Cache | None) -> RootStressRows:
-    """Root stress rows of the "pinion" or the "wheel", in the slices of the face where it has some."""
-    return (gear_rows if model.face is None else face_rows)(model, name, cache)
-
-
-def gear_rows(model: Model, name: str, cache: Cache | None) -> RootStressRows:
-    """Root stress rows of the "pinion" or the "wheel", on the mesh of its compliance."""
+    """Root stress rows of the "pinion" or the "wheel", in the slices of the face where it has some, on the mesh of its
+    compliance."""
+    gear, face, coast = ("pinion", "wheel").index(name), model.face, model.scene.coast_flanks is not None
     return root_stress_rows(
         getattr(model.pair, name),
         model.scene.gears.material_of(name),
-        model.resolution.discretisation(("pinion", "wheel").index(name)),
+        discretisation_of(model, gear),
         # Pairs are numbered by their drive flanks' teeth; the wheel's tooth of a coast pair stands one beside.
-        reach=model.touching.reach.farthest + 1,
-        coast_flank=model.scene.coast_flanks is not None,
-        cache=cache,
-    )
-
-
-def face_rows(model: Model, name: str, cache: Cache | None) -> RootStressRows:
-    """The same in the slices of the face, on the mesh of its body."""
-    from fenics_gears.elasticity.face.root_stress import face_root_stress_rows
-    from fenics_gears.model.face_resolution import face_discretisation
-
-    gear, face, coast = ("pinion", "wheel").index(name), model.face, model.scene.coast_flanks is not None
-    return face_root_stress_rows(
-        getattr(model.pair, name),
-        model.scene.gears.material_of(name),
-        face_discretisation(model, gear),
-        (face.positions - face.middles[gear], face.widths),
         reach=model.touching.reach.farthest + (1 if coast else 0),
         coast_flank=coast,
         cache=cache,
+        slices=None if face is None else (face.positions - face.middles[gear], face.widths),
     )
+
+
+def discretisation_of(model: Model, gear: int) -> Discretisation | FaceDiscretisation:
+    """How the body of a gear, 0 or 1, is divided: in the plane or over the face."""
+    if model.face is None:
+        return model.resolution.discretisation(gear)
+    # Imported here: plane scenes have none.
+    from fenics_gears.model.face_resolution import face_discretisation
+
+    return face_discretisation(model, gear)

@@ -1,4 +1,4 @@
-"""Both gears of a run at a stored time: place, displacement and stress of every node."""
+"""Both gears of a run at a stored time: place, displacement and stress of nodes, in the plane or over the face."""
 
 from __future__ import annotations
 
@@ -8,47 +8,79 @@ from typing import Self
 import numpy as np
 import xarray as xr
 
-from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import coast_place, drive_place
 from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache, user_cache
-from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery, turned_stress
+from fenics_gears.elasticity.element_nodes import ElementNodes
+from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.errors import SceneError
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import ONCE
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
+from fenics_gears.simulation.root_stress import discretisation_of
+from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
 from fenics_gears.system.progress import SilentProgress
+
+# Over the face, sectors on either side of the loaded teeth that are recovered; in the plane all are.
+BESIDE = 2
+# Modules; nodes on a circle are as near to it.
+ON_CIRCLE = 1e-6
 
 
 @dataclass(frozen=True)
 class GearInSpace:
-    """One gear at a stored time, in the frame of the line of action: x along it from T1, the pinion's centre at the
-    origin.
+    """Sectors of one gear at a stored time in the frame of the line of action: x along it from T1, the pinion's centre
+    at the origin, z along the axes from the middle of the common face.
 
-    points: (n, 2), mm, where the nodes are without load. cells: (m, 3) or (m, 4) of first order. outline: (k, 2) sides
-        of the
-    boundary. elastic, displacement: (n, 2), mm, from where the hub is held, and from the nominal motion. stress: (n,
-    4), MPa: xx, yy, xy and zz of plane strain.
+    sectors: numbers of those recovered. Nodes by sector, height and the section's node; in the plane there is one
+        height. points (s, h, n, 3), mm, without load. elastic: of the same shape, mm, displacement from where the hub
+        is held. stress (s, h, n, 3, 3), MPa. others: points (t, h, n, 3) of all other sectors.
+    centre: (2,), mm. motion: of the hub from its nominal one, mm, mm, rad. section: nodes and cells of a sector's
+        section; outline: (k, 2) sides of its boundary, of first order, without those on the cuts. in_root, on_flank:
+        (n,), whether a node lies in a fillet or below, and whether it is on the involute that carries.
     """
 
+    sectors: tuple[int, ...]
     points: np.ndarray
-    cells: np.ndarray
-    outline: np.ndarray
-    centre: np.ndarray
     elastic: np.ndarray
-    displacement: np.ndarray
     stress: np.ndarray
+    others: np.ndarray
+    centre: np.ndarray
+    motion: np.ndarray
+    section: ElementNodes
+    outline: np.ndarray
+    in_root: np.ndarray
+    on_flank: np.ndarray
 
     @property
     def von_mises(self) -> np.ndarray:
-        """Equivalent stress (n,), MPa."""
-        xx, yy, xy, zz = self.stress.T
-        return np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3.0 * xy**2)
+        """Equivalent stress (s, h, n), MPa."""
+        deviator = self.stress - np.trace(self.stress, axis1=-2, axis2=-1)[..., None, None] / 3.0 * np.eye(3)
+        return np.sqrt(1.5 * (deviator**2).sum(axis=(-1, -2)))
+
+    @property
+    def principal(self) -> np.ndarray:
+        """Largest principal stress (s, h, n), MPa, tension positive."""
+        return np.linalg.eigvalsh(self.stress)[..., -1]
+
+    @property
+    def displacement(self) -> np.ndarray:
+        """Displacement (s, h, n, 3), mm, from the nominal motion of a gear that does not tilt."""
+        x, y = np.moveaxis(self.points[..., :2] - self.centre, -1, 0)
+        rigid = [self.motion[0] - self.motion[2] * y, self.motion[1] + self.motion[2] * x, np.zeros_like(x)]
+        return self.elastic + np.stack(rigid, axis=-1)
+
+    def of_sectors(self, parts: np.ndarray) -> np.ndarray:
+        """Cells or sides (k, j) of the section's nodes for all sectors of a plane gear, one's nodes after the
+        other's."""
+        first = len(self.section.points) * np.arange(len(self.sectors))[:, None, None]
+        return (parts[None] + first).reshape(-1, parts.shape[1])
 
 
 @dataclass(frozen=True)
@@ -56,8 +88,7 @@ class GearsInMesh:
     """Pinion and wheel at a stored time; `coast`: whether the coast flanks carry more than the drive flanks.
 
     `approach`: mm along their line of action that the hubs' motion brings the flanks together that carry more; coast
-        flanks stand apart by
-    the backlash before it.
+        flanks stand apart by the backlash before it. `over_face`: whether the gears are recovered in three dimensions.
     """
 
     time: float
@@ -66,11 +97,12 @@ class GearsInMesh:
     pair: GearPair
     approach: float
     coast: bool
+    over_face: bool = False
 
 
 class RunStresses:
-    """Displacement and stress of both gears at any step of a result whose contact fields are stored. Use it in a
-    `with`, or `close` it.
+    """Displacement and stress of both gears at any step of a result whose contact fields are stored: of whole gears in
+    the plane, over the face of the teeth in mesh. Use it in a `with`, or `close` it.
 
     scene: the one that was run. Raises SceneError where the run has no elastic teeth, or met its contact by remeshing.
     """
@@ -79,14 +111,8 @@ class RunStresses:
         self.model = model_of(scene)
         self._check()
         self.result = contact_times(result)
-        self.cycle = self._cycle(cache if cache is not None else user_cache())
-        self.recoveries = tuple(self._recovery(gear) for gear in (0, 1))
-
-    def _cycle(self, cache: Cache) -> Cycle:
-        return mesh_cycle(self.model, gear_compliances(self.model, SilentProgress(), cache))
-
-    def _recovery(self, gear: int):
-        return recovery_of(self.model, gear)
+        _, self.cycle = prepared(self.model, SilentProgress(), cache if cache is not None else user_cache())
+        self.recoveries = tuple(recovery_of(self.model, gear) for gear in (0, 1))
 
     def __enter__(self) -> Self:
         return self
@@ -110,7 +136,7 @@ class RunStresses:
         approach = float((motion[0, :2] - motion[1, :2]) @ place.axes[0] + place.turn * arcs)
         gears = tuple(self._gear(gear, stored, motion[gear]) for gear in (0, 1))
         phase, time = (float(self.result[name].values[index]) for name in ("mesh_phase", "time"))
-        return GearsInMesh(time, phase, gears, pair, approach, coast)
+        return GearsInMesh(time, phase, gears, pair, approach, coast, self.model.face is not None)
 
     def _check_place(self, index: int) -> None:
         error, pitch = abs(float(self.result["transmission_error"].values[index])), self.model.pair.wheel.angular_pitch
@@ -122,20 +148,48 @@ class RunStresses:
             )
 
     def _gear(self, gear: int, stored: StoredForces, motion: np.ndarray) -> GearInSpace:
-        recovery = self.recoveries[gear]
-        body = recovery.recovered(stored.on_flanks(self.model, gear))
-        centre, angles = standing(self.model.pair, gear, stored.phase)
-        turns = [rotation(angle) for angle in angles]
-        local = recovery.points
-        about_centre = np.vstack([local @ turn.T for turn in turns])
-        elastic = np.vstack([moved @ turn.T for moved, turn in zip(body.displacement, turns)])
-        stress = np.vstack([turned_stress(sector, angle) for sector, angle in zip(body.stress, angles)])
-        across = self.model.scene.gears.materials[gear].poissons_ratio * (stress[:, 0] + stress[:, 1])
-        rigid = motion[:2] + motion[2] * np.column_stack([-about_centre[:, 1], about_centre[:, 0]])
-        cells, outline = whole_cells(recovery)
+        recovery, data = self.recoveries[gear], (self.model.pair.pinion, self.model.pair.wheel)[gear]
+        forces = stored.on_flanks(self.model, gear, recovery.heights)
+        found = recovery.recovered(forces, self._sectors(data, forces))
+        centre, turns, places = self._standing(gear, stored.phase)
+        own = np.array(found.sectors) % data.teeth
+        # In the plane nothing moves along z.
+        moved = np.pad(found.displacement, [(0, 0)] * 3 + [(0, 3 - found.displacement.shape[-1])])
+        section, radius = recovery.sector.section, np.linalg.norm(recovery.points, axis=1)
+        outline = outer_sides(section, recovery.sector.mesh)
         return GearInSpace(
-            centre + about_centre, cells, outline, centre, elastic, elastic + rigid, np.column_stack([stress, across])
+            sectors=found.sectors,
+            points=places[own],
+            elastic=np.einsum("shij,shnj->shni", turns[own], moved),
+            stress=np.einsum("shia,shnab,shjb->shnij", turns[own], found.stress, turns[own], optimize=True),
+            others=np.delete(places, own, axis=0),
+            centre=centre,
+            motion=motion,
+            section=section,
+            outline=outline,
+            in_root=(radius < data.form_radius) & (radius > 0.5 * (data.bore_radius + data.root_radius)),
+            on_flank=_on_flank(data, recovery.points, outline, stored.on_coast_flanks),
         )
+
+    def _sectors(self, gear: Gear, forces: dict[int, np.ndarray]) -> range:
+        """The sectors that are recovered."""
+        if self.model.face is None:
+            return range(gear.teeth)
+        loaded = [*forces] or [0]
+        return range(min(loaded) - BESIDE, max(loaded) + BESIDE + 1)[: gear.teeth]
+
+    def _standing(self, gear: int, phase: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """A gear's centre (2,); how a section's frame stands (teeth, h, 3, 3) at each height, by sector, and its nodes'
+        places (teeth, h, n, 3), without load."""
+        recovery, face, pair = self.recoveries[gear], self.model.face, self.model.pair
+        centre, angles = standing(pair, gear, phase)
+        z, twist = recovery.heights, 0.0
+        if face is not None:
+            z, twist = z + face.middles[gear], (1.0, -1.0)[gear] * face.slope / recovery.gear.base_radius
+        turns = np.stack([[rotation(angle + twist * height, 3) for height in z] for angle in angles])
+        section = np.pad(recovery.points, ((0, 0), (0, 1)))
+        along = z[:, None, None] * np.array([0.0, 0.0, 1.0])
+        return centre, turns, np.einsum("thij,nj->thni", turns, section) + np.append(centre, 0.0) + along
 
     def _check(self) -> None:
         if self.model.scene.tooth_elasticity is None:
@@ -162,12 +216,8 @@ class RunStresses:
 
 def recovery_of(model: Model, gear: int) -> GearRecovery:
     """The recovery of a gear of a model, on the mesh of its compliance."""
-    return gear_recovery(
-        (model.pair.pinion, model.pair.wheel)[gear],
-        model.scene.gears.materials[gear],
-        model.resolution.discretisation(gear),
-        coast_flank=model.scene.coast_flanks is not None,
-    )
+    data, material = (model.pair.pinion, model.pair.wheel)[gear], model.scene.gears.materials[gear]
+    return gear_recovery(data, material, discretisation_of(model, gear), model.scene.coast_flanks is not None)
 
 
 def standing(pair: GearPair, gear: int, phase: float) -> tuple[np.ndarray, np.ndarray]:
@@ -195,15 +245,6 @@ def hub_motion(result: xr.Dataset, index: int) -> np.ndarray:
     return motion
 
 
-def whole_cells(recovery: GearRecovery) -> tuple[np.ndarray, np.ndarray]:
-    """First-order cells of all sectors, one sector's nodes after the other's, and sides (k, 2) of the gear's own
-    boundary."""
-    nodes = recovery.interior.nodes
-    outline, count = outer_sides(nodes, recovery.interior.mesh), len(nodes.points)
-    first = count * np.arange(recovery.gear.teeth)[:, None, None]
-    return tuple((part[None] + first).reshape(-1, part.shape[1]) for part in (nodes.subcells, outline))
-
-
 def outer_sides(nodes, mesh) -> np.ndarray:
     """Sides (k, 2) of first order of a sector's boundary, without those on its cuts."""
     sides, count = nodes.boundary_sides, len(nodes.points)
@@ -211,3 +252,23 @@ def outer_sides(nodes, mesh) -> np.ndarray:
     ends = np.sort(sides[:, :2], axis=1)
     sides = sides[~np.isin(ends @ [count, 1], cuts @ [count, 1])]
     return np.vstack([sides[:, [0, 2]], sides[:, [2, 1]]]) if sides.shape[1] == 3 else sides
+
+
+def _on_flank(gear: Gear, points: np.ndarray, outline: np.ndarray, coast: bool) -> np.ndarray:
+    """Which nodes (n,) of a section at points (n, 2) lie on the involute of its drive flank, or of its coast flank."""
+    tooth = tooth_outline(gear)
+    middle = tooth.involute(np.array([0.5 * (gear.form_roll_angle + gear.tip_roll_angle)]))[0]
+
+    def ahead(places: np.ndarray) -> np.ndarray:
+        return np.sin(np.arctan2(places[..., 1], places[..., 0]) - tooth.centreline_angle)
+
+    radius, outer = np.linalg.norm(points, axis=1), np.zeros(len(points), dtype=bool)
+    outer[np.unique(outline)] = True
+    own_side = ahead(points) * ahead(middle) * (-1.0 if coast else 1.0) > 0.0
+    # The form circle and the tip's edge belong to it.
+    return (
+        outer
+        & own_side
+        & (radius > gear.form_radius - ON_CIRCLE * gear.module)
+        & (radius < gear.tip_form_radius + ON_CIRCLE * gear.module)
+    )

@@ -38,10 +38,16 @@ class StoredForces:
             carried[pair.place.flank] += float(force[: len(pair.offsets)].sum())
         return carried[COAST] > carried[DRIVE]
 
-    def on_flanks(self, model: Model, gear: int) -> dict[int, np.ndarray]:
-        """Line forces (N/mm) on the flank nodes of a gear's loaded teeth; see `contact.flank_forces`."""
+    def on_flanks(self, model: Model, gear: int, heights: np.ndarray | None = None) -> dict[int, np.ndarray]:
+        """Forces on the flank nodes of a gear's loaded teeth: N/mm in the plane (`contact.flank_forces`); N over the
+        face (`contact.face_forces`), whose body has nodes at `heights`."""
         data = (model.pair.pinion, model.pair.wheel)[gear]
-        return flank_forces(gear, data, self.pairs, self.forces, model.pair.face_width)
+        if model.face is None:
+            return flank_forces(gear, data, self.pairs, self.forces, model.pair.face_width)
+        # Imported here: plane scenes have none.
+        from fenics_gears.contact.face_forces import face_forces
+
+        return face_forces(gear, data, model.face, heights, self.pairs, self.forces)
 
 
 def stored_index(result: xr.Dataset, mesh_phase: float) -> int:

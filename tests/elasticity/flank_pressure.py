@@ -10,14 +10,14 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 def flank_arcs(recovery) -> np.ndarray:
     """Arc lengths (f,), mm, from the base circle of the drive flank's nodes, in the order of its forces."""
-    gear, order = recovery.gear, recovery.element.order
-    points = recovery.points[recovery.interior.flank_nodes("flank")]
+    gear, order = recovery.gear, recovery.sector.section.order
+    points = recovery.points[recovery.sector.flank_nodes("flank")]
     return arc_length(gear.base_radius, node_roll_angles(gear, points[::order], order))
 
 
 def pressed(recovery, pressure) -> np.ndarray:
     """Line forces (2 f,), N/mm, of a pressure (MPa), a function of the arc length (mm), on the drive flank's nodes."""
-    arcs, order = flank_arcs(recovery), recovery.element.order
+    arcs, order = flank_arcs(recovery), recovery.sector.section.order
     forces = np.zeros((len(arcs), 2))
     for first in range(0, len(arcs) - 1, order):
         low, high = arcs[first], arcs[first + order]
@@ -33,6 +33,5 @@ def pressed(recovery, pressure) -> np.ndarray:
 
 
 def stress_across(stress: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """Normal component (n,) of stress xx, yy, xy (n, 3) in directions (n, 2)."""
-    x, y = direction.T
-    return stress[:, 0] * x**2 + stress[:, 1] * y**2 + 2.0 * stress[:, 2] * x * y
+    """Normal component (n,) of stress (n, 3, 3) in directions (n, 2)."""
+    return np.einsum("ni,nij,nj->n", direction, stress[:, :2, :2], direction)

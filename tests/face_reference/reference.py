@@ -94,8 +94,10 @@ def over_slices(found: list[Row], positions: np.ndarray) -> np.ndarray:
 
 
 def write(found: list[Row], file: Path = FILE) -> None:
-    """Write rows to a file."""
+    """Write rows to a file, numbers to seven digits: meshes differ in the fourth."""
     with file.open("w", newline="") as lines:
         writer = csv.writer(lines, lineterminator="\n")
         writer.writerow(Row.__annotations__)
-        writer.writerows([getattr(row, name) for name in Row.__annotations__] for row in found)
+        for row in found:
+            values = (getattr(row, name) for name in Row.__annotations__)
+            writer.writerow([value if isinstance(value, str) else f"{value:.7g}" for value in values])

@@ -127,7 +127,7 @@ def test_report_has_the_face_and_the_middle_slice(run, tmp_path):
 
 def test_plane_runs_do_not_import_the_pictures_of_the_face():
     """Authority: rule 9 of the house; a process that draws a plane run."""
-    names = "contact_pattern", "line_load", "face_picture", "face_grid"
+    names = "contact_pattern", "line_load", "face_picture"
     program = f"""
 import sys, tempfile
 from tests.show.synthetic import made_up_run

@@ -12,7 +12,8 @@ from tests.coarse import coarse_scene
 from fenics_gears import results
 from fenics_gears.commands.cli import main
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.show.stress_picture import _place_of_name, _time
+from fenics_gears.show.picture_marks import place_of_name
+from fenics_gears.show.stress_picture import _time
 from fenics_gears.system import environment
 
 environment.prepare()
@@ -116,7 +117,7 @@ def test_no_tooth_is_missing(run):
     """Count: going round each drawn gear at its pitch circle one passes every tooth's two flanks."""
     from fenics_gears.show.drawn_scale import outer_loop
     from fenics_gears.show.run import scene_of
-    from fenics_gears.show.stress_grid import shown_points
+    from fenics_gears.show.stress_grid import in_plane, shown_points
     from fenics_gears.simulation.run_stresses import RunStresses
 
     dataset = results.load(run / "run.nc")
@@ -130,7 +131,8 @@ def test_no_tooth_is_missing(run):
         # Green's theorem: the area of the outline less that of the bore is that of the cells.
         x, y = (points - centre).T
         area = 0.5 * abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) - np.pi * gear.bore_radius**2
-        corners = (body := mesh.gears[number]).points[body.cells]
+        body = mesh.gears[number]
+        corners = in_plane(body.points)[body.of_sectors(body.section.subcells)]
         along, across = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         assert 0.5 * np.sum(along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]) == pytest.approx(area, rel=2e-3)
 
@@ -142,13 +144,13 @@ def test_no_tooth_is_missing(run):
 def test_names_stand_in_the_bores_or_above_those_too_small(bore, place, alignment):
     """A name in a bore of a few points would lie over its edge; a large body has room for it, beside a small gear there
     is some."""
-    found, *aligned = _place_of_name(SimpleNamespace(bore_radius=bore, root_radius=100.0, tip_radius=120.0), point=1.0)
+    found, *aligned = place_of_name(SimpleNamespace(bore_radius=bore, root_radius=100.0, tip_radius=120.0), point=1.0)
     assert tuple(found) == place and tuple(aligned) == alignment
 
 
 def test_names_stand_beside_small_gears():
     """The gear's teeth end where its name does."""
-    found, *aligned = _place_of_name(SimpleNamespace(bore_radius=10.0, root_radius=30.0, tip_radius=40.0), point=1.0)
+    found, *aligned = place_of_name(SimpleNamespace(bore_radius=10.0, root_radius=30.0, tip_radius=40.0), point=1.0)
     assert found[0] < -40.0 and aligned == ["right", "center"]
 
 

@@ -14,7 +14,6 @@ from fenics_gears.contact.flank_forces import SENSE_OF_TEETH
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.fine_fillet import fine_over_swept
-from fenics_gears.elasticity.face.root_stress import face_root_stress_rows
 from fenics_gears.elasticity.fillet_points import POINTS_OVER_FACE, fillet_curve, fillet_weights
 from fenics_gears.elasticity.root_stress import root_stress_rows
 from fenics_gears.elasticity.slice_averages import slice_averages
@@ -22,7 +21,7 @@ from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import load_scene
-from fenics_gears.simulation.face_stresses import FaceStresses
+from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.simulation.stored_forces import stored_forces
 
 STEP = 5
@@ -36,7 +35,7 @@ def test_rows_give_what_the_recovered_sectors_have(coast):
     times the factors of the fine section, which have a test of their own."""
     scene, result = root_stress_run(coast)
     largest = np.nanmax(np.abs(result["root_stress"].values))
-    with FaceStresses(result, scene) as stresses:
+    with RunStresses(result, scene) as stresses:
         face, stored = stresses.model.face, stored_forces(result, stresses.model, stresses.cycle, STEP)
         step = round(float(result["mesh_phase"].values[STEP]) * stresses.cycle.steps)
         for gear, recovery in enumerate(stresses.recoveries):
@@ -70,11 +69,10 @@ def test_rows_give_what_the_recovered_sectors_have(coast):
 
 def _at_fillets(recovery, data, stress):
     """Stress (S, 2, p) of both fillets from that (S, n, 3, 3) at the section's nodes."""
-    curve, body = fillet_curve(data.of_module_one, POINTS_OVER_FACE), recovery.body
-    held = np.unique(np.concatenate([body.lower, body.upper, body.hub]) % len(body.section.points))
+    curve, body = fillet_curve(data.of_module_one, POINTS_OVER_FACE), recovery.sector
     found = []
     for side in (0, 1):
-        nodes, weights, tangents = fillet_weights(curve, body.section, held, side)
+        nodes, weights, tangents = fillet_weights(curve, body.section, body.held, side)
         at_points = np.einsum("pk,skij->spij", weights, stress[:, nodes])
         x, y = (weights @ body.section.points[nodes]).T
         # The surface's normal is across the tangent of the section and the trace; the profile's direction across that
@@ -114,9 +112,9 @@ def test_even_load_on_a_spur_tooth_stresses_its_root_as_in_plane_strain(gear):
     is that of plane strain, 15 mm wide, within 2 %."""
     width, slices, force = 15.0, 5, np.array([-1.0, 0.2, 0.0])
     middles, widths = even_slices(width, slices)
-    found = face_root_stress_rows(gear, STEEL, FaceDiscretisation(0.3 * gear.module, 3, width), (middles, widths), 1)
+    found = root_stress_rows(gear, STEEL, FaceDiscretisation(0.3 * gear.module, 3, width), 1, slices=(middles, widths))
     plane = root_stress_rows(gear, STEEL, Discretisation("P2", 0.3), 1)
-    tip = plane.rows.reshape(*plane.rows.shape[:2], -1, 2)[1, :, -1] @ force[:2]
+    tip = plane.rows[:, 0].reshape(*plane.rows.shape[::2], -1, 2)[1, :, -1] @ force[:2]
     on_slices = found.rows.reshape(*found.rows.shape[:3], slices, -1, 3)[1, ..., -1, :] @ force
     over_face = on_slices @ widths
     mean = over_face.mean(axis=0)
@@ -138,9 +136,8 @@ def test_every_fillet_point_of_a_wide_gear_has_plane_strain_s_stress(section_siz
     gear, force = standard_gear(20), np.array([-1.0, 0.2, 0.0])
     width, slices = 25.0 * gear.module, 3
     middles, widths = even_slices(width, slices)
-    found = face_root_stress_rows(
-        gear, STEEL, FaceDiscretisation(section_size * gear.module, 4, width), (middles, widths), 0
-    ).rows[0, slices // 2]
+    body = FaceDiscretisation(section_size * gear.module, 4, width)
+    found = root_stress_rows(gear, STEEL, body, 0, slices=(middles, widths)).rows[0, slices // 2]
     middle = found.reshape(2, -1, slices, found.shape[-1] // (3 * slices), 3)[0, :, :, -1] @ force @ widths
     plane = root_stress_rows(gear, STEEL, Discretisation("P2", 0.06 * gear.module), 0).rows[0]
     tip = plane.reshape(2, -1, plane.shape[-1] // 2, 2)[0, :, -1] @ force[:2]

@@ -1,7 +1,6 @@
 """Stresses of teeth over the face, recovered at stored times."""
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
@@ -15,12 +14,12 @@ from fenics_gears.effects.misalignment import Misalignment
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.scene.data import Accuracy, Motion, Output
 from fenics_gears.show import stress_animation
-from fenics_gears.show.face_grid import save_vtu, surface
-from fenics_gears.show.face_picture import colour_limit, frames, root_tension, still
+from fenics_gears.show.face_picture import root_tension
 from fenics_gears.show.flank_pressure import STAND_OFF, pressed_tiles
 from fenics_gears.show.run import scene_of
-from fenics_gears.simulation.face_stresses import FaceStresses
-from fenics_gears.simulation.run_stresses import standing
+from fenics_gears.show.stress_grid import save_vtu, surface
+from fenics_gears.show.stress_picture import colour_limit, still
+from fenics_gears.simulation.run_stresses import RunStresses, standing
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.stored_forces import stored_forces
 
@@ -29,7 +28,7 @@ STEP = 5
 
 @pytest.fixture(scope="module")
 def stresses():
-    with FaceStresses(helical_run(), scene_of(helical_run())) as found:
+    with RunStresses(helical_run(), scene_of(helical_run())) as found:
         yield found
 
 
@@ -50,7 +49,9 @@ def test_forces_on_the_teeth_are_those_of_the_mesh(stresses):
         on_teeth = face_forces(gear, data, model.face, recovery.heights, stored.pairs, stored.forces)
         angles, twist = standing(pair, gear, stored.phase)[1], -sense * pair.slope / data.base_radius
         total, torque = np.zeros(3), 0.0
-        flank = recovery.body.flank_nodes("flank")[: len(recovery.body.flank_nodes("flank")) // len(recovery.heights)]
+        flank = recovery.sector.flank_nodes("flank")[
+            : len(recovery.sector.flank_nodes("flank")) // len(recovery.heights)
+        ]
         for tooth, own in on_teeth.items():
             for height, at_height in zip(recovery.heights + model.face.middles[gear], own[DRIVE]):
                 total += rotation(angles[tooth % data.teeth] + twist * height, 3) @ at_height.sum(axis=0)
@@ -70,7 +71,7 @@ def test_roots_of_the_loaded_teeth_carry(mesh):
         tension = gear.principal[..., gear.in_root].max(axis=(1, 2))
         assert 1 <= tension.argmax() <= len(tension) - 2
         assert tension[[0, -1]].max() < 0.5 * tension.max()
-    assert 0.0 < max(gear.von_mises[..., gear.in_root].max() for gear in mesh.gears) <= colour_limit(mesh)
+    assert 0.0 < max(gear.von_mises[..., gear.in_root].max() for gear in mesh.gears) <= colour_limit([mesh])
 
 
 def test_pressure_is_painted_where_the_flanks_touch(mesh):
@@ -123,7 +124,7 @@ def test_file_for_paraview(mesh, tmp_path):
         (corners[:, 3:] - corners[:, :3]).mean(axis=1),
     )
     assert volumes.min() > 0.0
-    triangles = [gear.points[0, 0][gear.subcells][..., :2] for gear in mesh.gears]
+    triangles = [gear.points[0, 0][gear.section.subcells][..., :2] for gear in mesh.gears]
     areas = [0.5 * np.abs(np.cross(each[:, 1] - each[:, 0], each[:, 2] - each[:, 0])).sum() for each in triangles]
     expected = sum(area * len(gear.sectors) * np.ptp(gear.points[..., 2]) for area, gear in zip(areas, mesh.gears))
     assert volumes.sum() == pytest.approx(expected, rel=1e-2)
@@ -148,9 +149,7 @@ def test_moving_picture_goes_through_the_cycle(stresses, tmp_path, monkeypatch):
     monkeypatch.setattr(stress_animation, "FRAMES_PER_CYCLE", 2)
     monkeypatch.setattr(stress_animation, "SAMPLED", 1)
     file = tmp_path / "turn.gif"
-    stress_animation.animate(
-        stresses, helical_run(), file, partial(frames, helical_run(), None), lambda done, whole: None
-    )
+    stress_animation.animate(stresses, helical_run(), file, None, lambda done, whole: None)
     with image.open(file) as moving:
         assert (moving.n_frames, moving.size) == (2, (960, 540))
         found = []
@@ -179,7 +178,7 @@ def test_roots_of_a_spur_pair_are_those_of_plane_strain(paper_scene):
         steps_per_mesh_cycle=5,
     )
     over_face = replace(alone, misalignment=Misalignment(), accuracy=coarse)
-    with FaceStresses(simulate(over_face), over_face) as found:
+    with RunStresses(simulate(over_face), over_face) as found:
         gears = found.at(3).gears
     for number, gear in enumerate(gears):
         tension = gear.principal[..., gear.in_root].max(axis=(0, 2))

@@ -19,6 +19,7 @@ from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.fillet_points import POINTS, fillet_curve, fillet_rows
 from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery
 from fenics_gears.elasticity.root_stress import root_stress_rows
+from fenics_gears.elasticity.sector import plane_sector
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.involute import arc_length
@@ -55,7 +56,7 @@ def test_rows_give_what_the_full_recovery_gives(run):
             step = round(float(result["mesh_phase"].values[index]) * stresses.cycle.steps)
             for gear, recovery in enumerate(stresses.recoveries):
                 moved = recovery.recovered(stored.on_flanks(stresses.model, gear)).displacement
-                rows = fillet_rows(fillet_curve(recovery.gear.of_module_one), recovery.interior, recovery.nodal_stress)
+                rows = fillet_rows(recovery, fillet_curve(recovery.gear.of_module_one))
                 for tooth in {pair.place.index for pair in stored.pairs}:
                     pair = (
                         int(stresses.cycle.pair_number(step, tooth)) + result["pair_number"].attrs["number_at_phase_0"]
@@ -163,7 +164,7 @@ def stresses_of_a_narrow_load(gear, roll: float, element: str = "P2") -> np.ndar
         )
     rows = root_stress_rows(gear, STEEL, discretisation, reach=0)
     # The mesh resolves so narrow a load but in the mean.
-    return rows.rows[0] @ forces / np.linalg.norm(forces.reshape(-1, 2).sum(axis=0))
+    return rows.rows[0, 0] @ forces / np.linalg.norm(forces.reshape(-1, 2).sum(axis=0))
 
 
 @pytest.mark.parametrize(
@@ -204,8 +205,10 @@ def largest_with_fillet_elements(name: str, size: float) -> float:
         growth=default.growth,
     )
     gear = PINION.of_module_one
-    with GearRecovery(gear, STEEL, sector_mesh(gear, sizes), ELEMENTS[name]) as recovery:
-        rows = fillet_rows(fillet_curve(gear), recovery.interior, recovery.nodal_stress)
+    with GearRecovery(
+        gear, STEEL, plane_sector(sector_mesh(gear, sizes), ELEMENTS[name], STEEL.poissons_ratio)
+    ) as recovery:
+        rows = fillet_rows(recovery, fillet_curve(gear))
         middle = arc_length(gear.base_radius, highest_single_contact(gear))
         forces = pressed(
             recovery, lambda arc: np.where(np.abs(arc - middle) < 0.2, 1.0 + np.cos(np.pi * (arc - middle) / 0.2), 0.0)

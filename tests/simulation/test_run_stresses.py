@@ -19,7 +19,7 @@ from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.scene.data import Load
 from fenics_gears.show.drawn_scale import automatic_scale, overlap
 from fenics_gears.show.loaded_contact import loaded_contact
-from fenics_gears.show.stress_grid import in_tooth_order, save_vtu, upright
+from fenics_gears.show.stress_grid import in_plane, in_tooth_order, save_vtu, upright
 from fenics_gears.simulation.run_stresses import RunStresses, hub_motion, standing
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.stored_forces import stored_forces, stored_index
@@ -70,8 +70,8 @@ def test_flanks_touch_where_the_pressure_is(of_run, request):
             for gear, recovery in enumerate(stresses.recoveries):
                 body = recovery.recovered(stored.on_flanks(stresses.model, gear))
                 side = "coast" if touching.place.flank == COAST else "flank"
-                moved = body.displacement[sector_of(gear, touching) % len(body.displacement)][
-                    recovery.interior.flank_nodes(side)
+                moved = body.displacement[sector_of(gear, touching) % len(body.displacement), 0][
+                    recovery.sector.flank_nodes(side)
                 ]
                 if side == "coast":
                     moved = unmirrored(recovery.gear, moved.ravel()).reshape(-1, 2)
@@ -97,13 +97,16 @@ def test_gears_stand_on_their_centres_and_touch_at_the_most_loaded_contact(of_ru
         scene.gears.centre_distance, rel=1e-12
     )
     for body, gear in zip(mesh.gears, (mesh.pair.pinion, mesh.pair.wheel)):
-        radius = np.linalg.norm(body.points - body.centre, axis=1)
+        radius = np.linalg.norm(in_plane(body.points) - body.centre, axis=1)
         assert radius.max() == pytest.approx(gear.tip_radius, rel=1e-9) and radius.min() == pytest.approx(
             gear.bore_radius, rel=1e-3
         )
     contact, frame = loaded_contact(mesh, result), partial(upright, mesh.pair)
     assert mesh.coast == ("coast_normal_force" in result)
-    outlines = [frame(body.points + body.displacement)[np.unique(body.outline)] for body in mesh.gears]
+    outlines = [
+        frame(in_plane(body.points + body.displacement))[np.unique(body.of_sectors(body.outline))]
+        for body in mesh.gears
+    ]
     # Nodes 0.12 mm apart on either flank, and hubs displaced by up to 0.06 mm on their bearings.
     assert all(cKDTree(outline).query(contact.point)[0] < 0.13 for outline in outlines)
     # Neither gear is inside the other by more than the sagitta of its straight elements and the averaging of the hats.
@@ -137,10 +140,14 @@ def test_the_file_for_paraview_holds_the_fields(driving, tmp_path):
     gears = [in_tooth_order(mesh, gear) for gear in (0, 1)]
     save_vtu(mesh, tmp_path / "gears.vtu")
     read = pyvista.read(tmp_path / "gears.vtu")
-    assert read.n_cells == sum(len(body.cells) for body in gears)
-    np.testing.assert_allclose(read.points[:, :2], np.vstack([body.points for body in gears]), rtol=1e-6)
-    np.testing.assert_allclose(read.point_data["displacement"][:, :2], np.vstack([body.displacement for body in gears]))
-    np.testing.assert_allclose(read.point_data["von_mises_stress"], np.concatenate([body.von_mises for body in gears]))
+    assert read.n_cells == sum(len(body.of_sectors(body.section.subcells)) for body in gears)
+    np.testing.assert_allclose(read.points[:, :2], np.vstack([in_plane(body.points) for body in gears]), rtol=1e-6)
+    np.testing.assert_allclose(
+        read.point_data["displacement"][:, :2], np.vstack([in_plane(body.displacement) for body in gears])
+    )
+    np.testing.assert_allclose(
+        read.point_data["von_mises_stress"], np.concatenate([body.von_mises.ravel() for body in gears])
+    )
 
 
 def test_a_result_of_another_scene_is_refused(driving):

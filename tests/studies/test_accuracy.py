@@ -175,9 +175,9 @@ def test_the_root_stress_is_that_of_the_runs_own_output(sections):
 def test_a_fillet_without_that_tangent_is_judged_at_its_middle():
     """Authority: definition; the point at 30 degrees is not a number there."""
     rows = np.arange(3 * 10 * 2, dtype=float).reshape(3, 10, 2)
-    assert (point_rows(RootStressRows(rows, np.zeros(5))) == rows[:, [4, 9]]).all()
+    assert (point_rows(RootStressRows(rows[:, None], np.zeros(5))) == rows[:, [4, 9]]).all()
     rows[:, [4, 9]] = np.nan
-    assert (point_rows(RootStressRows(rows, np.zeros(5))) == rows[:, [2, 7]]).all()
+    assert (point_rows(RootStressRows(rows[:, None], np.zeros(5))) == rows[:, [2, 7]]).all()
 
 
 def test_root_stress_has_errors_and_orders(report):

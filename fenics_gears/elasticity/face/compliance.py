@@ -3,7 +3,6 @@ cache."""
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from time import perf_counter
 
 import numpy as np
@@ -13,11 +12,10 @@ from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.elasticity.face.cost import expected_size, is_iterative
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
-from fenics_gears.elasticity.gear_compliance import COUNTS, check_inputs
+from fenics_gears.elasticity.gear_compliance import COUNTS, check_inputs, similar_inputs
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.outline import centreline_angle
-from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.system.job import Job, together
 
 # Not a choice: heights of the nodes, here and in FaceCompliance, follow from it.
@@ -45,15 +43,7 @@ def face_compliance(
     discretisation.check()
     similar, scaled = gear.of_module_one, discretisation.in_modules_of(gear)
     farthest, both = reach.farthest, reach.across is not None
-    inputs = {
-        "kind": "over the face",
-        "version": NUMBERS_VERSION,
-        "gear": asdict(similar),
-        "poissons_ratio": material.poissons_ratio,
-        "face": asdict(scaled),
-        # The rule that lays the layers may change while their number does not.
-        "boundaries": scaled.sweep.boundaries.tolist(),
-        "sizes": asdict(scaled.sizes),
+    inputs = similar_inputs("over the face", gear, material, discretisation) | {
         "farthest": farthest,
         "both flanks": both,
     }

@@ -14,13 +14,9 @@ from fenics_gears.elasticity.face.fold import EVEN, ODD, Fold
 from fenics_gears.elasticity.face.layers import Sweep
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.mirrored_ring import flank_free
+from fenics_gears.elasticity.mirrored_ring import Parts, flank_free, unfolded, unfolded_link, within_and_across
 from fenics_gears.elasticity.mumps import Factor, distributed
 from fenics_gears.elasticity.ring import check_congruent, turned_nodes
-
-# Compliance (f, f) of the flank with the cuts held, its response (f, c) to motions of the cut, stiffness (c, c) of the
-# cut with the flank free.
-Parts = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -140,17 +136,11 @@ def _of_rank(parts: Parts | None, fold: Fold, comm, rank: int) -> Parts:
 
 def _unfolded(parts: list[Parts], fold: Fold, teeth: int, both: bool) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """`held`, `to_cuts` and `link` of a SweptSector."""
-    (held, to_cut, cut), (held_cross, to_cut_cross, cut_cross) = (
-        tuple(0.5 * (even + sign * odd) for even, odd in zip(*parts)) for sign in (1.0, -1.0)
-    )
+    (held, to_cut, cut), (held_cross, to_cut_cross, cut_cross) = within_and_across(*parts)
     image, turn = fold.cut_turned, sparse.csr_matrix(turned_nodes(teeth, len(fold.cut) // 3, 3))
-    link = np.block(
-        [[image @ (image @ cut).T, image @ (cut_cross @ turn)], [(image @ (cut_cross @ turn)).T, turn.T @ (cut @ turn)]]
-    )
-    to_cuts = np.hstack([(image @ to_cut_cross.T).T, to_cut @ turn])
+    link, to_cuts = unfolded_link(cut, cut_cross, image, turn), unfolded(to_cut, to_cut_cross, image, turn)
     if both:
-        image_cut, image = image, fold.flank_turned
-        coast = np.hstack([(image_cut @ to_cut.T).T, to_cut_cross @ turn])
+        coast, image = unfolded(to_cut_cross, to_cut, image, turn), fold.flank_turned
         to_cuts = np.vstack([to_cuts, image @ coast])
         held = np.block([[held, (image @ held_cross.T).T], [image @ held_cross, image @ (image @ held).T]])
     return held, to_cuts, link

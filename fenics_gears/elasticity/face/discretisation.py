@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -61,6 +61,13 @@ class FaceDiscretisation:
         size, width, overhang = gear.in_modules(self.section_size, self.face_width, self.overhang)
         twist = round(self.twist * gear.module, DECIMALS_IN_MODULES)
         return replace(self, section_size=size, face_width=width, twist=twist, overhang=overhang)
+
+    def inputs(self, gear: Gear, both_flanks: bool = True) -> dict:
+        """What a gear's mesh follows from besides the gear, with lengths in modules; it always has both flanks."""
+        scaled = self.in_modules_of(gear)
+        # The rule that lays the layers may change while their number does not.
+        boundaries = scaled.sweep.boundaries.tolist()
+        return {"face": asdict(scaled), "boundaries": boundaries, "sizes": asdict(scaled.sizes)}
 
     def check(self) -> None:
         """Raise SceneError for a value that has no meaning."""

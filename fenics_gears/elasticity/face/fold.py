@@ -1,11 +1,14 @@
 """A swept tooth sector folded along its tooth's centreline: two bodies of half its size that have nothing to do with
 each other.
 
-Half a turn about the centreline at mid-width maps a sector on itself whose section is symmetric and whose layers are
-alike towards both end faces:
-it exchanges the flanks, and the cuts, and takes z to -z. Every motion is the sum of an even one, which half a turn
-leaves as it is, and of an odd one, which it reverses. The two are uncoupled, and either is given by the drive flank's
-half: with u of that half, the other moves as ``s P u``, s = 1 or -1.
+Theorem. Let H be half a turn about the tooth's centreline at mid-width: it exchanges the flanks and the cuts, and takes
+z to -z; on motions it is an involution, H H = 1. Where the section is symmetric about the centreline, and the layers
+are alike towards both end faces, H maps the sector on itself, whatever its twist. Its stiffness K then commutes with H.
+
+Here: each motion u is the sum of an even one, H u = u, and of an odd one, H u = -u; K couples none of one kind with one
+of the other, and either kind is given by its values on the drive flank's half: with u there, a node's image moves as
+``s M u``, s = 1 or -1, with M the reflection at the centreline and at mid-width. In the ring (`half_turn`): the
+harmonics of its cuts become real.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
-"""Ring of swept sectors whose section is symmetric about the tooth's centreline: half a turn about that line maps a
-sector on itself.
+"""Ring of swept sectors that half a turn about the tooth's centreline maps on themselves (theorem of `fold`).
 
-It exchanges the cuts and takes z to -z. With P what it does to a cut's dofs (an involution), the harmonics D of the
-ring (`elasticity.ring`) have ``P D P = conj(D)``: over P's eigenvectors the blocks of D for equal eigenvalues are real
-and those for opposite ones imaginary. Multiplied by i, the eigenvectors of one sign make D real and symmetric, which
-takes a quarter of the operations of a complex matrix.
+It exchanges a sector's cuts. Of the ring, turning about a cut's own middle line therefore maps the sectors ahead on
+those behind: with P what that does to a cut's dofs (an involution), the link between cuts has ``P ahead P = ahead^T``,
+and the harmonics D of the ring (`elasticity.ring`) have ``P D P = conj(D)``. Over P's eigenvectors the blocks of D for
+equal eigenvalues are real and those for opposite ones imaginary. Multiplied by i, the eigenvectors of one sign make D
+real and symmetric, which takes a quarter of the operations of a complex matrix.
 """
 
 from __future__ import annotations
@@ -29,23 +29,20 @@ def half_turn_basis(lower: np.ndarray, heights: int) -> tuple[sparse.csr_matrix,
     """
     along, nodes = len(lower) // heights, np.arange(len(lower))
     partner = along * (heights - 1 - nodes // along) + nodes % along
-    even, odd = [], []
-    # Along the cut a displacement keeps its sign, across it and along z it changes.
-    for component, sign in enumerate((1.0, -1.0, -1.0)):
-        for node, other in zip(nodes.tolist(), partner.tolist()):
-            dofs = 3 * node + component, 3 * other + component
-            if node == other:
-                (even if sign > 0.0 else odd).append({dofs[0]: 1.0})
-            elif node < other:
-                even.append({dofs[0]: 0.5**0.5, dofs[1]: sign * 0.5**0.5})
-                odd.append({dofs[0]: 0.5**0.5, dofs[1]: -sign * 0.5**0.5})
-    vectors = even + odd
-    rows = np.concatenate([[*vector] for vector in vectors])
-    columns = np.repeat(np.arange(len(vectors)), [len(vector) for vector in vectors])
-    values = np.concatenate([[*vector.values()] for vector in vectors])
+    alone, pair = nodes[nodes == partner], nodes[nodes < partner]
     angle = np.arctan2(lower[-1, 1], lower[-1, 0])
-    frame = sparse.kron(sparse.eye(len(lower)), rotation(angle, 3), format="csr")
-    return frame @ sparse.csr_matrix((values, (rows, columns)), shape=frame.shape), len(even)
+    frame = sparse.kron(sparse.eye(len(lower)), rotation(angle, 3), format="csc")
+    halves = []
+    for eigenvalue in (1.0, -1.0):
+        vectors = []
+        # Along the cut a displacement keeps its sign, across it and along z it changes.
+        for component, sign in enumerate((eigenvalue, -eigenvalue, -eigenvalue)):
+            own, image = (frame[:, 3 * each + component] for each in (pair, partner[pair]))
+            vectors.append(0.5**0.5 * (own + sign * image))
+            if sign > 0.0:
+                vectors.append(frame[:, 3 * alone + component])
+        halves.append(sparse.hstack(vectors, format="csr"))
+    return sparse.hstack(halves, format="csr"), halves[0].shape[1]
 
 
 def half_turn_response(

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-from fenics_gears.errors import ComputationError
+from fenics_gears.elasticity.element_nodes import numbers_at
 
 # Gauss's rule of three points on (-1, 1): exact to the fifth power, which the patch test of a twisted layer needs.
 POINTS = (-sqrt(0.6), 0.0, sqrt(0.6))
@@ -56,8 +55,8 @@ def layers_of_face(layers: int, width: float, overhang_layers: int = 0, overhang
     return np.concatenate([-beyond[::-1], inner, beyond])
 
 
-def shapes(place: float) -> tuple[np.ndarray, np.ndarray]:
-    """Second-order shape functions (3,) of a layer's lower, middle and upper node at a place in (-1, 1), and their
+def shapes(place: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Second-order shape functions (3, ...) of a layer's lower, middle and upper node at places in (-1, 1), and their
     derivatives."""
     values = np.array([0.5 * place * (place - 1.0), 1.0 - place**2, 0.5 * place * (place + 1.0)])
     return values, np.array([place - 0.5, -2.0 * place, place + 0.5])
@@ -65,7 +64,4 @@ def shapes(place: float) -> tuple[np.ndarray, np.ndarray]:
 
 def swept_nodes(nodes: np.ndarray, line: np.ndarray, heights: int) -> np.ndarray:
     """Numbers (heights k,) of the body's nodes swept from nodes (k, 2) of the section (n, 2), by height."""
-    distance, found = cKDTree(nodes).query(line)
-    if distance.max(initial=0.0) > 1e-9 * np.abs(nodes).max():
-        raise ComputationError("swept body: a node of the section's boundary is not among the nodes of its elements")
-    return (len(nodes) * np.arange(heights)[:, None] + found).ravel()
+    return (len(nodes) * np.arange(heights)[:, None] + numbers_at(nodes, line)).ravel()

@@ -23,7 +23,7 @@ from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.face.layers import POINTS, WEIGHTS, Sweep, shapes
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import rotation
-from fenics_gears.elasticity.stiffness import nodes_at, stress_of_strain
+from fenics_gears.elasticity.stiffness import assembled, nodes_at, stress_of_strain
 
 ELEMENT = ELEMENTS["P2"]
 # Of the section's coordinates times a gradient, squared.
@@ -49,11 +49,7 @@ class SectionForms:
         return tuple(self._assembled(form) for form in self._forms)
 
     def _assembled(self, form) -> sparse.csr_matrix:
-        matrix = adapter.assemble_matrix(form)
-        starts, columns, values = matrix.getValuesCSR()
-        assembled = sparse.csr_matrix((values.copy(), columns.copy(), starts.copy()), shape=matrix.getSize())
-        matrix.destroy()
-        return assembled[self._order][:, self._order]
+        return assembled(adapter.assemble_matrix(form))[self._order][:, self._order]
 
 
 def _forms(space, poisson, a, b, c, d):

@@ -65,17 +65,15 @@ def _most_loaded(dataset: xr.Dataset) -> int:
 
 def _drawn(run: Run, index: int) -> tuple[bytes, list[Chart]]:
     """The picture, and over a face the tension of the roots along it at that time."""
-    from fenics_gears.show.stress_picture import save_picture
+    from fenics_gears.show.stress_picture import save_picture, still
+    from fenics_gears.simulation.run_stresses import RunStresses
 
-    if run.is_over_face:
-        from fenics_gears.show.face_picture import root_tension, still
-        from fenics_gears.simulation.face_stresses import FaceStresses as Stresses
-    else:
-        from fenics_gears.show.stress_picture import still
-        from fenics_gears.simulation.run_stresses import RunStresses as Stresses
-
-    with Stresses(run.dataset, run.scene) as stresses:
+    with RunStresses(run.dataset, run.scene) as stresses:
         mesh = stresses.at(index)
     content = io.BytesIO()
     save_picture(still(mesh, run.dataset), content)
-    return content.getvalue(), [root_tension(mesh)] if run.is_over_face else []
+    if not run.is_over_face:
+        return content.getvalue(), []
+    from fenics_gears.show.face_picture import root_tension
+
+    return content.getvalue(), [root_tension(mesh)]

@@ -40,9 +40,10 @@ def peak_root_stress(run: xr.Dataset, model: Model, cycle: Cycle) -> float:
 def point_rows(rows: RootStressRows) -> np.ndarray:
     """Rows (2 reach + 1, 2, d) of the point on either side; of the fillet's middle where the fillet has no such
     tangent."""
-    points = rows.rows.shape[1] // 2
-    place = points - 1 if np.isfinite(rows.rows[rows.reach, points - 1]).all() else (points - 1) // 2
-    return rows.rows[:, [place, points + place]]
+    of_plane = rows.rows[:, 0]
+    points = of_plane.shape[1] // 2
+    place = points - 1 if np.isfinite(of_plane[rows.reach, points - 1]).all() else (points - 1) // 2
+    return of_plane[:, [place, points + place]]
 
 
 def _stress(point: np.ndarray, stored: StoredForces, model) -> float:

@@ -10,8 +10,8 @@ from tests.elasticity.face.swept import TWIST, TWISTED, in_frame, in_place, sect
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-from fenics_gears.elasticity.face.recovery import FaceRecovery
-from fenics_gears.elasticity.face.swept_stress import SweptStress
+from fenics_gears.elasticity.nodal_stress import NodalStress
+from fenics_gears.elasticity.recovery import gear_recovery
 from fenics_gears.elasticity.ring import rotation
 
 PINION_BODY = FaceDiscretisation(2.7, 2, 15.0, tan(radians(15.0)) / PINION.reference_radius)
@@ -20,7 +20,7 @@ PINION_BODY = FaceDiscretisation(2.7, 2, 15.0, tan(radians(15.0)) / PINION.refer
 @pytest.fixture(scope="module")
 def recovery():
     """The paper's pinion with a helix, coarsely meshed."""
-    with FaceRecovery(PINION, STEEL, PINION_BODY) as found:
+    with gear_recovery(PINION, STEEL, PINION_BODY) as found:
         yield found
 
 
@@ -28,7 +28,7 @@ def test_flanks_move_as_their_compliance_says(recovery):
     """Identity: what is recovered at the flanks of the loaded tooth and its neighbours is the condensed compliance
     times the forces."""
     compliance = face_compliance(PINION, STEEL, PINION_BODY, Reach(1))
-    flank = recovery.body.flank_nodes("flank")
+    flank = recovery.sector.flank_nodes("flank")
     forces = np.random.default_rng(1).normal(size=(1, len(compliance.heights), len(compliance.roll_angle), 3))
     found = recovery.recovered({0: forces}, range(-1, 2)).displacement.reshape(3, -1, 3)[:, flank].reshape(3, -1)
     for moved, block in zip(found, (compliance.blocks[1].T, compliance.blocks[0], compliance.blocks[1])):
@@ -38,7 +38,7 @@ def test_flanks_move_as_their_compliance_says(recovery):
 def test_loads_of_several_teeth_superpose(recovery):
     """Linear: two loaded teeth move and are stressed as by each load alone, also where one has the number of a tooth a
     whole turn on."""
-    shape = (1, len(recovery.heights), len(recovery.body.flank_nodes("flank")) // len(recovery.heights), 3)
+    shape = (1, len(recovery.heights), len(recovery.sector.flank_nodes("flank")) // len(recovery.heights), 3)
     one, other = np.random.default_rng(2).normal(size=(2, *shape))
     together = recovery.recovered({0: one, 1 + PINION.teeth: other}, range(2))
     parts = [recovery.recovered(load, range(2)) for load in ({0: one}, {1: other})]
@@ -57,7 +57,7 @@ def test_uniform_strain_has_its_stress():
     )
     strain, shear, lame = 0.5 * (gradient + gradient.T), 0.5 / 1.3, 0.3 / (1.3 * 0.4)
     stress = 2.0 * shear * strain + lame * np.trace(strain) * np.eye(3)
-    found = SweptStress(section().nodes, TWISTED, 0.3).at_nodes(moved)
+    found = NodalStress(section().nodes, 0.3, TWISTED).at_nodes(moved)
     for height, at_height in zip(TWISTED.heights, found):
         frame = rotation(TWIST * height, 3)
         assert np.abs(frame @ at_height @ frame.T - stress).max() < 1e-9 * np.abs(stress).max()

@@ -19,6 +19,7 @@ from fenics_gears.elasticity.element_nodes import node_roll_angles
 from fenics_gears.elasticity.element_sizes import element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.recovery import GearRecovery
+from fenics_gears.elasticity.sector import plane_sector
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 from fenics_gears.elasticity.whole_body.outline import whole_body
@@ -56,11 +57,13 @@ def whole_tooth():
     mesh = sector_mesh(PINION.of_module_one, sizes.in_modules_of(PINION))
     corners = PINION.module * mesh.points[mesh.edge_points("flank")]
     rolls = node_roll_angles(PINION, corners[np.argsort(np.linalg.norm(corners, axis=1))], 2)
-    with GearRecovery(PINION, STEEL, mesh, P2) as recovery:
-        triangles = Triangulation(*recovery.points.T, recovery.interior.nodes.subcells)
+    with GearRecovery(PINION, STEEL, plane_sector(mesh, P2, STEEL.poissons_ratio)) as recovery:
+        triangles = Triangulation(*recovery.points.T, recovery.sector.section.subcells)
         # Contact presses; the loads of the compliance pull outwards.
-        stresses = [recovery.recovered({0: -load_about(place, rolls)}).stress[0] for place in PLACES]
-    return [[LinearTriInterpolator(triangles, stress[:, i]) for i in range(3)] for stress in stresses]
+        stresses = [recovery.recovered({0: -load_about(place, rolls)}).stress[0, 0] for place in PLACES]
+    return [
+        [LinearTriInterpolator(triangles, stress[:, i, j]) for i, j in ((0, 0), (1, 1), (0, 1))] for stress in stresses
+    ]
 
 
 def released(crack: RootCrack, stress) -> float:

@@ -1,0 +1,100 @@
+"""A tooth sector factored once, its hub held: its stiffness between the cuts, and its displacement under any load."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import sparse
+
+from fenics_gears.elasticity.condensation import by_radius, dofs_of
+from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes
+from fenics_gears.elasticity.elements import Element
+from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
+from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.mumps import Factor
+from fenics_gears.elasticity.stiffness import assembled, compile_ahead, displacement_space, nodes_at, stiffness_matrix
+
+
+class Sector:
+    """A sector, Young's modulus 1 MPa: plane and of unit thickness, or swept along the face by `sweep`.
+
+    Its nodes go by height, then by the section's (ElementNodes); a plane one has one height. Dofs are interleaved: x, y
+        and of a swept sector z, in the section's frame turned with it.
+    cuts: (c,) nodes of the lower and of the upper cut by height and radius; hub: (h,). link: stiffness (2 d, 2 d)
+        between the dofs of both cuts off the hub. Release the factor by `close`.
+    """
+
+    def __init__(self, mesh: BodyMesh, section: ElementNodes, stiffness: sparse.csr_matrix, sweep: Sweep | None = None):
+        self.mesh, self.section, self.sweep = mesh, section, sweep
+        self.components, self.heights = (2, np.zeros(1)) if sweep is None else (3, sweep.heights)
+        self.hub = self._swept("hub")
+        self.cuts = tuple(self._swept(f"{name} cut") for name in ("lower", "upper"))
+        free = np.ones(self.components * self.nodes, dtype=bool)
+        free[dofs_of(self.hub, self.components)] = False
+        self._free, number = np.flatnonzero(free), np.cumsum(free) - 1
+        self.lower, self.upper = (cut[~np.isin(cut, self.hub)] for cut in self.cuts)
+        self._between = dofs_of(np.concatenate([self.lower, self.upper]), self.components)
+        self._factor = Factor(stiffness[free][:, free], "a tooth sector for its stresses", number[self._between])
+        # Before any solve: then the factor holds it no longer as it is.
+        self.link = self._factor.schur()
+
+    def close(self) -> None:
+        """Give the factor's memory back."""
+        self._factor.close()
+
+    @property
+    def nodes(self) -> int:
+        """Number of nodes."""
+        return len(self.section.points) * len(self.heights)
+
+    @property
+    def held(self) -> np.ndarray:
+        """The section's nodes (k,) on cuts and hub."""
+        return np.unique(np.concatenate([*self.cuts, self.hub]) % len(self.section.points))
+
+    def place(self, nodes: np.ndarray) -> np.ndarray:
+        """X, Y, z (k, 3) of nodes (k,)."""
+        height, number = np.divmod(nodes, len(self.section.points))
+        return np.column_stack([self.section.points[number], self.heights[height]])
+
+    def flank_nodes(self, side: str) -> np.ndarray:
+        """Nodes (heights f,) of the "flank" or the "coast" flank by height and radius, as the compliance has them."""
+        return self._swept(side)
+
+    def free_motion(self, loads: np.ndarray) -> np.ndarray:
+        """Displacement (dofs, k) under loads (dofs, k), the cuts free."""
+        found = np.zeros_like(loads)
+        found[self._free] = self._factor.solve(loads[self._free])
+        return found
+
+    def at_cuts(self, vectors: np.ndarray) -> np.ndarray:
+        """Rows (2 d, k) of the lower, then of the upper cut."""
+        return vectors[self._between]
+
+    def pulled(self, forces: np.ndarray) -> np.ndarray:
+        """Loads (dofs, k) of forces (2 d, k) on the cuts alone."""
+        loads = np.zeros((self.components * self.nodes, forces.shape[1]))
+        loads[self._between] = forces
+        return loads
+
+    def _swept(self, part: str) -> np.ndarray:
+        """Nodes (heights k,) of a part of the section's boundary, by height and radius."""
+        line = by_radius(self.mesh.edge_nodes(part, self.section.order))
+        return swept_nodes(self.section.points, line, len(self.heights))
+
+
+def plane_sector(mesh: BodyMesh, element: Element, poissons_ratio: float) -> Sector:
+    """A sector in plane strain."""
+    compile_ahead(element)
+    space, nodes = displacement_space(mesh, element), element_nodes(mesh, element)
+    stiffness = assembled(stiffness_matrix(space, element, poissons_ratio, mesh.web))
+    order = dofs_of(nodes_at(space, nodes.points))
+    return Sector(mesh, nodes, stiffness[order][:, order])
+
+
+def swept_sector(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float) -> Sector:
+    """A sector in three dimensions."""
+    # Imported here: plane gears have none.
+    from fenics_gears.elasticity.face.swept_stiffness import SectionForms, swept_stiffness
+
+    forms = SectionForms(mesh, poissons_ratio)
+    return Sector(mesh, forms.nodes, swept_stiffness(forms, sweep), sweep)

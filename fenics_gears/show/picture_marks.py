@@ -1,0 +1,116 @@
+"""What is drawn over a picture of gears in mesh: the line of action, names, frames, a bar of length."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.patches import Arc, FancyArrowPatch, Rectangle
+from matplotlib.patheffects import withStroke
+
+from fenics_gears.show.panels import DARK
+from fenics_gears.show.stress_grid import upright
+from fenics_gears.simulation.run_stresses import GearsInMesh
+
+# Radii, points: of a bore that a gear's name fits into with its arrow, and of that arrow.
+LEAST_BORE, LEAST_ARROW = 28.0, 12.0
+
+
+def line_of_action(axes: Axes, mesh: GearsInMesh, coast: bool, labelled: bool) -> None:
+    """The line between the base circles, its part that is the path of contact, and the pitch point."""
+    pair, frame = mesh.pair, partial(upright, mesh.pair, coast=coast)
+    height = -pair.pinion.base_radius
+    ends = frame(np.array([[0.0, height], [pair.line_of_action_length, height]]))
+    path = frame(np.array([[pair.path_start, height], [pair.path_end, height]]))
+    pitch = frame(np.array([pair.pitch_point, height]))
+    for colour, wider in (("white", 1.6), (DARK, 0.0)):
+        axes.plot(*ends.T, color=colour, linewidth=1.0 + wider, solid_capstyle="butt", linestyle="-")
+        axes.plot(*path.T, color=colour, linewidth=2.4 + wider, solid_capstyle="butt")
+    axes.plot(
+        *pitch,
+        "o",
+        markersize=8 if labelled else 5,
+        markerfacecolor="white",
+        markeredgecolor="black",
+        markeredgewidth=1.4,
+    )
+    if labelled:
+        side = -1 if coast else 1
+        _note(axes, "pitch point", pitch, (side * 14, 16))
+        _note(
+            axes, "line of action", frame(np.array([pair.path_start - 0.12 * pair.base_pitch, height])), (side * 12, 30)
+        )
+
+
+def _note(axes: Axes, words: str, point, offset) -> None:
+    box = {"boxstyle": "round,pad=0.25", "facecolor": "white", "edgecolor": "#BBBBBB", "alpha": 0.92}
+    axes.annotate(
+        words,
+        point,
+        xytext=offset,
+        textcoords="offset points",
+        fontsize=11.5,
+        color=DARK,
+        bbox=box,
+        ha="left" if offset[0] > 0 else "right",
+    )
+
+
+def name_gears(axes: Axes, mesh: GearsInMesh, driving: int) -> None:
+    """Names in the bores, or above or beside too small ones; which gear drives, and the sense in which either turns."""
+    (bottom, top), height = axes.get_ylim(), axes.get_position().height * axes.figure.get_figheight() * 72.0
+    point = (top - bottom) / height
+    for number, (gear, name, turns) in enumerate(((mesh.pair.pinion, "pinion", 1), (mesh.pair.wheel, "wheel", -1))):
+        name += "\ndrives" if number == driving else ""
+        centre = np.zeros(2) if turns > 0 else np.array([0.0, -mesh.pair.centre_distance])
+        place, ha, va = place_of_name(gear, point)
+        axes.text(*(centre + place), name, ha=ha, va=va, fontsize=11.5, color=DARK)
+        radius = max(0.78 * gear.bore_radius, LEAST_ARROW * point)
+        start, end = 200.0, 340.0
+        axes.add_patch(Arc(centre, 2 * radius, 2 * radius, theta1=start, theta2=end, color=DARK, linewidth=1.4))
+        tip = np.radians(end if turns > 0 else start)
+        head = centre + radius * np.array([np.cos(tip), np.sin(tip)])
+        back = centre + radius * np.array([np.cos(tip - turns * 0.06), np.sin(tip - turns * 0.06)])
+        axes.add_patch(
+            FancyArrowPatch(back, head, arrowstyle="-|>", mutation_scale=14, color=DARK, shrinkA=0, shrinkB=0)
+        )
+
+
+def place_of_name(gear, point: float) -> tuple[np.ndarray, str, str]:
+    """Where a gear's name stands from its centre (mm), with its alignment: in the bore, above it in the body, or left
+    of the teeth."""
+    if gear.bore_radius >= LEAST_BORE * point:
+        return np.zeros(2), "center", "center"
+    if gear.root_radius - gear.bore_radius > 2.0 * LEAST_BORE * point:
+        return np.array([0.0, gear.bore_radius + 6.0 * point]), "center", "bottom"
+    return np.array([-gear.tip_radius - 4.0 * point, 0.0]), "right", "center"
+
+
+def frame_in(axes: Axes, enlarged: Axes, moved: np.ndarray | None = None) -> None:
+    """Where in one panel another one is."""
+    (left, right), (bottom, top) = enlarged.get_xlim(), enlarged.get_ylim()
+    x, y = (0.0, 0.0) if moved is None else moved
+    for colour, width in (("black", 2.6), ("white", 1.2)):
+        axes.add_patch(
+            Rectangle((left + x, bottom + y), right - left, top - bottom, fill=False, edgecolor=colour, linewidth=width)
+        )
+
+
+def length_bar(axes: Axes) -> None:
+    """A bar of a round length at the panel's lower edge."""
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    wanted = 0.3 * (right - left)
+    power = 10.0 ** np.floor(np.log10(wanted))
+    length = max(step * power for step in (1.0, 2.0, 5.0) if step * power <= wanted)
+    x, y = left + 0.06 * (right - left), bottom + 0.06 * (top - bottom)
+    axes.plot([x, x + length], [y, y], color="black", linewidth=5.0, solid_capstyle="butt")
+    axes.plot([x, x + length], [y, y], color="white", linewidth=2.5, solid_capstyle="butt")
+    axes.text(
+        x,
+        y + 0.03 * (top - bottom),
+        f"{length:g} mm",
+        fontsize=11.0,
+        color="black",
+        path_effects=[withStroke(linewidth=3.0, foreground="white")],
+    )
