@@ -14,7 +14,6 @@ from fenics_gears.contact.operator import ContactOperator
 from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.touching import touching
-from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.gear_compliance import flank_compliance
@@ -45,11 +44,7 @@ def elastic_cycle(scene: Scene, corner: CornerContact | None, steps: int, cache:
         )
         for gear in (model.pair.pinion, model.pair.wheel)
     )
-    return rigid_hub_cycle(Flanks(model.pair, compliances), grid, steps, corner)
-
-
-def rigid_hub_cycle(flanks: Flanks, grid: ContactGrid, steps: int, corner: CornerContact | None) -> MeshCycle:
-    """The same on any flanks."""
+    flanks = Flanks(model.pair, compliances)
     return MeshCycle(flanks, grid, steps, [WHEEL_ROTATION], tangential=False, corner=corner)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 from dataclasses import dataclass, replace
+from itertools import groupby
 from math import radians
 from pathlib import Path
 
@@ -45,6 +46,9 @@ class Row:
     line_load: float
 
 
+HEAD = {name: {"opening": str, "pair": int}.get(name, float) for name in list(Row.__annotations__)[:-2]}
+
+
 def rows(found: Assembled, helix_angle: float, opening: str, force: float = FORCE) -> list[Row]:
     """All line loads of one analysis; helix angle in deg."""
     areas, heights = np.concatenate([each.areas for each in found.points]), found.points[0].z
@@ -79,9 +83,13 @@ def computed(helix_angle: float, phase: float, sizes: Sizes = SMALL) -> list[Row
 
 def reference() -> list[Row]:
     """The rows of the file."""
-    kinds = {name: str if name == "opening" else int if name == "pair" else float for name in Row.__annotations__}
+    found = []
     with FILE.open() as lines:
-        return [Row(**{name: kinds[name](value) for name, value in line.items()}) for line in csv.DictReader(lines)]
+        for line in csv.DictReader(lines):
+            along = zip(line["z"].split(), line["line_load"].split())
+            head = {name: kind(line[name]) for name, kind in HEAD.items()}
+            found += [Row(**head, z=float(z), line_load=float(load)) for z, load in along]
+    return found
 
 
 def over_slices(found: list[Row], positions: np.ndarray) -> np.ndarray:
@@ -94,8 +102,11 @@ def over_slices(found: list[Row], positions: np.ndarray) -> np.ndarray:
 
 
 def write(found: list[Row], file: Path = FILE) -> None:
-    """Write rows to a file."""
+    """Write a line for each tooth pair of an analysis, all heights and line loads in it."""
     with file.open("w", newline="") as lines:
         writer = csv.writer(lines, lineterminator="\n")
         writer.writerow(Row.__annotations__)
-        writer.writerows([getattr(row, name) for name in Row.__annotations__] for row in found)
+        for head, of_pair in groupby(found, key=lambda row: [getattr(row, name) for name in HEAD]):
+            along = list(of_pair)
+            columns = (" ".join(f"{getattr(row, name):.5g}" for row in along) for name in ("z", "line_load"))
+            writer.writerow([f"{each:.7g}" if isinstance(each, float) else each for each in head] + list(columns))

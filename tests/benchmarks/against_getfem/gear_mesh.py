@@ -12,6 +12,7 @@ from fenics_gears.elasticity.gmsh_session import gmsh_model
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, canonical_point, roll_angle_at_arc_length
 from fenics_gears.geometry.outline import tooth_outline
+from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.tip_edge import tip_edge
 
 
@@ -222,3 +223,17 @@ def _six_nodes(corners: np.ndarray, triangles: np.ndarray):
                 middles.append(0.5 * (corners[a] + corners[b]))
             cells[number, 3 + side] = side_of[key][2]
     return np.vstack([corners, middles]), cells, side_of
+
+
+def placed(pair: GearPair, meshes: tuple[GearMesh, GearMesh], phase: float) -> tuple[np.ndarray, np.ndarray]:
+    """Points (n, 2), mm, of pinion and wheel where tooth 0 of both touches at `phase` mesh cycles after the path's
+    start."""
+    xi = pair.path_start + phase * pair.base_pitch
+    turns = (xi / pair.pinion.base_radius, np.pi + (pair.line_of_action_length - xi) / pair.wheel.base_radius)
+    centres = (np.zeros(2), wheel_centre(pair))
+    return tuple(centre + mesh.points @ rotation(turn).T for centre, mesh, turn in zip(centres, meshes, turns))
+
+
+def wheel_centre(pair: GearPair) -> np.ndarray:
+    """The wheel's centre (2,), mm."""
+    return np.array([pair.line_of_action_length, -(pair.pinion.base_radius + pair.wheel.base_radius)])
