@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from tests.studies.conftest import environment, mpirun
+from tests.studies.conftest import environment
 
 import fenics_gears
 from fenics_gears import results
@@ -105,13 +105,6 @@ def test_the_summary_gives_the_transmission_error_as_angle_and_length(simulation
     assert all(lines[name].endswith(f" {seconds}") for name, seconds in told.items())
 
 
-def test_quiet_says_nothing(simulation, capsys, tmp_path):
-    """Authority: the option's own description."""
-    assert main(["run", str(DEMO), "--quiet", "--output", "here"]) == 0
-    assert capsys.readouterr() == ("", "")
-    assert files(tmp_path) == ["here/run.nc", "here/transmission_error.png"]
-
-
 def test_a_result_without_meaning_has_an_exit_code_of_its_own(simulation, capsys, tmp_path):
     """Authority: docs/troubleshooting.md; a script sees that the gears jammed, and the result is kept with the
     reason."""
@@ -122,13 +115,6 @@ def test_a_result_without_meaning_has_an_exit_code_of_its_own(simulation, capsys
     assert results.load(tmp_path / "here/run.nc").attrs["complete"] == 1
     simulation.outcome = small_result().assign_attrs(warnings="another")
     assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 0
-
-
-def test_a_run_without_pictures(simulation, capsys, tmp_path):
-    """Authority: the option's own description; pictures of an earlier run do not stay as if they were this one's."""
-    assert main(["run", str(DEMO), "--output", "here"]) == 0
-    assert main(["run", str(DEMO), "--output", "here", "--no-pictures"]) == 0
-    assert files(tmp_path) == ["here/run.nc"]
 
 
 def on_a_terminal(command, more):
@@ -175,15 +161,6 @@ def test_what_goes_into_a_log_is_plain():
     for written in (piped, on_a_terminal(CHECK, {"OMPI_COMM_WORLD_SIZE": "1"})):
         assert "\x1b" not in written and "Gear pair" in written
         assert not any(line.endswith(" ") for line in written.splitlines())
-
-
-def test_what_mpirun_pipes_on_is_plain():
-    """Authority: the same, of the real mpirun."""
-    written = subprocess.run(
-        [*mpirun(1), *CHECK], stdout=subprocess.PIPE, text=True, check=True, env=environment()
-    ).stdout
-    assert "Gear pair" in written and "\x1b" not in written
-    assert not any(line.endswith(" ") for line in written.splitlines())
 
 
 @pytest.mark.parametrize("command", ["plot", "picture", "export"])
@@ -244,29 +221,6 @@ def test_a_second_ctrl_c_does_not_wait(simulation, tmp_path):
     simulation.simulate = hang
     assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 130
     assert files(tmp_path) == []
-
-
-def test_ctrl_c_while_the_result_is_written_does_not_lose_it(simulation, monkeypatch, capsys, tmp_path):
-    """Authority: hard case 27; the files are there, whole."""
-    save = results.save
-
-    def interrupted_save(dataset, path):
-        os.kill(os.getpid(), signal.SIGINT)
-        save(dataset, path)
-
-    monkeypatch.setattr(results, "save", interrupted_save)
-    assert main(["run", str(DEMO), "--output", "here"]) == 130
-    assert results.load(tmp_path / "here/run.nc").attrs["complete"] == 1
-    assert files(tmp_path) == ["here/run.nc"]
-    assert "The result is whole: here/run.nc" in capsys.readouterr().err
-
-
-def test_ctrl_c_before_the_first_step_writes_nothing(simulation, capsys, tmp_path):
-    """Authority: docs/promises.md; there is nothing to keep."""
-    simulation.outcome = KeyboardInterrupt()
-    assert main(["run", str(DEMO), "--output", "here"]) == 130
-    assert files(tmp_path) == []
-    assert "Interrupted" in capsys.readouterr().err
 
 
 def test_ctrl_c_before_the_recorded_cycles_says_so(simulation, capsys, tmp_path):

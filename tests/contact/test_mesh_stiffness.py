@@ -88,12 +88,3 @@ def test_springs_have_the_stiffness_that_they_are_given(quasi_static_scene):
         found = stiffness(operator, statics(operator, LOAD))
         assert found.secant == pytest.approx(single * mesh_factor(found.pairs), rel=1e-9)
         assert found.tangent == pytest.approx(found.secant, rel=1e-9)
-
-
-def test_no_stiffness_where_nothing_touches(cycle):
-    """Definition."""
-    operator = cycle.position(3).operator
-    nothing = SimpleNamespace(
-        forces=np.zeros(operator.nodes), status=np.zeros(operator.nodes, dtype=np.int8), coordinates=np.zeros(1)
-    )
-    assert stiffness(operator, nothing) == SimpleNamespace(secant=0.0, tangent=0.0, pairs=0)

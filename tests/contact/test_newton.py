@@ -75,45 +75,6 @@ def test_warm_start_at_the_solution_takes_one_iteration():
     assert np.array_equal(again.forces, solution.forces)
 
 
-def test_friction_tends_to_no_friction():
-    """Row 10: the difference to mu = 0 is O(mu)."""
-    plain = random_problem(7, friction=0.1)
-    frictionless = StepProblem(
-        plain.stiffness,
-        plain.load,
-        plain.compliance[:8, :8],
-        plain.jacobian[:8],
-        plain.gap,
-        np.empty(0),
-        0.0,
-        np.empty(0),
-        plain.tolerance,
-    )
-    reference = solve_step(frictionless, all_open(frictionless)).forces
-    scale = np.abs(reference).max()
-    for friction in (1e-2, 1e-4, 1e-6, 1e-12):
-        problem = StepProblem(**{**plain.__dict__, "friction": friction})
-        difference = np.abs(solve_step(problem, all_open(problem)).forces[:8] - reference).max()
-        assert difference <= 20.0 * friction * scale + 1e-12 * scale
-
-
-def test_one_contact_node_is_exact():
-    """Row 19: one node, one coordinate: p = (F/k - g)/(1/k + c)."""
-    problem = StepProblem(
-        stiffness=np.array([[2e5]]),
-        load=np.array([5e3]),
-        compliance=np.array([[3e-6]]),
-        jacobian=np.ones((1, 1)),
-        gap=np.array([0.01]),
-        slip_before=np.empty(0),
-        friction=0.0,
-        free_motion=np.empty(0),
-        tolerance=Tolerance.of_load(5e3),
-    )
-    solution = solve_step(problem, all_open(problem))
-    assert solution.forces[0] == pytest.approx((5e3 / 2e5 - 0.01) / (1 / 2e5 + 3e-6), rel=1e-13)
-
-
 def test_frictionless_cycle_is_solved_one_change_at_a_time():
     """Contact nodes closer than the elements are nearly dependent and make all-at-once changes cycle; Murty's rule
     ends, at NNLS's answer."""

@@ -14,22 +14,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 from tests.contact.laws_of_contact import law_residual
-from tests.contact.problems import all_open, random_problem, reversing_problem
+from tests.contact.problems import all_open, random_problem
 from tests.contact.sliding_block import block_at_rest
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium, SelfLocking
-from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
+from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.newton import CONVERGED
-from fenics_gears.contact.step_solver import (
-    HALVED,
-    NEWTON_AND_FALLBACKS,
-    StepProblem,
-    _methods,
-    cold_start,
-    run_newton,
-    solve_step,
-)
+from fenics_gears.contact.step_solver import HALVED, NEWTON_AND_FALLBACKS, StepProblem, _methods, cold_start, solve_step
 from fenics_gears.contact.tresca import frozen_friction
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
@@ -117,16 +109,6 @@ def test_nodes_that_elasticity_hardly_tells_apart_are_solved(nodes, elements):
     assert solution.forces.sum() == pytest.approx(3000.0, rel=1e-9)
     assert opening.min() >= -problem.tolerance.length and solution.forces.min() >= -problem.tolerance.force
     assert np.abs(opening * solution.forces).max() <= problem.tolerance.length * 3000.0
-
-
-def test_slip_that_reverses_all_at_once_goes_through_stick():
-    """The usual cycle (hard cases, known from measurements): plain Newton repeats its sets, the first fallback ends."""
-    problem, start = reversing_problem(), np.full(4, SLIP_FORWARD, dtype=np.int8)
-    (outcome, *_), _ = run_newton(problem, start, 40)
-    assert outcome != CONVERGED
-    solution = solve_step(problem, start)
-    assert solution.method == "slip through stick"
-    check_laws(problem, solution)
 
 
 @given(st.integers(0, 10**9), st.integers(1, 8))

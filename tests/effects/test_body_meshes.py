@@ -14,12 +14,9 @@ from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
-from fenics_gears.results import by_pair
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import load_scene, scene_from_text
-from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.accuracy.refinement import checked_model
 from fenics_gears.studies.gear_store import GearStore
 from fenics_gears.studies.study_file import load_study
 from meshes.root_crack import cracked_gear_mesh
@@ -90,19 +87,6 @@ def test_the_mesh_is_softer_while_the_cracked_tooth_carries_and_nowhere_else(tur
     assert softer[carrying].min() > 0.02 * softer.max() > 0.0
     assert 8.5 < phase[np.argmax(softer)] < 9.1
     assert np.abs(softer[np.abs(phase - 8.75) > 3.75]).max() < 5e-3 * softer.max()
-
-
-def test_the_load_goes_to_the_neighbours_of_a_cracked_tooth(turn):
-    """Where two pairs share the load the softer one has less than the whole tooth had, the other more, and their sum is
-    the load."""
-    forces = [by_pair(result.pair_normal_force) for result in turn]
-    first = turn[0].pair_number.attrs["number_at_phase_0"]
-    phase = turn[0].mesh_phase.values
-    for at, other in ((8.3, 7), (9.2, 9)):
-        step = int(np.argmin(np.abs(phase - at)))
-        own, beside = ([float(each.sel(pair=pair + first)[step]) for each in forces] for pair in (8, other))
-        assert own[0] < 0.98 * own[1] and beside[0] > 1.01 * beside[1]
-        assert own[0] + beside[0] == pytest.approx(own[1] + beside[1], rel=1e-9)
 
 
 def test_a_run_says_where_its_crack_would_be_closed(turn):
@@ -187,25 +171,3 @@ def test_check_and_run_refuse_a_mesh_that_does_not_fit_before_anything_is_writte
             said = capsys.readouterr().err
             assert words in said and "Nothing was computed or written" in said
     assert not (tmp_path / "out").exists()
-
-
-def test_a_flank_coarser_than_the_contact_asks_for_is_warned_of():
-    """The example's 0.38 mm against the scene's 0.12 mm."""
-    model = model_of(scene_from_text(text_of(TEETH, "body_meshes")))
-    assert any(
-        "body_meshes.pinion: elements along its flanks are up to 0.399 mm long, the contact asks for 0.12 mm" in words
-        for words in model.warnings
-    )
-
-
-def test_pictures_of_stress_say_that_they_know_equal_sectors_only(turn, cache):
-    """Recovery is by sectors."""
-    scene = scene_from_text(text_with(f'pinion = "{MESHES / "cracked_pinion.msh"}"'))
-    with pytest.raises(SceneError, match="stresses are recovered from gears of equal sectors"):
-        RunStresses(turn[0], scene, cache)
-
-
-def test_the_accuracy_of_a_given_mesh_is_not_measured():
-    """Its elements are not the program's to refine."""
-    with pytest.raises(SceneError, match="a mesh that is given cannot be refined"):
-        checked_model(scene_from_text(text_of(TEETH, "body_meshes")))

@@ -1,7 +1,7 @@
 """Relief towards tip and root: its curve, what it does to the gaps and to the transmission error."""
 
 from dataclasses import replace
-from math import degrees, radians
+from math import radians
 
 import numpy as np
 import pytest
@@ -39,20 +39,6 @@ def test_root_relief_runs_from_lpstc_to_the_form_circle(paper_pair):
         for curve, (gear, start) in zip(root_reliefs(paper_pair, RootRelief(relief, relief)), gears):
             rolls = start + fractions * (gear.form_roll_angle - start)
             assert curve(rolls) == pytest.approx(DEPTH * np.maximum(fractions, 0.0) ** power, abs=1e-16)
-
-
-def test_parabolic_relief_leaves_the_involute_without_a_kink(paper_pair):
-    """Definition: zero slope at the start; a linear one of the same depth has half the slope at the tip."""
-    linear, parabolic = (
-        tip_reliefs(paper_pair, TipRelief(Relief(DEPTH, None, shape), None))[0] for shape in (LINEAR, PARABOLIC)
-    )
-    start, tip, small = linear.start_roll_angle, linear.end_roll_angle, 1e-6
-
-    def slope(curve, roll):
-        return (curve(roll + small) - curve(roll - small)) / (2.0 * small)
-
-    assert slope(parabolic, start + small) / slope(linear, start + 2 * small) == pytest.approx(0.0, abs=2e-4)
-    assert slope(parabolic, tip) == pytest.approx(2.0 * slope(linear, tip), rel=1e-6)
 
 
 @pytest.mark.parametrize("section", KINDS)
@@ -131,14 +117,6 @@ def test_a_start_means_one_place(paper_scene, section, word):
     assert relief(depth + diameter, paper_scene.text.replace(wheel, pinion)).wheel == Relief(0.02, None, LINEAR, 80.0)
 
 
-@pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
-def test_a_scene_says_start_and_shape_for_both_gears_and_for_one(paper_scene, section, word):
-    """Definition of the scene's fields; the wheel's own come before those of both."""
-    own = f'[{section}.wheel]\nstart = "110 mm"\nshape = "parabolic"'
-    scene = scene_from_text(f'{paper_scene.text}\n[{section}]\ndepth = "20 um"\nstart = "{word}"\n{own}\n')
-    assert getattr(scene, section) == KINDS[section][0](Relief(0.02, None), Relief(0.02, None, PARABOLIC, 110.0))
-
-
 @pytest.mark.parametrize(
     ("relief", "said"),
     [
@@ -158,27 +136,6 @@ def test_relief_off_the_flank_is_refused(paper_pair, relief, said):
         root_reliefs(paper_pair, RootRelief(relief, None))
     for words in ("pinion: ", *said):
         assert words in str(refused.value)
-
-
-def test_a_start_on_its_own_end_is_refused(paper_pair):
-    """A relief of no length has no slope."""
-    for section, roll in (
-        ("tip_relief", paper_pair.pinion.tip_roll_angle),
-        ("root_relief", paper_pair.pinion.form_roll_angle),
-    ):
-        kind, curves = KINDS[section]
-        with pytest.raises(GeometryError, match=f"{degrees(roll):.4g} deg"):
-            curves(paper_pair, kind(Relief(DEPTH, roll), None))
-
-
-@pytest.mark.parametrize("section", KINDS)
-def test_no_depth_changes_nothing(paper_scene, section):
-    """Omitted equals its zero limit, to the last bit, with inertia and friction."""
-    scene = coarse_scene(paper_scene, cycles=1)
-    none = Relief(0.0, None, PARABOLIC)
-    plain, zero = simulate(scene), simulate(replace(scene, **{section: KINDS[section][0](none, none)}))
-    for name in plain.data_vars:
-        assert np.array_equal(plain[name].values, zero[name].values, equal_nan=True)
 
 
 @pytest.mark.parametrize("section", KINDS)

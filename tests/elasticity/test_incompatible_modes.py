@@ -104,9 +104,3 @@ def test_condensed_modes_are_those_of_the_whole_system():
     stiffness = sparse(stiffness_matrix(space, ELEMENT, 0.3))
     condensed = spsolve(stiffness[inside][:, inside].tocsc(), force)
     assert np.abs(condensed - kept).max() <= 1e-9 * np.abs(kept).max()
-
-
-def test_no_more_is_coupled_than_by_the_bilinear_element():
-    """From the method: amplitudes are a cell's own, so that condensing them adds no entries."""
-    mesh = rectangle(5, 4, 1.0, 1.0, distortion=0.35)
-    assert assembled(mesh, 0.3)[1].nnz == assembled(mesh, 0.3, "Q1")[1].nnz

@@ -132,21 +132,6 @@ def test_account_of_a_run_closes(paper_scene, measured, absent):
     assert result.energy_defect.values == pytest.approx(defect.values, abs=1e-9 * done)
 
 
-def test_term_at_changes_of_contact_vanishes_with_the_step(paper_scene, measured):
-    """Known limit: without friction the algorithm's own term falls faster than the step, and what damping takes the
-    drive gives."""
-    scene = replace(paper_scene, friction=None, motion=Motion(200.0, 2, 2))
-    terms = []
-    for steps in (160, 640):
-        result = simulate(replace(scene, accuracy=replace(COARSE, steps_per_mesh_cycle=steps)))
-        terms.append(abs(float(result.work_contact_changes[-1])) / float(result.work_damping[-1]))
-    measured("`work_contact_changes` / damping loss, 160 steps per mesh cycle", terms[0], "recorded")
-    measured(
-        "`work_contact_changes` / damping loss, 640 steps per mesh cycle", terms[1], "a quarter of that with 160 steps"
-    )
-    assert terms[1] <= 0.25 * terms[0]
-
-
 def test_friction_loss_is_that_of_the_literature(paper_scene, measured):
     """Niemann/Winter, Maschinenelemente 2, mesh loss factor: P/P0 = mu H_v, H_v = pi (u + 1)/(z1 u) (1 - e + e1^2 +
     e2^2), for

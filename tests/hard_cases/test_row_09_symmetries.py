@@ -86,17 +86,6 @@ def test_any_start_angle(make, start, scene, measured):
     assert change <= 1e-10
 
 
-def test_finer_steps_stand_at_the_same_angles(scene, measured):
-    """Exact identity: without friction and inertia a position's answer does not know the steps between; every third of
-    120 is one of 40."""
-    scene = frictionless(teeth_alone(scene))
-    fine = replace(scene, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=120))
-    errors = [simulate(each).transmission_error.values for each in (scene, fine)]
-    change = relative(errors[1][::3] - errors[0], errors[0])
-    measured("40 and 120 steps per mesh cycle, at the same angles: difference", change, "1e-10")
-    assert change <= 1e-10
-
-
 @pytest.mark.parametrize("relieved", [False, True])
 @pytest.mark.parametrize("element", ["P1", "P2"])
 def test_gears_swapped(element, relieved, scene, measured):

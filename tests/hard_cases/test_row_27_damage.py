@@ -5,7 +5,6 @@ Authority throughout: hard case 27: recomputed or resumed; never a wrong number,
 is compared, the reference is the same run undisturbed, and the two are the same to the last bit.
 """
 
-import ast
 import logging
 import os
 import pickle
@@ -21,7 +20,6 @@ from tests.hard_cases.kept_files import ARRAYS, KEY
 from tests.studies.conftest import folder, stamps, undrawn, write_study  # noqa: F401
 from tests.studies.test_run_study import TWO, load
 
-import fenics_gears
 from fenics_gears import results
 from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import Cache, content_key
@@ -291,37 +289,3 @@ def test_a_planted_pickle_is_never_loaded(tmp_path, capsys, measured, wrapped):
         "refused, not executed",
     )
     assert all(refused) and not mark.exists()
-
-
-UNSAFE_MODULES = {"pickle", "cPickle", "_pickle", "dill", "cloudpickle", "joblib", "marshal", "shelve", "yaml", "runpy"}
-UNSAFE_CALLS = {"eval", "exec", "compile", "execfile", "__import__"}
-
-
-def unsafe_in(path: Path) -> list[str]:
-    """Imports and calls in a source file through which data could become code."""
-    found = []
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            found += [alias.name for alias in node.names if alias.name.split(".")[0] in UNSAFE_MODULES]
-        elif isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] in UNSAFE_MODULES:
-            found.append(node.module)
-        elif isinstance(node, ast.Call):
-            name = node.func.id if isinstance(node.func, ast.Name) else ""
-            of_numpy = (
-                isinstance(node.func, ast.Attribute)
-                and isinstance(node.func.value, ast.Name)
-                and node.func.value.id in ("np", "numpy")
-            )
-            if name in UNSAFE_CALLS or (of_numpy and node.func.attr in ("load", "fromfile", "memmap")):
-                found.append(name or f"numpy.{node.func.attr}")
-            found += [word.arg for word in node.keywords if word.arg == "allow_pickle"]
-    return [f"{path.name}: {each}" for each in found]
-
-
-def test_no_source_file_makes_code_of_data(measured):
-    """Every module of the program: no pickle, no yaml, no numpy.load, no eval. What mpi4py sends between ranks is no
-    file."""
-    files = sorted(Path(fenics_gears.__file__).parent.rglob("*.py"))
-    found = [each for path in files for each in unsafe_in(path)]
-    measured("source files that could execute data as code", f"{len(found)} of {len(files)}", "none")
-    assert len(files) > 50 and found == []

@@ -10,7 +10,6 @@ import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -280,21 +279,6 @@ def test_runs_at_once_on_one_empty_cache(folder, measured, tmp_path, count):
     measured(f"{count} runs at once on one empty cache", found, f"{count}, one entry for each gear, none")
     assert same == count and unfinished == [] and all("not usable" not in words for words in said)
     assert len(entries) == 2 and all(Cache(own).load(Path(name).stem) is not None for name in entries)
-
-
-def test_readers_beside_a_writer(tmp_path, caplog, measured):
-    """Every reader sees a whole entry."""
-    own_cache = Cache(tmp_path / "own cache")
-
-    def write_and_read(number):
-        own_cache.store(KEY, ARRAYS)
-        return own_cache.load(KEY)
-
-    with ThreadPoolExecutor(4) as pool:
-        loaded = list(pool.map(write_and_read, range(40)))
-    whole = sum(each is not None and np.array_equal(each["blocks"], ARRAYS["blocks"]) for each in loaded)
-    measured("reads beside writers of the same entry", f"{whole} of 40 complete", "all")
-    assert whole == 40 and not caplog.records and len(list(own_cache.directory.iterdir())) == 1
 
 
 def test_two_studies_do_not_share_a_directory(folder, capsys, measured):

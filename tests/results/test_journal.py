@@ -73,20 +73,6 @@ def test_it_holds_what_was_put(tmp_path, at_once, until, length):
     assert found.march == vars(known) and found.steps == STEPS - 1 and found.scene == load_scene(DEMO)
 
 
-def test_a_journal_that_begins_late_holds_what_was_put(tmp_path, monkeypatch):
-    """Identity: of a slow start, after which the places of the last steps are not all written once."""
-    monkeypatch.setattr(journal, "SECONDS_WITHOUT", 1e9)
-    begin, until = LAST + SPARE + 400, LAST + SPARE + 450
-    own = written(tmp_path, begin - 1, 77)
-    own._due = 0.0
-    own.put(begin - 1, block(begin - 1, until), march_of(until))
-    expected = block(0, until) | {"field": block(until - LAST, until)["field"]}
-    found = read(tmp_path / "run.nc.part")
-    for name, values in expected.items():
-        np.testing.assert_array_equal(own.get(name, until), values)
-        np.testing.assert_array_equal(found.values[name], values)
-
-
 def test_fields_that_are_written_over_meanwhile_are_left_out(tmp_path, at_once, monkeypatch):
     """Identity, of a reader that is slower than the run: fields that the run has reached again are no fields of their
     steps."""
@@ -119,14 +105,6 @@ def test_a_full_disk_does_not_end_the_march(tmp_path, paper_scene, at_once, monk
     found, whole = simulate(scene, journal=Place(tmp_path / "run.nc.part")), simulate(scene)
     assert "No space left on device. The run goes on" in caplog.text and list(tmp_path.iterdir()) == []
     assert len(calls) == failing + 1 and found.equals(whole)
-
-
-def test_a_journal_changes_no_number(tmp_path, paper_scene, at_once):
-    """Two routes to the same result: steps kept in memory and on disk, with fields of the last cycle."""
-    scene = coarse_scene(paper_scene, cycles=60)
-    found, whole = simulate(scene, journal=Place(tmp_path / "run.nc.part")), simulate(scene)
-    assert (tmp_path / "run.nc.part" / STATE).is_file()
-    assert found.equals(whole) and found.attrs["warnings"] == whole.attrs["warnings"]
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from math import ceil, log, pi
 
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene, quasi_static
+from tests.coarse import coarse_scene
 
 from fenics_gears.effects import common_period
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
@@ -14,7 +14,6 @@ from fenics_gears.model.description import describe
 from fenics_gears.model.model import model_of
 from fenics_gears.results.settled import settled
 from fenics_gears.results.summary import summary_rows
-from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
 
@@ -141,16 +140,3 @@ def test_the_start_has_died_down(paper_scene):
     found = settled(short, short.steps)
     assert found.first == a_cycle and "has not died down" in found.warning
     assert f"motion.mesh_cycles = {ceil(calm * short.time_step * 200.0 + 1)}" in found.warning
-
-
-def test_without_damping_the_start_never_dies_down(paper_scene):
-    """Conservation: nothing takes the vibration's energy; the result says so, of a ramp too."""
-    model = model_of(replace(coarse_scene(paper_scene, cycles=30), damping=None))
-    assert "nothing damps" in settled(model, model.steps).warning
-
-
-def test_all_of_a_quasi_static_run_counts(paper_scene):
-    """Definition: without masses nothing rings."""
-    scene = replace(quasi_static(coarse_scene(paper_scene)), motion=Motion(200.0, 3, 1))
-    model = model_of(scene)
-    assert settled(model, model.steps).first == 0 and not settled(model, model.steps).warning

@@ -70,12 +70,6 @@ def test_what_no_file_can_hold_is_refused(sections, said):
         build_scene(DEMO | sections)
 
 
-def test_it_is_public():
-    """Authority: the package's own list of names."""
-    assert "build_scene" in fenics_gears.__all__
-    assert all(hasattr(fenics_gears, name) for name in fenics_gears.__all__)
-
-
 def test_a_notebook_shows_fields_with_units_and_meanings(paper_scene):
     """The scene file, whose quantities are those of the table; markup of a title is none of the page's."""
     html = replace(paper_scene, title="<b>paper</b>")._repr_html_()

@@ -114,25 +114,6 @@ def test_figures_of_a_drawing_are_written():
         assert_written(replace(base, gears=web))
 
 
-@pytest.mark.parametrize(
-    "motion",
-    [
-        "",
-        "mesh_cycles = 48",
-        'mesh_cycles = "hunting tooth period"',
-        'settling_time = "21 ms"',
-        "mesh_cycles = 48\nrecorded_cycles = 7",
-    ],
-)
-def test_lengths_of_runs_are_written(motion):
-    """The same, for scenes whose mesh cycles are alike and for those whose are not."""
-    for effects in ((), ("eccentricity",), ("inertia",), ("inertia", "eccentricity")):
-        # With inertia a length has to be given, and a settling time is for that alone.
-        if not motion if "inertia" in effects else "settling" in motion:
-            continue
-        assert_written(scene_from_text(scene_of("tooth_elasticity", *effects).text.replace("mesh_cycles = 1", motion)))
-
-
 @settings(max_examples=4)
 @given(valid_scenes())
 def test_random_scenes_are_written_from_their_data(scene):
@@ -174,13 +155,6 @@ def test_a_change_shows_in_the_text_and_the_rest_stays_as_written(paper_scene):
         replace(changed, load=paper_scene.load).load
         == scene_from_text(replace(changed, load=paper_scene.load).text).load
     )
-
-
-def test_a_load_that_follows_from_the_speed_stays_what_it_is():
-    """Identity: where the speed of a scene with a power is changed in Python, its torque is not."""
-    power = scene_from_text(scene_of("tooth_elasticity").text.replace('wheel_torque = "437 N m"', 'power = "20 kW"'))
-    changed = replace(power, motion=Motion(100.0, 1, 1))
-    assert scene_from_text(changed.text).load == power.load
 
 
 def test_what_no_file_gives_is_said(paper_scene):

@@ -39,20 +39,6 @@ def test_a_copy_of_the_process_draws_the_same(tmp_path):
     assert [file.read_bytes() for file in shared] == [file.read_bytes() for file in alone]
 
 
-@pytest.mark.parametrize("steps", [0, 1])
-def test_too_few_steps_are_said_and_nothing_is_written(tmp_path, steps):
-    """Authority: a curve needs two points."""
-    run = made_up_run(complete=0).isel(time=slice(0, steps))
-    with pytest.raises(ComputationError, match="nothing to draw.*step is stored.*Run the scene again"):
-        draw_run(run, tmp_path / "run")
-    assert not (tmp_path / "run").exists()
-
-
-def test_two_steps_are_enough(tmp_path):
-    """Authority: a line has two ends."""
-    assert len(draw_run(made_up_run().isel(time=slice(0, 2)), tmp_path)) == len(OF_A_SHORT_RUN)
-
-
 def test_a_failure_leaves_the_pictures_of_before_alone(tmp_path):
     """Authority: hard_cases.md, 27: never a half-written result under its final name."""
     before = {file: file.read_bytes() for file in draw_run(made_up_run(), tmp_path)}
@@ -82,14 +68,6 @@ def test_the_heading_names_scene_and_conditions(paper_scene):
     ripple = '\n[torque_ripple]\nharmonics = [{ order = 1, amplitude = "20 N m" }]\n'
     for figure in run_figures(made_up_run(scene=paper_scene.text + ripple)).values():
         assert "friction coefficient 0.1, torque ripple" in figure._suptitle.get_text()
-
-
-def test_any_title_is_drawn_as_it_is(tmp_path):
-    """Authority: a title is text; what matplotlib would read as a broken formula must not stop a run's pictures."""
-    title = "costs $5_{ and $6 \\frac"
-    run = made_up_run(title=title)
-    assert title in run_figures(run)["mesh_forces.png"]._suptitle.get_text()
-    assert len(draw_run(run, tmp_path)) == len(OF_A_SHORT_RUN)
 
 
 def test_a_users_matplotlib_settings_neither_matter_nor_change(tmp_path):

@@ -12,10 +12,8 @@ from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import GearData, Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.reference_route import reference_route
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.gear_store import cycle_key, gear_key
-from fenics_gears.system.progress import SilentProgress
 
 
 @pytest.fixture
@@ -70,20 +68,6 @@ def test_teeth_that_feel_each_other(error_of, paper_scene):
     assert errors[2] == 0.0
 
 
-def test_collocation_approaches_averages(error_of):
-    """Limit: both are consistent, and their difference vanishes as elements and contact nodes are refined together."""
-    differences = []
-    for size, nodes in ((0.24, 13), (0.12, 26), (0.06, 51)):
-        averaged, collocated = (
-            error_of(flank_element_size=size, contact_nodes=nodes, interpolation=name)
-            for name in (AVERAGED, COLLOCATED)
-        )
-        differences.append(np.sqrt(np.mean((collocated - averaged) ** 2)) / averaged.mean())
-    assert differences[1] < 0.5 * differences[0]
-    assert differences[2] < 0.5 * differences[1]
-    assert differences[2] < 2e-3
-
-
 @pytest.mark.parametrize("order", [1, 2])
 def test_collocation_takes_values_at_points(order):
     """Exact: a polynomial of the element's order in the arc length is met at the contact nodes, to round-off."""
@@ -110,20 +94,3 @@ def test_remeshing_refuses_what_it_does_not_have(line, paper_scene):
     text = paper_scene.text.replace('condensation = "once"', f'condensation = "every step"\n{line}')
     with pytest.raises(SceneError, match='has no meaning beside condensation = "every step"'):
         scene_from_text(text)
-
-
-def test_remeshed_bodies_take_the_size_too(paper_scene):
-    """Exact: a smaller size in the body gives other stiffness by the reference route as well."""
-    scene = frictionless(teeth_alone(coarse_scene(paper_scene)))
-    accuracy = replace(
-        scene.accuracy, element="Q1 incompatible", condensation="every step", contact_length=1.2, contact_nodes=5,
-        flank_element_size=0.3, steps_per_mesh_cycle=1,
-    )  # fmt: skip
-
-    def stiffness(size):
-        model = model_of(replace(scene, accuracy=replace(accuracy, body_element_size=size)))
-        return reference_route(model, SilentProgress(), None)[0][0].positions[0]
-
-    default, fine = stiffness(None), stiffness(2.0)
-    assert default.shape == fine.shape
-    assert np.abs(default - fine).max() > 1e-6 * np.abs(default).max()

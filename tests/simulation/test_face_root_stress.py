@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.coarse_sector import PINION, STEEL
+from tests.coarse_sector import STEEL
 from tests.iso_tooth_root import helical_form_and_stress_correction, helix_angle_factor, standard_gear
 from tests.over_face import root_stress_run
 
@@ -20,7 +20,6 @@ from fenics_gears.elasticity.root_stress import root_stress_rows
 from fenics_gears.elasticity.slice_averages import slice_averages
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.face_resolution import face_discretisation
-from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.face_stresses import FaceStresses
 from fenics_gears.simulation.stored_forces import stored_forces
@@ -101,32 +100,6 @@ def test_largest_values_are_those_over_the_face():
         assert result.attrs["largest_root_stress_pinion"] > 0.0
 
 
-def test_memory_is_as_it_was_counted():
-    """Count: what `gears check` counts is what the result's arrays over time take, to the byte."""
-    scene, result = root_stress_run(coast=False)
-    held = sum(each.nbytes for each in result.variables.values() if {"time", "contact_time"} & set(each.dims))
-    assert held == model_of(scene).stored_bytes
-
-
-@pytest.mark.parametrize("gear", [PINION, standard_gear(40)])
-def test_even_load_on_a_spur_tooth_stresses_its_root_as_in_plane_strain(gear):
-    """Another route: under the same force on the tip all along the face, the largest tension of the mean over the face
-    is that of plane strain, 15 mm wide, within 2 %."""
-    width, slices, force = 15.0, 5, np.array([-1.0, 0.2, 0.0])
-    middles, widths = even_slices(width, slices)
-    found = face_root_stress_rows(gear, STEEL, FaceDiscretisation(0.3 * gear.module, 3, width), (middles, widths), 1)
-    plane = root_stress_rows(gear, STEEL, Discretisation("P2", 0.3), 1)
-    tip = plane.rows.reshape(*plane.rows.shape[:2], -1, 2)[1, :, -1] @ force[:2]
-    on_slices = found.rows.reshape(*found.rows.shape[:3], slices, -1, 3)[1, ..., -1, :] @ force
-    over_face = on_slices @ widths
-    mean = over_face.mean(axis=0)
-    assert np.nanmax(mean) == pytest.approx(np.nanmax(tip), rel=0.02)
-    assert np.nanargmax(mean) // (len(mean) // 2) == np.nanargmax(tip) // (len(tip) // 2)
-    # Free ends have less, the middle more.
-    at_largest = over_face[:, np.nanargmax(mean)]
-    assert at_largest[[0, -1]].max() < mean[np.nanargmax(mean)] < at_largest[slices // 2]
-
-
 @pytest.mark.parametrize("section_size", [0.3, 0.6])
 def test_every_fillet_point_of_a_wide_gear_has_plane_strain_s_stress(section_size):
     """Another route: 25 modules wide, even load on the tip, middle of the face: plane strain on a fine section at all
@@ -155,12 +128,3 @@ def test_form_factors_of_the_benchmark_are_those_of_another_program():
     for name, printed in (("pinion", (1.479, 2.047)), ("wheel", (1.490, 2.036))):
         assert helical_form_and_stress_correction(pair, name)[:2] == pytest.approx(printed, abs=1e-3)
     assert helix_angle_factor(pair.overlap_ratio, 15.0) == pytest.approx(0.932, abs=5e-4)
-
-
-def test_critical_section_of_a_helical_gear_is_in_its_normal_section():
-    """Geometry: lengths across the tooth are longer in the transverse section by 1/cos(beta), those along its
-    centreline are not."""
-    gear = gear_pair(load_scene(CITED / "fzg_h501.toml").gears).pinion
-    assert np.tan(fillet_curve(gear.of_module_one).tangent_angle[-1]) * np.cos(gear.helix_angle) == pytest.approx(
-        np.tan(np.radians(30.0)), rel=1e-12
-    )

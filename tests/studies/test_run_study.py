@@ -17,7 +17,6 @@ from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.elastic_route import gear_compliances
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies import work
-from fenics_gears.studies.combine import combined
 from fenics_gears.studies.study_file import load_study
 from fenics_gears.system.progress import SilentProgress
 
@@ -76,19 +75,6 @@ def test_cases_that_differ_in_relief_are_what_runs_of_their_scenes_give(folder):
         for name in ("transmission_error", "normal_force"):
             assert np.array_equal(row[name].values, alone[name].values)
     assert not np.array_equal(combined["transmission_error"][0], combined["transmission_error"][1])
-
-
-def test_zip_has_one_dimension_with_the_fields_along_it(folder):
-    """Authority: the definition of zip; the dataset before any case has run."""
-    study = write_study(
-        folder,
-        'combine = "zip"\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\nload.wheel_torque = ["100 N m", "0.2'
-        ' kNm"]',
-    )
-    empty = combined(load_study(study), {}, {})
-    assert empty["peak_to_peak_transmission_error"].dims == ("case",)
-    assert list(empty["wheel_torque"].values) == [100.0, 200.0] and empty["wheel_torque"].attrs["units"] == "N m"
-    assert empty["wheel_torque"].dims == ("case",)
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -181,25 +167,6 @@ def test_a_failed_case_is_a_record_and_the_others_go_on(folder, capsys, monkeypa
     before = stamps("here")
     assert main(["study", str(study), "--output", "here"]) == 3
     assert "2 kept, 1 to be computed" in capsys.readouterr().err and stamps("here") == before
-
-
-@pytest.mark.usefixtures("undrawn")
-def test_an_unwritable_cache_changes_nothing(folder, monkeypatch):
-    """Authority: elasticity's promise that a cache never decides whether a run works."""
-    study = write_study(folder, '[sweep]\nfriction = ["present"]')
-    assert main(["study", str(study), "--quiet", "--output", "cached"]) == 0
-    Path("no_folder").write_text("a file")
-    monkeypatch.setenv("FENICS_GEARS_CACHE", str(Path("no_folder/cache").absolute()))
-    assert main(["study", str(study), "--quiet", "--output", "here"]) == 0
-    assert load("here")["transmission_error"].equals(load("cached")["transmission_error"])
-
-
-@pytest.mark.usefixtures("undrawn")
-def test_quiet_says_nothing(folder, capfd):
-    """Authority: the option's own description."""
-    study = write_study(folder, '[sweep]\nfriction = ["absent"]')
-    assert main(["study", str(study), "--quiet"]) == 0
-    assert capfd.readouterr() == ("", "")
 
 
 FIVE = '[sweep]\nmotion.mesh_frequency = { start = "100 Hz", stop = "400 Hz", count = 5 }\n'

@@ -70,22 +70,6 @@ def test_what_cannot_be_meshed_is_said_and_nothing_written(words, message, tmp_p
     assert message in capsys.readouterr().err and not file.exists()
 
 
-@pytest.mark.parametrize(
-    "words, message", [(["--depth", "3 deg"], "'3 deg' is an angle, not a length"), (["--depth", "three"], "'three' ")]
-)
-def test_quantities_of_another_kind_are_refused(words, message, tmp_path, capsys):
-    """The parser's own exit code."""
-    with pytest.raises(SystemExit) as stopped:
-        main([str(SCENE), str(tmp_path / "gear.msh"), *words])
-    assert stopped.value.code == 2 and message in capsys.readouterr().err
-
-
-def test_a_folder_that_is_not_there_is_said(tmp_path, capsys):
-    """gmsh itself would raise something without a word on the folder."""
-    assert main([str(SCENE), str(tmp_path / "nowhere" / "gear.msh"), "--flank-size", "0.8 mm"]) == 2
-    assert "cannot be written: No such file or directory" in capsys.readouterr().err
-
-
 def test_other_endings_and_elements_are_refused(tmp_path, capsys):
     """gmsh would write another format by another name; meshes have triangles."""
     assert main([str(SCENE), str(tmp_path / "gear.vtk")]) == 2

@@ -1,6 +1,5 @@
 """What curves, spectra and the drawing of a report are made of."""
 
-from dataclasses import replace
 from math import asin, cos, pi, radians, sin
 
 import numpy as np
@@ -13,19 +12,14 @@ from scipy.spatial import cKDTree
 from tests.helical import wide_pair
 from tests.show.synthetic import made_up_run
 
-from fenics_gears.scene.data import Load
-from fenics_gears.show.chart import Chart, Curve
 from fenics_gears.show.orders import spectrum
 from fenics_gears.show.report.curves import spectra
 from fenics_gears.show.report.energy import energy
 from fenics_gears.show.report.geometry import geometry
-from fenics_gears.show.report.interactive import figure
-from fenics_gears.show.report.overview import counted, summary
+from fenics_gears.show.report.overview import summary
 from fenics_gears.show.report.pair_drawing import _on_line, drawings, gear_outline
-from fenics_gears.show.report.solver import _extent
-from fenics_gears.show.run import Run, conditions
+from fenics_gears.show.run import Run
 from fenics_gears.show.thinning import thinned
-from fenics_gears.show.units import digits
 
 
 @given(st.lists(st.floats(-1e6, 1e6) | st.just(float("nan")), min_size=1, max_size=400), st.sampled_from([10, 40]))
@@ -98,38 +92,10 @@ def test_a_ramp_points_to_orders_cycle_by_cycle_only_where_they_are_drawn(paper_
         assert ("See the orders cycle by cycle." in section.blocks[0].text) == bool(drawn) == (cycles > 8.0)
 
 
-def test_the_largest_order_is_named_where_the_picture_ends_before_it(paper_scene, tmp_path):
-    """Authority: the made-up curve: its 14th harmonic is larger than the 2nd."""
-    phase = np.linspace(28.0, 30.0, 201)
-    for amplitude, said in ((3e-6, True), (1e-6, False)):
-        values = 2e-6 * np.cos(4 * pi * phase) + amplitude * np.cos(28 * pi * phase)
-        section = spectra(run_of(paper_scene.text, values, phase, tmp_path))
-        assert ("at order 14, beyond the picture" in section.blocks[0].note) == said
-
-
 def tiles_of(dataset, tmp_path):
     """The summary's tiles by their labels."""
     (tiles,) = summary(Run(dataset, tmp_path / "run.nc")).blocks
     return {tile.label: tile for tile in tiles.tiles}
-
-
-def test_a_ramp_is_told_from_its_first_frequency_to_its_last(paper_scene, tmp_path):
-    """Down is not up: 200 to 50 Hz, as the scene says."""
-    tile = tiles_of(ramp_of(paper_scene, 2.0), tmp_path)["Mesh frequency"]
-    assert (tile.value, tile.unit) == ("200 to 50", "Hz")
-
-
-def test_a_scene_without_speed_has_none_on_its_page(paper_scene, tmp_path):
-    """Authority: the scene: without [motion] nothing depends on a speed, and its nominal 1 Hz is no figure of the
-    pair's."""
-    text = paper_scene.text
-    for section in ("motion", "inertia", "damping"):
-        before, _, after = text.partition(f"[{section}]")
-        text = before + after[after.index("\n[") + 1 :]
-    run = Run(made_up_run(scene=text), tmp_path / "run.nc")
-    assert run.scene is not None and not run.scene.motion.speed_given
-    assert "Mesh frequency" not in tiles_of(run.dataset, tmp_path) and "rpm" not in str(summary(run))
-    assert " s," not in {label: value for label, value, _ in _extent(run)}["stored"]
 
 
 def test_the_largest_mesh_force_is_compared_with_the_force_along_the_same_normal(paper_scene, tmp_path):
@@ -142,33 +108,6 @@ def test_the_largest_mesh_force_is_compared_with_the_force_along_the_same_normal
             pair.wheel.base_radius * cos(asin(sin(radians(helix)) * cos(radians(20.0))))
         )
         assert tiles_of(run, tmp_path)["Largest mesh force"].note.startswith("1.000 ×")
-
-
-@pytest.mark.parametrize(
-    "given, words",
-    [("wheel_torque", "437 N m on the wheel"), ("pinion_torque", "291.3 N m on the pinion"), ("power", "22.88 kW")],
-)
-def test_loads_are_titled_as_the_scene_gives_them(paper_scene, given, words):
-    """Arithmetic: 437 N m on 24 teeth are 291.33 on 16, and 22.88 kW at 200 Hz; a title has four digits."""
-    assert conditions(replace(paper_scene, load=Load(437e3, given))).startswith(f"{words}, 200 Hz")
-
-
-def test_the_page_has_the_profile_shift_of_the_drawing_and_that_of_the_thickness(paper_scene, tmp_path):
-    """Authority: ISO 21771: x_E is less than x by the backlash; without thinner teeth there is one shift, with them
-    both stand on the page."""
-
-    def shifts(text):
-        table = geometry(Run(made_up_run(scene=text), tmp_path / "run.nc")).blocks[-1].blocks[0]
-        return {row[0]: row[1:] for row in table.rows if "profile shift" in row[0]}
-
-    assert shifts(paper_scene.text) == {"profile shift x (modules)": ("0.196", "0.125")}
-    thinner = shifts(paper_scene.text.replace('face_width = "15 mm"', 'face_width = "15 mm"\nbacklash = "0.2 mm"'))
-    generating = thinner["generating profile shift x_E, of the tooth thickness (modules)"]
-    assert (
-        thinner["profile shift x (modules)"] == ("0.196", "0.125")
-        and float(generating[0]) < 0.196
-        and float(generating[1]) < 0.125
-    )
 
 
 def test_contact_loss_is_said_of_the_flanks_that_lose_it(paper_scene, tmp_path):
@@ -190,33 +129,6 @@ def test_contact_loss_is_said_of_the_flanks_that_lose_it(paper_scene, tmp_path):
         "the wheel drives, on the coast flanks"
         in tiles_of(backwards, tmp_path)["Contact of the drive flanks lost"].note
     )
-
-
-def test_numbers_of_a_tile_fit_into_it():
-    """A tile has room for eight digits; larger numbers have powers of ten."""
-    assert [digits(value) for value in (0.19084, 4489.2, 60574.0, -330019.0, 6.8278e9, -1.3555e6)] == [
-        "0.1908", "4489", "60,574", "-330,019", "6.83e9", "-1.36e6",
-    ]  # fmt: skip
-    assert [counted(number, "case") for number in (1, 30, 2000)] == ["1 case", "30 cases", "2,000 cases"]
-
-
-def test_large_and_small_values_have_powers_of_ten_on_their_axis():
-    """Their tick labels would else run into the axis' title."""
-    for size, wanted in ((1e-5, "e"), (1.0, "none"), (9e5, "none"), (4e7, "e")):
-        drawn = figure(Chart("", [Curve("", np.arange(2.0), size * np.arange(2.0))], "", ""))
-        assert drawn["layout"]["yaxis"]["exponentformat"] == wanted and drawn["layout"]["yaxis"]["title"]["standoff"]
-
-
-def test_a_curve_of_work_that_stands_alone_is_named(paper_scene, tmp_path):
-    """A plot of one curve has no legend to say what it is."""
-    dataset = made_up_run(scene=paper_scene.text)
-    for name in ("energy", "work_input", "work_output", "work_contact_changes", "energy_defect"):
-        dataset[name] = dataset["normal_force"].assign_attrs(units="N mm")
-    captions = [block.caption for block in energy(Run(dataset, tmp_path / "run.nc")).blocks]
-    assert "Work lost since the first settled step: contact changes, by the time stepping" in captions
-    dataset["work_friction"] = dataset["energy"]
-    captions = [block.caption for block in energy(Run(dataset, tmp_path / "run.nc")).blocks]
-    assert "Work lost since the first settled step" in captions
 
 
 def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp_path):
