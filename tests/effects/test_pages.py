@@ -147,6 +147,7 @@ def runs(printed):
     return printed[0]
 
 
+@pytest.mark.nightly
 def test_the_guides_effect_is_named_by_check_on_and_off(printed):
     """Authority: the guide; one entry in the list is enough."""
     lines = []
@@ -158,6 +159,7 @@ def test_the_guides_effect_is_named_by_check_on_and_off(printed):
     assert off[1:] == ["off", "no brake"]
 
 
+@pytest.mark.nightly
 def test_the_guides_rule_refuses_with_place_value_and_remedy(printed):
     """Authority: the guide; a rule's Problem is a message with all that a user needs."""
     code, _, said = printed[1][2]
@@ -165,6 +167,7 @@ def test_the_guides_rule_refuses_with_place_value_and_remedy(printed):
     assert "load.wheel_torque" in said and "-437 N m" in said and "cannot stand beside a brake" in said
 
 
+@pytest.mark.nightly
 def test_the_guides_effect_has_its_known_answer(runs):
     """Authority: identity; on one hub 400 N m of load and 37 N m of brake are 437 N m, and the brake's work is torque
     times angle."""
@@ -173,11 +176,13 @@ def test_the_guides_effect_has_its_known_answer(runs):
     assert braked["work"][-1] == pytest.approx(37e3 * 2.0 * 3.141592653589793 / 24, rel=1e-12)
 
 
+@pytest.mark.nightly
 def test_the_guides_brake_works_before_the_output_shaft(runs):
     """Authority: statics; the shaft of 0.203e9 N mm/rad is twisted by the 400 N m at its end, not by the brake."""
     assert runs[3]["twist"] == pytest.approx([400e3 / 0.203e9] * 21, rel=1e-9)
 
 
+@pytest.mark.nightly
 def test_the_guides_effect_left_out_leaves_nothing_behind(runs, plain):
     """Authority: house rule 9; a scene without it loads what the package without it loads, its own section's module
     aside."""

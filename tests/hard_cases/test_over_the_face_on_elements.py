@@ -37,6 +37,7 @@ def run(suite_cache):
     return marched
 
 
+@pytest.mark.nightly
 def test_slices_refined(run, measured):
     """Row 22. Known order: means over slices are midpoint rules, of second order once slices are thinner than the
     layers (6 mm), where flanks enter contact

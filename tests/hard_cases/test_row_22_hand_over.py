@@ -49,6 +49,7 @@ def test_transmission_error_is_continuous_in_time(coarse, kind, measured):
     assert orders[-1] == pytest.approx(1.0, abs=0.2)
 
 
+@pytest.mark.nightly
 def test_transmission_error_stays_continuous_as_the_mesh_is_refined(coarse, measured):
     """Continuity as h goes to 0: the steepest slope does not grow with refinement, as that of a jump in the making
     would (as 1/h)."""

@@ -254,7 +254,8 @@ def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder, undrawn, meas
     assert load("here").attrs["complete"] == 1
 
 
-@pytest.mark.parametrize("count", [2, pytest.param(5, marks=pytest.mark.nightly)])
+@pytest.mark.nightly
+@pytest.mark.parametrize("count", [2, 5])
 def test_runs_at_once_on_one_empty_cache(folder, measured, tmp_path, count):
     """Processes condense the same gears into one cache at the same time: each has the number of a run alone, to the
     bit."""

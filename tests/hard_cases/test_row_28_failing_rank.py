@@ -28,9 +28,8 @@ def in_the_way(study, index, directory="here"):
     return case
 
 
-@pytest.mark.parametrize(
-    "failing", [(1,), *(pytest.param(cases, marks=pytest.mark.nightly) for cases in ((0,), (2,), (0, 2)))]
-)
+@pytest.mark.nightly
+@pytest.mark.parametrize("failing", [(1,), (0,), (0, 2)])
 def test_the_case_of_a_failing_rank_is_recorded_and_the_others_finish(folder, measured, capsys, failing):
     """Whichever of two ranks has the case, or both one each: rank 0 takes them from the last on, rank 1 from the first
     on. At the end the dataset
@@ -72,6 +71,7 @@ def test_the_case_of_a_failing_rank_is_recorded_and_the_others_finish(folder, me
     assert not list(Path("here/cases").glob("*.failed.txt"))
 
 
+@pytest.mark.nightly
 def test_a_killed_rank_loses_nothing_that_was_done(folder, measured, capsys):
     """kill -9 of one rank ends the job, without a hang; run again it computes only what is missing."""
     study = write_study(folder, FIVE)

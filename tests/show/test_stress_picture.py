@@ -133,6 +133,7 @@ def test_no_tooth_is_missing(run):
         assert 0.5 * np.sum(along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]) == pytest.approx(area, rel=2e-3)
 
 
+@pytest.mark.nightly
 def test_animation_goes_through_the_cycle_once(run, tmp_path, monkeypatch):
     """Frames asked for, all of one size, which differ; the last is not the first again."""
     image = pytest.importorskip("PIL.Image")

@@ -42,7 +42,8 @@ sys.exit(led(compare))
 """
 
 
-@pytest.mark.parametrize("ranks", [2, pytest.param(3, marks=pytest.mark.nightly)])
+@pytest.mark.nightly
+@pytest.mark.parametrize("ranks", [2, 3])
 def test_ranks_give_what_one_gives(tmp_path, ranks):
     """Who assembles, eliminates and inverts which part changes nothing but round-off; rank 0 alone looks into the cache
     and chooses conjugate gradients."""
