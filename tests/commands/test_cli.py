@@ -16,16 +16,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from tests.studies.conftest import environment
+from tests.programs import DEMO, command, ended, environment, python
 
 import fenics_gears
 from fenics_gears import results
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.validity import NO_MEANING
-
-CHECKOUT = Path(__file__).parents[2]
-DEMO = CHECKOUT / "demos" / "lundvall2004.toml"
 
 
 def small_result(complete=1):
@@ -120,9 +117,7 @@ def test_a_result_without_meaning_has_an_exit_code_of_its_own(simulation, capsys
 def on_a_terminal(command, more):
     """What a command writes to a terminal of its own."""
     ours, its = os.openpty()
-    running = subprocess.Popen(
-        command, stdout=its, stderr=subprocess.DEVNULL, env={**environment(), "TERM": "xterm", **more}
-    )
+    running = subprocess.Popen(command, stdout=its, stderr=subprocess.DEVNULL, env=environment(TERM="xterm", **more))
     os.close(its)
     written = b""
     with contextlib.suppress(OSError):  # what a terminal says when nobody writes to it any more
@@ -133,15 +128,15 @@ def on_a_terminal(command, more):
     return written.decode().replace("\r\n", "\n")
 
 
-CHECK = [sys.executable, "-m", "fenics_gears", "check", str(DEMO)]
+CHECK = command("check", DEMO)
 
 
 def test_a_study_is_told_from_a_scene(capsys, tmp_path, monkeypatch):
     """Authority: the interface; one sentence with the right command, not a list of unknown fields."""
     monkeypatch.chdir(tmp_path)
     Path("study.toml").write_text(f'scene = "{DEMO}"\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\n')
-    for command in ("check", "run"):
-        assert main([command, "study.toml"]) == 2
+    for name in ("check", "run"):
+        assert main([name, "study.toml"]) == 2
         assert (
             capsys.readouterr().err
             == "study.toml: is a study, not a scene; `gears study study.toml` runs it. Nothing was computed or"
@@ -157,7 +152,7 @@ def test_what_goes_into_a_log_is_plain():
     also where a pipe or a file
     has what it writes; a terminal without mpirun has colours, so that the test can fail."""
     assert "\x1b" in on_a_terminal(CHECK, {})
-    piped = subprocess.run(CHECK, capture_output=True, text=True, check=True).stdout
+    piped = ended(CHECK, ends=0).stdout
     for written in (piped, on_a_terminal(CHECK, {"OMPI_COMM_WORLD_SIZE": "1"})):
         assert "\x1b" not in written and "Gear pair" in written
         assert not any(line.endswith(" ") for line in written.splitlines())
@@ -375,11 +370,8 @@ def test_python_has_the_program_and_runs_in_the_folder_of_the_call(tmp_path):
         " callable(fenics_gears.load_scene), 'simulate' in dir(fenics_gears))\nsys.exit(7)\n"
     )
     (tmp_path / "first.py").write_text(said, encoding="utf-8")
-    call = [sys.executable, "-P", "-m", "fenics_gears", "python", "first.py", "-v", "x"]
-    run = subprocess.run(
-        call, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(CHECKOUT)}, capture_output=True, text=True
-    )
-    assert (run.returncode, run.stdout) == (7, f"beside ['-v', 'x'] {tmp_path} True True\n"), run.stderr
+    run = python("-P", "-m", "fenics_gears", "python", "first.py", "-v", "x", folder=tmp_path, ends=7)
+    assert run.stdout == f"beside ['-v', 'x'] {tmp_path} True True\n"
 
 
 def test_help_loads_neither_numerics_nor_the_schema():
@@ -390,19 +382,15 @@ def test_help_loads_neither_numerics_nor_the_schema():
         "except SystemExit: pass\n"
         "print(sorted({'numpy', 'pydantic', 'rich', 'xarray', 'dolfinx', 'numba'} & set(sys.modules)))"
     )
-    run = subprocess.run([sys.executable, "-c", program], cwd=CHECKOUT, capture_output=True, text=True, check=True)
+    run = python("-c", program)
     assert run.stdout.splitlines()[-1] == "[]"
     assert "check" in run.stdout and "plot" in run.stdout
 
 
 def test_the_test_command_runs_pytest_on_the_checkout(tmp_path):
     """Authority: docs/promises.md; options go to pytest, paths count from the checkout."""
-    environment = {**os.environ, "PYTHONPATH": str(CHECKOUT)}
-    call = [sys.executable, "-m", "fenics_gears", "test", "--collect-only", "-q"]
-    run = subprocess.run(
-        [*call, "tests/effects/test_list_of_effects.py"], cwd=tmp_path, env=environment, capture_output=True, text=True
-    )
-    assert run.returncode == 0
+    call = command("test", "--collect-only", "-q", "tests/effects/test_list_of_effects.py")
+    run = ended(call, tmp_path, ends=0)
     assert "test_list_of_effects.py" in run.stdout and "test_cli.py" not in run.stdout
 
 
@@ -410,8 +398,6 @@ def test_a_reader_that_goes_away_is_no_error():
     """A shell's convention: `gears check SCENE | true` ends with 128 + SIGPIPE and says nothing."""
     reading, writing = os.pipe()
     os.close(reading)
-    done = subprocess.run(
-        [sys.executable, "-m", "fenics_gears", "check", str(DEMO)], stdout=writing, stderr=subprocess.PIPE, text=True
-    )
+    done = subprocess.run(CHECK, stdout=writing, stderr=subprocess.PIPE, text=True)
     os.close(writing)
     assert (done.returncode, done.stderr) == (141, "")

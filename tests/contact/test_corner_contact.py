@@ -7,10 +7,9 @@ import pytest
 from scipy.optimize import brentq
 from tests.contact.outlines import centres, distance, placed, rotation_to_touch
 
-from fenics_gears.contact.corner import corner_contact, corner_pair, corner_place, pair_reaches
-from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places
+from fenics_gears.contact.corner import corner_contact, corner_pair, corner_place
+from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.tooth_pair import coast_place, drive_place, tooth_pair
-from fenics_gears.contact.touching import touching
 from fenics_gears.contact.window import ContactGrid
 
 GRID = ContactGrid(length=2.5, nodes=26)
@@ -161,28 +160,6 @@ def test_action_equals_reaction_off_the_line_of_action(cycle, paper_pair):
         )
 
 
-def test_without_motion_between_steps_the_earlier_displacement_is_the_present_one(stand_in_flanks, paper_pair):
-    """Limit: as the step goes to zero, E tends to the tangential rows of C and previous_jacobian to those of G, to
-    first order."""
-    differences, corner = [], corner_contact(paper_pair, 0.1)
-    for steps in (2000, 4000):
-        fine = MeshCycle(stand_in_flanks, GRID, steps, ALL, tangential=True, corner=corner)
-        at = 26 * steps // 50
-        operator, before = fine.position(at).operator, fine.position(at - 1).operator
-        assert any(pair.place.line for pair in operator.pairs) and before.nodes == operator.nodes
-        n = operator.nodes
-        differences.append(
-            (
-                np.abs(operator.previous_compliance - operator.compliance[n:]).max()
-                / np.abs(operator.compliance).max(),
-                np.abs(operator.previous_jacobian - operator.jacobian[n:]).max(),
-            )
-        )
-    coarse, fine = np.array(differences)
-    assert np.all(fine < 0.01)
-    assert coarse / fine == pytest.approx([2.0, 2.0], rel=0.1)
-
-
 def test_coast_flanks_are_seen_in_the_mirror(paper_pair):
     """Exact: with both flanks' contact rolls alike, a coast pair's corner line has the drive pair's arms, its axes
     mirrored."""
@@ -192,15 +169,3 @@ def test_coast_flanks_are_seen_in_the_mirror(paper_pair):
     assert drive_corner.line == coast_corner.line and drive_corner.contact_rolls == coast_corner.contact_rolls
     mirror = np.array(coast.axes)
     assert np.array(coast_corner.axes) == pytest.approx(np.array(drive_corner.axes) @ mirror, abs=1e-14)
-
-
-def test_tips_reach_further_than_a_short_window(paper_pair):
-    """The paper's window of 1.5 mm ends 0.75 mm off the line; a tip edge may touch as far beyond the path as the window
-    is long."""
-    short, corner = ContactGrid(1.5, 20), corner_contact(paper_pair)
-    assert pair_reaches(paper_pair, short, corner, beyond(paper_pair, 0, 1.4))
-    assert not pair_reaches(paper_pair, short, corner, beyond(paper_pair, 0, 1.6))
-    phase = paper_pair.contact_ratio - 1.0 + 1.4 / paper_pair.base_pitch
-    plain, reaching = (pair_places(paper_pair, short, phase, corner=each) for each in (None, corner))
-    assert {place.index for place in plain} < {place.index for place in reaching}
-    assert touching(paper_pair, short, STEPS, corner=corner).reach.same >= touching(paper_pair, short, STEPS).reach.same

@@ -2,7 +2,6 @@
 
 import itertools
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,7 +12,7 @@ from fenics_gears.contact.existence import locked_nodes, working
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
 from fenics_gears.contact.newton import solve_sets
 from fenics_gears.contact.step_solver import StepProblem, solve_step
-from fenics_gears.contact.uniqueness import is_only_solution, uncertified
+from fenics_gears.contact.uniqueness import is_only_solution
 
 
 def solutions(problem, sigma):
@@ -62,34 +61,6 @@ def test_a_certified_solution_is_the_only_one(free):
         most[says] = max(most[says], len(solutions(problem, sigma)))
     assert count[True] > 100 and count[False] > 100
     assert most[True] == 1 and most[False] >= 2
-
-
-@pytest.mark.parametrize("free", [False, True], ids=["held", "free"])
-def test_solutions_judged_together_are_judged_as_each_by_itself(free):
-    """Brute force: sets of any number of closed nodes, some alike, some with sticking nodes, counted one by one."""
-    rng, friction, counts = np.random.default_rng(3), 0.8, []
-    stiffness = random_problem(0, 6, friction, coordinates=2, free=free).stiffness
-    for _ in range(20):
-        solved = []
-        for seed in range(6):
-            problem, status = (
-                random_problem(seed, 6, friction, coordinates=2, free=free),
-                rng.choice([OPEN, STICK, SLIP_FORWARD, SLIP_BACKWARD], 6),
-            )
-            operator = SimpleNamespace(compliance=problem.compliance, jacobian=problem.jacobian)
-            normal = rng.uniform(1.0, 2.0, 6)
-            solved += [(operator, status.astype(np.int8), np.concatenate((normal, 0.5 * friction * normal)))] * (
-                1 + seed % 2
-            )
-        alone = 0
-        for operator, status, forces in solved:
-            sigma = np.select([status == SLIP_BACKWARD, status == STICK], [-1.0, 0.5], 1.0)
-            alone += not is_only_solution(
-                stiffness, operator.compliance, operator.jacobian, friction, status != OPEN, sigma
-            )
-        assert uncertified(stiffness, friction, solved) == alone
-        counts.append(alone)
-    assert 0 < sum(counts) < 20 * 9
 
 
 def one_node(friction, coupling=0.0, load=100.0, stiffness=0.0, arm=0.0, gap=0.0):

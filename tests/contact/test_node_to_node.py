@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.node_to_node import NodeResponse, node_pairs, node_to_node_operator, roll_interpolation
-from fenics_gears.contact.operator import CENTRE_COORDINATES, displacement_jacobian
+from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.contact.tooth_pair import drive_place
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.ring import rotation
@@ -108,17 +108,3 @@ def test_last_rigid_displacement_of_the_same_material_points(paper_pair):
         translation = operator.previous_jacobian[:, [1, 4]]
         assert translation == pytest.approx(np.tile([1.0, -1.0], (len(exact), 1)), abs=1e-13)
         assert np.all(operator.previous_jacobian[:, [0, 3, 6]] == 0.0)
-
-
-def test_published_arms_are_heights(paper_pair):
-    """Exact kinematics of a rigid body: the point at (x, -h) of a gear turned by phi moves by (h phi, x phi)."""
-    operator, now, _ = last_displacement(paper_pair, 12)
-    radius = paper_pair.pinion.base_radius
-    place = canonical_point(radius, now[0].pinion_roll) @ rotation(now[0].place.contact_rolls[0]).T
-    n = operator.nodes
-    assert operator.jacobian[:n, 2] * radius == pytest.approx(-place[:, 1], abs=1e-9)
-    assert operator.jacobian[n:, 2] * radius == pytest.approx(place[:, 0], abs=1e-9)
-    involute = displacement_jacobian(
-        now, operator.base_radii, (np.full(n, radius), np.full(n, operator.base_radii[1])), True
-    )
-    assert np.abs(operator.jacobian[:n, 2] - involute[:n, 2]).max() == pytest.approx(0.75 / radius, rel=1e-6)

@@ -25,11 +25,8 @@ from fenics_gears.contact.step_solver import HALVED, NEWTON_AND_FALLBACKS, StepP
 from fenics_gears.contact.tresca import frozen_friction
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
-from fenics_gears.dynamics.clock import SteadyClock
-from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import MOST_HALVINGS, EquationsOfMotion
-from fenics_gears.dynamics.steps import Steps
 from fenics_gears.model.drivetrain import drivetrain
 
 # method: (seed, nodes, friction, free)
@@ -240,29 +237,6 @@ def test_divided_steps_are_those_of_a_finer_march(longest, parts, changes, paper
         assert a.solution.forces == pytest.approx(b.solution.forces, rel=1e-7, abs=1e-6)
 
 
-def test_the_energy_account_follows_the_parts_of_a_step(paper_scene, paper_pair, stand_in_flanks):
-    """Exact identity: the account of a march whose every step is divided in two is that of the march with twice the
-    steps."""
-    coarse, shafts = cycle_of(Refusing, paper_scene, paper_pair, stand_in_flanks, 10)
-    fine, _ = cycle_of(MeshCycle, paper_scene, paper_pair, stand_in_flanks, 20)
-    whole, halves = (
-        Marcher(fine, EquationsOfMotion(shafts, 5e-5, 0.1)),
-        Marcher(coarse, EquationsOfMotion(shafts, 1e-4, 0.1)),
-    )
-    start = whole.start()
-    records = [[replace(start, position=cycle.position(0))] for cycle in (coarse, fine)]
-    for march, marcher, steps in zip(records, (halves, whole), (20, 40)):
-        for step in range(1, steps + 1):
-            march.append(marcher.step(marcher.dynamic, march[-1], step))
-    divided, exact = (
-        account(shafts, SteadyClock(step), Steps.of(march), np.zeros(len(march)))
-        for march, step in zip(records, (1e-4, 5e-5))
-    )
-    for name in ("rotation", "load", "damping", "friction", "changes"):
-        expected = getattr(exact, name)[::2]
-        assert getattr(divided, name) == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(exact.load).max()), name
-
-
 def test_a_step_that_no_division_solves_says_so(paper_scene, paper_pair, stand_in_flanks):
     """Never silence: the whole step's error, with the shortest step's attempt after its own; time and step are the
     whole step's."""
@@ -276,17 +250,6 @@ def test_a_step_that_no_division_solves_says_so(paper_scene, paper_pair, stand_i
     assert failure.value.step == 1 and failure.value.time == pytest.approx(1e-4)
     assert [attempt[0] for attempt in failure.value.attempts] == ["newton", HALVED]
     assert f"a step {2**MOST_HALVINGS} times as short" in str(failure.value)
-
-
-def test_a_static_step_without_friction_is_not_divided(paper_scene, paper_pair, stand_in_flanks):
-    """Its solution does not depend on the way to it: dividing the step cannot help."""
-    scene = replace(paper_scene, friction=None, inertia=None, damping=None)
-    cycle, shafts = cycle_of(Refusing, scene, paper_pair, stand_in_flanks, 10)
-    marcher = Marcher(cycle, EquationsOfMotion(shafts, 1e-4))
-    start = marcher._static_start(0)
-    with pytest.raises(ContactNotConverged) as failure:
-        marcher.step(marcher.dynamic, start, 1)
-    assert [attempt[0] for attempt in failure.value.attempts] == ["newton"]
 
 
 def test_no_equilibrium_is_a_typed_error_with_its_history():

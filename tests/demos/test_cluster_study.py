@@ -11,7 +11,7 @@ from demos.cluster_study import speed_and_load
 from demos.cluster_study.gain import FREQUENCIES, gain, table
 from demos.cluster_study.picture import draw
 from demos.cluster_study.stopped import done, run
-from tests.studies.conftest import environment
+from tests.programs import environment
 
 from fenics_gears.commands.cli import main
 from fenics_gears.studies.study_file import load_study

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from demos.tip_relief import findings, pictures
-from demos.tip_relief.design import LONG, PARABOLIC, SHORT, Bench, Design, conditions, paper_scene, relief
+from demos.tip_relief.design import LONG, PARABOLIC, SHORT, Bench, Design, conditions, paper_scene
 from demos.tip_relief.optimum import ALLOWED, Optimum, optimum
 from demos.tip_relief.table import table
 from tests.coarse import COARSE
@@ -28,17 +28,6 @@ def best(benches):
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr("demos.tip_relief.optimum.SEARCHED", 60)
         return optimum(benches["μ = 0"])
-
-
-def test_long_and_short_are_what_the_field_means(benches):
-    """Exact geometry: long begins at HPSTC; short leaves one base pitch of the path of contact to true involutes."""
-    pair = benches["μ = 0"].pair
-    long, short = (relief(pair, Design(30.0, length)) for length in (LONG, SHORT))
-    assert long.pinion.start_roll_angle == pytest.approx(pair.hpstc_roll_angles[0], rel=1e-12)
-    assert long.wheel.start_roll_angle == pytest.approx(pair.hpstc_roll_angles[1], rel=1e-12)
-    pinion_end = pair.pinion.base_radius * short.pinion.start_roll_angle
-    wheel_end = pair.line_of_action_length - pair.wheel.base_radius * short.wheel.start_roll_angle
-    assert pinion_end - wheel_end == pytest.approx(pair.base_pitch, rel=1e-12)
 
 
 @pytest.mark.parametrize("length", [SHORT, 0.8, LONG])

@@ -9,7 +9,6 @@ import pytest
 
 from fenics_gears.dynamics.drivetrain_data import Damping, GearInertia, Inertia, Rayleigh, Shaft, Shafts
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
-from fenics_gears.errors import SceneError
 from fenics_gears.geometry.section import gear_section
 from fenics_gears.model.description import describe
 from fenics_gears.model.drivetrain import drivetrain, mesh_stiffness
@@ -102,26 +101,6 @@ def test_a_damped_mode_decays_by_its_ratio(torsional, paper_pair):
     assert -values.real / np.abs(values) == pytest.approx(np.full(6, 0.05), rel=1e-8)
     natural = 2.0 * pi * natural_frequencies(shafts, mesh_stiffness(torsional))
     assert np.sort(np.abs(values))[::2] == pytest.approx(natural, rel=1e-9)
-
-
-def test_a_load_beside_which_the_wheel_is_nothing_is_refused(torsional, paper_pair):
-    """Round-off: the sum of both moments of inertia would lose the wheel's, and the mass matrix be singular; up to the
-    limit all frequencies are right."""
-    heavy = replace(torsional, inertia=replace(UNEQUAL, load=0.9e10 * J2))
-    stiffness = np.array(
-        [
-            [
-                INPUT + MESH * paper_pair.pinion.base_radius**2,
-                MESH * paper_pair.pinion.base_radius * paper_pair.wheel.base_radius,
-            ],
-            [0.0, 0.0],
-        ]
-    )
-    stiffness[1] = stiffness[0, 1], OUTPUT + MESH * paper_pair.wheel.base_radius**2
-    held = np.sqrt(np.sort(np.linalg.eigvals(stiffness / np.array([[J1], [J2]])))) / (2.0 * pi)
-    assert natural_frequencies(drivetrain(heavy, paper_pair), MESH)[1:] == pytest.approx(held, rel=1e-5)
-    with pytest.raises(SceneError, match="inertia.load: .* times the wheel's; allowed are up to 1e"):
-        drivetrain(replace(torsional, inertia=replace(UNEQUAL, load=1.1e10 * J2)), paper_pair)
 
 
 DENSITY = """

@@ -208,18 +208,3 @@ def test_gyroscopic_moments_are_told_where_they_shift_a_tilting_frequency(on_bea
     assert gyroscopic_warnings(modes, {"pinion": 0.06 * still, "wheel": 0.04 * still}) == []
     (said,) = gyroscopic_warnings(modes, {"pinion": 0.09 * still, "wheel": 0.06 * still})
     assert "at which the wheel tilts, by up to 6%" in said and f"at {60 * 0.06 * still:.4g} rpm" in said
-
-
-def test_damping_by_ratios_and_by_rayleigh_reaches_the_tilts(on_bearings, paper_scene, paper_pair):
-    """Definition: each mode has the ratio that is asked for; alpha K + beta M holds for the rows of tilts, too."""
-    from fenics_gears.dynamics.drivetrain_data import Damping
-
-    by_ratio = drivetrain(replace(on_bearings, damping=Damping(ratios=(0.03, 0.05))), paper_pair)
-    assert len(by_ratio.coordinates) == 13
-    found = vibrations(by_ratio, 14.0e3 * on_bearings.gears.face_width)
-    rayleigh = drivetrain(replace(on_bearings, damping=paper_scene.damping), paper_pair)
-    assert rayleigh.damping == pytest.approx(0.4e-3 * rayleigh.stiffness + 0.5e-3 * rayleigh.mass, rel=1e-12)
-    from fenics_gears.model.drivetrain import mesh_stiffness
-
-    found = vibrations(by_ratio, mesh_stiffness(on_bearings))
-    assert [each.damping_ratio for each in found] == pytest.approx([0.03] + [0.05] * (len(found) - 1), rel=1e-9)

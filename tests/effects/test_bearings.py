@@ -6,11 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
-from tests.helical import wide_pair
 
 from fenics_gears.dynamics.drivetrain_data import BearingPlaces, Bearings, Support
 from fenics_gears.errors import SceneError
-from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
 
@@ -154,28 +152,3 @@ def test_what_the_bearings_carry_is_in_the_result(placed_run):
             )
         assert result["reaction_z"].sel(gear=gear).values == pytest.approx(PLACED.axial(gear) * axial, abs=1e-9 * size)
     assert result["energy_bearings"].values == pytest.approx(energy, rel=1e-10)
-
-
-def test_the_axial_force_is_the_gears_own(placed_run):
-    """Exact: F_a = F_t tan(beta), F_t being the torque over the reference radius; and all energy is accounted for."""
-    scene, result = placed_run
-    radius = 0.5 * scene.gears.pinion.teeth * scene.gears.module / np.cos(scene.gears.helix_angle)
-    tangential = -result["reaction_couple"].sel(gear="pinion").values / radius
-    assert result["reaction_z"].sel(gear="pinion").values == pytest.approx(
-        tangential * np.tan(scene.gears.helix_angle), rel=1e-10
-    )
-    assert float(np.abs(result["energy_defect"]).max()) < 1e-9 * float(result["work_input"][-1])
-
-
-def test_bearings_within_the_gear_are_remarked():
-    """Authority: the rule; a gear of 20 mm reaches 10 mm from its mid-width, and each gear has its own width."""
-    places = 'places = { pinion = ["-40 mm", "9 mm"], wheel = ["-9 mm", "8 mm"] }'
-    scene = wide_pair(f'[bearings]\nstiffness = "0.2e6 N/mm"\n{places}\n')
-    pinion, wheel = (0.5 * width for width in model_of(scene).pair.face_widths)
-    assert min(pinion, wheel) > 9.0
-    first, second = (words for words in model_of(scene).warnings if "within the gear" in words)
-    said = f"bearings.places.pinion: the bearing at 9 mm stands within the gear, which reaches {pinion:g} mm"
-    assert first.startswith(said) and "the bearings at -9 mm and 8 mm stand" in second
-    places = BearingPlaces((-pinion, pinion), (-wheel - 1.0, wheel + 5.0))
-    outside = replace(scene, bearings=replace(scene.bearings, places=places))
-    assert not any("within the gear" in words for words in model_of(outside).warnings)

@@ -2,7 +2,6 @@
 computed."""
 
 import re
-import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -15,10 +14,8 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Motion
-from fenics_gears.scene.read import load_scene, scene_from_text
+from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.gear_store import GearStore
-from fenics_gears.studies.study_file import load_study
 from meshes.root_crack import cracked_gear_mesh
 
 TEETH = "tooth_elasticity"
@@ -99,36 +96,6 @@ def test_a_run_says_where_its_crack_would_be_closed(turn):
     steps, overlap, opening = (float(each) for each in words.groups())
     assert 38 <= steps <= 44 and 1.5 < overlap < 2.1 and 12.0 < opening < 16.0
     assert "crack" not in whole
-
-
-def test_files_are_found_from_the_scene_file_on(tmp_path, monkeypatch):
-    """Wherever the program is called from; a study's cases from its base scene's folder on, and a swept file is a case
-    of its own."""
-    (tmp_path / "scenes").mkdir()
-    shutil.copy(MESHES / "cracked_pinion.msh", tmp_path / "scenes" / "own.msh")
-    shutil.copy(MESHES / "cracked_pinion.msh", tmp_path / "scenes" / "other.msh")
-    (tmp_path / "scenes" / "scene.toml").write_text(text_with('pinion = "own.msh"'))
-    study = tmp_path / "study.toml"
-    study.write_text('scene = "scenes/scene.toml"\n[sweep]\nbody_meshes.pinion = ["own.msh", "other.msh"]\n')
-    monkeypatch.chdir(tmp_path)
-    mesh = load_scene("scenes/scene.toml").body_meshes.pinion
-    assert mesh.path == str(tmp_path / "scenes" / "own.msh") and len(mesh.digest) == 64
-    found = [case.scene.body_meshes.pinion for case in load_study(study).cases]
-    assert [each.path for each in found] == [str(tmp_path / "scenes" / name) for name in ("own.msh", "other.msh")]
-    assert found[0] == mesh and found[0].digest == found[1].digest
-
-
-def test_a_gear_store_tells_meshes_apart_by_their_content(tmp_path, healthy, cache):
-    """A file that is written anew is another gear, and the same file is not read twice."""
-    file = tmp_path / "pinion.msh"
-    shutil.copy(healthy / "pinion.msh", file)
-    store, made = GearStore(), []
-    for content in (None, None, MESHES / "cracked_pinion.msh"):
-        if content is not None:
-            shutil.copy(content, file)
-        model = model_of(scene_from_text(text_with(f'pinion = "{file}"')))
-        made.append(simulate(model.scene, preparation=store.prepared, cache=cache).transmission_error.values)
-    assert np.array_equal(made[0], made[1]) and np.abs(made[2] - made[0]).max() > 1e-3 * np.abs(made[0]).max()
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,7 @@
 """Run-out: once a turn of its gear, and as much as the base circle's centre is off."""
 
 from dataclasses import replace
-from math import cos, radians
+from math import cos
 
 import numpy as np
 import pytest
@@ -12,9 +12,8 @@ from fenics_gears.contact.run_out import RunOut
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.effects import without
-from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.geometry.eccentricity_data import Eccentricity, Offset
-from fenics_gears.scene.data import Accuracy, Load, Motion
+from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.simulation.simulate import simulate
 
 DISTANCE, PHASE = 0.01, 0.7
@@ -96,20 +95,3 @@ def test_gaps_of_both_flanks_are_displacements_along_their_own_normals(paper_pai
         flanks = [pair.place.flank for pair in position.operator.pairs]
         assert set(flanks) == {DRIVE, COAST}
         assert gaps == pytest.approx([expected[flank] for flank in flanks], abs=1e-15)
-
-
-def test_backlash_shrinks_and_grows_with_the_centre_distance(rigid, paper_pair):
-    """Known answer: driven forwards and backwards the rigid pair's play is its backlash, changed by 2 sin(alpha_w)
-    times how much nearer
-    the base circle's centre has come to the mate."""
-    scene = replace(rigid, coast_flanks=CoastFlanks(), eccentricity=Eccentricity(Offset(DISTANCE, PHASE), None))
-    forward = simulate(scene)
-    backward = simulate(replace(scene, load=Load(-scene.load.wheel_torque)))
-    play = (forward.transmission_error.values - backward.transmission_error.values) * paper_pair.wheel.base_radius
-    angle = 2.0 * np.pi * forward.mesh_phase.values / 16 + PHASE
-    # The mate's centre lies at -(90 deg - alpha_w) from the line of action.
-    nearer = DISTANCE * np.cos(angle + radians(90.0) - paper_pair.operating_pressure_angle)
-    expected = paper_pair.backlash - 2.0 * np.sin(paper_pair.operating_pressure_angle) * nearer
-    assert np.ptp(expected) > 1e-3
-    # Displaced by the backlash, the wheel's tips touch at other phases than in the nominal position.
-    assert play == pytest.approx(expected, abs=1e-9)

@@ -6,12 +6,12 @@ import inspect
 import itertools
 import json
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 from tests.effects.examples import EXAMPLES, scene_of, text_of, with_needs
+from tests.programs import python
 
 from fenics_gears.commands.cli import main
 from fenics_gears.effects import EFFECTS, effect_named, effects_on, result_variables
@@ -144,9 +144,7 @@ def loaded():
         section: with_needs(section, TEETH) for section in SECTIONS if section != TEETH
     }
     texts = json.dumps([text_of(*sections) for sections in runs.values()])
-    run = subprocess.run(
-        [sys.executable, "-c", PROGRAM], input=texts, cwd=CHECKOUT, capture_output=True, text=True, check=True
-    )
+    run = python("-c", PROGRAM, given=texts)
     return {name: set(modules) for name, modules in zip(runs, json.loads(run.stdout.splitlines()[-1]))}
 
 

@@ -115,21 +115,6 @@ def test_waves_give_their_own_order_and_go_on_from_tooth_to_tooth(rigid, paper_p
     assert coarser == pytest.approx(1.0, abs=0.02) and coarse_rest < 0.02
 
 
-def test_the_period_is_the_hunting_tooths(rigid, paper_pair):
-    """Definition: with errors on both gears T_E comes back after lcm(16, 24) mesh cycles and not before; that of one
-    gear after its turn."""
-    result = simulate(
-        replace(rigid, motion=Motion(200.0, PERIOD + 4, PERIOD + 4), flank_errors=FlankErrors(tolerance_class=6))
-    )
-    error = length(result, paper_pair)
-    assert error[PERIOD * STEPS :] == pytest.approx(error[: 4 * STEPS + 1], abs=1e-12)
-    for sooner in (16, 24):
-        assert np.abs(error[sooner * STEPS :] - error[: -sooner * STEPS]).max() > 1e-3
-    own = GearErrors(pitch=(0.0,) * 24, profile_slope=(0.0,) * 24, profile_form=(0.0,) * 24)
-    error = length(simulate(replace(rigid, flank_errors=FlankErrors(wheel=own, tolerance_class=6))), paper_pair)
-    assert error[16 * STEPS :] == pytest.approx(error[: -16 * STEPS], abs=1e-12)
-
-
 ALL = GearErrors(
     pitch=one_tooth(16, 3, ERROR),
     profile_slope=(0.004,) * 16,

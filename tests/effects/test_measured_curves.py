@@ -1,11 +1,8 @@
 """Measured profiles and helices of single teeth from tables: read as they stand, felt as they are, and refused with
 line and remedy."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene, frictionless, teeth_alone
 from tests.effects.examples import text_of
 from tests.stand_in import stand_in_compliance
 
@@ -18,8 +15,6 @@ from fenics_gears.effects.flank_errors_tables import located
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import flank_deviations, slope_and_form
 from fenics_gears.geometry.flank_error_data import MEAN, REFERENCE_POINT, FlankErrors, GearErrors
-from fenics_gears.geometry.relief_data import Relief, TipRelief
-from fenics_gears.simulation.simulate import simulate
 
 STEPS = 20
 
@@ -137,26 +132,6 @@ def test_a_tooth_with_relief_stands_where_the_others_do(paper_pair, tmp_path):
     assert found.curves[:2, -1] == pytest.approx([-12e-3, 0.0], abs=1e-15)
     mean = flank_deviations(measured(tmp_path, text), paper_pair)[0]
     assert mean.curves[0, 60] == pytest.approx(40e-3 * 0.5 * 0.3**2, rel=2e-3)
-
-
-def test_relief_as_curves_is_that_relief(paper_scene, paper_pair, tmp_path):
-    """Identity: the same relief as `[tip_relief]` and as curves of all teeth of the pinion gives the same transmission
-    error, but for the 200 straight pieces of a curve."""
-    places = places_of(paper_pair, 0, "roll_angle (deg)", 1001)
-    start = 0.7 * places[-1] + 0.3 * places[0]
-    errors = measured(
-        tmp_path,
-        curve(range(1, 17), places, lambda tooth, at: relieved(at), "roll_angle (deg)"),
-        anchor=REFERENCE_POINT,
-    )
-    scene = frictionless(teeth_alone(coarse_scene(paper_scene, 1)))
-    by_relief = TipRelief(Relief(12e-3, np.radians(start)), None)
-    true, relieved_teeth, as_curves = (
-        simulate(replace(scene, **more)).transmission_error.values
-        for more in ({}, {"tip_relief": by_relief}, {"flank_errors": errors})
-    )
-    assert np.abs(relieved_teeth - true).max() > 0.1 * np.abs(true).max()
-    assert as_curves == pytest.approx(relieved_teeth, rel=2e-4)
 
 
 def test_measured_helices_are_the_deviations_they_show(paper_pair, tmp_path):

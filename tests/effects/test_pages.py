@@ -1,16 +1,14 @@
 """The documentation's pages on effects: the table is the list's, and the worked example works."""
 
 import json
-import os
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from tests import effects_table
 from tests.effects.examples import scene_of, text_of
+from tests.programs import python
 
 import fenics_gears
 from fenics_gears.scene.data import Scene
@@ -71,12 +69,7 @@ def extended(tmp_path_factory):
 
 def run(folder, *arguments, given=None):
     """Python on the package in a folder; what it prints."""
-    environment = {**os.environ, "PYTHONPATH": str(folder), "OMP_NUM_THREADS": "1"}
-    done = subprocess.run(
-        [sys.executable, "-P", *arguments], input=given, cwd=folder, env=environment, capture_output=True, text=True
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    return python("-P", *arguments, given=given, folder=folder, PYTHONPATH=str(folder)).stdout
 
 
 PROGRAM = """

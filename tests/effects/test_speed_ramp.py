@@ -9,13 +9,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from tests.coarse import COARSE, frictionless
-from tests.frozen_gears import GRID, frozen_marcher
+from tests.frozen_gears import frozen_marcher
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
-from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.errors import SceneError
@@ -81,17 +79,6 @@ def test_the_clock_is_that_of_a_frequency_linear_in_time(clock):
     assert [clock.mesh_frequency(step) for step in steps] == pytest.approx(frequency(np.array(times)), rel=1e-12)
 
 
-def test_a_vanishing_ramp_is_a_steady_speed(paper_scene):
-    """Exact limit: a ramp from 200 Hz to 200 Hz and 1e-12 of it leaves the result of a scene without the section, to
-    round-off."""
-    scene = coarse(paper_scene, 2)
-    off, on = (simulate(replace(scene, speed_ramp=ramp)) for ramp in (None, SpeedRamp(200.0 * (1.0 + 1e-12))))
-    assert set(on) - set(off) == {"mesh_frequency"} and set(on.coords) == set(off.coords)
-    for name in [*off, "time"]:
-        size = np.nanmax(np.abs(off["work_input" if name.startswith(("work_", "energy")) else name].values)) or 1.0
-        assert on[name].values == pytest.approx(off[name].values, rel=1e-8, abs=1e-8 * size, nan_ok=True), name
-
-
 def test_result_tells_time_and_frequency(paper_scene):
     """Exact: the last step stands at 2 n/(f0 + f1), at the frequency asked for; steps stand at equal phases, not at
     equal times."""
@@ -145,26 +132,6 @@ def test_spin_up_at_rest_changes_the_mesh_force_by_inertia_times_acceleration(
             rest = marcher._static_start(at)
             n = rest.position.operator.nodes
             assert rest.solution.forces[:n].sum() == pytest.approx(force, rel=1e-10)
-
-
-def test_mean_mesh_force_while_rolling_is_the_momentum_balance(paper_scene, paper_pair, stand_in_flanks):
-    """Exact identity of average acceleration: over any time the mean mesh force, by trapezoids, is (T + J alpha)/rb2
-    less J/rb2^2 times
-    the change of the wheel's own velocity over the time passed; rigid shafts, no friction."""
-    scene = replace(paper_scene, friction=None, damping=None, shafts=None, bearings=None)
-    shafts, clock = drivetrain(scene, paper_pair), RampClock(100.0, 140.0, 0, 6 * 50, 50)
-    cycle = MeshCycle(stand_in_flanks, GRID, 50, shafts.indices, tangential=False)
-    marcher = Marcher(
-        cycle, EquationsOfMotion(shafts, clock.duration(0, 1), clock=clock, loads=(inertia_forces(clock, shafts, 24),))
-    )
-    records = list(marcher.run(6 * 50, 6 * 50 + 1).records)
-    force = np.array([record.solution.forces.sum() for record in records])
-    steps = np.array([clock.duration(a.step, b.step) for a, b in zip(records[:-1], records[1:])])
-    mean = float((0.5 * (force[1:] + force[:-1]) * steps).sum() / steps.sum())
-    radius, alpha = paper_pair.wheel.base_radius, 2.0 * np.pi * clock.acceleration / 24
-    gained = shafts.mass[0, 0] * float(records[-1].state.velocity[0] - records[0].state.velocity[0]) / steps.sum()
-    assert mean + gained == pytest.approx((437e3 + 24.5 * alpha) / radius, rel=1e-10)
-    assert 24.5 * alpha > 1e-3 * 437e3
 
 
 def test_a_slow_ramp_follows_the_steady_runs(paper_scene):

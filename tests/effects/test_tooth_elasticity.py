@@ -76,19 +76,6 @@ def test_elastic_flanks_tend_to_rigid_ones(paper_scene, rigid_scene):
     assert np.abs(difference.values).max() <= 3e-4
 
 
-def test_springs_give_way_as_they_are(rigid_scene, paper_scene, paper_pair):
-    """Exact: with rigid flanks only shafts and bearings are elastic: T_E = T (1/k2 + ratio^2/k1) of rotations and 2
-    F/(k_b rb) of centres."""
-    scene = replace(rigid_scene, shafts=paper_scene.shafts, bearings=paper_scene.bearings)
-    result = simulate(scene)
-    force = scene.load.wheel_torque / paper_pair.wheel.base_radius
-    pinion = force * paper_pair.pinion.base_radius / scene.shafts.torsional_stiffness
-    # The wheel follows the pinion's rotation back, and both centres' displacement along the line of action.
-    expected = 2.0 * force / scene.bearings.stiffness / paper_pair.wheel.base_radius
-    expected += (paper_pair.rotation_ratio - paper_pair.pinion.base_radius / paper_pair.wheel.base_radius) * pinion
-    assert result.transmission_error.values == pytest.approx(expected, rel=1e-9)
-
-
 def test_friction_needs_elastic_teeth(paper_scene):
     """Between rigid flanks friction is not determined: refused in words."""
     text = (

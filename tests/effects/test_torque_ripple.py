@@ -119,25 +119,6 @@ def with_ripple(scene, pair, flanks, time_step, ripple, shaft_step):
     return marcher, shafts
 
 
-def test_linear_range_moves_by_amplitude_times_compliance(paper_scene, paper_pair, stand_in_flanks):
-    """Exact in the linear range: on gears that do not roll, a ripple that closes or opens no node moves the drivetrain
-    by its compliance."""
-    ripple, per_turn = TorqueRipple((Harmonic(3.0, 0.5, 0.2),)), 48
-    marcher, shafts = with_ripple(
-        quasi_static(paper_scene), paper_pair, stand_in_flanks, 1e-4, ripple, 2.0 * np.pi / per_turn
-    )
-    stiffness, record = tied(marcher, shafts)
-    positions, status = [], record.solution.status
-    for step in range(per_turn):
-        record = marcher.step(marcher.dynamic, record, step)
-        assert np.array_equal(record.solution.status, status)
-        positions.append(record.state.position)
-    unit = varying_load(TorqueRipple((Harmonic(3.0, 1.0),)), shafts, 0.0)(0)
-    phasor = 2.0 / per_turn * np.exp(-2j * np.pi * 3.0 * np.arange(per_turn) / per_turn) @ np.array(positions)
-    expected = 0.5 * np.exp(0.2j) * np.linalg.solve(stiffness, unit)
-    assert phasor == pytest.approx(expected, rel=1e-7, abs=1e-9 * np.abs(expected).max())
-
-
 @pytest.mark.parametrize("frequency", [5.0, 120.0, 400.0])
 def test_steady_vibration_is_the_frequency_response(paper_scene, paper_pair, stand_in_flanks, frequency):
     """Exact solution: gears that do not roll, closed nodes staying closed, are linear; the march's steady answer to one

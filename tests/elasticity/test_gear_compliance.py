@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
-from fenics_gears.elasticity import gear_compliance
 from fenics_gears.elasticity.body_mesh_file import read_body_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
@@ -73,18 +72,6 @@ def mean_compliance(gear, element, sizes, centre):
     for ahead, shape in enumerate(((1 - x) * (1 - 2 * x), 4 * x * (1 - x), x * (2 * x - 1))):
         np.add.at(force, first + ahead, shape[:, None] * normal)
     return force.ravel() @ ring_compliance(sector, gear.teeth, 0)[0] @ force.ravel()
-
-
-def test_cached_compliance_is_the_same(pinion, steel, tmp_path, monkeypatch):
-    """Exact identity; and the second call computes nothing."""
-    cache = Cache(tmp_path)
-    first = flank_compliance(pinion, steel, COARSE, REACH, cache)
-    monkeypatch.setattr(gear_compliance, "_computed", None)
-    second = flank_compliance(pinion, steel, COARSE, REACH, cache)
-    np.testing.assert_array_equal(first.blocks, second.blocks)
-    np.testing.assert_array_equal(first.roll_angle, second.roll_angle)
-    assert not first.timings["from_cache"] and second.timings["from_cache"]
-    assert first.timings["unknowns"] == second.timings["unknowns"]
 
 
 @pytest.fixture(scope="module")

@@ -101,19 +101,6 @@ def test_backlash_thins_both_gears_alike(helix_angle):
     assert gear_pair(scene.gears).pinion.dedendum == pytest.approx(1.25 * 3.0, rel=1e-12)
 
 
-def test_backlash_beside_measured_gears_opens_the_centre_distance():
-    """Authority: as above; the same thicknesses without a backlash touch on both flanks."""
-    measured = (
-        {"profile_shift": None, "tooth_thickness": "5.1 mm"},
-        {"profile_shift": None, "base_tangent_length": "32.5 mm", "spanned_teeth": 4},
-    )
-    pair, tight = pair_of({"backlash": "0.12 mm"}, *measured), pair_of(None, *measured)
-    assert pair.backlash / (
-        pair.centre_distance**2 - pair.line_of_action_length**2
-    ) ** 0.5 * pair.centre_distance == pytest.approx(0.12, abs=1e-12)
-    assert tight.backlash == pytest.approx(0.0, abs=1e-12)
-
-
 def test_what_a_caliper_reads_is_told_for_the_span_that_is_asked_for():
     """Authority: KHK Gear Technical Reference, m 3, z 24, x 0.4: 32.8266 mm over 4 teeth, whose neighbour spans differ
     by the base pitch."""
@@ -125,32 +112,6 @@ def test_what_a_caliper_reads_is_told_for_the_span_that_is_asked_for():
     ]
     assert spans[1] == pytest.approx(32.8266, abs=6e-5)
     assert spans[1] - spans[0] == pytest.approx(3.0 * pi * 0.9396926207859084, rel=1e-12)
-
-
-@pytest.mark.parametrize(("angle", "room"), [("25 deg", 0.3178), ("20 deg", 0.38)])
-def test_the_default_tip_radius_fits_the_rack(angle, room):
-    """Authority: the rack's full radius (pi/4 - 1.25 tan(alpha)) cos(alpha)/(1 - sin(alpha)), 0.31787 modules at 25
-    deg, rounded down."""
-    scene = scene_of({"pressure_angle": angle})
-    assert scene.gears.pinion.rack_tip_radius == room
-    gear_pair(scene.gears)
-    assert (
-        "what has room" in {each.name: each.formula for each in scene.derived}["pinion tip radius of the rack"]
-    ) == (room < 0.38)
-
-
-def test_a_gear_s_own_rack_goes_before_that_of_both():
-    """Authority: ISO 53:1998, Annex A: D is 1/1.4/0.39, C 1/1.25/0.25."""
-    scene = scene_of(
-        {"rack": {"profile": "ISO 53 D", "addendum": 0.9}},
-        {"rack": {"profile": "ISO 53 C"}},
-        {"rack": {"tip_radius": 0.3}},
-    )
-    pair = gear_pair(scene.gears)
-    assert [gear.dedendum / 3.0 for gear in (pair.pinion, pair.wheel)] == pytest.approx([1.25, 1.4])
-    assert [gear.rack_tip_radius for gear in (scene.gears.pinion, scene.gears.wheel)] == [0.25, 0.3]
-    lengths = scene.gears.pinion.tip_diameter / 3.0 - 19 - 0.6, scene.gears.wheel.tip_diameter / 3.0 - 31 - 0.2
-    assert lengths[0] - lengths[1] == pytest.approx(2.0 * (1.0 - 0.9))
 
 
 def test_power_and_pinion_torque_are_a_torque_on_the_wheel():

@@ -131,21 +131,6 @@ def test_fillet_rises_towards_the_flank_in_even_steps(gear):
     assert steps == pytest.approx(steps.mean(), rel=2e-3)
 
 
-def test_coast_side_is_the_mirror_image(gear):
-    """Authority: a mirror keeps radii, reverses angles from its line, and twice is nothing; the tip is as thick as
-    said."""
-    outline = tooth_outline(gear)
-    coast = outline.coast(outline.fillet)
-    angle = np.arctan2(outline.fillet[:, 1], outline.fillet[:, 0]) - outline.centreline_angle
-    mirrored = np.arctan2(coast[:, 1], coast[:, 0]) - outline.centreline_angle
-    assert np.hypot(*coast.T) == pytest.approx(np.hypot(*outline.fillet.T), rel=1e-14)
-    assert np.exp(1j * mirrored) == pytest.approx(np.exp(-1j * angle), abs=1e-14)
-    assert outline.coast(coast) == pytest.approx(outline.fillet, abs=1e-13 * gear.tip_radius)
-    tip = outline.involute(gear.tip_roll_angle)
-    chord = np.hypot(*(outline.coast(tip) - tip))
-    assert chord == pytest.approx(2.0 * gear.tip_radius * sin(0.5 * gear.tip_thickness / gear.tip_radius), rel=1e-12)
-
-
 @pytest.mark.parametrize("helix_angle", [0.0, 25.0])
 def test_fillets_of_neighbouring_teeth_meet_at_full_radius(cut_gear, helix_angle):
     """Authority: at the largest rack tip radius the root arc has no length; its value by the closed form of a
@@ -170,15 +155,3 @@ def test_undercut_begins_at_the_textbook_s_number_of_teeth(cut_gear, pressure_an
         gear = cut_gear(teeth, dedendum=1.0, rack_tip=0.0, pressure_angle=pressure_angle)
         assert gear.undercut == (teeth < fewest)
         assert gear.form_radius > gear.base_radius
-
-
-@pytest.mark.parametrize("helix_angle", [10.0, 20.0, 30.0])
-def test_undercut_of_helical_gears_begins_at_the_textbook_s_number_of_teeth(cut_gear, helix_angle):
-    """Authority: z_min = 2 cos(beta)/sin^2(alpha_t) for a sharp full-depth rack (e.g. Litvin & Fuentes, ch. 14): fewer
-    than of spur gears."""
-    cosine = cos(radians(helix_angle))
-    fewest = 2.0 * cosine / sin(atan(tan(radians(20.0)) / cosine)) ** 2
-    assert fewest < 17.097
-    for teeth in range(8, 20):
-        gear = cut_gear(teeth, dedendum=1.0, rack_tip=0.0, helix_angle=helix_angle)
-        assert gear.undercut == (teeth < fewest)

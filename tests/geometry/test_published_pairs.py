@@ -172,25 +172,6 @@ def test_centre_distance_without_backlash_is_the_standard_s(cut_gear, helix_angl
     )
 
 
-# Module m_n, helix angle, teeth, profile shifts and centre distance of each stage.
-GEARBOX = {
-    "first stage": (1.0, 30.0, (23, 67), (0.581, 0.5131), 53.0),
-    "second stage": (1.25, 10.0, (13, 76), (0.521, -0.094), 57.0),
-    "third stage": (1.5, 10.0, (14, 87), (0.536, -0.4815), 77.0),
-}
-
-
-@pytest.mark.parametrize("stage", GEARBOX)
-def test_centre_distances_of_an_industrial_gearbox(cut_gear, stage):
-    """Authority: the file SEW_3-stage_cylindrical_gearbox_1.0.rexs of fva-net/rexs-api-java, whose profile shifts,
-    rounded to 1e-4 there, leave no
-    backlash at its centre distances in whole millimetres: within the 0.5e-4 m_n that is left of them."""
-    module, helix_angle, teeth, shifts, distance = GEARBOX[stage]
-    gears = [cut_gear(z, x, module=module, helix_angle=helix_angle) for z, x in zip(teeth, shifts)]
-    pair = GearPair(*gears, centre_distance=distance, face_width=1.0)
-    assert pair.centre_distance_without_backlash == pytest.approx(distance, abs=1e-4 * module)
-
-
 def test_diameters_of_the_active_profile(paper_pair):
     """Authority: ISO 21771, 5.4.1: d_Nf1 = sqrt((2 a sin(alpha_wt) - sqrt(d_Na2^2 - d_b2^2))^2 + d_b1^2), with d_Na =
     d_a where nothing is cut away; and the other way round."""

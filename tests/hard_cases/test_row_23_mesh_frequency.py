@@ -8,11 +8,7 @@ import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
 
 from fenics_gears.contact.step_solver import NEWTON
-from fenics_gears.dynamics.average_acceleration import AverageAcceleration
-from fenics_gears.dynamics.backward_euler import BackwardEuler
-from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.friction import Friction
-from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Motion
 from fenics_gears.simulation.simulate import simulate
 
@@ -63,29 +59,6 @@ def test_difference_to_quasi_static_vanishes_with_the_frequency(coarse, measured
         found = np.log10(far / near)
         measured(f"order of this difference in mesh frequency, {name}", found, f"{order:g}")
         assert found == pytest.approx(order, abs=0.1)
-
-
-def test_steps_that_sample_the_slowest_vibration_go_by_average_acceleration(coarse, measured):
-    """Nyquist: two steps in a period and more hold a vibration; the method changes there and nowhere else."""
-    for mesh_frequency in np.geomspace(0.01, 20e3, 40):
-        model = model_of(at(coarse, mesh_frequency))
-        steps = model.vibrations[0].steps_per_period(model.time_step)
-        marcher = Marcher(_AnyCycle(model.pair), model.equations_of_motion)
-        assert isinstance(marcher.dynamic, AverageAcceleration if steps >= 2.0 else BackwardEuler)
-    slowest = model_of(coarse).vibrations[0].frequency
-    measured(
-        "mesh frequency below which backward Euler is used, 40 steps per mesh cycle",
-        2.0 * slowest / 40,
-        "2 f0/steps",
-        "Hz",
-    )
-
-
-class _AnyCycle:
-    steps = 40
-
-    def __init__(self, pair):
-        self.pair = pair
 
 
 def test_high_end_is_the_rigid_mean_motion(coarse, measured):

@@ -22,7 +22,7 @@ from tests.studies.test_run_study import TWO, load
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
-from fenics_gears.elasticity.cache import Cache, content_key
+from fenics_gears.elasticity.cache import Cache
 from fenics_gears.errors import ComputationError
 
 
@@ -127,17 +127,6 @@ def test_a_damaged_cache_entry_is_reported_and_not_used(own_cache, damage, caplo
     assert damage is directory_instead or np.array_equal(again["blocks"], ARRAYS["blocks"])
 
 
-def test_an_entry_under_another_name_is_not_used(own_cache, caplog, measured):
-    """A file copied to another key holds another gear."""
-    other = content_key({"gear": {"teeth": 17}})
-    os.replace(own_cache.path(KEY), own_cache.path(other))
-    loaded = own_cache.load(other)
-    measured(
-        "another gear's entry under the name", "used" if loaded is not None else "computed again", "computed again"
-    )
-    assert loaded is None and "computed again" in caplog.text
-
-
 def flipped(content: bytes, place: float, bit: int) -> bytes:
     """The content with one bit turned, at a place from 0 to 1."""
     changed = bytearray(content)
@@ -196,21 +185,6 @@ def test_any_one_bit_flipped_in_a_result(run, tmp_path, measured):
         "all refused",
     )
     assert counts["wrong"] == counts["same"] == 0 and counts["none"] >= 300
-
-
-@pytest.mark.parametrize("damage", ["cut", "empty", "text", "directory"])
-def test_a_damaged_result_is_not_drawn(run, tmp_path, capsys, measured, damage):
-    """`gears plot` of a damaged file: exit code 2, the file named."""
-    path = tmp_path / "run.nc"
-    results.save(run, path)
-    content = path.read_bytes()
-    path.write_bytes({"cut": content[: len(content) // 2], "empty": b"", "text": b"no result"}.get(damage, b""))
-    if damage == "directory":
-        path.unlink()
-        path.mkdir()
-    code = main(["plot", str(path)])
-    measured(f"`gears plot` of a result that is damaged: {damage}", f"exit code {code}", "2, file named")
-    assert code == 2 and str(path) in capsys.readouterr().err
 
 
 def damage_case(damage: str, file: Path, other: Path) -> None:

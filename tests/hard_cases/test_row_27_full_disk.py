@@ -15,7 +15,8 @@ from pathlib import Path
 
 import pytest
 from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
-from tests.studies.conftest import environment, folder, undrawn, write_study  # noqa: F401
+from tests.programs import environment
+from tests.studies.conftest import folder, undrawn, write_study  # noqa: F401
 from tests.studies.test_run_study import TWO, load
 
 from fenics_gears import results

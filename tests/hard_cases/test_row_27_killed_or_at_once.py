@@ -15,15 +15,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
-from tests.studies.conftest import command, environment, folder, gears, stamps, undrawn, write_study  # noqa: F401
-from tests.studies.test_run_study import FIVE, FOUR, load, stopped_in_the_middle
+from tests.programs import command, environment, gears
+from tests.studies.conftest import folder, stamps, undrawn, write_study  # noqa: F401
+from tests.studies.test_run_study import FIVE, load, stopped_in_the_middle
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.results.journal import is_journal
 from fenics_gears.simulation.unfinished import unfinished
-from fenics_gears.studies.case_files import sole_writer
 
 
 def killed_after(seconds, call, folder, **settings):
@@ -185,13 +185,6 @@ def test_a_run_killed_while_it_marches_has_its_steps_on_disk(folder, measured, c
         )
 
 
-@pytest.mark.nightly
-def test_a_run_killed_at_many_moments(folder, measured):
-    """kill -9 while gears are meshed, the cache and the result written, at moments a few hundredths of a second
-    apart."""
-    kills(folder, measured, 60, "a run killed, by night")
-
-
 @pytest.mark.parametrize(
     "pauses", [(0.011,), pytest.param((0.0, 0.003, 0.007, 0.017, 0.023), marks=pytest.mark.nightly)]
 )
@@ -280,12 +273,3 @@ def test_runs_at_once_on_one_empty_cache(folder, measured, tmp_path, count):
     measured(f"{count} runs at once on one empty cache", found, f"{count}, one entry for each gear, none")
     assert same == count and unfinished == [] and all("not usable" not in words for words in said)
     assert len(entries) == 2 and all(Cache(own).load(Path(name).stem) is not None for name in entries)
-
-
-def test_two_studies_do_not_share_a_directory(folder, capsys, measured):
-    """The second says so and leaves the first's files alone."""
-    study = write_study(folder, FOUR)
-    with sole_writer(folder / "here"):
-        code = main(["study", str(study), "--output", "here"])
-    measured("two studies in one directory", f"exit code {code}, {len(stamps('here'))} cases", "3, none")
-    assert code == 3 and "another study is writing there" in capsys.readouterr().err and stamps("here") == {}

@@ -6,12 +6,12 @@ Authority throughout: hard case 28 and the exit codes of docs/promises.md.
 
 import signal
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.studies.conftest import command, environment, folder, mpirun, stamps, undrawn, write_study  # noqa: F401
+from tests.programs import command, environment, python
+from tests.studies.conftest import folder, stamps, undrawn, write_study  # noqa: F401
 from tests.studies.test_run_study import FIVE, THREE, load, stopped_in_the_middle
 
 from fenics_gears.commands.cli import main
@@ -111,14 +111,7 @@ def test_an_outcome_that_cannot_be_reported_is_the_failure_of_its_case(folder, m
         "        print(*(found[i] if isinstance(found[i], int) else 'failed' for i in range(5)))\n"
     )
     Path("program.py").write_text(program)
-    told = subprocess.run(
-        [*mpirun(2), sys.executable, "program.py"],
-        cwd=folder,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
+    told = python("program.py", folder=folder, ranks=2, ends=None, timeout=60)
     measured(
         "outcomes that cannot be sent back or made again",
         told.stdout.strip() or f"exit code {told.returncode}",

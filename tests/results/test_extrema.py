@@ -14,7 +14,7 @@ from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.model.model import model_of
 from fenics_gears.results.attributes import SOLVED
-from fenics_gears.results.extrema import MOST_SOLVED, highest, largest_of_cubics
+from fenics_gears.results.extrema import MOST_SOLVED, highest
 from fenics_gears.scene.data import ISO_6336, Accuracy
 from fenics_gears.simulation.simulate import simulate
 
@@ -46,26 +46,6 @@ def test_the_highest_place_of_a_curve_between_its_steps(name):
     assert top - 2.0 * sought <= found <= top
     assert abs(place - CREST) < 0.1 and len(asked) <= MOST_SOLVED
     assert top - curve(steps).max() > 20.0 * sought
-
-
-def test_cubics_are_of_fourth_order_and_leave_corners_alone():
-    """Exact: the crest of a sine, missed by h^4; and of a corner nothing above it is made up."""
-    errors = []
-    for steps in (16, 32, 64):
-        x = np.arange(steps)
-        # A third of a step beside a step: the same for every number of steps.
-        place, found = largest_of_cubics(x, np.cos(2.0 * np.pi * (x - (steps // 2 + 1.0 / 3.0)) / steps))
-        errors.append(abs(1.0 - found))
-        assert abs(place - (steps // 2 + 1.0 / 3.0)) < 0.01
-    assert np.log2(errors[0] / errors[1]) > 3.8 and np.log2(errors[1] / errors[2]) > 3.8
-    for corner in np.linspace(7.0, 8.0, 21):
-        x = np.arange(16.0)
-        for curve in (
-            -abs(x - corner),
-            np.where(x < corner, 0.1, -2.0) * (x - corner),
-            np.where(x < corner, 2.0, -0.1) * (x - corner),
-        ):
-            assert curve.max() <= largest_of_cubics(x, curve)[1] <= 1e-12
 
 
 def on_stand_ins(scene, flanks, steps):

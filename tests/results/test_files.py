@@ -1,12 +1,11 @@
 """The file of a result against another program's."""
 
 import io
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 import xarray as xr
+from tests.programs import python
 from tests.show.synthetic import made_up_run
 
 from fenics_gears import results
@@ -179,8 +178,6 @@ def test_bytes_damaged_under_a_digest_made_anew_end_in_words(tmp_path):
     """Authority: house rule on errors; HDF5 itself ends the process at one of six such files, so that a copy of it
     reads them first: a copy that a signal ends is told from one that fails."""
     results.save(made_up_run(steps=400), tmp_path / "run.nc")
-    found = subprocess.run(
-        [sys.executable, "-c", DAMAGE, tmp_path / "run.nc"], capture_output=True, text=True, check=True
-    )
+    found = python("-c", DAMAGE, tmp_path / "run.nc")
     refused, ended, failed = found.stdout.split()
     assert int(refused) > 2 and (ended, failed) == ("False", "True")

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from tests.coarse import coarse_scene
-from tests.studies.conftest import DEMO
+from tests.programs import DEMO
 
 import fenics_gears
 from fenics_gears.dynamics.march import LONGEST_BLOCK

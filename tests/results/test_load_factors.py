@@ -137,17 +137,6 @@ def test_average_over_the_mesh_cycle_of_a_helical_gear(helical, hand, side):
     assert found == pytest.approx(1.0 + 0.02 * (inner_face(pair)[1] - 0.5 * end_depth(pair)), rel=5e-3)
 
 
-@pytest.mark.parametrize("side", ["", "coast_"])
-def test_even_line_load_of_a_helical_pair(helical, side):
-    """Identity: one line load along all lines of contact is largest when these are shortest, and is then what the
-    factors compare with (but for the slices, steps of the lines' lengths)."""
-    result = of_one_force(run_of(helical, lambda xi, z: 100.0 + 0.0 * xi * z, slices=400))
-    factors = load_factors(on_coast_flanks(result) if side else result, helical)
-    assert factors["transverse_load_factor"] == pytest.approx(1.0, abs=3e-3)
-    for name in ("largest_line_load_factor", "edge_line_load_factor"):
-        assert factors[name] == pytest.approx(1.0, abs=1e-2), name
-
-
 @pytest.mark.parametrize("end", ["start", "end"])
 @pytest.mark.parametrize("side", ["", "coast_"])
 def test_edges_have_a_factor_of_their_own(helical, end, side):

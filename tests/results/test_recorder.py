@@ -15,7 +15,6 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.results.pairs import contact_times, lives
@@ -163,15 +162,3 @@ def test_memory_is_as_it_was_counted(paper_scene, coast, friction, root_stress):
     result = simulate(scene if friction else frictionless(scene))
     held = sum(each.nbytes for each in result.variables.values() if {"time", "contact_time"} & set(each.dims))
     assert held == model_of(scene if friction else frictionless(scene)).stored_bytes
-
-
-def test_without_contact_fields_what_needs_them_says_so(paper_scene):
-    """Authority: docs/scene.md; curves and the peak pressure are there, the field is not, and what would draw it names
-    the key."""
-    scene = quasi_static(coarse_scene(paper_scene))
-    result, whole = simulate(replace(scene, output=Output(contact_fields=False))), simulate(scene)
-    assert not [name for name in result.variables if name.startswith("contact_")]
-    for name in ("peak_contact_pressure", "peak_to_peak_transmission_error", "friction_loss"):
-        assert result.attrs[name] == whole.attrs[name]
-    with pytest.raises(SceneError, match="contact_fields"):
-        contact_times(result)

@@ -9,7 +9,6 @@ import pytest
 from tests.coarse import coarse_scene
 
 from fenics_gears.effects import common_period
-from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.model.description import describe
 from fenics_gears.model.model import model_of
 from fenics_gears.results.settled import settled
@@ -107,17 +106,6 @@ def test_fewer_cycles_than_the_common_period_are_told_first(by_cycles):
     rows = [row for _, section in describe(scene) for row in section]
     assert ("mesh cycles of the common period", 1081, "after which every tooth has met every other") in rows
     assert any("only 23 of the 1081" in str(row[1]) for row in rows)
-
-
-@pytest.mark.parametrize(
-    ("order", "cycles"), [(1.0, 24), (24.0, 1), (12.0, 2), (1.5, 16), (0.5, 48), (5.0, 24)], ids=str
-)
-def test_a_ripple_repeats_after_whole_turns_of_its_order(paper_scene, order, cycles):
-    """Arithmetic: the least whole number of mesh cycles, 1/24 of the wheel's turn each, that is a multiple of 1/order
-    of a turn."""
-    ripple = TorqueRipple((Harmonic(order, 1e3),))
-    assert common_period(replace(paper_scene, torque_ripple=ripple)) == cycles
-    assert order * cycles / 24 == round(order * cycles / 24)
 
 
 def test_the_start_has_died_down(paper_scene):

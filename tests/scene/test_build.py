@@ -1,13 +1,12 @@
 """A scene from plain dictionaries. Authority: the same scene read from a file."""
 
-import subprocess
-import sys
 import tomllib
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.programs import python
 
 import fenics_gears
 from fenics_gears import build_scene, load_scene
@@ -92,9 +91,4 @@ def test_names_of_the_package_are_told_without_loading_them():
     program = (
         "import sys, fenics_gears; dir(fenics_gears); print(sorted({'numpy', 'xarray', 'pydantic'} & set(sys.modules)))"
     )
-    assert (
-        subprocess.run(
-            [sys.executable, "-c", program], cwd=DEMOS[0].parents[1], capture_output=True, text=True, check=True
-        ).stdout
-        == "[]\n"
-    )
+    assert python("-c", program).stdout == "[]\n"

@@ -11,7 +11,7 @@ from tests.effects.examples import EXAMPLES, scene_of, with_needs
 from tests.hard_cases.random_scenes import valid_scenes
 
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.gear_data import Material, Web
+from fenics_gears.geometry.gear_data import Material
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.scene.data import Accuracy, Load, Motion, Scene
 from fenics_gears.scene.read import load_scene, scene_from_text
@@ -83,35 +83,6 @@ def test_every_effect_is_written_from_its_data():
     base = scene_of("tooth_elasticity").text.replace("mesh_cycles = 1\n", "mesh_cycles = 3\n")
     for more in FURTHER.values():
         assert_written(scene_from_text(base + more))
-
-
-def test_figures_of_a_drawing_are_written():
-    """The same, of gears that a drawing leaves half open: thickness measured, rack with protuberance, webs, widths and
-    hands of their own."""
-    base, gears = (
-        scene_of("tooth_elasticity"),
-        (
-            '[gears]\nhelix_angle = "17.3 deg"\npinion_hand = "left"\nbacklash = "0.1 mm"\nrack = { profile = "ISO 53'
-            ' D", protuberance = "0.15 mm" }\n'
-        ),
-    )
-    text = base.text.replace("[gears]\n", gears).replace('centre_distance = "91.5 mm"\n', "")
-    text = "\n".join(
-        line
-        for line in text.splitlines()
-        if not line.startswith(("tip_diameter", "root_diameter", "[gears.material", "youngs", "poissons"))
-    )
-    scene = scene_from_text(
-        text.replace(
-            "[gears.wheel]\n",
-            'material = "POM"\naxial_offset = "0.7 mm"\nface_width = "13.1 mm"\n[gears.wheel]\nmaterial = "steel"\n',
-        )
-    )
-    assert scene.derived and scene.gears.pinion.protuberance
-    assert_written(scene)
-    for share in (0.3, 1.0 / 3.0, 0.7):
-        web = replace(base.gears, pinion=replace(base.gears.pinion, web=Web(16.1, 28.7, share)))
-        assert_written(replace(base, gears=web))
 
 
 @settings(max_examples=4)

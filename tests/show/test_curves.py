@@ -2,13 +2,10 @@
 
 import numpy as np
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from tests.show.synthetic import made_up_run, right_scale, words
 
 from fenics_gears.results import by_pair
-from fenics_gears.show.motion import motion_charts
 from fenics_gears.show.plots import run_figures
-from fenics_gears.show.run import Run
 from fenics_gears.show.ticks import ticks, written
 
 
@@ -116,16 +113,6 @@ def test_mesh_forces():
     assert [text.get_text() for text in torques.get_legend().get_texts()] == ["pinion", "wheel"]
 
 
-def test_friction_of_both_flanks_is_drawn_where_both_have_it():
-    """A wheel that drives rubs on the coast flanks alone: their friction must not be left out."""
-    run = made_up_run()
-    for name in ("normal_force", "friction_force"):
-        run[f"coast_{name}"] = (2.0 * run[name]).assign_attrs(units="N")
-    drawn = {line.get_label(): line.get_ydata() for line in mesh_forces(run).get_axes()[1].get_lines()}
-    np.testing.assert_array_equal(drawn["drive flanks"], run["friction_force"].values)
-    np.testing.assert_array_equal(drawn["coast flanks"], run["coast_friction_force"].values)
-
-
 def test_load_sharing():
     """Authority: each curve is its pair's force while it carries, and the pairs' sum is the mesh's normal force."""
     run = made_up_run()
@@ -146,21 +133,6 @@ def test_load_sharing():
     assert "Force (N)" in words(axes)
 
 
-@pytest.mark.parametrize("cycles", [2.0, 14.0])
-def test_legends_cover_no_curve_and_stay_in_the_picture(cycles):
-    """Authority: the legend's box, as drawn, lies outside the panel's and inside the picture's."""
-    for draw in (mesh_forces, load_sharing):
-        figure = draw(made_up_run(cycles=cycles, steps=141))
-        canvas = FigureCanvasAgg(figure)
-        canvas.draw()
-        for axes in figure.get_axes():
-            if axes.get_legend() is None:
-                continue
-            box, panel = axes.get_legend().get_window_extent(), axes.get_window_extent()
-            assert box.y0 >= panel.y1 - 1.0
-            assert box.x0 >= 0 and box.x1 <= figure.bbox.x1 and box.y1 <= figure.bbox.y1
-
-
 @pytest.mark.parametrize(("ends", "logarithmic", "expected"), [
     ((-6.2, 5.1), False, ["−5.0", "−2.5", "0.0", "2.5", "5.0"]),
     ((7990.0, 10010.0), False, ["8000", "8500", "9000", "9500", "10000"]),
@@ -175,21 +147,3 @@ def test_ticks_are_round_numbers_written_with_the_decimals_they_need(ends, logar
     places = ticks(ends, 5.0, logarithmic)
     assert written(places, logarithmic) == expected
     np.testing.assert_allclose([float(each.replace("−", "-")) for each in expected], places, atol=1e-9 * np.ptp(ends))
-
-
-def test_gears_that_tilt_have_their_tilts_shown_and_all_motions_of_their_centres():
-    """Authority: model.md section 4; axial forces tilt the shafts off the plane of action and so move their centres off
-    the line, without friction too."""
-    run = made_up_run().drop_vars("friction_force")
-    run["centre_x"] = run["centre_y"]
-    assert not [
-        chart.caption for chart in motion_charts(Run(run)) if "off the line" in chart.caption or "Tilt" in chart.caption
-    ]
-    for name, unit in (("axial_position", "mm"), ("tilt_x", "rad"), ("tilt_y", "rad")):
-        run[name] = run["centre_y"].assign_attrs(units=unit)
-    captions = [chart.caption for chart in motion_charts(Run(run))]
-    for expected in (
-        "Displacement of the gears' centres off the line of action", "Displacement of the gears along their axes",
-        "Tilt of the gears about the line of action", "Tilt of the gears in the plane of action",
-    ):  # fmt: skip
-        assert expected in captions

@@ -1,12 +1,10 @@
 """Pictures of a run whose flanks are resolved over the face, of a short coarse run."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 from matplotlib.image import imread
 from tests.over_face import helical_run, root_stress_run
+from tests.programs import python
 from tests.show.synthetic import made_up_run
 
 from fenics_gears.contact.pressure import read_off
@@ -104,5 +102,4 @@ draw_run(made_up_run(), tempfile.mkdtemp())
 loaded = [name for name in {names} if "fenics_gears.show." + name in sys.modules]
 print(loaded, "fenics_gears.results.load_factors" in sys.modules)
 """
-    found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    assert found.stdout.split("\n")[0] == "[] False"
+    assert python("-c", program).stdout.split("\n")[0] == "[] False"

@@ -1,12 +1,10 @@
 """The files of a run's pictures: which there are, that they are whole, and what each says about the run."""
 
-import subprocess
-import sys
-
 import matplotlib
 import numpy as np
 import pytest
 from matplotlib.image import imread
+from tests.programs import python
 from tests.show.synthetic import BARE, made_up_run
 
 from fenics_gears.errors import ComputationError
@@ -90,10 +88,10 @@ def test_commands_import_matplotlib_without_its_lists_of_properties_and_leave_it
         "assert 'linewidth' in artist.kwdoc(lines.Line2D) and 'linewidth' not in lines.Line2D.set.__doc__\n"
         "assert 'linewidth' in str(lines.Line2D.set.__signature__)"
     )
-    subprocess.run([sys.executable, "-c", code], check=True)
+    python("-c", code)
 
 
 def test_the_command_starts_without_matplotlib():
     """Authority: the start-up time of the command; matplotlib is for those who draw."""
     code = "import sys, fenics_gears.commands.cli; sys.exit('matplotlib' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+    python("-c", code)

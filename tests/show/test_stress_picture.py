@@ -1,12 +1,10 @@
 """gears picture: what is written, what is refused, and that colours are where the stress is."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 from matplotlib.image import imread
 from tests.coarse import coarse_scene
+from tests.programs import python
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
@@ -110,29 +108,6 @@ def test_teeth_that_have_parted_move_and_are_reported(parted, tmp_path, monkeypa
     assert "It could not be drawn" not in (tmp_path / "report.html").read_text(encoding="utf-8")
 
 
-def test_no_tooth_is_missing(run):
-    """Count: going round each drawn gear at its pitch circle one passes every tooth's two flanks."""
-    from fenics_gears.show.drawn_scale import outer_loop
-    from fenics_gears.show.run import scene_of
-    from fenics_gears.show.stress_grid import shown_points
-    from fenics_gears.simulation.run_stresses import RunStresses
-
-    dataset = results.load(run / "run.nc")
-    with RunStresses(dataset, scene_of(dataset)) as stresses:
-        mesh = stresses.at(0)
-    for number, gear in enumerate((mesh.pair.pinion, mesh.pair.wheel)):
-        points = shown_points(mesh, number, 0.0)[outer_loop(mesh, number)]
-        centre = np.array([0.0, -mesh.pair.centre_distance * number])
-        beyond = np.linalg.norm(points - centre, axis=1) > gear.reference_radius
-        assert np.count_nonzero(beyond != np.roll(beyond, 1)) == 2 * gear.teeth
-        # Green's theorem: the area of the outline less that of the bore is that of the cells.
-        x, y = (points - centre).T
-        area = 0.5 * abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) - np.pi * gear.bore_radius**2
-        corners = (body := mesh.gears[number]).points[body.cells]
-        along, across = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-        assert 0.5 * np.sum(along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]) == pytest.approx(area, rel=2e-3)
-
-
 @pytest.mark.nightly
 def test_animation_goes_through_the_cycle_once(run, tmp_path, monkeypatch):
     """Frames asked for, all of one size, which differ; the last is not the first again."""
@@ -176,5 +151,4 @@ def test_command_line_does_not_load_vtk():
         "import sys, fenics_gears, fenics_gears.commands.cli; from fenics_gears.commands import picture;"
         " print('pyvista' in sys.modules, 'vtkmodules' in sys.modules)"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == ["False", "False"]
+    assert python("-c", code).stdout.split() == ["False", "False"]

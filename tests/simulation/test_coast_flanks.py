@@ -69,18 +69,6 @@ def test_a_pair_that_stays_in_contact_does_not_feel_its_coast_flanks(both_flanks
     assert not any("coast" in str(name) for name in without)
 
 
-def test_a_pair_without_load_says_nothing_of_friction_and_pressure(both_flanks):
-    """Authority: zero. What rounding leaves on the closed node is neither a friction loss nor pressure on a sharp
-    edge."""
-    idle = simulate(
-        quasi_static(
-            both_flanks, load=replace(both_flanks.load, wheel_torque=0.0), friction=Friction(0.1), coast_flanks=None
-        )
-    )
-    assert "friction_loss" not in idle.attrs
-    assert "sharp edge" not in idle.attrs["warnings"]
-
-
 def test_run_out_beyond_the_backlash_wedges_the_teeth_and_is_named(both_flanks, paper_pair):
     """Authority: geometry. Run-out of the backlash and more closes it; with none both flanks press, along lines of
     action that the load holds apart."""

@@ -9,7 +9,6 @@ from tests.coarse import coarse_scene
 
 from fenics_gears import simulate
 from fenics_gears.elasticity.overhang import near_field
-from fenics_gears.geometry.iso_6336 import pair_stiffness
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.model import model_of
 from fenics_gears.model.plane_strain import too_stiff
@@ -64,14 +63,6 @@ def test_a_gear_that_stands_out_gives_way_by_the_width_that_counts(stand_in_flan
     np.testing.assert_allclose(flanks.compliance[0].block(1), share * plain.block(1), rtol=1e-12)
     equal = model_of(coarse_scene(paper_scene))
     assert flanks_of(equal, stand_in_flanks.compliance).compliance is stand_in_flanks.compliance
-
-
-def test_the_standards_stiffness_of_two_materials(paper_scene):
-    """Authority: ISO 6336-1, tooth stiffness of other materials: times E/E_steel with E = 2 E1 E2/(E1 + E2); over the
-    common width."""
-    steel = pair_stiffness(paper_scene.gears, 500.0)
-    pair = of_gears(paper_scene, pinion={"face_width": 20.0}, wheel={"face_width": 15.0, "material": BRONZE}).gears
-    assert pair_stiffness(pair, 500.0) == pytest.approx(steel * 2.0 * 103.0 / (206.0 + 103.0), rel=1e-12)
 
 
 RESOLVED = """

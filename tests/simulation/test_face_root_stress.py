@@ -4,19 +4,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.coarse_sector import STEEL
-from tests.iso_tooth_root import helical_form_and_stress_correction, helix_angle_factor, standard_gear
+from tests.iso_tooth_root import helical_form_and_stress_correction, helix_angle_factor
 from tests.over_face import root_stress_run
 
-from fenics_gears.contact.face import even_slices
 from fenics_gears.contact.face_forces import face_forces
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH
-from fenics_gears.elasticity.element_sizes import Discretisation
-from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.fine_fillet import fine_over_swept
-from fenics_gears.elasticity.face.root_stress import face_root_stress_rows
 from fenics_gears.elasticity.fillet_points import POINTS_OVER_FACE, fillet_curve, fillet_weights
-from fenics_gears.elasticity.root_stress import root_stress_rows
 from fenics_gears.elasticity.slice_averages import slice_averages
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.face_resolution import face_discretisation
@@ -98,27 +92,6 @@ def test_largest_values_are_those_over_the_face():
         np.testing.assert_array_equal(result["root_stress_at_30_degrees"].values, over_face.values)
         assert (np.isnan(along.values).all(axis=1) == (result["pair_number"].values == 0)).all()
         assert result.attrs["largest_root_stress_pinion"] > 0.0
-
-
-@pytest.mark.parametrize("section_size", [0.3, 0.6])
-def test_every_fillet_point_of_a_wide_gear_has_plane_strain_s_stress(section_size):
-    """Another route: 25 modules wide, even load on the tip, middle of the face: plane strain on a fine section at all
-    points within 1 %, whatever section is swept.
-
-    Without the factors of the fine section they are up to 5 % and 8 % off. A point over the face lies midway between
-    two of the plane route's.
-    """
-    gear, force = standard_gear(20), np.array([-1.0, 0.2, 0.0])
-    width, slices = 25.0 * gear.module, 3
-    middles, widths = even_slices(width, slices)
-    found = face_root_stress_rows(
-        gear, STEEL, FaceDiscretisation(section_size * gear.module, 4, width), (middles, widths), 0
-    ).rows[0, slices // 2]
-    middle = found.reshape(2, -1, slices, found.shape[-1] // (3 * slices), 3)[0, :, :, -1] @ force @ widths
-    plane = root_stress_rows(gear, STEEL, Discretisation("P2", 0.06 * gear.module), 0).rows[0]
-    tip = plane.reshape(2, -1, plane.shape[-1] // 2, 2)[0, :, -1] @ force[:2]
-    midway = 0.5 * (tip[:-1:2] + tip[1::2])
-    assert middle == pytest.approx(np.append(midway, tip[-1]), rel=0.01)
 
 
 def test_form_factors_of_the_benchmark_are_those_of_another_program():

@@ -8,7 +8,7 @@ from tests.over_face import helical_run
 from fenics_gears.contact.face_forces import face_forces
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.elasticity.ring import rotation
-from fenics_gears.show.face_grid import save_vtu, surface
+from fenics_gears.show.face_grid import save_vtu
 from fenics_gears.show.face_picture import colour_limit
 from fenics_gears.show.flank_pressure import STAND_OFF, pressed_tiles
 from fenics_gears.show.run import scene_of
@@ -79,15 +79,6 @@ def test_pressure_is_painted_where_the_flanks_touch(mesh):
     for gear, each in zip(mesh.gears, tiles):
         carries = gear.points[:, :, gear.on_flank].reshape(-1, 3)
         assert cKDTree(carries).query(each.corners.reshape(-1, 3))[0].max() < 3.0
-
-
-def test_surface_is_closed_but_for_the_cuts(mesh):
-    """Topology: each side of the surface's triangles belongs to two of them, but for those on the first and last
-    sector's cuts."""
-    gear = mesh.gears[0]
-    sides = np.sort(surface(gear.points[:1], gear)[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    _, count = np.unique(sides, axis=0, return_counts=True)
-    assert set(count.tolist()) == {1, 2} and (count == 1).sum() < 0.1 * len(count)
 
 
 def test_file_for_paraview(mesh, tmp_path):

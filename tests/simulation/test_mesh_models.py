@@ -6,16 +6,13 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
 
-from fenics_gears.contact.stiffness_table import LOADS
 from fenics_gears.effects import OVER_CONTACT_NODES
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.deviations import deviating
 from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
-from fenics_gears.simulation.mesh_springs import table_cycle
 from fenics_gears.simulation.simulate import simulate
 
 MODELS = (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336)
@@ -49,26 +46,6 @@ def test_table_is_the_full_model_at_its_own_load(static):
         np.abs(table.pair_normal_force.values - full.pair_normal_force.values).max() / full.normal_force.values.max()
     )
     assert shares <= 0.08
-
-
-def table_between_loads(scene, torque: float, loads) -> float:
-    """Distance of a table made at the scene's torque from the full model at another one (in parts of it)."""
-    loaded = replace(scene, load=replace(scene.load, wheel_torque=torque * scene.load.wheel_torque))
-
-    def preparation(model, progress, cache):
-        at_own_load = model_of(scene)
-        gears, cycle = table_cycle(at_own_load, gear_compliances(model, progress, cache), loads)
-        return gears, deviating(model, cycle)
-
-    return distance(simulate(by(loaded, STIFFNESS_TABLE), preparation=preparation), simulate(loaded))
-
-
-def test_table_between_its_loads(static):
-    """Known order: linear between loads, its error falls with the second power of their distance, here an eighth."""
-    coarse, fine = np.linspace(0.0, 1.5, 4), np.linspace(0.0, 1.5, 25)
-    errors = [table_between_loads(static, torque, tuple(loads)) for torque, loads in ((0.75, coarse), (0.71875, fine))]
-    assert errors[1] < errors[0] / 32.0
-    assert table_between_loads(static, 0.93, LOADS) < 0.005
 
 
 def test_table_knows_relief_and_backlash(static, paper_scene):

@@ -12,12 +12,10 @@ from tests.iso_tooth_root import nominal_root_stress, standard_gear
 
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH
 from fenics_gears.effects.coast_flanks import CoastFlanks
-from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES, Discretisation, ElementSizes
-from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.fillet_points import POINTS, fillet_curve, fillet_rows
-from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery
+from fenics_gears.elasticity.recovery import gear_recovery
 from fenics_gears.elasticity.root_stress import root_stress_rows
-from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.involute import arc_length
 from fenics_gears.results.settled import settled_steps
@@ -146,42 +144,6 @@ def test_stress_is_near_that_of_the_standards(gear):
     assert stress[POINTS] == pytest.approx(nominal, rel=0.25)
     # The pressed side has the larger stress, since the load's own pressure adds to bending there.
     assert -stress[POINTS + 1 :].min() > stress[:POINTS].max()
-
-
-def largest_with_fillet_elements(name: str, size: float) -> float:
-    """Largest stress, MPa, with fillet elements of a size in modules, all else as it is."""
-    default = DEFAULT_SIZES[ELEMENTS[name].order]
-    sizes = ElementSizes(
-        flank=0.06,
-        fillet=size,
-        coast=max(size, default.coast),
-        body=default.body,
-        depth=default.depth,
-        growth=default.growth,
-    )
-    gear = PINION.of_module_one
-    with GearRecovery(gear, STEEL, sector_mesh(gear, sizes), ELEMENTS[name]) as recovery:
-        rows = fillet_rows(fillet_curve(gear), recovery.interior, recovery.nodal_stress)
-        middle = arc_length(gear.base_radius, highest_single_contact(gear))
-        forces = pressed(
-            recovery, lambda arc: np.where(np.abs(arc - middle) < 0.2, 1.0 + np.cos(np.pi * (arc - middle) / 0.2), 0.0)
-        )
-        moved = recovery.recovered({0: forces}).displacement[0].ravel() * STEEL.youngs_modulus
-    return float((rows @ moved)[:POINTS].max())
-
-
-@pytest.mark.parametrize(("name", "within"), [("P2", 0.005), ("P1", 0.04)])
-def test_stress_converges_with_the_fillet_mesh(name, within):
-    """Known order: against second-order elements half as large as their default the error falls with the fillet's
-    elements. Constant stresses of first-order elements are those of a third of an element below the surface, where a
-    fillet of radius rho has lost about 2 h / (3 rho):
-    1.3 % at h = 0.01, rho = 0.5 modules, and as much again by the irregularity of the mesh, which is another one in
-    each version of gmsh."""
-    size = DEFAULT_SIZES[ELEMENTS[name].order].fillet
-    exact = largest_with_fillet_elements("P2", 0.5 * DEFAULT_SIZES[2].fillet)
-    coarse, default = (abs(largest_with_fillet_elements(name, part * size) - exact) for part in (8.0, 1.0))
-    assert default < within * exact
-    assert default < coarse
 
 
 @pytest.mark.parametrize(("edit", "said"), [

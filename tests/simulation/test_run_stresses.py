@@ -14,7 +14,7 @@ from fenics_gears.contact.operator import displacement_jacobian
 from fenics_gears.contact.tooth_pair import COAST
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.errors import SceneError
 from fenics_gears.scene.data import Load
 from fenics_gears.show.drawn_scale import overlap
 from fenics_gears.show.loaded_contact import loaded_contact
@@ -107,22 +107,6 @@ def test_gears_stand_on_their_centres_and_touch_at_the_most_loaded_contact(of_ru
     assert all(cKDTree(outline).query(contact.point)[0] < 0.13 for outline in outlines)
     # Neither gear is inside the other by more than the sagitta of its straight elements and the averaging of the hats.
     assert overlap(mesh, 1.0) < 2e-3
-
-
-def test_a_result_of_another_scene_is_refused(driving):
-    """The stored contact nodes must be the scene's own."""
-    scene, result, _ = driving
-    other = replace(scene, accuracy=replace(scene.accuracy, contact_nodes=20))
-    with RunStresses(result, other) as stresses, pytest.raises(ComputationError, match="not those of the scene"):
-        stresses.at(0)
-
-
-def test_gears_that_have_gone_through_each_other_are_refused(driving):
-    """Geometry: beyond a pitch there is another tooth where this one would be drawn."""
-    scene, result, _ = driving
-    with RunStresses(result.assign(transmission_error=result["transmission_error"] + 10.0), scene) as stresses:
-        with pytest.raises(SceneError, match="more than the pitch of the wheel's teeth"):
-            stresses.at(0)
 
 
 def test_what_has_no_stress_is_refused(driving, paper_scene):

@@ -11,14 +11,13 @@ from tests.effects.examples import scene_of, text_of
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.model.model import model_of
-from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion, Output
+from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy import refinement, table
 from fenics_gears.studies.accuracy import report as reports
 from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, ROOT, SPAN, judged
 from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, FLANK, LENGTH, NODES, STEPS
-from fenics_gears.studies.accuracy.root_point import peak_root_stress
-from fenics_gears.studies.accuracy.runs import run_sharing, shared_gears
+from fenics_gears.studies.accuracy.runs import run_sharing
 from fenics_gears.studies.accuracy.setting import own_setting
 
 TEETH = "tooth_elasticity"
@@ -102,18 +101,6 @@ def test_cheaper_models_stand_beside_them(report):
     rigid = models[RIGID_TEETH]
     assert rigid.errors[SPAN] == pytest.approx(1.0, abs=1e-6) and np.isnan(rigid.errors["pressure"]) and not rigid.parts
     assert all(each not in report.front for each in report.models)
-
-
-@pytest.mark.parametrize("sections", [(TEETH,), (TEETH, "friction", "inertia")])
-def test_the_root_stress_is_that_of_the_runs_own_output(sections):
-    """Authority: `[output] root_stress` of the same run, its variable at 30 degrees; the pinion's largest over the last
-    cycle."""
-    scene = replace(scene_of(*sections), motion=Motion(200.0, 2, 2), output=Output(root_stress=True))
-    run, cycle = run_sharing(scene, shared_gears())
-    last = run.isel(time=slice(len(run.mesh_phase) - cycle.steps, None), gear=0)
-    assert peak_root_stress(run, scene, cycle) == pytest.approx(
-        float(last["root_stress_at_30_degrees"].max()), rel=1e-9
-    )
 
 
 def test_root_stress_has_errors_and_orders(report):

@@ -3,18 +3,16 @@
 import csv
 import json
 import signal
-import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.studies.conftest import CHECKOUT, command, environment
+from tests.programs import command, ended, python
 
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.geometry.flank_tolerance import flank_tolerance
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.results.files import read
 from fenics_gears.scene.read import build_scene, load_scene
@@ -170,45 +168,14 @@ def test_the_front_is_that_of_every_pair_compared():
     assert front(tried, ["a", "b"]) == [0, 1, 3, 5]
 
 
-def test_a_flank_class_scatters_within_the_standards_tolerances(folder):
-    """Authority: ISO 1328-1, by the function that is tested against it; Sobol's sequence fills both halves of every
-    range equally."""
-    design = load_design(write(folder, STILL + VARIABLES + GOAL + "[tolerances]\ntolerance_class = 6\nsamples = 64\n"))
-    limits = {each.name: each.limit for each in design.tolerances.scatters}
-    for gear, teeth in (("pinion", 16), ("wheel", 24)):
-        allowed = flank_tolerance(4.5 * teeth, 4.5, 6)
-        assert limits[f"profile_modifications.{gear}.slope"] == pytest.approx(1e3 * allowed.profile_slope)
-        assert limits[f"profile_modifications.{gear}.crowning"] == pytest.approx(1e3 * allowed.profile_form)
-    deviations = samples(design)
-    assert deviations.shape == (64, 4) and np.abs(deviations).max() <= 1.0
-    assert ((deviations > 0.0).sum(axis=0) == 32).all()
-
-
 @pytest.mark.usefixtures("unwritten")
 def test_a_killed_search_repeats_nothing(folder):
     """Authority: the search that was not stopped. SIGKILL in the middle of a line; then each run is there once, but for
     that line's, and the result is the same."""
     path = write(folder, RIGID + VARIABLES + GOAL + FEW)
     whole = found(path, folder / "whole")
-    killed = subprocess.run(
-        [
-            sys.executable,
-            "-m",
-            "tests.studies.stopped_optimization",
-            "6",
-            "optimize",
-            str(path),
-            "--output",
-            str(folder / "killed"),
-            "--quiet",
-        ],
-        env={**environment(), "PYTHONPATH": str(CHECKOUT)},
-        cwd=CHECKOUT,
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
-    assert killed.returncode == -signal.SIGKILL, killed.stderr
+    call = "-m", "tests.studies.stopped_optimization", 6, "optimize", path, "--output", folder / "killed", "--quiet"
+    python(*call, ends=-signal.SIGKILL)
     assert len(run_lines.kept(folder / "killed" / "runs")[0]) == 5
     resumed = found(path, folder / "killed")
     assert (resumed.kept, resumed.computed) == (5, whole.computed - 5)
@@ -225,15 +192,7 @@ def test_any_number_of_processes_gives_the_same_result(folder):
     """Authority: exact identity with one process."""
     path = write(folder, RIGID + VARIABLES + GOAL + FEWER)
     alone = found(path, folder / "alone")
-    done = subprocess.run(
-        command("optimize", path, "--output", folder / "two", ranks=2),
-        cwd=folder,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
-    assert done.returncode == 0, done.stderr
+    ended(command("optimize", path, "--output", folder / "two", ranks=2), folder, ends=0)
     designs = read(folder / "two" / "optimization.nc")
     assert designs[ERROR].values.tolist() == [each.goals[ERROR] for each in alone.tried]
     keys = [line["key"] for line in lines(folder / "two")]

@@ -1,12 +1,12 @@
 """Running a study in one process: its files, what is kept, what is computed again, and what fails."""
 
 import signal
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.studies.conftest import command, environment, stamps, write_study
+from tests.programs import command, ended
+from tests.studies.conftest import stamps, write_study
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
@@ -75,16 +75,6 @@ def test_cases_that_differ_in_relief_are_what_runs_of_their_scenes_give(folder):
         for name in ("transmission_error", "normal_force"):
             assert np.array_equal(row[name].values, alone[name].values)
     assert not np.array_equal(combined["transmission_error"][0], combined["transmission_error"][1])
-
-
-@pytest.mark.usefixtures("undrawn")
-def test_cases_with_different_steps_have_no_curves_but_their_numbers(folder):
-    """Authority: there is no common time axis."""
-    study = write_study(folder, "[sweep]\naccuracy.steps_per_mesh_cycle = [20, 22]")
-    assert main(["study", str(study), "--quiet", "--output", "here"]) == 0
-    combined = load("here")
-    assert "transmission_error" not in combined and "different time steps" in combined.attrs["curves"]
-    assert np.isfinite(combined["peak_to_peak_transmission_error"]).all()
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -180,18 +170,18 @@ def stopped_in_the_middle(folder, study, how, ranks=0):
     call = command("study", study, "--output", "here", ranks=ranks)
     at = call.index("fenics_gears")
     call[at : at + 1] = ["tests.studies.stopped_study", how.name, "2" if ranks else "3", "1" if ranks else "0"]
-    return subprocess.run(call, cwd=folder, env=environment(), capture_output=True, text=True, timeout=120)
+    return ended(call, folder, timeout=120)
 
 
 def test_ctrl_c_keeps_what_is_done(folder):
     """Authority: docs/promises.md; exit code 130, what was done is kept, marked incomplete. Alone MPI is never touched:
     this process has no mpi4py."""
     study = write_study(folder, FIVE)
-    ended = stopped_in_the_middle(folder, study, signal.SIGINT)
+    done = stopped_in_the_middle(folder, study, signal.SIGINT)
     assert (
-        ended.returncode == 130
-        and "Interrupted. What was done is kept" in ended.stderr
-        and "Traceback" not in ended.stderr
+        done.returncode == 130
+        and "Interrupted. What was done is kept" in done.stderr
+        and "Traceback" not in done.stderr
     )
     combined = load("here")
     done = len(stamps("here"))

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from tests.studies.conftest import ACCURACY, DEMO, environment, gears, mpirun
+from tests.programs import DEMO, environment, gears, mpirun
+from tests.studies.conftest import ACCURACY
 from tests.studies.test_optimization import FEWER, GOAL, RIGID, VARIABLES
 from tests.system.failing_rank import WORDS
 

@@ -9,7 +9,6 @@ from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import ring_compliance, rotation
-from fenics_gears.elasticity.whole_body import parts
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 from fenics_gears.elasticity.whole_body.outline import whole_body
 from fenics_gears.errors import ComputationError
@@ -46,27 +45,6 @@ def test_a_cracked_gear_equals_brute_force():
     # The crack makes its tooth softer, and by reciprocity every block is another's transpose.
     assert np.trace(found.between(8, 8)) > 1.2 * np.trace(found.between(0, 0))
     assert np.array_equal(found.between(7, 8), found.between(8, 7).T)
-
-
-def test_parts_may_meet_anywhere_but_between_the_twins_of_a_crack(monkeypatch):
-    """Exact identity: parts that are turned by some of a pitch, so that their interface would cross the crack, give the
-    same compliance."""
-    mesh = whole_body(cracked_gear_mesh(PINION, COARSE, {8: RootCrack(4.0)}), PINION, "gear").mesh
-    expected = whole_body_compliance(mesh, PINION, STEEL, element="P1", tooth_offsets=1)
-    centreline = parts.centreline_angle
-    monkeypatch.setattr(parts, "centreline_angle", lambda gear: centreline(gear) - 0.2 * gear.angular_pitch)
-    faces = parts.crack_faces(mesh)
-    with monkeypatch.context() as context:
-        context.setattr(parts, "crack_faces", lambda mesh: [])
-        crossed = [len(np.unique(parts.part_of_cells(mesh, PINION)[face])) for face in faces]
-    assert max(crossed) == 2
-    found = whole_body_compliance(mesh, PINION, STEEL, element="P1", tooth_offsets=1)
-    for responding, loaded in ((8, 8), (9, 8), (7, 8), (0, 0)):
-        reference = expected.between(responding, loaded)
-        assert relative(found.between(responding, loaded) - reference, reference) < 1e-9
-    assert set(found.openings) == {7, 8, 9}
-    for tooth, rows in found.openings.items():
-        assert relative(rows - expected.openings[tooth], expected.openings[tooth]) < 1e-9
 
 
 def test_the_cache_knows_a_body_by_its_mesh(tmp_path):

@@ -15,9 +15,8 @@ from tests.show.synthetic import made_up_run
 from fenics_gears.show.orders import spectrum
 from fenics_gears.show.report.curves import spectra
 from fenics_gears.show.report.energy import energy
-from fenics_gears.show.report.geometry import geometry
 from fenics_gears.show.report.overview import summary
-from fenics_gears.show.report.pair_drawing import _on_line, drawings, gear_outline
+from fenics_gears.show.report.pair_drawing import _on_line, gear_outline
 from fenics_gears.show.run import Run
 from fenics_gears.show.thinning import thinned
 
@@ -60,24 +59,6 @@ def test_mesh_orders_have_the_amplitudes_of_the_harmonics(paper_scene, tmp_path)
     assert set(found.origins[found.lines.amplitudes > 1e-9]) == {"mesh"} and "3 whole mesh cycles" in found.record
 
 
-def test_turns_of_the_gears_stand_apart_in_a_hunting_tooth_period(paper_scene, tmp_path):
-    """Authority: 16 and 24 teeth: 48 mesh cycles, in which the pinion turns 3 times and the wheel twice."""
-    phase = np.linspace(0.0, 48.0, 48 * 20 + 1)
-    values = np.cos(2 * pi * phase) + 0.5 * np.cos(2 * pi * phase / 16) + 0.25 * np.cos(2 * pi * phase / 24)
-    found = spectrum(run_of(paper_scene.text, values, phase, tmp_path), values)
-    there = {
-        origin: (round(order * 48), round(size, 9))
-        for origin, order, size in zip(found.origins, *found_lines(found))
-        if size > 1e-9
-    }
-    assert there == {"mesh": (48, 1.0), "turn of the pinion": (3, 0.5), "turn of the wheel": (2, 0.25)}
-
-
-def found_lines(found):
-    """Orders and amplitudes of a spectrum."""
-    return found.lines.orders, found.lines.amplitudes
-
-
 def ramp_of(paper_scene, cycles):
     """A made-up run whose scene falls from 200 to 50 Hz."""
     text = f'{paper_scene.text}\n[speed_ramp]\nend_frequency = "50 Hz"\n'
@@ -110,27 +91,6 @@ def test_the_largest_mesh_force_is_compared_with_the_force_along_the_same_normal
         assert tiles_of(run, tmp_path)["Largest mesh force"].note.startswith("1.000 ×")
 
 
-def test_contact_loss_is_said_of_the_flanks_that_lose_it(paper_scene, tmp_path):
-    """A wheel that drives presses on the coast flanks all the time: what is lost is the contact of the drive flanks."""
-    lost = {
-        "contact_loss_count": 1,
-        "contact_loss_share": 1.0,
-        "contact_loss_opening": 0.2,
-        "contact_loss_longest": 0.15,
-    }
-    tiles = tiles_of(made_up_run(scene=paper_scene.text, **lost), tmp_path)
-    assert (tiles["Contact lost"].value, tiles["Contact lost"].unit) == ("1", "time") and "wheel drives" not in tiles[
-        "Contact lost"
-    ].note
-    assert ", for up to 0.15 s, " in tiles["Contact lost"].note
-    backwards = made_up_run(scene=paper_scene.text.replace('"437 N m"', '"-437 N m"') + "\n[coast_flanks]\n", **lost)
-    backwards["coast_normal_force"] = backwards["normal_force"]
-    assert (
-        "the wheel drives, on the coast flanks"
-        in tiles_of(backwards, tmp_path)["Contact of the drive flanks lost"].note
-    )
-
-
 def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp_path):
     """Authority: conservation of energy: a wheel that drives does the larger work, of which shares are; what is taken
     from it is positive."""
@@ -158,30 +118,6 @@ def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp
     for name, last in {"work_input": 100.0, "work_output": 96.0}.items():
         dataset[name] = ("time", np.linspace(0.0, 1e3 * last, dataset.sizes["time"]), {"units": "N mm"})
     assert rows()["work of the drive, the pinion's shaft"] == "100 N m"
-
-
-def test_the_teeth_are_drawn_on_the_line_of_action_of_the_flanks_that_carry(paper_scene, paper_pair, tmp_path):
-    """Mirror at the line of centres; coast flanks go from the pinion's tip, which is furthest from T1, to its root."""
-    drive, coast = (
-        {curve.name: curve for curve in drawings(paper_pair, side)[1].curves if curve.beside != "bottom left"}
-        for side in (False, True)
-    )
-    for name in ("line of action", "path of contact"):
-        np.testing.assert_allclose(coast[name].x, -drive[name].x, atol=1e-12)
-    drive, coast = (
-        {words: x for curve in drawings(paper_pair, side)[1].curves for words, x in zip(curve.words, curve.x)}
-        for side in (False, True)
-    )
-    assert set(drive) == {"start of contact", "LPSTC", "pitch point", "HPSTC", "end of contact"}
-    other = {"start of contact": "end of contact", "end of contact": "start of contact"}
-    np.testing.assert_allclose(
-        [coast[other.get(name, name)] for name in drive], [-x for x in drive.values()], atol=1e-12
-    )
-    run = made_up_run(scene=paper_scene.text)
-    assert not Run(run, tmp_path / "run.nc").on_coast_flanks
-    run["coast_normal_force"], run["normal_force"] = run["normal_force"], 0.0 * run["normal_force"]
-    captions = [block.caption for block in geometry(Run(run, tmp_path / "run.nc")).blocks[:-1]]
-    assert captions == ["The pair", "Teeth along the path of contact of the coast flanks, which carry"]
 
 
 @pytest.mark.parametrize("coast", [False, True])

@@ -10,8 +10,7 @@ from tests.show.report.pages import seen
 
 from fenics_gears.commands.cli import main
 from fenics_gears.show.cases import Cases
-from fenics_gears.show.report.study_page import _summary
-from fenics_gears.show.study_charts import over_parameter, result_charts
+from fenics_gears.show.study_charts import over_parameter
 from fenics_gears.studies.combine import load_combined, save_study
 
 pytestmark = pytest.mark.usefixtures("without_stills")
@@ -167,20 +166,3 @@ def test_damaged_and_missing_files_are_said(study, tmp_path, capsys):
     assert main(["report", str(tmp_path)]) == 2
     assert "run the study again" in capsys.readouterr().err
     assert [file.name for file in tmp_path.iterdir()] == ["cases"]
-
-
-def test_a_case_without_meaning_does_not_flatten_the_others(study):
-    """Ten times all others and without meaning: neither in plots nor in the summary's range, and said so; without
-    either it is there."""
-    dataset, file = load_combined(study / "study.nc"), study / "study.nc"
-    name = "peak_to_peak_transmission_error"
-    values, said = dataset[name].values.copy(), dataset["warnings"].values.copy()
-    values.flat[2], said.flat[2] = 86.9, "the result has no meaning: jammed"
-    jammed = dataset.assign({name: dataset[name].copy(data=values), "warnings": dataset["warnings"].copy(data=said)})
-    cases = Cases(jammed, file, file)
-    drawn = result_charts(cases)[name]
-    largest = max(np.nanmax(np.array(curve.y, dtype=float)) for curve in drawn.curves)
-    assert largest < 1e-3 * cases.measures[name][0].max() and "Case 2, whose result has no meaning" in drawn.note
-    (tile,) = [each for each in _summary(cases).blocks[0].tiles if each.label == "Transmission error, peak to peak"]
-    assert "without 1 case of no meaning" in tile.note
-    assert not Cases(dataset.assign({name: jammed[name]}), file, file).far_off(values.ravel()).any()
