@@ -65,8 +65,8 @@ def simulate(
     >>> result = simulate(load_scene("demos/lundvall2004.toml"))
     >>> result.transmission_error.dims, result.transmission_error.attrs["units"]
     (('time',), 'rad')
-    >>> print(f'{result.transmission_error.max().item() * result.attrs["base_radius_wheel"]:.2f} mm along the line of
-    action at most')
+    >>> largest = result.transmission_error.max().item() * result.attrs["base_radius_wheel"]
+    >>> print(f"{largest:.2f} mm along the line of action at most")
     0.16 mm along the line of action at most
     """
     arguments = {

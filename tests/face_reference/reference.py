@@ -1,33 +1,28 @@
-"""Results of the resolved model as rows of reference.csv, and how they are found."""
+"""Results of a resolved three-dimensional model, the rows of reference.csv.
+
+Whole sections without the teeth far from the loaded ones, swept along the helix in eighteen-node wedges (0.08 mm at the
+flanks), bores held; contact on a grid of pressures across the line of action (0.05 mm) and along the face,
+frictionless, forces along n. No code of the program's compliance was used but its call of MUMPS. In the plane (spur,
+phase 0.35) it gives 0.03 % less approach than the program's plane route; two levels of meshes differ by 0.1 % (plain)
+to 0.5 % (misaligned) in the approach. Peak pressures are not resolved.
+"""
 
 from __future__ import annotations
 
 import csv
-from dataclasses import dataclass, replace
-from itertools import groupby
-from math import radians
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from tests.face_reference.cases import FACE_WIDTH, Assembled, Sizes, assembled
-from tests.face_reference.section_mesh import SectionSizes
-from tests.face_reference.unilateral import pressed
+from tests.face_reference.cases import FACE_WIDTH
 
 FILE = Path(__file__).with_name("reference.csv")
-FORCE = 1500.0
 # What opens the flanks along n (mm) at heights z (mm).
 OPENINGS = {
     "plain": np.zeros_like,
     "misaligned": lambda z: 0.010 * z / FACE_WIDTH,
     "crowned": lambda z: 0.010 * (2.0 * z / FACE_WIDTH) ** 2,
 }
-# Sizes that fit 2 GB; and with thinner layers, 4 GB.
-SMALL = Sizes(SectionSizes(0.08, 0.12, 0.9, 1.6, 6.0, 0.6, 1), (0.15, 0.3, 0.5, 0.8, 1.0, 1.0), 0.05, 0.3)
-THIN_LAYERS = replace(SMALL, layers=(0.15, 0.25, 0.35, 0.45, 0.5, 0.5, 0.5, 0.525, 0.525))
-# Thin where a tip edge of the helical pair crosses the face: 1.4 to 3 mm from its middle at phases 0.6 and 0.85, in the
-# middle at 0.97.
-THIN_ASIDE = replace(SMALL, layers=(0.3, 0.45, 0.4, 0.4, 0.4, 0.4, 0.6, 0.8))
-THIN_MIDDLE = replace(SMALL, layers=(0.3, 0.75, 1.0, 0.7, 0.4, 0.3, 0.3))
 
 
 @dataclass(frozen=True)
@@ -49,38 +44,6 @@ class Row:
 HEAD = {name: {"opening": str, "pair": int}.get(name, float) for name in list(Row.__annotations__)[:-2]}
 
 
-def rows(found: Assembled, helix_angle: float, opening: str, force: float = FORCE) -> list[Row]:
-    """All line loads of one analysis; helix angle in deg."""
-    areas, heights = np.concatenate([each.areas for each in found.points]), found.points[0].z
-    z = np.concatenate([each.z[each.level] for each in found.points])
-    gaps = np.concatenate([each.gaps for each in found.points]) + OPENINGS[opening](z) * areas
-    pressure, approach = pressed(found.matrix, gaps, areas, force)
-    share, result, first = np.zeros(len(heights)), [], 0
-    share[:-1] += 0.5 * np.diff(heights)
-    share[1:] += 0.5 * np.diff(heights)
-    for each in found.points:
-        part = slice(first, first + len(each.chosen))
-        load = np.bincount(each.level, (pressure * areas)[part], minlength=len(heights)) / share
-        head = (
-            helix_angle,
-            found.position.phase,
-            opening,
-            approach / found.position.cosine,
-            force,
-            float(pressure.max()),
-            each.index,
-        )
-        result += [Row(*head, float(height), float(value)) for height, value in zip(heights, load)]
-        first = part.stop
-    return result
-
-
-def computed(helix_angle: float, phase: float, sizes: Sizes = SMALL) -> list[Row]:
-    """All openings at one phase; helix angle in deg."""
-    found = assembled(radians(helix_angle), phase, sizes)
-    return [row for opening in OPENINGS for row in rows(found, helix_angle, opening)]
-
-
 def reference() -> list[Row]:
     """The rows of the file."""
     found = []
@@ -99,14 +62,3 @@ def over_slices(found: list[Row], positions: np.ndarray) -> np.ndarray:
     load = np.array([sum(row.line_load for row in found if row.z == each) for each in z])
     parts = (np.arange(100) + 0.5) / 100.0 - 0.5
     return np.interp(positions[:, None] + (positions[1] - positions[0]) * parts, z, load).mean(axis=1)
-
-
-def write(found: list[Row], file: Path = FILE) -> None:
-    """Write a line for each tooth pair of an analysis, all heights and line loads in it."""
-    with file.open("w", newline="") as lines:
-        writer = csv.writer(lines, lineterminator="\n")
-        writer.writerow(Row.__annotations__)
-        for head, of_pair in groupby(found, key=lambda row: [getattr(row, name) for name in HEAD]):
-            along = list(of_pair)
-            columns = (" ".join(f"{getattr(row, name):.5g}" for row in along) for name in ("z", "line_load"))
-            writer.writerow([f"{each:.7g}" if isinstance(each, float) else each for each in head] + list(columns))

@@ -1,8 +1,5 @@
 """Deflection and line load over the face against fully resolved three-dimensional models, which share no code with the
-split.
-
-Their results are in reference.csv; `python -m tests.face_reference` computes them again.
-"""
+split."""
 
 from itertools import groupby
 
