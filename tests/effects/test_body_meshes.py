@@ -46,7 +46,7 @@ def cache(tmp_path_factory):
     return Cache(tmp_path_factory.mktemp("cache"))
 
 
-@pytest.mark.parametrize("sections", [(), ("shafts", "inertia", "damping", "friction", "tip_relief", "flank_errors")])
+@pytest.mark.parametrize("sections", [("shafts", "inertia", "damping", "friction", "tip_relief", "flank_errors")])
 def test_whole_meshes_of_healthy_gears_change_nothing(sections, healthy, cache):
     """Exact identity: both gears from files, every result variable that of the rings of sectors but for the digits of a
     mesh file."""

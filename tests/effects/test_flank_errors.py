@@ -87,10 +87,9 @@ def test_a_tooth_out_of_place_displaces_the_rigid_pair_while_it_leads(rigid, pap
     ("waves", "gear", "turns"),
     [
         (64, "pinion", 3),
-        (7, "wheel", 2),
         *(
             pytest.param(*each, marks=pytest.mark.nightly)
-            for each in [(7, "pinion", 3), (37, "pinion", 3), (37, "wheel", 2), (64, "wheel", 2)]
+            for each in [(7, "wheel", 2), (7, "pinion", 3), (37, "pinion", 3), (37, "wheel", 2), (64, "wheel", 2)]
         ),
     ],
 )

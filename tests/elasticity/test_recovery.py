@@ -189,6 +189,7 @@ def hertz(half_width: float, elements: int) -> tuple[float, float]:
     return float(np.nanmax(line)) / PRESSURE, float(depths[np.nanargmax(line)])
 
 
+@pytest.mark.nightly
 def test_shear_is_largest_below_the_surface_as_hertz_says():
     """Literature: 0.300 p0 at 0.786 b below a Hertz line contact (Johnson, Contact Mechanics, 1985, section 4.2a).
 

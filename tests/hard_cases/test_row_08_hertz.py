@@ -109,7 +109,8 @@ def test_order_of_the_half_width(element, errors, measured):
     assert orders.min() >= 1.0
 
 
-@pytest.mark.parametrize("element", [pytest.param("P1", marks=NIGHTLY), "Q1"])
+@NIGHTLY
+@pytest.mark.parametrize("element", ["P1", "Q1"])
 def test_first_order_elements(element, errors, measured):
     """What first-order elements are worth here: on record; the peak converges, with order 1 at least from b/h = 2 to
     8."""

@@ -66,12 +66,9 @@ def kills(folder, measured, moments, what):
 
 
 @pytest.mark.parametrize(
-    ("number", "what"),
-    [
-        pytest.param(2, "before its second gear is kept", marks=pytest.mark.nightly),
-        (3, "before its result has its name"),
-    ],
+    ("number", "what"), [(2, "before its second gear is kept"), (3, "before its result has its name")]
 )
+@pytest.mark.nightly
 def test_a_run_killed_between_its_files(folder, measured, number, what):
     """kill -9 with the first gear kept and the second written aside, and with the result written aside."""
     program = (

@@ -41,6 +41,7 @@ def test_defaults_are_the_limits_to_the_last_bit(paper_scene):
             assert np.array_equal(expected[variable], found[variable], equal_nan=True), (name, variable)
 
 
+@pytest.mark.nightly
 def test_smaller_elements_in_the_body(error_of):
     """Known: conforming elements are too stiff, and less so the smaller they are; 0.45 mm everywhere is the
     reference."""
@@ -50,6 +51,7 @@ def test_smaller_elements_in_the_body(error_of):
     assert abs(errors[2]) < 0.2 * abs(errors[0])
 
 
+@pytest.mark.nightly
 def test_teeth_that_feel_each_other(error_of, paper_scene):
     """Limit: with as many teeth as are loaded together the result is the default's; with fewer the error falls from one
     to the next."""

@@ -133,6 +133,7 @@ def test_natural_frequencies_are_those_of_two_inertias(paper_scene, paper_pair):
     assert found["excited"][1].tolist() == [1]
 
 
+@pytest.mark.nightly
 def test_a_map_is_what_runs_of_its_scenes_give(folder, capsys):
     """Authority: exact identity with a run of each scene alone; tables read by pandas; a second call computes
     nothing."""

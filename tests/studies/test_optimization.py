@@ -83,6 +83,7 @@ def lines(directory):
     ]
 
 
+@pytest.mark.nightly
 def test_the_search_finds_what_brute_force_finds(folder):
     """Authority: brute force; no relief of a grid of 6 by 6 over both variables is better than the one found by 40
     trials, and it is the least of its designs."""
@@ -246,6 +247,7 @@ def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):
     assert again.computed == 0 and [each.failure for each in again.tried] == [each.failure for each in outcome.tried]
 
 
+@pytest.mark.nightly
 def test_bounds_are_kept_and_refused_where_nothing_keeps_them(folder):
     """Authority: the constraint itself; the best of what it allows, and an error in words where it allows nothing."""
     text = STILL + VARIABLES + GOAL + FEW + '[constraints]\ntransmission_error_harmonic_2 = {{ at_most = "{} um" }}\n'

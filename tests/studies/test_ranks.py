@@ -27,6 +27,7 @@ def test_a_study_of_more_ranks_than_cases_gives_what_it_gives_alone(folder, undr
     assert load("here").drop_vars("wall_time").equals(load("alone").drop_vars("wall_time"))
 
 
+@pytest.mark.nightly
 def test_both_of_two_ranks_compute_and_a_wrong_study_ends_both(folder):
     """Authority: issue 3; rank 0 does not merely hand out: a task ends when one of the other rank's has begun.
     docs/promises.md: a wrong study

@@ -95,6 +95,7 @@ def test_ring_of_sectors_is_the_whole_gear(sector):
         assert difference(block, frame.T @ compliance[offset * size : (offset + 1) * size, :size]) < 1e-10
 
 
+@pytest.mark.nightly
 def test_conjugate_gradients_are_the_factorisation(monkeypatch):
     """Brute force: the same body by MUMPS's Schur complement; the memory that a run may take chooses, where it holds
     the one and not the other."""

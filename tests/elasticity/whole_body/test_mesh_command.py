@@ -42,7 +42,8 @@ def test_the_repositorys_mesh_is_the_papers_pinion_with_its_ninth_tooth_cracked(
 
 
 @pytest.mark.parametrize(
-    "gear, tooth, depth, found", [("pinion", 3, "2.5 mm", 3), ("wheel", 23, "0.1 in", 23), ("wheel", 0, None, -1)]
+    "gear, tooth, depth, found",
+    [("wheel", 23, "0.1 in", 23), pytest.param("wheel", 0, None, -1, marks=pytest.mark.nightly)],
 )
 def test_a_mesh_is_written_for_either_gear(gear, tooth, depth, found, tmp_path, capsys):
     """The file is the gear, read back; the command says how large it is."""
