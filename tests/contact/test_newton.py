@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import nnls
 from tests.contact.laws_of_contact import law_residual, project
@@ -16,7 +16,6 @@ from fenics_gears.contact.step_solver import StepProblem, solve_step
 
 
 @given(st.integers(0, 10**9), st.integers(1, 12))
-@settings(max_examples=60, deadline=None)
 def test_frictionless_step_is_the_minimum_of_the_energy(seed, nodes):
     """Other method: with q eliminated, p solves min 1/2 p^T W p - p^T d over p >= 0; SciPy's NNLS does that."""
     problem = random_problem(seed, nodes)

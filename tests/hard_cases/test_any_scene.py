@@ -133,4 +133,4 @@ def test_every_step_of_any_frictionless_scene_without_load(measured, examples):
 @pytest.mark.nightly
 def test_every_step_of_hundreds_of_scenes(measured, tmp_path):
     """Authority: as above, by the hundred."""
-    judged(Tally(), measured, "finite elements, by night", on_elements(Cache(tmp_path)), 400)
+    judged(Tally(), measured, "finite elements, by night", on_elements(Cache(tmp_path)), 150)

@@ -1,10 +1,7 @@
 """[output] root_stress over the face: against recovered sectors and plane strain."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-from tests.iso_tooth_root import helical_form_and_stress_correction, helix_angle_factor
 from tests.over_face import root_stress_run
 
 from fenics_gears.contact.face_forces import face_forces
@@ -12,14 +9,11 @@ from fenics_gears.contact.flank_forces import SENSE_OF_TEETH
 from fenics_gears.elasticity.face.fine_fillet import fine_over_swept
 from fenics_gears.elasticity.fillet_points import POINTS_OVER_FACE, fillet_curve, fillet_weights
 from fenics_gears.elasticity.slice_averages import slice_averages
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.face_resolution import face_discretisation
-from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.face_stresses import FaceStresses
 from fenics_gears.simulation.stored_forces import stored_forces
 
 STEP = 5
-CITED = Path(__file__).parents[1] / "benchmarks" / "third_dimension" / "cited"
 
 
 @pytest.mark.parametrize("coast", [False, True])
@@ -92,12 +86,3 @@ def test_largest_values_are_those_over_the_face():
         np.testing.assert_array_equal(result["root_stress_at_30_degrees"].values, over_face.values)
         assert (np.isnan(along.values).all(axis=1) == (result["pair_number"].values == 0)).all()
         assert result.attrs["largest_root_stress_pinion"] > 0.0
-
-
-def test_form_factors_of_the_benchmark_are_those_of_another_program():
-    """Another program: Y_F 1.479/1.490, Y_S 2.047/2.036, Y_beta 0.932 of the FZG gears H501 as GEARpie prints them
-    (REPORT/H501.txt), one unit of the last digit."""
-    pair = gear_pair(load_scene(CITED / "fzg_h501.toml").gears)
-    for name, printed in (("pinion", (1.479, 2.047)), ("wheel", (1.490, 2.036))):
-        assert helical_form_and_stress_correction(pair, name)[:2] == pytest.approx(printed, abs=1e-3)
-    assert helix_angle_factor(pair.overlap_ratio, 15.0) == pytest.approx(0.932, abs=5e-4)

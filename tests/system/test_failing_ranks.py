@@ -60,13 +60,12 @@ STAGES_OF = {
 CODES = {"refuses": 2, "fails": 3, "breaks": 3, "interrupted": 130, "killed": 128 + signal.SIGKILL}
 # A run of an optimisation that fails is a design without numbers.
 GOES_ON = {"a design's run", "keeping a run"}
+# At each stage either rank is killed or fails in turn.
 MATRIX = [
-    (command, stage, rank, how)
+    (command, stage, rank, "killed" if stage in GOES_ON or (rank == 1 and stage not in SHARED) else how)
     for command, stages in STAGES_OF.items()
-    for stage in stages
-    for rank in (0, 1)
-    for how in ("fails", "killed")
-    if not (how == "fails" and (stage in GOES_ON or rank == 1 and stage not in SHARED))
+    for number, stage in enumerate(stages)
+    for rank, how in enumerate(("fails", "killed") if number % 2 else ("killed", "fails"))
 ] + [
     ("face", "condensing", 1, "breaks"),
     ("face", "reading", 0, "refuses"),
