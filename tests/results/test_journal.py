@@ -14,7 +14,7 @@ import fenics_gears
 from fenics_gears.dynamics.march import LONGEST_BLOCK
 from fenics_gears.errors import ComputationError
 from fenics_gears.results import journal
-from fenics_gears.results.journal import COUNTS, HEADER, SPARE, STATE, Journal, Place, read
+from fenics_gears.results.journal import COUNTS, HEADER, SPARE, Journal, Place, read
 from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.sealed import seal
@@ -71,23 +71,6 @@ def test_it_holds_what_was_put(tmp_path, at_once, until, length):
         assert found.values[name].dtype == values.dtype
     known = march_of(until)
     assert found.march == vars(known) and found.steps == STEPS - 1 and found.scene == load_scene(DEMO)
-
-
-def test_fields_that_are_written_over_meanwhile_are_left_out(tmp_path, at_once, monkeypatch):
-    """Identity, of a reader that is slower than the run: fields that the run has reached again are no fields of their
-    steps."""
-    until = 2 * SPARE
-    own, text, further, read_before = written(tmp_path, until, LONGEST_BLOCK), journal._text, until + SPARE, []
-
-    def later(path):
-        if path.name == STATE and any(read_before):
-            own.put(until, block(until, further), march_of(further))
-        read_before.append(path.name == STATE)
-        return text(path)
-
-    monkeypatch.setattr(journal, "_text", later)
-    found = read(tmp_path / "run.nc.part")
-    assert len(found.values["time"]) == until and len(found.values["field"]) == 0
 
 
 @pytest.mark.parametrize("failing", [0, 3, 200])

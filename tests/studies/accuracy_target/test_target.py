@@ -108,7 +108,6 @@ def test_only_steps_with_a_past_have_an_error(scene):
     they do not, and one more run measures by how much."""
     runs, sizes = TrialRuns(scene, lambda words: None), Sizes(2.5, 40)
     assert set(runs.errors(sizes)) == {MESH} and runs.runs == 2
-    assert runs._error(sizes, replace(sizes, steps=20)) < 1e-3
     rubbing = TrialRuns(replace(scene, friction=Friction(0.1)), lambda words: None)
     errors = rubbing.errors(sizes)
     assert set(errors) == {MESH, STEPS} and rubbing.runs == 3 and errors[STEPS] > 0.0
