@@ -334,3 +334,27 @@ def test_tolerance_class(tmp_path):
     assert scene.flank_errors.tolerance_class == 7 and "the coarser of the two gears" in found.text
     scene, found = scene_of(tmp_path, changed((rexs.PINION, first, "12"), (rexs.WHEEL, first, "0")))
     assert scene.flank_errors is None and len(found.left_out) == 2
+
+
+def test_narrower_gear_and_common_width(tmp_path):
+    """Only the common width is in contact."""
+    model = changed((rexs.PINION, "face_width", 17.0, "mm"))
+    assert scene_of(tmp_path, model)[0].gears.face_width == 15.0
+    assert (
+        scene_of(tmp_path, rexs.with_value(model, rexs.STAGE, "common_face_width", 14.0, "mm"))[0].gears.face_width
+        == 14.0
+    )
+
+
+def test_loaded_flank_decides_where_flanks_differ(tmp_path):
+    """A relief of the left flank only: which flank is loaded must be known."""
+    model = with_relief(sides=(0,))
+    assert "does not say which one is loaded" in refused(tmp_path, model)
+    assert (
+        scene_of(tmp_path, rexs.with_value(model, rexs.PINION_DATA, "loaded_tooth_flank", "left"))[0].tip_relief
+        is not None
+    )
+    assert (
+        scene_of(tmp_path, rexs.with_value(model, rexs.PINION_DATA, "loaded_tooth_flank", "right"))[0].tip_relief
+        is None
+    )

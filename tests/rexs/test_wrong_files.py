@@ -278,3 +278,43 @@ def test_damaged_files_end_in_a_scene_or_in_a_sentence(tmp_path_factory, data):
         imported(tmp_path_factory.mktemp("damaged"), content, choice=Choice(stage=4))
     except SceneError as error:
         assert str(error).strip()
+
+
+def test_what_does_not_hang_together_is_told_together(tmp_path):
+    """A missing module hides neither a wrong shift nor a wrong diameter; shifts that both lack are one mistake."""
+    changes = (
+        (P, "normal_module", None),
+        (FLANK, "addendum_modification_coefficient", 0.2),
+        (P, "tip_diameter", 80.0, "kg"),
+    )
+    said = refused(tmp_path, changed(*changes))
+    assert (
+        "3 mistakes" in said and "contradictory profile shifts" in said and "tip_diameter = 80.0 kg is a mass" in said
+    )
+    both = [(flank, "addendum_modification_coefficient", None) for flank in rexs.PINION_FLANKS + rexs.WHEEL_FLANKS]
+    said = refused(tmp_path, changed(*both))
+    assert (
+        "1 mistake in" in said
+        and "addendum_modification_coefficient is missing, for its flanks too, and so is that of component 6" in said
+    )
+    near = refused(tmp_path, changed(*both[:2], (rexs.STAGE, "center_distance", 80.0, "mm")))
+    assert "center_distance = 80 mm is too small for 40 teeth of module 4.5 mm" in near
+
+
+def test_parts_that_a_stage_cannot_have(tmp_path):
+    """A gear of another kind; two reliefs of one flank; in JSON, a number that is none and a value that is false where
+    a quantity is due."""
+    bevel = rexs.paper_model()
+    rexs.component(bevel, W)["type"] = "bevel_gear"
+    assert "component 6 (bevel_gear 'wheel') is no cylindrical gear" in refused(tmp_path, bevel)
+    twice = with_relief()
+    twice = rexs.with_component(twice, 42, "tip_relief", reference={"origin": FLANK, "referenced": 42})
+    assert "two components tip_relief, 40 and 42; a scene has one" in refused(tmp_path, twice)
+    named = rexs.paper_model()
+    rexs.component(named, W)["id"] = "six"
+    with pytest.raises(SceneError, match='components six, id = "six" is not a whole number'):
+        imported(tmp_path, rexs.as_json(named))
+    with pytest.raises(SceneError, match="normal_module = false mm does not begin with a number"):
+        imported(tmp_path, rexs.as_json(changed((P, "normal_module", False, "mm"))))
+    with pytest.raises(SceneError, match="poisson_ratio = nan none is not a finite number"):
+        imported(tmp_path, rexs.as_xml(changed((MATERIAL, "poisson_ratio", float("nan")))))
