@@ -226,7 +226,7 @@ def test_interrupted_set_up_leaves_nothing_that_looks_finished(checkout, machine
     started = subprocess.Popen(
         [checkout / "gears", "run"], env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
     )
-    said = started.communicate(timeout=20)[1]
+    said = started.communicate(timeout=300)[1]
     assert "[1/" in said
     assert started.returncode == 130 and "interrupted" in said
     assert not (checkout / ".setup/ready").exists()
