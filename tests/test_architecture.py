@@ -1,13 +1,11 @@
 """Which folders may import which: imports point one way only, those inside functions too; and that a plane run loads
 nothing of the third dimension."""
 
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from tests.programs import python
 
 ROOT = Path(__file__).parents[1]
 
@@ -38,14 +36,7 @@ def test_a_plane_run_with_its_pictures_loads_nothing_of_the_third_dimension(tmp_
 
     scene = tmp_path / "plane.toml"
     scene.write_text(text_of("tooth_elasticity", "friction", "bearings"), encoding="utf-8")
-    done = subprocess.run(
-        [sys.executable, "-P", "-c", PLANE_RUN, str(scene), str(tmp_path / "run")],
-        cwd=ROOT,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 0, done.stderr
+    done = python("-P", "-c", PLANE_RUN, scene, tmp_path / "run")
     own = {name.removeprefix("fenics_gears.") for name in done.stderr.split() if name.startswith("fenics_gears.")}
     assert "contact.mesh_cycle" in own and "show.plots" in own
     assert {

@@ -14,9 +14,7 @@ from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.problems import problems_of_schema, without_echoes
-from fenics_gears.scene.read import checked_scene
-from fenics_gears.scene.rules import broken_rules
+from fenics_gears.scene.read import scene_of
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import Axis, label
 
@@ -78,11 +76,12 @@ def model_of_tree(
     name: str, tree: Mapping[str, Any], directory: Path, changed: Callable[[Scene], Scene] = lambda scene: scene
 ) -> Model:
     """The model of a parsed scene, or of what it is `changed` into. Raises NoScene."""
-    checked, problems = problems_of_schema(tree)
-    problems = without_echoes(problems + broken_rules(tree))
-    if problems:
-        raise NoScene(problems)
     try:
-        return model_of(changed(checked_scene(checked, as_toml(tree), name, directory)))
+        scene, problems = scene_of(tree, as_toml(tree), name, directory)
+        if scene is None:
+            raise NoScene(problems)
+        return model_of(changed(scene))
+    except NoScene:
+        raise
     except SceneError as error:
         raise NoScene([Problem((), None, str(error))]) from error

@@ -11,8 +11,6 @@ import tempfile
 import time
 from pathlib import Path
 
-from tests.benchmarks.growth.memory import resident
-
 from fenics_gears import build_scene, simulate
 from fenics_gears.elasticity.cache import Cache
 
@@ -34,6 +32,12 @@ def pair(number: int, over_face: bool):
 
 def _gear(teeth: int) -> dict:
     return {"teeth": teeth, "profile_shift": 0.0, "bore_diameter": f"{0.8 * teeth} mm"}
+
+
+def resident() -> int:
+    """Bytes that the process holds (Linux)."""
+    lines = Path("/proc/self/status").read_text().splitlines()
+    return 1024 * int(next(line for line in lines if line.startswith("VmRSS")).split()[1])
 
 
 def main() -> None:

@@ -16,16 +16,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from tests.studies.conftest import environment, mpirun
+from tests.programs import DEMO, command, ended, environment, python
 
 import fenics_gears
 from fenics_gears import results
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.validity import NO_MEANING
-
-CHECKOUT = Path(__file__).parents[2]
-DEMO = CHECKOUT / "demos" / "lundvall2004.toml"
 
 
 def small_result(complete=1):
@@ -105,13 +102,6 @@ def test_the_summary_gives_the_transmission_error_as_angle_and_length(simulation
     assert all(lines[name].endswith(f" {seconds}") for name, seconds in told.items())
 
 
-def test_quiet_says_nothing(simulation, capsys, tmp_path):
-    """Authority: the option's own description."""
-    assert main(["run", str(DEMO), "--quiet", "--output", "here"]) == 0
-    assert capsys.readouterr() == ("", "")
-    assert files(tmp_path) == ["here/run.nc", "here/transmission_error.png"]
-
-
 def test_a_result_without_meaning_has_an_exit_code_of_its_own(simulation, capsys, tmp_path):
     """Authority: docs/troubleshooting.md; a script sees that the gears jammed, and the result is kept with the
     reason."""
@@ -124,19 +114,10 @@ def test_a_result_without_meaning_has_an_exit_code_of_its_own(simulation, capsys
     assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 0
 
 
-def test_a_run_without_pictures(simulation, capsys, tmp_path):
-    """Authority: the option's own description; pictures of an earlier run do not stay as if they were this one's."""
-    assert main(["run", str(DEMO), "--output", "here"]) == 0
-    assert main(["run", str(DEMO), "--output", "here", "--no-pictures"]) == 0
-    assert files(tmp_path) == ["here/run.nc"]
-
-
 def on_a_terminal(command, more):
     """What a command writes to a terminal of its own."""
     ours, its = os.openpty()
-    running = subprocess.Popen(
-        command, stdout=its, stderr=subprocess.DEVNULL, env={**environment(), "TERM": "xterm", **more}
-    )
+    running = subprocess.Popen(command, stdout=its, stderr=subprocess.DEVNULL, env=environment(TERM="xterm", **more))
     os.close(its)
     written = b""
     with contextlib.suppress(OSError):  # what a terminal says when nobody writes to it any more
@@ -147,15 +128,15 @@ def on_a_terminal(command, more):
     return written.decode().replace("\r\n", "\n")
 
 
-CHECK = [sys.executable, "-m", "fenics_gears", "check", str(DEMO)]
+CHECK = command("check", DEMO)
 
 
 def test_a_study_is_told_from_a_scene(capsys, tmp_path, monkeypatch):
     """Authority: the interface; one sentence with the right command, not a list of unknown fields."""
     monkeypatch.chdir(tmp_path)
     Path("study.toml").write_text(f'scene = "{DEMO}"\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\n')
-    for command in ("check", "run"):
-        assert main([command, "study.toml"]) == 2
+    for name in ("check", "run"):
+        assert main([name, "study.toml"]) == 2
         assert (
             capsys.readouterr().err
             == "study.toml: is a study, not a scene; `gears study study.toml` runs it. Nothing was computed or"
@@ -171,18 +152,8 @@ def test_what_goes_into_a_log_is_plain():
     also where a pipe or a file
     has what it writes; a terminal without mpirun has colours, so that the test can fail."""
     assert "\x1b" in on_a_terminal(CHECK, {})
-    piped = subprocess.run(CHECK, capture_output=True, text=True, check=True).stdout
-    for written in (piped, on_a_terminal(CHECK, {"OMPI_COMM_WORLD_SIZE": "1"})):
-        assert "\x1b" not in written and "Gear pair" in written
-        assert not any(line.endswith(" ") for line in written.splitlines())
-
-
-def test_what_mpirun_pipes_on_is_plain():
-    """Authority: the same, of the real mpirun."""
-    written = subprocess.run(
-        [*mpirun(1), *CHECK], stdout=subprocess.PIPE, text=True, check=True, env=environment()
-    ).stdout
-    assert "Gear pair" in written and "\x1b" not in written
+    written = on_a_terminal(CHECK, {"OMPI_COMM_WORLD_SIZE": "1"})
+    assert "\x1b" not in written and "Gear pair" in written
     assert not any(line.endswith(" ") for line in written.splitlines())
 
 
@@ -244,29 +215,6 @@ def test_a_second_ctrl_c_does_not_wait(simulation, tmp_path):
     simulation.simulate = hang
     assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 130
     assert files(tmp_path) == []
-
-
-def test_ctrl_c_while_the_result_is_written_does_not_lose_it(simulation, monkeypatch, capsys, tmp_path):
-    """Authority: hard case 27; the files are there, whole."""
-    save = results.save
-
-    def interrupted_save(dataset, path):
-        os.kill(os.getpid(), signal.SIGINT)
-        save(dataset, path)
-
-    monkeypatch.setattr(results, "save", interrupted_save)
-    assert main(["run", str(DEMO), "--output", "here"]) == 130
-    assert results.load(tmp_path / "here/run.nc").attrs["complete"] == 1
-    assert files(tmp_path) == ["here/run.nc"]
-    assert "The result is whole: here/run.nc" in capsys.readouterr().err
-
-
-def test_ctrl_c_before_the_first_step_writes_nothing(simulation, capsys, tmp_path):
-    """Authority: docs/promises.md; there is nothing to keep."""
-    simulation.outcome = KeyboardInterrupt()
-    assert main(["run", str(DEMO), "--output", "here"]) == 130
-    assert files(tmp_path) == []
-    assert "Interrupted" in capsys.readouterr().err
 
 
 def test_ctrl_c_before_the_recorded_cycles_says_so(simulation, capsys, tmp_path):
@@ -421,11 +369,8 @@ def test_python_has_the_program_and_runs_in_the_folder_of_the_call(tmp_path):
         " callable(fenics_gears.load_scene), 'simulate' in dir(fenics_gears))\nsys.exit(7)\n"
     )
     (tmp_path / "first.py").write_text(said, encoding="utf-8")
-    call = [sys.executable, "-P", "-m", "fenics_gears", "python", "first.py", "-v", "x"]
-    run = subprocess.run(
-        call, cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(CHECKOUT)}, capture_output=True, text=True
-    )
-    assert (run.returncode, run.stdout) == (7, f"beside ['-v', 'x'] {tmp_path} True True\n"), run.stderr
+    run = python("-P", "-m", "fenics_gears", "python", "first.py", "-v", "x", folder=tmp_path, ends=7)
+    assert run.stdout == f"beside ['-v', 'x'] {tmp_path} True True\n"
 
 
 def test_help_loads_neither_numerics_nor_the_schema():
@@ -436,19 +381,15 @@ def test_help_loads_neither_numerics_nor_the_schema():
         "except SystemExit: pass\n"
         "print(sorted({'numpy', 'pydantic', 'rich', 'xarray', 'dolfinx', 'numba'} & set(sys.modules)))"
     )
-    run = subprocess.run([sys.executable, "-c", program], cwd=CHECKOUT, capture_output=True, text=True, check=True)
+    run = python("-c", program)
     assert run.stdout.splitlines()[-1] == "[]"
     assert "check" in run.stdout and "plot" in run.stdout
 
 
 def test_the_test_command_runs_pytest_on_the_checkout(tmp_path):
     """Authority: docs/promises.md; options go to pytest, paths count from the checkout."""
-    environment = {**os.environ, "PYTHONPATH": str(CHECKOUT)}
-    call = [sys.executable, "-m", "fenics_gears", "test", "--collect-only", "-q"]
-    run = subprocess.run(
-        [*call, "tests/effects/test_list_of_effects.py"], cwd=tmp_path, env=environment, capture_output=True, text=True
-    )
-    assert run.returncode == 0
+    call = command("test", "--collect-only", "-q", "tests/effects/test_list_of_effects.py")
+    run = ended(call, tmp_path, ends=0)
     assert "test_list_of_effects.py" in run.stdout and "test_cli.py" not in run.stdout
 
 
@@ -456,8 +397,6 @@ def test_a_reader_that_goes_away_is_no_error():
     """A shell's convention: `gears check SCENE | true` ends with 128 + SIGPIPE and says nothing."""
     reading, writing = os.pipe()
     os.close(reading)
-    done = subprocess.run(
-        [sys.executable, "-m", "fenics_gears", "check", str(DEMO)], stdout=writing, stderr=subprocess.PIPE, text=True
-    )
+    done = subprocess.run(CHECK, stdout=writing, stderr=subprocess.PIPE, text=True)
     os.close(writing)
     assert (done.returncode, done.stderr) == (141, "")

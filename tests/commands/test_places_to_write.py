@@ -1,7 +1,6 @@
 """Each command that writes refuses, before it computes, a place that cannot take its result. Authority: hard case
 26."""
 
-import argparse
 import os
 import sys
 from pathlib import Path
@@ -9,9 +8,7 @@ from pathlib import Path
 import pytest
 from tests.system.test_console import GREEK
 
-from fenics_gears.commands import picture
 from fenics_gears.commands.cli import main
-from fenics_gears.errors import SceneError
 
 SCENE = GREEK + "[friction]\ncoefficient = 0.1\n"
 STUDY = 'scene = "pair.toml"\n[sweep]\nfriction.coefficient = [0.1, 0.2]\n'
@@ -43,14 +40,6 @@ def check_refusal(words, name, capsys):
         in capsys.readouterr().err
     )
     assert list(Path("out").rglob("*")) == [taken]
-
-
-def test_vtk_takes_names_in_utf_8_only(tmp_path, monkeypatch):
-    """VTK's own rule; its bindings raise an error of encoding after the stresses have been recovered."""
-    monkeypatch.chdir(tmp_path)
-    options = argparse.Namespace(vtu=Path(os.fsdecode(b"a\xff.vtu")), pvd=None, animate=False)
-    with pytest.raises(SceneError, match="VTK writes only files whose names are text in UTF-8"):
-        picture._check_outputs(options, None)
 
 
 def test_libraries_do_not_read_the_commands_arguments(monkeypatch, capsys):

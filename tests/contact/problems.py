@@ -39,19 +39,3 @@ def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4, f
 def all_open(problem: StepProblem) -> np.ndarray:
     """Sets to start from (n,): nothing touches."""
     return np.full(len(problem.gap), OPEN, dtype=np.int8)
-
-
-def reversing_problem() -> StepProblem:
-    """Four equal nodes on one soft sideways spring, rigid slip reversing between them: the pitch point's situation."""
-    n = 4
-    return StepProblem(
-        stiffness=np.diag([1e5, 1e5]),
-        load=np.array([1e4, 0.0]),
-        compliance=np.diag([4e-6] * n + [3e-6] * n),
-        jacobian=np.array([[1.0, 0.0]] * n + [[0.0, 1.0]] * n),
-        gap=np.zeros(n),
-        slip_before=np.array([-2e-3, -1e-3, 1e-3, 2.2e-3]),
-        friction=0.3,
-        free_motion=np.empty(0),
-        tolerance=Tolerance.of_load(1e4),
-    )

@@ -5,12 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.hard_cases.invariants import run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears.contact.face_cycle import FaceCycle
 from fenics_gears.contact.face_pairing import FacePair, FacePairing
-from fenics_gears.contact.operator import COORDINATES, displacement_jacobian
+from fenics_gears.contact.operator import displacement_jacobian
 from fenics_gears.contact.tooth_pair import (
     COAST,
     DRIVE,
@@ -23,13 +22,11 @@ from fenics_gears.contact.tooth_pair import (
 )
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.model.model import model_of
-from fenics_gears.results.load_factors import load_factors
 from fenics_gears.simulation.elastic_route import gear_compliances
 from fenics_gears.simulation.face_route import gear_bodies
 from fenics_gears.system.progress import SilentProgress
 
 BOTH = "[coast_flanks]\n"
-MISALIGNED = '[misalignment]\nin_plane = "10 um"\nout_of_plane = "7 um"\n'
 
 
 def coasting(hand="right", more=""):
@@ -118,96 +115,6 @@ def rotated(vector, angle):
             vector[2],
         ]
     )
-
-
-@pytest.mark.parametrize("hand", ["right", "left"])
-def test_positions_and_gaps_in_slices(hand):
-    """Exact: a section that is turned ahead touches the coast flanks' line nearer to its foot; the backlash is alike at
-    all heights, along the leaning normal."""
-    model, cycle = coasting(hand)
-    pair, places = model.pair, {}
-    for nodes in cycle.position(3).operator.pairs:
-        position = pair.pinion.base_radius * nodes.place.contact_rolls[0]
-        sign = 1.0 if nodes.place.flank == DRIVE else -1.0
-        places.setdefault((nodes.place.flank, nodes.place.index), []).append(
-            position - sign * pair.slope * nodes.place.height
-        )
-        if nodes.place.flank == COAST and 0.0 in np.round(nodes.offsets, 12):
-            touching = pair.cosine * pair.backlash
-            assert nodes.gap[np.abs(nodes.offsets).argmin()] == pytest.approx(touching, rel=2e-2)
-    for found in places.values():
-        np.testing.assert_allclose(found, found[0], rtol=1e-12)
-    assert len({flank for flank, _ in places}) == 2
-
-
-@pytest.mark.parametrize("hand", ["right", "left"])
-def test_misalignment_opens_the_coast_flanks_as_a_tilt_does(hand):
-    """Kinematics: a misaligned axis is the wheel tilted by the same angles, whose rows the test above has checked."""
-    (_, even), (model, cycle) = coasting(hand), coasting(hand, MISALIGNED)
-    pair = model.pair
-    tilts = np.zeros(13)
-    # Axes that move by z along x are tilted about y, by z along y about -x.
-    tilts[[11, 12]] = pair.wheel.base_radius / pair.face_width * np.array([-0.007, 0.010])
-    # The misalignment is about the pitch point in the middle of the common face, tilts about the wheel's mid-width: the
-    # wheel is displaced in its plane, and along its axis.
-    tilts[[3, 4]] = even.face.middles[1] / pair.face_width * np.array([0.010, 0.007])
-    tilts[COORDINATES.index("axial_2")] = (
-        0.007 * pair.wheel.base_radius - 0.010 * (pair.line_of_action_length - pair.pitch_point)
-    ) / pair.face_width
-    one, other = (each.position(5).operator for each in (even, cycle))
-    rows = displacement_jacobian(one.pairs, one.base_radii, one.normal_lever_arms, False, face=one.face)
-    seen = {DRIVE: 0, COAST: 0}
-    for number, nodes in enumerate(one.pairs):
-        own = np.flatnonzero(one.node_pair == number)
-        nearest = own[np.abs(nodes.offsets).argmin()]
-        if abs(nodes.offsets).min() < 1e-9:
-            # The lever arm of the point half the gap away is what is left.
-            assert other.gap[nearest] - one.gap[nearest] == pytest.approx(
-                -rows[nearest] @ tilts, abs=2e-5 * 0.010 * 24.0
-            )
-            seen[nodes.place.flank] += 1
-    assert min(seen.values()) > 2
-
-
-@pytest.mark.parametrize("hand", [pytest.param("right", marks=pytest.mark.nightly), "left"])
-def test_driven_backwards(hand):
-    """Statics: the axial force turns round with the torque, F_a = F_t tan(beta), and so does its sign with the hand."""
-    forces = {}
-    for torque in (200e3, -200e3):
-        model = model_of(
-            helical_scene(
-                BOTH, hand=hand, torque=torque, accuracy="slices = 4\ncontact_nodes = 9\nsteps_per_mesh_cycle = 6"
-            )
-        )
-        result = run_of(model, on_stand_in_bodies(model)).result
-        tangential = torque / model.pair.wheel.reference_radius
-        sign = 1.0 if hand == "right" else -1.0
-        expected = sign * tangential * np.tan(np.deg2rad(15.0))
-        np.testing.assert_allclose(result["reaction_z"].sel(gear="pinion"), expected, rtol=1e-11)
-        np.testing.assert_allclose(result["reaction_z"].sel(gear="wheel"), -expected, rtol=1e-11)
-        forces[torque] = result["coast_normal_force" if torque < 0.0 else "normal_force"].values
-    assert min(values.min() for values in forces.values()) > 0.0
-
-
-def test_load_factors_where_the_wheel_drives():
-    """Exact symmetry: half a turn about the line of centres puts drive flanks on coast flanks and z on -z. Load factors
-    are the same, but for the phases of the steps."""
-    factors, double = [], 2.0 * model_of(helical_scene(BOTH)).pair.operating_pressure_angle
-    for torque, (in_plane, out_of_plane) in (
-        (200e3, (20.0, 0.0)),
-        (-200e3, (20.0 * np.cos(double), 20.0 * np.sin(double))),
-    ):
-        more = f'[misalignment]\nin_plane = "{float(in_plane)!r} um"\nout_of_plane = "{float(out_of_plane)!r} um"\n'
-        scene = helical_scene(
-            BOTH + more, torque=torque, cycles=2, accuracy="slices = 4\ncontact_nodes = 9\nsteps_per_mesh_cycle = 40"
-        )
-        model = model_of(scene)
-        factors.append(load_factors(run_of(model, on_stand_in_bodies(model)).result, model.pair))
-    assert factors[0].keys() == factors[1].keys() and len(factors[0]) == 6
-    for name, value in factors[0].items():
-        # An edge passes a slice within a few steps: 1.1 % apart with 40 steps, 0.7 % with 160.
-        assert factors[1][name] == pytest.approx(value, rel=2e-2 if name == "edge_line_load_factor" else 5e-3), name
-    assert factors[0]["face_load_factor"] > 1.2
 
 
 @pytest.fixture(scope="module")

@@ -98,13 +98,6 @@ def test_flanks_of_a_helical_gear_move_with_its_leaning_axis(helical, gear):
     assert np.abs(found).max() > 0.2 * WOBBLE and found == pytest.approx(expected, rel=1e-9, abs=1e-12)
 
 
-def test_a_gear_without_wobble_runs_out_as_before(helical):
-    """Limit: without wobble both gaps are the same to the last bit."""
-    eccentricity = Eccentricity(Offset(0.01, 0.3), Offset(0.02))
-    both = [kind(helical.pair, eccentricity, STEPS)(7, helical.position(7)) for kind in (RunOut, WobblingRunOut)]
-    np.testing.assert_array_equal(*both)
-
-
 @pytest.mark.parametrize(
     ("name", "shape"),
     [("helix_slope", lambda along: along - 0.5), ("helix_form", lambda along: -0.5 * np.cos(2.0 * np.pi * along))],

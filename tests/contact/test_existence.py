@@ -2,18 +2,17 @@
 
 import itertools
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from tests.contact.problems import all_open, random_problem
 
-from fenics_gears.contact.errors import MoreThanOneSolution, SelfLocking
-from fenics_gears.contact.existence import explained, locked_nodes, working
+from fenics_gears.contact.errors import SelfLocking
+from fenics_gears.contact.existence import locked_nodes, working
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
 from fenics_gears.contact.newton import solve_sets
 from fenics_gears.contact.step_solver import StepProblem, solve_step
-from fenics_gears.contact.uniqueness import is_only_solution, uncertified
+from fenics_gears.contact.uniqueness import is_only_solution
 
 
 def solutions(problem, sigma):
@@ -44,12 +43,12 @@ def certified(problem, sigma, stiffness=None):
 
 @pytest.mark.parametrize("free", [False, True], ids=["held", "free"])
 def test_a_certified_solution_is_the_only_one(free):
-    """Brute force: with the slip directions given, all 2^4 sets of closed nodes of 1500 problems leave at most one
+    """Brute force: with the slip directions given, all 2^4 sets of closed nodes of 500 problems leave at most one
     solution where the
     certificate says so, and sometimes two where it does not."""
     most = {True: 0, False: 0}
     count = {True: 0, False: 0}
-    for seed in range(1500):
+    for seed in range(500):
         rng = np.random.default_rng(seed)
         problem = random_problem(seed, 4, float(rng.uniform(0.05, 1.5)), coordinates=2, free=free)
         if free:
@@ -62,49 +61,6 @@ def test_a_certified_solution_is_the_only_one(free):
         most[says] = max(most[says], len(solutions(problem, sigma)))
     assert count[True] > 100 and count[False] > 100
     assert most[True] == 1 and most[False] >= 2
-
-
-@pytest.mark.parametrize("free", [False, True], ids=["held", "free"])
-def test_solutions_judged_together_are_judged_as_each_by_itself(free):
-    """Brute force: sets of any number of closed nodes, some alike, some with sticking nodes, counted one by one."""
-    rng, friction, counts = np.random.default_rng(3), 0.8, []
-    stiffness = random_problem(0, 6, friction, coordinates=2, free=free).stiffness
-    for _ in range(20):
-        solved = []
-        for seed in range(6):
-            problem, status = (
-                random_problem(seed, 6, friction, coordinates=2, free=free),
-                rng.choice([OPEN, STICK, SLIP_FORWARD, SLIP_BACKWARD], 6),
-            )
-            operator = SimpleNamespace(compliance=problem.compliance, jacobian=problem.jacobian)
-            normal = rng.uniform(1.0, 2.0, 6)
-            solved += [(operator, status.astype(np.int8), np.concatenate((normal, 0.5 * friction * normal)))] * (
-                1 + seed % 2
-            )
-        alone = 0
-        for operator, status, forces in solved:
-            sigma = np.select([status == SLIP_BACKWARD, status == STICK], [-1.0, 0.5], 1.0)
-            alone += not is_only_solution(
-                stiffness, operator.compliance, operator.jacobian, friction, status != OPEN, sigma
-            )
-        assert uncertified(stiffness, friction, solved) == alone
-        counts.append(alone)
-    assert 0 < sum(counts) < 20 * 9
-
-
-def test_a_load_held_by_contact_alone_is_the_limit_of_a_soft_spring():
-    """Known limit: a singular stiffness has the certificate of a spring of 1e-6, and of 1e-9, of the others along the
-    free motion."""
-    verdicts = set()
-    for seed in range(200):
-        problem = random_problem(seed, 4, 0.4, coordinates=2, free=True)
-        problem.jacobian[4:, 0] *= 0.3
-        sigma = np.random.default_rng(seed).choice([-1.0, 1.0], 4)
-        soft = [problem.stiffness + np.diag([spring, 0.0]) for spring in (1e-1, 1e-4)]
-        verdict = certified(problem, sigma)
-        assert [certified(problem, sigma, stiffness) for stiffness in soft] == [verdict, verdict]
-        verdicts.add(verdict)
-    assert verdicts == {True, False}
 
 
 def one_node(friction, coupling=0.0, load=100.0, stiffness=0.0, arm=0.0, gap=0.0):
@@ -182,22 +138,3 @@ def test_two_solutions_are_not_certified():
         assert solve_step(problem, np.array([start], dtype=np.int8)).forces[0] == pytest.approx(force, rel=1e-9)
     slides = solve_step(replace(problem, gap=np.array([-1e-3]), friction=0.5), np.array([OPEN], dtype=np.int8))
     assert slides.forces[0] == pytest.approx(1e-3 / (1e-6 - 0.6e-6 + 1e-9), rel=1e-9)
-
-
-def test_an_error_without_a_certificate_says_more_than_one_solution():
-    """Message, on its own: no step of the search needs it, all 18 failures locking. Given to the explanation as failed,
-    problems that
-    have two solutions by enumeration, while no single node locks, are named for that."""
-    named = 0
-    for seed in range(1500):
-        rng = np.random.default_rng(seed)
-        problem = random_problem(seed, 4, float(rng.uniform(0.05, 1.5)), coordinates=2)
-        sigma = rng.choice([-1.0, 1.0], 4)
-        sets = np.where(sigma > 0, SLIP_FORWARD, SLIP_BACKWARD).astype(np.int8)
-        failure = explained(problem, [("newton", "the sets repeat", np.zeros((1, 5)), sets[None])])
-        if isinstance(failure, SelfLocking) or len(solutions(problem, sigma)) < 2:
-            continue
-        named += 1
-        assert isinstance(failure, MoreThanOneSolution)
-        assert failure.reason.startswith("more than one solution, or none: with a friction coefficient of ")
-    assert named > 0

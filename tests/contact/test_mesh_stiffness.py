@@ -1,20 +1,15 @@
 """The mesh stiffness at a step against the load's finite differences, and against springs whose stiffness is given."""
 
-from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from tests.coarse import COARSE
 
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.mesh_stiffness import mesh_stiffness
 from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
-from fenics_gears.model.model import model_of
-from fenics_gears.simulation.mesh_springs import iso_cycle
 
 ROTATION_OF_THE_WHEEL = 5
 LOAD = 7e3
@@ -73,27 +68,3 @@ def test_pairs_that_carry(cycle):
     found = [stiffness(cycle.position(step).operator, statics(cycle.position(step).operator, LOAD)) for step in (4, 15)]
     assert [each.pairs for each in found] == [2, 1]
     assert found[0].secant > 1.2 * found[1].secant and found[0].tangent > 1.2 * found[1].tangent
-
-
-def test_springs_have_the_stiffness_that_they_are_given(quasi_static_scene):
-    """ISO 6336-1: of its model of the mesh, c' b (0.75 n + 0.25) with n pairs in mesh, tangent and secant alike."""
-    scene = replace(
-        quasi_static_scene, friction=None, shafts=None, bearings=None, accuracy=replace(COARSE, model="ISO 6336-1")
-    )
-    model = model_of(scene)
-    springs, width = iso_cycle(model), scene.gears.face_width
-    single = pair_stiffness(scene.gears, scene.load.wheel_torque / model.pair.wheel.base_radius / width)
-    for step in (3, 30):
-        operator = springs.position(step).operator
-        found = stiffness(operator, statics(operator, LOAD))
-        assert found.secant == pytest.approx(single * mesh_factor(found.pairs), rel=1e-9)
-        assert found.tangent == pytest.approx(found.secant, rel=1e-9)
-
-
-def test_no_stiffness_where_nothing_touches(cycle):
-    """Definition."""
-    operator = cycle.position(3).operator
-    nothing = SimpleNamespace(
-        forces=np.zeros(operator.nodes), status=np.zeros(operator.nodes, dtype=np.int8), coordinates=np.zeros(1)
-    )
-    assert stiffness(operator, nothing) == SimpleNamespace(secant=0.0, tangent=0.0, pairs=0)

@@ -56,15 +56,6 @@ def test_compliance_equals_the_dense_product(cycle):
     assert operator.compliance == pytest.approx(expected, rel=1e-11, abs=1e-11 * np.abs(expected).max())
 
 
-def test_gap_is_second_order_beside_the_line_of_action(cycle, paper_pair):
-    """Literature: two cylinders of the flanks' radii, g = y^2/2 (1/xi + 1/(L - xi)) near the contact point."""
-    pair = cycle.position(6).operator.pairs[0]
-    xi = pair.place.contact_rolls[0] * paper_pair.pinion.base_radius
-    near = np.abs(pair.offsets) < 0.35
-    curvature = 1.0 / xi + 1.0 / (paper_pair.line_of_action_length - xi)
-    assert pair.gap[near] == pytest.approx(0.5 * curvature * pair.offsets[near] ** 2, rel=0.05, abs=1e-5)
-
-
 def test_earlier_rigid_motion_is_that_of_the_same_material_points(cycle, paper_pair):
     """Exact: turned back by one step, a rigid rotation moves the points by omega x r at their earlier place."""
     operator = cycle.position(5).operator
@@ -99,13 +90,6 @@ def test_without_motion_between_steps_the_earlier_displacement_is_the_present_on
     coarse, fine = np.array(differences)
     assert np.all(fine < 0.01)
     assert coarse / fine == pytest.approx([2.0, 2.0], rel=0.1)
-
-
-def test_frictionless_operators_have_no_tangential_rows(stand_in_flanks):
-    """An effect that the scene does not name adds no unknowns and no arrays."""
-    operator = MeshCycle(stand_in_flanks, GRID, STEPS, ALL, tangential=False).position(4).operator
-    assert operator.compliance.shape == (operator.nodes, operator.nodes)
-    assert operator.rigid_slip is None and operator.previous_compliance is None and operator.previous_jacobian is None
 
 
 def test_normal_rows_are_the_same_with_and_without_friction(stand_in_flanks, cycle):
@@ -144,16 +128,6 @@ def test_rigid_slip_over_a_step_is_exact(cycle, paper_pair):
             slip = slip + weight * (arm_1 * np.cos(angle) - height_1 * np.sin(angle))
             slip = slip - weight * ratio * (arm_2 * np.cos(ratio * angle) + height_2 * np.sin(ratio * angle))
         assert operator.rigid_slip == pytest.approx(slip, abs=1e-13)
-
-
-def test_every_pair_that_can_carry_is_there(paper_pair):
-    """contact ratio 1.47: one to three windows open at any phase, and neighbours differ by one base pitch."""
-    for phase in np.linspace(0.0, 0.99, 34):
-        positions = pair_places(paper_pair, GRID, phase)
-        assert 1 <= len(positions) <= 3
-        assert np.diff([place.contact_rolls[0] for place in positions]) == pytest.approx(
-            paper_pair.pinion.angular_pitch
-        )
 
 
 @pytest.mark.parametrize("coast", [False, True])

@@ -14,30 +14,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 from tests.contact.laws_of_contact import law_residual
-from tests.contact.problems import all_open, random_problem, reversing_problem
+from tests.contact.problems import all_open, random_problem
 from tests.contact.sliding_block import block_at_rest
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium, SelfLocking
-from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
+from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.newton import CONVERGED
-from fenics_gears.contact.step_solver import (
-    HALVED,
-    NEWTON_AND_FALLBACKS,
-    StepProblem,
-    _methods,
-    cold_start,
-    run_newton,
-    solve_step,
-)
+from fenics_gears.contact.step_solver import HALVED, NEWTON_AND_FALLBACKS, StepProblem, _methods, cold_start, solve_step
 from fenics_gears.contact.tresca import frozen_friction
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
-from fenics_gears.dynamics.clock import SteadyClock
-from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import MOST_HALVINGS, EquationsOfMotion
-from fenics_gears.dynamics.steps import Steps
 from fenics_gears.model.drivetrain import drivetrain
 
 # method: (seed, nodes, friction, free)
@@ -119,16 +108,6 @@ def test_nodes_that_elasticity_hardly_tells_apart_are_solved(nodes, elements):
     assert np.abs(opening * solution.forces).max() <= problem.tolerance.length * 3000.0
 
 
-def test_slip_that_reverses_all_at_once_goes_through_stick():
-    """The usual cycle (hard cases, known from measurements): plain Newton repeats its sets, the first fallback ends."""
-    problem, start = reversing_problem(), np.full(4, SLIP_FORWARD, dtype=np.int8)
-    (outcome, *_), _ = run_newton(problem, start, 40)
-    assert outcome != CONVERGED
-    solution = solve_step(problem, start)
-    assert solution.method == "slip through stick"
-    check_laws(problem, solution)
-
-
 @given(st.integers(0, 10**9), st.integers(1, 8))
 @settings(max_examples=30)
 def test_frozen_friction_is_the_bounded_minimum_of_the_energy(seed, nodes):
@@ -200,6 +179,7 @@ def test_gears_that_jam_need_divided_steps(absent, nodes, steps, paper_scene, pa
         assert residual["wrong_way"] <= 1e-10 * np.abs(forces).max()
 
 
+@pytest.mark.nightly
 def test_gears_that_lock_say_so(paper_scene, paper_pair, stand_in_flanks):
     """A march that ends without a solution, even in steps 64 times as short: typed, with the reason."""
     with pytest.raises(SelfLocking, match="self-locking: with a friction coefficient of 5 ") as failure:
@@ -258,29 +238,6 @@ def test_divided_steps_are_those_of_a_finer_march(longest, parts, changes, paper
         assert a.solution.forces == pytest.approx(b.solution.forces, rel=1e-7, abs=1e-6)
 
 
-def test_the_energy_account_follows_the_parts_of_a_step(paper_scene, paper_pair, stand_in_flanks):
-    """Exact identity: the account of a march whose every step is divided in two is that of the march with twice the
-    steps."""
-    coarse, shafts = cycle_of(Refusing, paper_scene, paper_pair, stand_in_flanks, 10)
-    fine, _ = cycle_of(MeshCycle, paper_scene, paper_pair, stand_in_flanks, 20)
-    whole, halves = (
-        Marcher(fine, EquationsOfMotion(shafts, 5e-5, 0.1)),
-        Marcher(coarse, EquationsOfMotion(shafts, 1e-4, 0.1)),
-    )
-    start = whole.start()
-    records = [[replace(start, position=cycle.position(0))] for cycle in (coarse, fine)]
-    for march, marcher, steps in zip(records, (halves, whole), (20, 40)):
-        for step in range(1, steps + 1):
-            march.append(marcher.step(marcher.dynamic, march[-1], step))
-    divided, exact = (
-        account(shafts, SteadyClock(step), Steps.of(march), np.zeros(len(march)))
-        for march, step in zip(records, (1e-4, 5e-5))
-    )
-    for name in ("rotation", "load", "damping", "friction", "changes"):
-        expected = getattr(exact, name)[::2]
-        assert getattr(divided, name) == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(exact.load).max()), name
-
-
 def test_a_step_that_no_division_solves_says_so(paper_scene, paper_pair, stand_in_flanks):
     """Never silence: the whole step's error, with the shortest step's attempt after its own; time and step are the
     whole step's."""
@@ -294,17 +251,6 @@ def test_a_step_that_no_division_solves_says_so(paper_scene, paper_pair, stand_i
     assert failure.value.step == 1 and failure.value.time == pytest.approx(1e-4)
     assert [attempt[0] for attempt in failure.value.attempts] == ["newton", HALVED]
     assert f"a step {2**MOST_HALVINGS} times as short" in str(failure.value)
-
-
-def test_a_static_step_without_friction_is_not_divided(paper_scene, paper_pair, stand_in_flanks):
-    """Its solution does not depend on the way to it: dividing the step cannot help."""
-    scene = replace(paper_scene, friction=None, inertia=None, damping=None)
-    cycle, shafts = cycle_of(Refusing, scene, paper_pair, stand_in_flanks, 10)
-    marcher = Marcher(cycle, EquationsOfMotion(shafts, 1e-4))
-    start = marcher._static_start(0)
-    with pytest.raises(ContactNotConverged) as failure:
-        marcher.step(marcher.dynamic, start, 1)
-    assert [attempt[0] for attempt in failure.value.attempts] == ["newton"]
 
 
 def test_no_equilibrium_is_a_typed_error_with_its_history():

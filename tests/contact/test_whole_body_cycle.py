@@ -6,7 +6,7 @@ from tests.stand_in import stand_in_compliance
 
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.tooth_pair import Flanks
-from fenics_gears.contact.whole_body_cycle import ALIKE, WholeBodyCycle, first_tooth
+from fenics_gears.contact.whole_body_cycle import WholeBodyCycle, first_tooth
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
@@ -103,34 +103,3 @@ def test_friction_knows_the_teeth_of_the_step_before(paper_pair, rings):
         expected = cycle(paper_pair, (shifted, rings[1]))
         for step in (0, 1):
             assert same(found.position(number * STEPS + step), expected.position(step))
-
-
-def test_teeth_that_differ_by_less_than_contact_is_solved_to_share(paper_pair, rings):
-    """The tolerance says which cycles are alike: a tenth of it is, ten times is not."""
-    kinds = []
-    for size in (0.1 * ALIKE, 10.0 * ALIKE):
-        found = cycle(paper_pair, (whole(rings[0], 16, {8: 1.0 + size}), rings[1]))
-        for number in range(16):
-            found.position(number * STEPS)
-        kinds.append(found.kinds)
-    assert kinds[0] == 1 and kinds[1] >= 3
-
-
-def test_the_last_digits_of_a_file_make_no_other_teeth(paper_pair, rings):
-    """Nodes at roll angles that differ by round-off are the same nodes, and their contact nodes are built once."""
-    body = whole(rings[0], 16, {8: 2.0})
-    rolls = tuple(each + 1e-13 * tooth for tooth, each in enumerate(body.roll_angles))
-    found = cycle(paper_pair, (WholeBodyCompliance(rolls, body.element_order, body.blocks), rings[1]))
-    positions = [found.position(number * STEPS) for number in range(16)]
-    assert found.kinds < 8
-    assert positions[0].operator.pairs[0].interpolation is positions[8].operator.pairs[0].interpolation
-
-
-def test_a_tooth_with_other_nodes_is_seen_through_its_own(paper_pair, rings):
-    """Where a flank is meshed otherwise its contact nodes interpolate its own nodes; all else is seen as before."""
-    finer = stand_in_compliance(paper_pair.pinion, elements=80)
-    found = cycle(paper_pair, (whole(rings[0], 16, other_nodes={11: finer}), rings[1]), tangential=False)
-    for number in range(16):
-        for pair in found.position(number * STEPS).operator.pairs:
-            own = finer if (number - pair.place.index) % 16 == 5 else rings[0]
-            assert pair.interpolation[0].weights.shape[1] == own.nodes

@@ -5,14 +5,13 @@ import os
 import re
 import shutil
 
-import numpy as np
 import pytest
 import xarray as xr
 from demos.cluster_study import speed_and_load
 from demos.cluster_study.gain import FREQUENCIES, gain, table
 from demos.cluster_study.picture import draw
 from demos.cluster_study.stopped import done, run
-from tests.studies.conftest import environment
+from tests.programs import environment
 
 from fenics_gears.commands.cli import main
 from fenics_gears.studies.study_file import load_study
@@ -79,19 +78,6 @@ def test_a_stopped_study_goes_on_and_ends_like_one_alone(folder, stopped):
         xr.open_dataset(folder / name / "study.nc", engine="h5netcdf").load() for name in ("out", "alone")
     )
     assert together.drop_vars("wall_time").equals(alone.drop_vars("wall_time"))
-
-
-@pytest.mark.nightly
-def test_relief_helps_at_its_load_and_harms_far_below(folder, stopped):
-    """The README's findings, on coarse teeth. Known behaviour too: a relief suits one load (Harris, Proc. IMechE 172,
-    1958)."""
-    found = gain(folder / "out" / "study.nc")
-    assert list(found.torques) == [50.0, 300.0, 437.0]
-    lightest, _, design = found.ratio
-    assert np.all(lightest > 3.0) and np.all(design < 0.7)
-    assert design[-1] < 0.3  # 1000 Hz
-    assert np.all(np.diff(found.without_relief, axis=0) > 0.0)  # with true involutes it grows with the load
-    assert np.all(found.with_relief[1] < found.with_relief[0])  # with relief there is a valley
 
 
 @pytest.mark.nightly

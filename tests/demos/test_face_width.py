@@ -5,29 +5,11 @@ import re
 import numpy as np
 import pytest
 from demos.face_width import widths
-from demos.face_width.picture import expected, picture
-from demos.face_width.stiffness_function import contact_lines, mesh_stiffness
+from demos.face_width.picture import picture
 
 from fenics_gears import load_scene
 from fenics_gears.commands.cli import main
 from fenics_gears.geometry.pair import gear_pair
-
-PHASES = np.linspace(0.0, 1.0, 2001)
-
-
-@pytest.mark.parametrize("overlap_ratio", [0.3, 1.4])
-def test_lines_of_contact_are_as_long_as_the_plane_of_action_has_them(overlap_ratio):
-    """Brute force: lines half a base pitch and so on apart, cut off at the ends of the path of contact and of the face;
-    both series lose their ripple where the overlap ratio is whole."""
-    contact_ratio, heights = 1.6, (np.arange(4000) + 0.5) / 4000
-    along = PHASES[:, None] + overlap_ratio * heights
-    pairs = np.floor(contact_ratio - along % 1.0).astype(int) + 1
-    length = pairs.mean(axis=1)
-    # The series counts from the corner at which a line enters; a shift of phase is no difference.
-    found = contact_lines(PHASES, contact_ratio, overlap_ratio)
-    np.testing.assert_allclose(np.sort(found), np.sort(length / length[:-1].mean()), atol=5e-3)
-    for formula in (contact_lines, mesh_stiffness):
-        assert expected(formula, contact_ratio, 2.0) < 1e-12 < expected(formula, contact_ratio, 1.5)
 
 
 def test_widths_are_overlap_ratios_at_the_same_load_per_width():

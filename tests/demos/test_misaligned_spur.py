@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import pytest
 from demos.misaligned_spur import misaligned
 from demos.misaligned_spur.picture import picture
 
@@ -12,6 +13,7 @@ from fenics_gears.scene.data import Accuracy
 SCENE = load_scene(misaligned.HERE / "misaligned.toml")
 
 
+@pytest.mark.nightly
 def test_crowning_pays_under_misalignment_alone():
     """Authority: the demonstration's own words, on coarse bodies; table and picture have every case."""
     coarse = replace(

@@ -69,16 +69,6 @@ def test_results_are_those_that_it_speaks_of(ran):
 
 
 @pytest.mark.nightly
-def test_orders_add_up(ran):
-    """Exact (Parseval): the variance of the transmission error is half the sum of its orders' squares, up to those left
-    out."""
-    names, _ = ran
-    error = names["micrometres"](names["result"]).values[:-1]
-    orders = names["mesh_orders"](names["result"], highest=19)
-    assert 0.5 * np.sum(orders**2) == pytest.approx(np.var(error), rel=1e-3)
-
-
-@pytest.mark.nightly
 def test_pictures_and_the_kept_run_are_there(ran):
     """Authority: the script's last cell; the run on disk is the one in memory, pictures are no empty pages."""
     names, folder = ran

@@ -34,14 +34,6 @@ def test_pairs_are_what_their_sources_say():
             assert 1e3 * lumped.moment_of_inertia == pytest.approx(0.5 * mass * radius**2, rel=5e-3)
 
 
-def test_no_two_gears_of_a_pair_have_one_inertia():
-    """Authority: the demonstration's own words."""
-    for scene in SCENES:
-        pinion, wheel = lumped_gears(scene, model_of(scene).pair).values()
-        assert pinion != wheel
-        assert model_of(scene).warnings == []
-
-
 def test_at_a_crawl_a_real_pair_is_quasi_static():
     """Limit: at a hundredth of the lowest natural frequency inertia changes the transmission error's height by less
     than 1 % of it."""

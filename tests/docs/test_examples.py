@@ -75,12 +75,6 @@ def test_a_wrong_answer_on_a_page_is_noticed(tmp_path):
         run_python(page)
 
 
-@pytest.mark.parametrize("page, test", RUN_ELSEWHERE.items())
-def test_pages_that_are_run_elsewhere_are(page, test):
-    """Authority: the named test reads the page."""
-    assert page.split("/")[-1] in (ROOT / test).read_text(encoding="utf-8")
-
-
 @pytest.mark.parametrize("page", holding("toml"))
 def test_scenes_and_studies_are_valid(page, readers_folder, tmp_path):
     """Authority: the program's own reading; a piece of a scene is put into the demo, and what it needs with it; one
@@ -215,12 +209,6 @@ def test_the_summary_is_as_shown(first_run):
     for label, value in lines:
         numbers = [[float(number) for number in re.findall(r"\d+\.?\d*", text)] for text in (value, rows[label])]
         assert numbers[0] == pytest.approx(numbers[1], rel=5e-3)
-
-
-def test_the_four_pictures_are_there(readers_folder):
-    """Authority: the README."""
-    assert "and four pictures are in" in README.read_text(encoding="utf-8")
-    assert len(list((readers_folder / "results" / "lundvall2004").glob("*.png"))) == 4
 
 
 def test_tip_relief_does_what_the_readme_says(first_run):

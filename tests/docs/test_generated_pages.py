@@ -5,7 +5,6 @@ from dataclasses import make_dataclass, replace
 import pytest
 from tests.coarse import coarse_scene
 from tests.docs import commands_page, result_page, scene_page, write
-from tests.docs.markdown import table
 
 from fenics_gears.inputs.allowed import Allowed
 from fenics_gears.inputs.fields import declared, quantity
@@ -87,17 +86,7 @@ def test_a_run_has_no_attribute_that_the_list_does_not_know(everything, paper_sc
     assert always <= set(everything.attrs) and always | when_lost <= set(lost.attrs)
 
 
-def test_attributes_that_a_list_does_not_know_are_found():
-    """Authority: by hand."""
-    assert undeclared({"title": "", "steps_by_rung: newton": 1, "mood": "good"}) == {"mood"}
-
-
 def test_every_variable_of_the_run_is_on_the_page(everything):
     """Authority: the run."""
     words = kept("result.md")
     assert all(f"| `{name}` |" in words for name in everything.variables)
-
-
-def test_bars_in_a_table_are_escaped():
-    """Authority: Markdown; a bar would end the cell."""
-    assert table(("a",), [("x|y",)])[-1] == "| x\\|y |"

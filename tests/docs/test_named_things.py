@@ -52,17 +52,6 @@ def test_folders_stand_in_the_order_of_imports():
     assert named == [name for name in reversed(layers) if name not in files]
 
 
-def test_lines_to_read_are_about_what_the_page_says():
-    """Authority: the files, counted; a page need not follow every line, but a third more is another page."""
-    rows = reading_table("you add")
-    assert len(rows) == 6
-    for _, _, files, lines in rows:
-        counted = sum(
-            len((ROOT / name).read_text(encoding="utf-8").splitlines()) for name in re.findall("`(.*?)`", files)
-        )
-        assert counted == pytest.approx(int(lines.strip(" |")), rel=1 / 3)
-
-
 @pytest.mark.nightly
 def test_the_page_on_studies_names_all_that_a_studys_dataset_holds(readers_folder):
     """Authority: a study of frequencies with friction and without, of equal steps."""

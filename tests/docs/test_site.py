@@ -131,15 +131,6 @@ def small_checkout(tmp_path_factory):
     return root
 
 
-def test_a_page_without_mistakes_is_built(small_checkout, tmp_path):
-    """Authority: what the next test spoils is whole."""
-    (small_checkout / "docs" / "other.md").write_text(
-        "# Two\n\n## Three\n\n[here](#three), [self](other.md#three) and $x^2$\n", encoding="utf-8"
-    )
-    done = built(small_checkout, tmp_path / "html")
-    assert done.returncode == 0, done.stderr
-
-
 def test_mistakes_end_the_build_and_all_are_named(small_checkout, tmp_path):
     """Authority: by hand; what leads nowhere, and a page that no list names."""
     (small_checkout / "docs" / "other.md").write_text("# Two\n\n" + "\n\n".join(WRONG), encoding="utf-8")

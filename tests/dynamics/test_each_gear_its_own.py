@@ -11,7 +11,6 @@ from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
 from fenics_gears.effects.damping import Damping, Rayleigh
 from fenics_gears.effects.inertia import GearInertia, Inertia, LoadInertia
 from fenics_gears.effects.shafts import Shaft, Shafts
-from fenics_gears.errors import SceneError
 from fenics_gears.geometry.section import gear_section
 from fenics_gears.model.description import describe
 from fenics_gears.model.drivetrain import drivetrain, mesh_stiffness
@@ -45,13 +44,6 @@ def test_two_free_gears_swing_at_the_frequency_of_their_reduced_mass(torsional, 
     assert natural_frequencies(drivetrain(free, paper_pair), MESH)[-1] == pytest.approx(expected, rel=1e-12)
 
 
-def test_a_wheel_with_its_load_swings_on_the_mesh_alone(torsional, paper_pair):
-    """Exact: without shafts the pinion turns as prescribed and the load with the wheel, w^2 = k rb2^2/(J2 + J3)."""
-    stiff = replace(torsional, shafts=None)
-    expected = sqrt(MESH * paper_pair.wheel.base_radius**2 / (J2 + J3)) / (2.0 * pi)
-    assert natural_frequencies(drivetrain(stiff, paper_pair), MESH) == pytest.approx([expected], rel=1e-12)
-
-
 def test_a_chain_of_unequal_inertias_and_shafts(torsional, paper_pair):
     """Brute force: the chain's roots of det(K - w^2 M) in plain angles, written out by hand; a cubic in w^2."""
     rb1, rb2 = paper_pair.pinion.base_radius, paper_pair.wheel.base_radius
@@ -77,12 +69,6 @@ def test_the_short_form_is_both_gears_own_to_the_last_bit(paper_scene, paper_pai
     one, two = drivetrain(paper_scene, paper_pair), drivetrain(each, paper_pair)
     for name in ("stiffness", "mass", "damping", "load"):
         assert np.array_equal(getattr(one, name), getattr(two, name))
-
-
-def test_masses_stand_where_their_gear_moves(paper_scene, paper_pair):
-    """Definition: the pinion's mass moves its own centre, what it leaves out is that of [inertia]."""
-    mass = drivetrain(replace(paper_scene, damping=None, inertia=UNEQUAL), paper_pair).mass
-    assert np.diag(mass)[[0, 1, 3, 4]] == pytest.approx([0.4e-3, 0.4e-3, 4.9e-3, 4.9e-3], rel=1e-15)
 
 
 def test_rayleigh_damping_of_each_shaft(paper_scene, paper_pair):
@@ -119,26 +105,6 @@ def test_a_damped_mode_decays_by_its_ratio(torsional, paper_pair):
     assert -values.real / np.abs(values) == pytest.approx(np.full(6, 0.05), rel=1e-8)
     natural = 2.0 * pi * natural_frequencies(shafts, mesh_stiffness(torsional))
     assert np.sort(np.abs(values))[::2] == pytest.approx(natural, rel=1e-9)
-
-
-def test_a_load_beside_which_the_wheel_is_nothing_is_refused(torsional, paper_pair):
-    """Round-off: the sum of both moments of inertia would lose the wheel's, and the mass matrix be singular; up to the
-    limit all frequencies are right."""
-    heavy = replace(torsional, inertia=replace(UNEQUAL, load=0.9e10 * J2))
-    stiffness = np.array(
-        [
-            [
-                INPUT + MESH * paper_pair.pinion.base_radius**2,
-                MESH * paper_pair.pinion.base_radius * paper_pair.wheel.base_radius,
-            ],
-            [0.0, 0.0],
-        ]
-    )
-    stiffness[1] = stiffness[0, 1], OUTPUT + MESH * paper_pair.wheel.base_radius**2
-    held = np.sqrt(np.sort(np.linalg.eigvals(stiffness / np.array([[J1], [J2]])))) / (2.0 * pi)
-    assert natural_frequencies(drivetrain(heavy, paper_pair), MESH)[1:] == pytest.approx(held, rel=1e-5)
-    with pytest.raises(SceneError, match="inertia.load: .* times the wheel's; allowed are up to 1e"):
-        drivetrain(replace(torsional, inertia=replace(UNEQUAL, load=1.1e10 * J2)), paper_pair)
 
 
 DENSITY = """

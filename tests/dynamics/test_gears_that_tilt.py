@@ -2,7 +2,6 @@
 shafts that do not tilt."""
 
 from dataclasses import replace
-from math import tan
 
 import numpy as np
 import pytest
@@ -109,19 +108,6 @@ def test_all_balances_of_either_gear_are_closed(helical):
                 )
 
 
-def test_axial_force_is_the_tangential_one_times_the_tangent_of_the_helix(helical):
-    """Exact: without friction F_a = F_t tan(beta), with F_t = T/r at the reference cylinder; torques are as the numbers
-    of teeth."""
-    mesh = helical[0]
-    pinion, wheel = mesh.pair.pinion, mesh.pair.wheel
-    for record in mesh.marched():
-        (force_1, moment_1), (_, moment_2) = mesh.reactions(record)
-        tangential = -moment_1[2] / pinion.reference_radius
-        # A right-hand pinion that drives counter-clockwise is pushed to where its turning would screw it.
-        assert tangential > 0.0 and force_1[2] == pytest.approx(tangential * tan(HELIX.angle), rel=1e-12)
-        assert moment_1[2] / moment_2[2] == pytest.approx(pinion.teeth / wheel.teeth, rel=1e-12)
-
-
 def test_rows_of_the_contact_nodes_are_the_kinematics_of_rigid_gears(helical):
     """Two derivations: the operator's rows, and the cross products of points that `test_tilting` checks by rotation
     matrices."""
@@ -188,21 +174,3 @@ def test_compiled_and_plain_march_are_the_same(helical):
         np.testing.assert_array_equal(one.solution.forces, other.solution.forces)
         np.testing.assert_array_equal(one.solution.displacement, other.solution.displacement)
         assert one.solution.iterations == other.solution.iterations
-
-
-def test_sets_of_the_mesh_cycle_before_change_iterations_alone(helical):
-    """Uniqueness: where Newton's method begins does not change the solution. A quasi-static cycle repeats itself: one
-    iteration confirms it."""
-
-    class Forgetful(Marcher):
-        def remember(self, step, status):
-            pass
-
-    for mesh in helical:
-        records, others = (mesh.marched(cycles=3, marcher=marcher) for marcher in (Marcher, Forgetful))
-        for one, other in zip(records, others, strict=True):
-            np.testing.assert_allclose(
-                one.solution.forces, other.solution.forces, rtol=0.0, atol=1e-9 * one.solution.forces.max()
-            )
-        assert {record.solution.iterations for record in records[-STEPS:]} == {1}
-        assert any(record.solution.iterations > 1 for record in others[-STEPS:])

@@ -6,10 +6,10 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 
-from fenics_gears.contact.operator import CENTRE_COORDINATES, COORDINATES
+from fenics_gears.contact.operator import COORDINATES
 from fenics_gears.dynamics.frequencies import Vibration, natural_frequencies, vibrations
-from fenics_gears.dynamics.gear_inertia import LoadInertia, LumpedGear
-from fenics_gears.dynamics.tilting import gyroscopic_warnings, mesh_over_face, moved
+from fenics_gears.dynamics.gear_inertia import LumpedGear
+from fenics_gears.dynamics.tilting import gyroscopic_warnings, moved
 from fenics_gears.effects.bearings import BearingPlaces, Bearings, Support
 from fenics_gears.effects.inertia import GearInertia, Inertia, LoadInertia
 from fenics_gears.geometry.helix import Helix
@@ -113,28 +113,6 @@ def test_a_displacement_of_rigid_gears_is_that_of_their_points(helical):
         assert found == pytest.approx((1.0 if number == "1" else -1.0) * motion @ direction, abs=1e-9)
 
 
-def test_two_springs_are_a_mesh_spread_over_the_face(on_bearings, helical):
-    """Quadrature: the stiffness of the two springs is that of many along the contact line, each at its own height;
-    exact up to the square of the path."""
-    pair, names = helical, drivetrain(on_bearings, helical).coordinates
-    rows = mesh_over_face(pair, names).normals
-    heights = (np.arange(2000) + 0.5) / 2000.0 * pair.face_width - 0.5 * pair.face_width
-    normal = np.array([1.0, 0.0, -pair.slope]) / sqrt(1.0 + pair.slope**2)
-    many = np.array(
-        [moved(pair, names, (pair.pitch_point + pair.slope * height, height), normal) for height in heights]
-    )
-    assert rows.T @ rows / 2.0 == pytest.approx(many.T @ many / len(many), rel=1e-6, abs=1e-6)
-
-
-def test_the_plane_part_of_the_mesh_is_the_planes(paper_scene, paper_pair):
-    """Identity: without helix, the mean of both springs moves as the one spring of a plane scene, and tilts only where
-    faces are not opposite."""
-    from fenics_gears.dynamics.frequencies import MESH_DIRECTION
-
-    mean = mesh_over_face(paper_pair, COORDINATES).normals.mean(axis=0)
-    assert mean == pytest.approx([MESH_DIRECTION.get(name, 0.0) for name in COORDINATES], abs=1e-14)
-
-
 @pytest.mark.parametrize("places", [(-50.0, 50.0), (-40.0, 60.0), (20.0, 90.0)])
 def test_natural_frequencies_of_a_rigid_shaft_on_two_springs(on_bearings, paper_pair, places):
     """Closed form: translation and tilt in a plane through the axis, coupled by bearings at unequal distances.
@@ -156,19 +134,6 @@ def test_natural_frequencies_of_a_rigid_shaft_on_two_springs(on_bearings, paper_
     for square in squares:
         # Two gears in two planes.
         assert np.sum(np.isclose(found, sqrt(square) / (2.0 * pi), rtol=1e-9)) == 4
-
-
-def test_symmetric_places_keep_todays_translation(on_bearings, paper_pair):
-    """Identity: bearings at equal distances do not couple tilts, and the plane's rows are those without places."""
-    symmetric = replace(BEARINGS, places=BearingPlaces((-50.0, 50.0), (-10.0, 10.0)))
-    with_places, without = (
-        drivetrain(replace(on_bearings, bearings=each), paper_pair)
-        for each in (symmetric, replace(BEARINGS, places=None))
-    )
-    assert without.coordinates == CENTRE_COORDINATES and with_places.coordinates == COORDINATES
-    assert np.array_equal(with_places.stiffness[:7, :7], without.stiffness) and not with_places.stiffness[:7, 7:].any()
-    assert np.array_equal(with_places.mass[:7, :7], without.mass) and not with_places.mass[:7, 7:].any()
-    assert np.array_equal(with_places.load[:7], without.load) and not with_places.load[7:].any()
 
 
 def test_what_has_no_place_or_no_axial_stiffness_is_held(on_bearings, paper_pair):
@@ -196,29 +161,6 @@ def test_the_inertia_about_a_diameter_is_a_discs_and_a_prisms():
     about_x = each * sum(np.sum(points[:, 1] ** 2 + height**2) for height in heights)
     polar = np.sum(points**2) / len(points)
     assert LumpedGear(1.0, polar, width).tilting_inertia == pytest.approx(about_x, rel=1e-6)
-
-
-def test_a_tilting_inertia_of_its_own_stands_before_the_discs(on_bearings, paper_pair):
-    """Authority: the section's own words; a gear's own value, then that of both, then a disc's."""
-    radii = [gear.base_radius for gear in (paper_pair.pinion, paper_pair.wheel)]
-
-    def tilting(**given):
-        shafts = drivetrain(
-            replace(on_bearings, inertia=Inertia(4e-3, 3.0, load=LoadInertia(1.0), **given)), paper_pair
-        )
-        return [
-            shafts.mass[place, place] * radius**2
-            for place, radius in zip((shafts.coordinates.index("tilt_x1"), shafts.coordinates.index("tilt_y2")), radii)
-        ]
-
-    disc = 1.5 + 4e-3 * paper_pair.face_width**2 / 12.0
-    assert tilting() == pytest.approx([disc, disc], rel=1e-12)
-    assert tilting(tilting_moment_of_inertia=7.0, wheel=GearInertia(tilting_moment_of_inertia=5.0)) == pytest.approx(
-        [7.0, 5.0], rel=1e-12
-    )
-    assert tilting(pinion=GearInertia(density=7.85e-9, tilting_moment_of_inertia=2.0)) == pytest.approx(
-        [2.0, disc], rel=1e-12
-    )
 
 
 def test_a_mode_is_told_by_what_moves(on_bearings, paper_pair):
@@ -269,18 +211,3 @@ def test_gyroscopic_moments_are_told_where_they_shift_a_tilting_frequency(on_bea
     assert gyroscopic_warnings(modes, {"pinion": 0.06 * still, "wheel": 0.04 * still}) == []
     (said,) = gyroscopic_warnings(modes, {"pinion": 0.09 * still, "wheel": 0.06 * still})
     assert "at which the wheel tilts, by up to 6%" in said and f"at {60 * 0.06 * still:.4g} rpm" in said
-
-
-def test_damping_by_ratios_and_by_rayleigh_reaches_the_tilts(on_bearings, paper_scene, paper_pair):
-    """Definition: each mode has the ratio that is asked for; alpha K + beta M holds for the rows of tilts, too."""
-    from fenics_gears.effects.damping import Damping
-
-    by_ratio = drivetrain(replace(on_bearings, damping=Damping(ratios=(0.03, 0.05))), paper_pair)
-    assert len(by_ratio.coordinates) == 13
-    found = vibrations(by_ratio, 14.0e3 * on_bearings.gears.face_width)
-    rayleigh = drivetrain(replace(on_bearings, damping=paper_scene.damping), paper_pair)
-    assert rayleigh.damping == pytest.approx(0.4e-3 * rayleigh.stiffness + 0.5e-3 * rayleigh.mass, rel=1e-12)
-    from fenics_gears.model.drivetrain import mesh_stiffness
-
-    found = vibrations(by_ratio, mesh_stiffness(on_bearings))
-    assert [each.damping_ratio for each in found] == pytest.approx([0.03] + [0.05] * (len(found) - 1), rel=1e-9)

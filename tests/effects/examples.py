@@ -137,9 +137,14 @@ def with_needs(*sections: str) -> tuple[str, ...]:
     return tuple(each.section for each in EFFECTS if each.section in closed)
 
 
+OVER_FACE = {"lead_modifications", "misalignment"}
+COARSE_BODIES = 'slices = 3\nlayers = 1\nbody_element_size = "6 mm"\n'
+
+
 def text_of(*sections: str) -> str:
     """The text of a scene with those effects and no others; its meshes are found wherever the text is read."""
-    return BASE + "".join(EXAMPLES[section] for section in sections).replace('"meshes/', f'"{MESHES}/')
+    more = COARSE_BODIES if OVER_FACE & set(sections) else ""
+    return BASE + more + "".join(EXAMPLES[section] for section in sections).replace('"meshes/', f'"{MESHES}/')
 
 
 def scene_of(*sections: str) -> Scene:

@@ -6,14 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
-from tests.helical import wide_pair
 
-from fenics_gears.effects import effect_named, result_variables
 from fenics_gears.effects.bearings import BearingPlaces, Bearings, Support
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.model.drivetrain import drivetrain
-from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
 
@@ -52,20 +47,6 @@ def test_places_are_read_from_mid_width():
     assert bearings.places_of("pinion") == (-40.0, 60.0) and bearings.places_of("wheel") is None
     assert bearings.axial("pinion") == 2.0 and bearings.axial("wheel") == 1.0
     assert with_bearings(ISOTROPIC).bearings.places is None
-
-
-def test_isotropic_bearings_are_the_same_however_they_are_written():
-    """Exact identity: one stiffness for all, one for each direction, one for each shaft give the same matrices."""
-    k = '"0.155e6 N/mm"'
-    ways = [
-        ISOTROPIC,
-        f"stiffness_x = {k}\nstiffness_y = {k}",
-        f"[bearings.pinion]\nstiffness = {k}\n[bearings.wheel]\nstiffness_x = {k}\nstiffness_y = {k}",
-    ]
-    scenes = [with_bearings(lines) for lines in ways]
-    shafts = [drivetrain(scene, gear_pair(scene.gears)) for scene in scenes]
-    for other in shafts[1:]:
-        assert np.array_equal(other.stiffness, shafts[0].stiffness) and np.array_equal(other.damping, shafts[0].damping)
 
 
 @pytest.mark.parametrize(
@@ -117,14 +98,6 @@ def test_static_deflection_is_reaction_over_stiffness(paper_scene):
         assert moved * stiffness == pytest.approx(force, abs=1e-9 * np.abs(force).max())
 
 
-def test_stiff_bearings_are_none(paper_scene):
-    """Exact limit: bearings of 1e20 N/mm leave the result of a scene without the section, to round-off."""
-    scene = quasi_static(coarse_scene(paper_scene))
-    stiff, absent = (simulate(replace(scene, bearings=bearings)) for bearings in (Bearings(RIGID), None))
-    assert stiff.transmission_error.values == pytest.approx(absent.transmission_error.values, rel=1e-10)
-    assert float(np.abs(stiff.centre_x).max()) < 1e-15
-
-
 def test_each_direction_gives_way_alone(paper_scene):
     """Exact limit: stiff in one direction only, the centres stay on a line; without friction they stay on the line of
     action."""
@@ -135,29 +108,6 @@ def test_each_direction_gives_way_alone(paper_scene):
     assert float(np.abs(off.centre_x).max()) < 1e-15 < float(np.abs(off.centre_y).max())
     frictionless = simulate(replace(scene, friction=None, bearings=Bearings(0.155e6, stiffness_y=1.0)))
     assert float(np.abs(frictionless.centre_y).max()) == 0.0
-
-
-def test_the_tangent_is_the_springs_force_by_finite_differences(paper_scene, paper_pair):
-    """Finite differences (exact, being linear): what a displacement of one centre adds to the drivetrain's forces is
-    its own spring's."""
-    on = drivetrain(replace(paper_scene, bearings=ALL_DIFFERENT), paper_pair)
-    for name, spring in {"centre_x1": 0.1e6, "centre_y1": 0.3e6, "centre_x2": 0.2e6, "centre_y2": 0.5e6}.items():
-        moved = np.zeros(len(on.coordinates))
-        moved[on.coordinates.index(name)] = 1e-3
-        expected = np.zeros_like(moved)
-        expected[on.coordinates.index(name)] = spring
-        assert on.stiffness @ moved / 1e-3 == pytest.approx(expected, rel=1e-12, abs=1e-12 * spring)
-
-
-def test_without_the_section_there_is_nothing_of_it(paper_scene, paper_pair):
-    """House rule 9: no coordinates, no matrix rows, no variables."""
-    bare = replace(paper_scene, bearings=None)
-    assert not [name for name in drivetrain(bare, paper_pair).coordinates if name.startswith("centre")]
-    assert len(drivetrain(bare, paper_pair).stiffness) == 3
-    gone = {variable.name for variable in effect_named("bearings").variables}
-    assert gone == {"centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y", "energy_bearings"}
-    assert not gone & {variable.name for variable in result_variables(bare)}
-    assert not gone & set(simulate(replace(quasi_static(coarse_scene(bare)))))
 
 
 PLACED = replace(ALL_DIFFERENT, axial_stiffness=0.07e6, places=BearingPlaces((-40.0, 60.0), (-30.0, 75.0)))
@@ -202,38 +152,3 @@ def test_what_the_bearings_carry_is_in_the_result(placed_run):
             )
         assert result["reaction_z"].sel(gear=gear).values == pytest.approx(PLACED.axial(gear) * axial, abs=1e-9 * size)
     assert result["energy_bearings"].values == pytest.approx(energy, rel=1e-10)
-
-
-def test_the_axial_force_is_the_gears_own(placed_run):
-    """Exact: F_a = F_t tan(beta), F_t being the torque over the reference radius; and all energy is accounted for."""
-    scene, result = placed_run
-    radius = 0.5 * scene.gears.pinion.teeth * scene.gears.module / np.cos(scene.gears.helix_angle)
-    tangential = -result["reaction_couple"].sel(gear="pinion").values / radius
-    assert result["reaction_z"].sel(gear="pinion").values == pytest.approx(
-        tangential * np.tan(scene.gears.helix_angle), rel=1e-10
-    )
-    assert float(np.abs(result["energy_defect"]).max()) < 1e-9 * float(result["work_input"][-1])
-
-
-def test_a_run_over_the_face_has_its_variables_and_no_others(placed_run, paper_scene):
-    """House rule 9: tilts are there with places only, what a shaft takes along the axis in every run over the face."""
-    scene, result = placed_run
-    assert set(result.data_vars) == {variable.name for variable in result_variables(scene)}
-    tilts, over_face = {"axial_position", "tilt_x", "tilt_y"}, {"reaction_z", "reaction_moment_x", "reaction_moment_y"}
-    found = {variable.name for variable in result_variables(replace(scene, bearings=replace(PLACED, places=None)))}
-    assert (tilts | over_face) & found == over_face
-    assert not (tilts | over_face) & {variable.name for variable in result_variables(paper_scene)}
-
-
-def test_bearings_within_the_gear_are_remarked():
-    """Authority: the rule; a gear of 20 mm reaches 10 mm from its mid-width, and each gear has its own width."""
-    places = 'places = { pinion = ["-40 mm", "9 mm"], wheel = ["-9 mm", "8 mm"] }'
-    scene = wide_pair(f'[bearings]\nstiffness = "0.2e6 N/mm"\n{places}\n')
-    pinion, wheel = (0.5 * width for width in model_of(scene).pair.face_widths)
-    assert min(pinion, wheel) > 9.0
-    first, second = (words for words in model_of(scene).warnings if "within the gear" in words)
-    said = f"bearings.places.pinion: the bearing at 9 mm stands within the gear, which reaches {pinion:g} mm"
-    assert first.startswith(said) and "the bearings at -9 mm and 8 mm stand" in second
-    places = BearingPlaces((-pinion, pinion), (-wheel - 1.0, wheel + 5.0))
-    outside = replace(scene, bearings=replace(scene.bearings, places=places))
-    assert not any("within the gear" in words for words in model_of(outside).warnings)

@@ -2,7 +2,6 @@
 computed."""
 
 import re
-import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -14,14 +13,9 @@ from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
-from fenics_gears.results import by_pair
-from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Motion
-from fenics_gears.scene.read import load_scene, scene_from_text
-from fenics_gears.simulation.run_stresses import RunStresses
+from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.accuracy.refinement import check_measurable
-from fenics_gears.studies.study_file import load_study
 from meshes.root_crack import cracked_gear_mesh
 
 TEETH = "tooth_elasticity"
@@ -52,7 +46,7 @@ def cache(tmp_path_factory):
     return Cache(tmp_path_factory.mktemp("cache"))
 
 
-@pytest.mark.parametrize("sections", [(), ("shafts", "inertia", "damping", "friction", "tip_relief", "flank_errors")])
+@pytest.mark.parametrize("sections", [("shafts", "inertia", "damping", "friction", "tip_relief", "flank_errors")])
 def test_whole_meshes_of_healthy_gears_change_nothing(sections, healthy, cache):
     """Exact identity: both gears from files, every result variable that of the rings of sectors but for the digits of a
     mesh file."""
@@ -92,19 +86,6 @@ def test_the_mesh_is_softer_while_the_cracked_tooth_carries_and_nowhere_else(tur
     assert np.abs(softer[np.abs(phase - 8.75) > 3.75]).max() < 5e-3 * softer.max()
 
 
-def test_the_load_goes_to_the_neighbours_of_a_cracked_tooth(turn):
-    """Where two pairs share the load the softer one has less than the whole tooth had, the other more, and their sum is
-    the load."""
-    forces = [by_pair(result.pair_normal_force) for result in turn]
-    first = turn[0].pair_number.attrs["number_at_phase_0"]
-    phase = turn[0].mesh_phase.values
-    for at, other in ((8.3, 7), (9.2, 9)):
-        step = int(np.argmin(np.abs(phase - at)))
-        own, beside = ([float(each.sel(pair=pair + first)[step]) for each in forces] for pair in (8, other))
-        assert own[0] < 0.98 * own[1] and beside[0] > 1.01 * beside[1]
-        assert own[0] + beside[0] == pytest.approx(own[1] + beside[1], rel=1e-9)
-
-
 def test_a_run_says_where_its_crack_would_be_closed(turn):
     """The two teeth in mesh before the cracked one press it together until it carries itself: two mesh cycles of 20
     steps; most, about 1.8 um,
@@ -115,36 +96,6 @@ def test_a_run_says_where_its_crack_would_be_closed(turn):
     steps, overlap, opening = (float(each) for each in words.groups())
     assert 38 <= steps <= 44 and 1.5 < overlap < 2.1 and 12.0 < opening < 16.0
     assert "crack" not in whole
-
-
-def test_files_are_found_from_the_scene_file_on(tmp_path, monkeypatch):
-    """Wherever the program is called from; a study's cases from its base scene's folder on, and a swept file is a case
-    of its own."""
-    (tmp_path / "scenes").mkdir()
-    shutil.copy(MESHES / "cracked_pinion.msh", tmp_path / "scenes" / "own.msh")
-    shutil.copy(MESHES / "cracked_pinion.msh", tmp_path / "scenes" / "other.msh")
-    (tmp_path / "scenes" / "scene.toml").write_text(text_with('pinion = "own.msh"'))
-    study = tmp_path / "study.toml"
-    study.write_text('scene = "scenes/scene.toml"\n[sweep]\nbody_meshes.pinion = ["own.msh", "other.msh"]\n')
-    monkeypatch.chdir(tmp_path)
-    mesh = load_scene("scenes/scene.toml").body_meshes.pinion
-    assert mesh.path == str(tmp_path / "scenes" / "own.msh") and len(mesh.digest) == 64
-    found = [case.scene.body_meshes.pinion for case in load_study(study).cases]
-    assert [each.path for each in found] == [str(tmp_path / "scenes" / name) for name in ("own.msh", "other.msh")]
-    assert found[0] == mesh and found[0].digest == found[1].digest
-
-
-def test_a_gear_store_tells_meshes_apart_by_their_content(tmp_path, healthy, cache):
-    """A file that is written anew is another gear, and the same file is not read twice."""
-    file = tmp_path / "pinion.msh"
-    shutil.copy(healthy / "pinion.msh", file)
-    store, made = GearStore(), []
-    for content in (None, None, MESHES / "cracked_pinion.msh"):
-        if content is not None:
-            shutil.copy(content, file)
-        model = model_of(scene_from_text(text_with(f'pinion = "{file}"')))
-        made.append(simulate(model.scene, preparation=store.prepared, cache=cache).transmission_error.values)
-    assert np.array_equal(made[0], made[1]) and np.abs(made[2] - made[0]).max() > 1e-3 * np.abs(made[0]).max()
 
 
 @pytest.mark.parametrize(
@@ -187,25 +138,3 @@ def test_check_and_run_refuse_a_mesh_that_does_not_fit_before_anything_is_writte
             said = capsys.readouterr().err
             assert words in said and "Nothing was computed or written" in said
     assert not (tmp_path / "out").exists()
-
-
-def test_a_flank_coarser_than_the_contact_asks_for_is_warned_of():
-    """The example's 0.38 mm against the scene's 0.12 mm."""
-    model = model_of(scene_from_text(text_of(TEETH, "body_meshes")))
-    assert any(
-        "body_meshes.pinion: elements along its flanks are up to 0.399 mm long, the contact asks for 0.12 mm" in words
-        for words in model.warnings
-    )
-
-
-def test_pictures_of_stress_say_that_they_know_equal_sectors_only(turn, cache):
-    """Recovery is by sectors."""
-    scene = scene_from_text(text_with(f'pinion = "{MESHES / "cracked_pinion.msh"}"'))
-    with pytest.raises(SceneError, match="stresses are recovered from gears of equal sectors"):
-        RunStresses(turn[0], scene, cache)
-
-
-def test_the_accuracy_of_a_given_mesh_is_not_measured():
-    """Its elements are not the program's to refine."""
-    with pytest.raises(SceneError, match="a mesh that is given cannot be refined"):
-        check_measurable(scene_from_text(text_of(TEETH, "body_meshes")))

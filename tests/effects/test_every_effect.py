@@ -6,12 +6,12 @@ import inspect
 import itertools
 import json
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 from tests.effects.examples import EXAMPLES, scene_of, text_of, with_needs
+from tests.programs import python
 
 from fenics_gears.commands.cli import main
 from fenics_gears.effects import EFFECTS, effect_named, effects_on, result_variables
@@ -136,20 +136,23 @@ print(json.dumps(loaded))
 """
 
 
-@pytest.fixture(scope="module")
-def loaded():
-    """Modules loaded after runs one after another in one process: rigid flanks, the bare scene, and each effect on
-    it."""
-    runs = {"nothing": (), TEETH: (TEETH,)} | {
-        section: with_needs(section, TEETH) for section in SECTIONS if section != TEETH
-    }
+BARE = {"nothing": (), TEETH: (TEETH,)}
+
+
+def modules_after(runs):
+    """Modules loaded after runs (name: sections) one after another in one process."""
     texts = json.dumps([text_of(*sections) for sections in runs.values()])
-    run = subprocess.run(
-        [sys.executable, "-c", PROGRAM], input=texts, cwd=CHECKOUT, capture_output=True, text=True, check=True
-    )
+    run = python("-c", PROGRAM, given=texts)
     return {name: set(modules) for name, modules in zip(runs, json.loads(run.stdout.splitlines()[-1]))}
 
 
+@pytest.fixture(scope="module")
+def loaded():
+    """After rigid flanks, the bare scene, and each effect on it."""
+    return modules_after(BARE | {section: with_needs(section, TEETH) for section in SECTIONS if section != TEETH})
+
+
+@pytest.mark.nightly
 @pytest.mark.parametrize("section", SECTIONS)
 def test_what_computes_it_is_loaded_by_a_scene_that_names_it_and_by_no_bare_one(section, loaded):
     """Authority: house rule 9; modules of an absent effect's physics are not imported, those of a named one are."""
@@ -161,10 +164,9 @@ def test_what_computes_it_is_loaded_by_a_scene_that_names_it_and_by_no_bare_one(
     assert own <= loaded[section]
 
 
-def test_a_bare_scene_loads_no_varying_gaps_no_second_solver_no_other_model_and_no_finite_elements_for_rigid_flanks(
-    loaded,
-):
-    """Authority: house rule 9, for what several effects share, and for the cheaper models of the mesh."""
+def test_a_bare_scene_loads_no_varying_gaps_no_second_solver_no_other_model_and_no_finite_elements_for_rigid_flanks():
+    """House rule 9, for what several effects share, and for the cheaper models of the mesh."""
+    loaded = modules_after(BARE)
     assert not [
         name
         for name in loaded[TEETH]

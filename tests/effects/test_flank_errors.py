@@ -5,23 +5,21 @@ from math import cos, pi
 
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
+from tests.coarse import frictionless, quasi_static
 from tests.effects.hats import hat_mean
 from tests.stand_in import stand_in_compliance
 
 from fenics_gears.contact.deviating_cycle import DeviatingCycle
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
-from fenics_gears.contact.flank_gaps import FlankGaps, flank_gaps
+from fenics_gears.contact.flank_gaps import flank_gaps
 from fenics_gears.contact.mesh_cycle import MeshCycle
-from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks
+from fenics_gears.contact.tooth_pair import COAST, Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.effects import without
-from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors, Waviness
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.flank_deviations import flank_deviations
 from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.simulation.simulate import simulate
@@ -85,23 +83,13 @@ def test_a_tooth_out_of_place_displaces_the_rigid_pair_while_it_leads(rigid, pap
         assert np.abs(error[outside]).max() <= 1e-12
 
 
-def test_true_teeth_change_nothing(paper_scene):
-    """Omitted equals its zero limit, to the last bit, with inertia and friction."""
-    scene = coarse_scene(paper_scene, cycles=1)
-    none = GearErrors(pitch=(0.0,) * 16, profile_slope=(0.0,) * 16, waviness=Waviness(0.0, 37, 0.3))
-    plain, zero = simulate(scene), simulate(replace(scene, flank_errors=FlankErrors(pinion=none)))
-    for name in plain.data_vars:
-        assert np.array_equal(plain[name].values, zero[name].values, equal_nan=True)
-
-
 @pytest.mark.parametrize(
     ("waves", "gear", "turns"),
     [
         (64, "pinion", 3),
-        (7, "wheel", 2),
         *(
             pytest.param(*each, marks=pytest.mark.nightly)
-            for each in [(7, "pinion", 3), (37, "pinion", 3), (37, "wheel", 2), (64, "wheel", 2)]
+            for each in [(7, "wheel", 2), (7, "pinion", 3), (37, "pinion", 3), (37, "wheel", 2), (64, "wheel", 2)]
         ),
     ],
 )
@@ -124,32 +112,6 @@ def test_waves_give_their_own_order_and_go_on_from_tooth_to_tooth(rigid, paper_p
     (line, rest), (coarser, coarse_rest) = found
     assert line == pytest.approx(1.0, abs=1e-4) and rest < 1e-3
     assert coarser == pytest.approx(1.0, abs=0.02) and coarse_rest < 0.02
-
-
-def test_the_period_is_the_hunting_tooths(rigid, paper_pair):
-    """Definition: with errors on both gears T_E comes back after lcm(16, 24) mesh cycles and not before; that of one
-    gear after its turn."""
-    result = simulate(
-        replace(rigid, motion=Motion(200.0, PERIOD + 4, PERIOD + 4), flank_errors=FlankErrors(tolerance_class=6))
-    )
-    error = length(result, paper_pair)
-    assert error[PERIOD * STEPS :] == pytest.approx(error[: 4 * STEPS + 1], abs=1e-12)
-    for sooner in (16, 24):
-        assert np.abs(error[sooner * STEPS :] - error[: -sooner * STEPS]).max() > 1e-3
-    own = GearErrors(pitch=(0.0,) * 24, profile_slope=(0.0,) * 24, profile_form=(0.0,) * 24)
-    error = length(simulate(replace(rigid, flank_errors=FlankErrors(wheel=own, tolerance_class=6))), paper_pair)
-    assert error[16 * STEPS :] == pytest.approx(error[: -16 * STEPS], abs=1e-12)
-
-
-def test_drawn_errors_are_in_the_result(rigid, paper_pair):
-    """Definition: what was drawn can be read, as it was used."""
-    errors = FlankErrors(tolerance_class=6, seed=3)
-    result = simulate(replace(rigid, flank_errors=errors, motion=Motion(200.0, 1, 1)))
-    for name, own in zip(("pinion", "wheel"), flank_deviations(errors, paper_pair)):
-        assert np.array_equal(result[f"{name}_index_deviation"].values, own.index)
-        assert np.array_equal(result[f"{name}_profile_slope"].values, own.slope)
-        assert np.array_equal(result[f"{name}_profile_form"].values, own.form)
-        assert result[f"{name}_index_deviation"].attrs["units"] == "mm"
 
 
 ALL = GearErrors(
@@ -242,23 +204,6 @@ def test_the_loaded_pair_answers_with_maxwells_reciprocity(paper_scene, paper_pa
     assert abs(by_deviation) > 0.01
 
 
-@pytest.mark.nightly
-def test_the_remeshed_route_feels_the_same_errors(paper_scene, paper_pair):
-    """Other method: nodes that meet pair by pair, gaps at points. What class 8 errors and run-out change of T_E, up to
-    14 um, agrees within
-    0.4 um on 0.12 mm elements, where the two routes differ by 0.3 um without errors."""
-    coarse = teeth_alone(frictionless(coarse_scene(paper_scene)))
-    coarse = replace(coarse, accuracy=replace(coarse.accuracy, steps_per_mesh_cycle=8), motion=Motion(200.0, 3, 3))
-    errors = {"flank_errors": FlankErrors(tolerance_class=8), "eccentricity": Eccentricity(Offset(ERROR, 0.0), None)}
-    changes = []
-    for condensation in ("once", "every step"):
-        plain = replace(coarse, accuracy=replace(coarse.accuracy, condensation=condensation))
-        changes.append(length(simulate(replace(plain, **errors)), paper_pair) - length(simulate(plain), paper_pair))
-    once, every_step = changes
-    assert np.abs(once).max() > 0.01
-    assert np.abs(once - every_step).max() < 4e-4
-
-
 def test_waves_that_the_steps_do_not_sample_are_refused(paper_pair):
     """House rule on errors: what, the value, what is allowed, the remedy."""
     errors = FlankErrors(wheel=GearErrors(waviness=Waviness(0.001, 241, 0.0)))
@@ -267,29 +212,3 @@ def test_waves_that_the_steps_do_not_sample_are_refused(paper_pair):
     for words in ("flank_errors.wheel.waviness.waves = 241", "480 steps", "steps_per_mesh_cycle to 21 or more"):
         assert words in str(refused.value)
     flank_gaps(errors, paper_pair, STEPS + 1)
-
-
-def test_positions_between_steps_join_those_of_the_steps(both_flanks, paper_pair):
-    """Identity: a step that is divided reaches the same gaps; beside it they go over smoothly."""
-    errors = flank_gaps(FlankErrors(tolerance_class=6), paper_pair, STEPS)
-    whole = errors(31, both_flanks.position(31))
-    assert np.array_equal(errors(31.0, both_flanks.between(31.0, 30.5)), whole)
-    beside = both_flanks.between(31.0 + 2.0**-20, 31.0)
-    assert errors(31.0 + 2.0**-20, beside) == pytest.approx(whole, abs=1e-7)
-
-
-def test_a_step_costs_little_more(both_flanks, paper_pair, monkeypatch):
-    """Count: the flanks' shapes at the nodes are worked out in the first mesh cycle; a later step is two small products
-    for each pair."""
-    worked_out = []
-    monkeypatch.setattr(
-        FlankGaps, "_shapes", lambda *place, own=FlankGaps._shapes: worked_out.append(place) or own(*place)
-    )
-    gaps = flank_gaps(
-        replace(moved("pitch", 0.0), wheel=GearErrors(waviness=Waviness(0.001, 31, 0.0))), paper_pair, STEPS
-    )
-    positions = [both_flanks.position(step) for step in range(STEPS)]
-    assert {pair.place.flank for pair in positions[0].operator.pairs} == {DRIVE, COAST}
-    for step in range(4 * STEPS):
-        gaps(step, positions[step % STEPS])
-    assert len(worked_out) == 2 * sum(len(position.operator.pairs) for position in positions)

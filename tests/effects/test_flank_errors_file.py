@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fenics_gears.commands.cli import main
 from fenics_gears.commands.shared import checked_model
 from fenics_gears.effects.flank_errors_sections import GearErrors
 from fenics_gears.errors import SceneError
@@ -73,13 +72,6 @@ def test_a_table_is_read_however_it_is_written(scene_with, text):
     assert found.profile_slope is None and found.file == "pinion.csv"
 
 
-def test_a_list_of_the_scene_stands_beside_a_table(scene_with):
-    """Definition: each deviation from where it is given."""
-    slopes = ", ".join(['"2 um"'] * 16)
-    found = scene_with(table(), f"profile_slope = [{slopes}]").flank_errors.pinion
-    assert found.profile_slope == pytest.approx((0.002,) * 16) and found.pitch[0] == pytest.approx(0.003)
-
-
 WRONG = {
     "no file": (None, ["pinion.csv: there is no such file", "from the scene file's folder on"]),
     "a workbook": (b"PK\x03\x04\xff\xfe", ["is not a text in UTF-8", "not a workbook"]),
@@ -142,16 +134,6 @@ def test_a_deviation_from_two_places_is_refused(scene_with):
     """Definition: each deviation from one place."""
     with pytest.raises(SceneError, match="the table has pitch, which the scene has, too. Leave one of the two out"):
         scene_with(table(), "pitch = [" + ", ".join(['"0 um"'] * 16) + "]")
-
-
-def test_a_run_is_refused_before_it_begins(scene_with, tmp_path, monkeypatch, capsys):
-    """The interface: exit code 2, and nothing written."""
-    with pytest.raises(SceneError):
-        scene_with(table(rows=[3.0] * 16))
-    monkeypatch.chdir(tmp_path)
-    assert main(["run", "pair.toml"]) == 2
-    assert "sums to 48 um" in capsys.readouterr().err
-    assert sorted(each.name for each in tmp_path.iterdir()) == ["pair.toml", "pinion.csv"]
 
 
 def test_a_scene_whose_table_is_gone_can_be_looked_at():

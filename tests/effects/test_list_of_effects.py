@@ -54,13 +54,6 @@ def test_an_absent_section_takes_its_effect_and_variables_away(section):
     assert effects.effect_named(section) not in effects.effects_on(plain)
 
 
-def test_a_scene_without_effects_is_one():
-    """Authority: docs/promises.md; every effect's section may be absent."""
-    scene = scene_from_text(without(*SECTIONS))
-    assert effects.effects_on(scene) == ()
-    assert [getattr(scene, section) for section in SECTIONS] == [None] * len(SECTIONS)
-
-
 def test_names_in_the_list_are_consistent():
     """Authority: identity; needs and excludes name sections of the list, variables of one name are one and the same,
     such as the pressure at kinks of

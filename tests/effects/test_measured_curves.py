@@ -1,12 +1,8 @@
 """Measured profiles and helices of single teeth from tables: read as they stand, felt as they are, and refused with
 line and remedy."""
 
-from dataclasses import replace
-from pathlib import Path
-
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene, frictionless, teeth_alone
 from tests.effects.examples import text_of
 from tests.stand_in import stand_in_compliance
 
@@ -17,17 +13,10 @@ from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.effects.flank_errors_sections import MEAN, REFERENCE_POINT, FlankErrors, GearErrors
 from fenics_gears.effects.flank_errors_tables import located
-from fenics_gears.effects.relief import Relief
-from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import flank_deviations, slope_and_form
-from fenics_gears.model.description import describe
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 
-DEMOS = Path(__file__).parents[2] / "demos"
 STEPS = 20
-FACE = '[misalignment]\nin_plane = "0 um"\n'
 
 
 @pytest.fixture(scope="module")
@@ -145,47 +134,6 @@ def test_a_tooth_with_relief_stands_where_the_others_do(paper_pair, tmp_path):
     assert mean.curves[0, 60] == pytest.approx(40e-3 * 0.5 * 0.3**2, rel=2e-3)
 
 
-def test_relief_as_curves_is_that_relief(paper_scene, paper_pair, tmp_path):
-    """Identity: the same relief as `[tip_relief]` and as curves of all teeth of the pinion gives the same transmission
-    error, but for the 200 straight pieces of a curve."""
-    places = places_of(paper_pair, 0, "roll_angle (deg)", 1001)
-    start = 0.7 * places[-1] + 0.3 * places[0]
-    errors = measured(
-        tmp_path,
-        curve(range(1, 17), places, lambda tooth, at: relieved(at), "roll_angle (deg)"),
-        anchor=REFERENCE_POINT,
-    )
-    scene = frictionless(teeth_alone(coarse_scene(paper_scene, 1)))
-    by_relief = TipRelief(Relief(12e-3, np.radians(start)), None)
-    true, relieved_teeth, as_curves = (
-        simulate(replace(scene, **more)).transmission_error.values
-        for more in ({}, {"tip_relief": by_relief}, {"flank_errors": errors})
-    )
-    assert np.abs(relieved_teeth - true).max() > 0.1 * np.abs(true).max()
-    assert as_curves == pytest.approx(relieved_teeth, rel=2e-4)
-
-
-def test_an_entry_that_is_no_number_is_never_taken_as_zero(paper_pair, tmp_path):
-    """House rule on errors: what numpy 2 writes with `!r` is refused where the errors are used, too."""
-    text = curve((1,), places_of(paper_pair, 0, "roll_length (mm)"), lambda tooth, at: 1.5).replace(
-        "1.5", "np.float64(1.5)"
-    )
-    with pytest.raises(
-        SceneError, match=r"flank_errors.pinion.profile_curves = .*curves.csv:2: deviation = .*np.float64"
-    ):
-        flank_deviations(measured(tmp_path, text), paper_pair)
-
-
-def test_a_class_draws_no_profiles_beside_curves(paper_pair, tmp_path):
-    """Definition: what was measured is not drawn; pitches still are."""
-    text = curve((1,), places_of(paper_pair, 0, "roll_length (mm)"), lambda tooth, at: 0.0)
-    (tmp_path / "curves.csv").write_text(text, encoding="utf-8")
-    pinion, wheel = flank_deviations(
-        located(FlankErrors(GearErrors(profile_curves="curves.csv"), tolerance_class=6), tmp_path), paper_pair
-    )
-    assert not pinion.slope.any() and not pinion.curves.any() and pinion.index.any() and wheel.slope.any()
-
-
 def test_measured_helices_are_the_deviations_they_show(paper_pair, tmp_path):
     """Identity: ISO 1328-1, the slope of a straight helix is its rise over the face width; its mean is taken off."""
     width = paper_pair.face_widths[0]
@@ -239,40 +187,3 @@ def test_wrong_curves_are_refused(tmp_path, name):
         scene_with(tmp_path, text)
     for words in ('flank_errors.pinion.profile_curves = "curves.csv": ', "Nothing was computed or written.", *said):
         assert words in str(refused.value)
-
-
-def test_curves_stand_in_place_of_slope_and_form(tmp_path):
-    """Definition: each deviation from one place; helices need a face."""
-    assert scene_with(tmp_path, POINTS).flank_errors.pinion.measured_profile.curves[0].tooth == 1
-    with pytest.raises(SceneError, match="stands beside profile_form, which the curves replace"):
-        scene_with(tmp_path, POINTS, "profile_form = [" + ", ".join(['"1 um"'] * 16) + "]")
-    helix = "tooth, face_position (mm), deviation (um)\n1, -7.5, 0\n1, 0, 1\n1, 7.5, 0\n"
-    with pytest.raises(SceneError, match="helix_curves = .*\n.* is of three-dimensional scenes"):
-        scene_with(tmp_path, helix, name="helix_curves")
-    assert scene_with(tmp_path, helix, name="helix_curves", face=FACE).three_dimensional
-
-
-def test_a_scene_whose_curves_are_gone_can_be_looked_at():
-    """The interface: a result is drawn from the scene that it carries, wherever its tables are by then."""
-    errors = scene_from_text(
-        f'{text_of("tooth_elasticity")}\n[flank_errors.wheel]\nprofile_curves = "gone.csv"\n'
-    ).flank_errors.wheel
-    assert errors.problem[0] == "profile_curves" and "there is no such file" in errors.problem[1]
-
-
-def test_the_example_is_a_scene():
-    """The demonstration: four measured teeth of the pinion; ISO 1328-1 class 6 allows slopes of 10 um."""
-    scene = checked_model(DEMOS / "flank_errors" / "measured_curves.toml").scene
-    assert [each.tooth for each in scene.flank_errors.pinion.measured_profile.curves] == [1, 5, 9, 13]
-
-
-def test_check_tells_where_curves_are_zero(tmp_path):
-    """Definition: ISO 21771, d + 2 x m = 72 + 2 * 0.196 * 4.5 mm; or the mean by choice, which needs curves."""
-    rows = {label: value for label, value, _ in dict(describe(scene_with(tmp_path, POINTS)))["Model"]}
-    assert rows["pinion profile curves are zero"] == "at diameter 73.764 mm"
-    rows = {
-        label: value for label, value, _ in dict(describe(scene_with(tmp_path, POINTS, 'anchor = "mean"')))["Model"]
-    }
-    assert rows["pinion profile curves are zero"] == "in their mean"
-    with pytest.raises(SceneError, match="has no curves to hold"):
-        scene_from_text(f'{text_of("tooth_elasticity")}\n[flank_errors.pinion]\nanchor = "mean"\n')

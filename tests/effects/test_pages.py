@@ -1,16 +1,14 @@
 """The documentation's pages on effects: the table is the list's, and the worked example works."""
 
 import json
-import os
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from tests import effects_table
 from tests.effects.examples import scene_of, text_of
+from tests.programs import python
 
 import fenics_gears
 from fenics_gears.scene.data import Scene
@@ -71,12 +69,7 @@ def extended(tmp_path_factory):
 
 def run(folder, *arguments, given=None):
     """Python on the package in a folder; what it prints."""
-    environment = {**os.environ, "PYTHONPATH": str(folder), "OMP_NUM_THREADS": "1"}
-    done = subprocess.run(
-        [sys.executable, "-P", *arguments], input=given, cwd=folder, env=environment, capture_output=True, text=True
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+    return python("-P", *arguments, given=given, folder=folder, PYTHONPATH=str(folder)).stdout
 
 
 PROGRAM = """
@@ -147,6 +140,7 @@ def runs(printed):
     return printed[0]
 
 
+@pytest.mark.nightly
 def test_the_guides_effect_is_named_by_check_on_and_off(printed):
     """Authority: the guide; one entry in the list is enough."""
     lines = []
@@ -158,6 +152,7 @@ def test_the_guides_effect_is_named_by_check_on_and_off(printed):
     assert off[1:] == ["off", "no brake"]
 
 
+@pytest.mark.nightly
 def test_the_guides_rule_refuses_with_place_value_and_remedy(printed):
     """Authority: the guide; a rule's Problem is a message with all that a user needs."""
     code, _, said = printed[1][2]
@@ -165,6 +160,7 @@ def test_the_guides_rule_refuses_with_place_value_and_remedy(printed):
     assert "load.wheel_torque" in said and "-437 N m" in said and "cannot stand beside a brake" in said
 
 
+@pytest.mark.nightly
 def test_the_guides_effect_has_its_known_answer(runs):
     """Authority: identity; on one hub 400 N m of load and 37 N m of brake are 437 N m, and the brake's work is torque
     times angle."""
@@ -173,11 +169,13 @@ def test_the_guides_effect_has_its_known_answer(runs):
     assert braked["work"][-1] == pytest.approx(37e3 * 2.0 * 3.141592653589793 / 24, rel=1e-12)
 
 
+@pytest.mark.nightly
 def test_the_guides_brake_works_before_the_output_shaft(runs):
     """Authority: statics; the shaft of 0.203e9 N mm/rad is twisted by the 400 N m at its end, not by the brake."""
     assert runs[3]["twist"] == pytest.approx([400e3 / 0.203e9] * 21, rel=1e-9)
 
 
+@pytest.mark.nightly
 def test_the_guides_effect_left_out_leaves_nothing_behind(runs, plain):
     """Authority: house rule 9; a scene without it loads what the package without it loads, its own section's module
     aside."""

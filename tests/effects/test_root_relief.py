@@ -1,18 +1,16 @@
 """Relief towards tip and root: its curve, what it does to the gaps and to the transmission error."""
 
 from dataclasses import replace
-from math import degrees, radians
+from math import radians
 
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene, frictionless, teeth_alone
 from tests.effects.hats import hat_mean
 
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.mesh_cycle import MeshCycle
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.effects import without
 from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.root_relief import RootRelief
 from fenics_gears.effects.tip_relief import TipRelief
@@ -22,7 +20,6 @@ from fenics_gears.geometry.relief import root_reliefs, tip_reliefs
 from fenics_gears.inputs.allowed import Measured
 from fenics_gears.model.modification import removals
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 
 DEPTH = 0.02
 KINDS = {"tip_relief": (TipRelief, tip_reliefs), "root_relief": (RootRelief, root_reliefs)}
@@ -40,20 +37,6 @@ def test_root_relief_runs_from_lpstc_to_the_form_circle(paper_pair):
         for curve, (gear, start) in zip(root_reliefs(paper_pair, RootRelief(relief, relief)), gears):
             rolls = start + fractions * (gear.form_roll_angle - start)
             assert curve(rolls) == pytest.approx(DEPTH * np.maximum(fractions, 0.0) ** power, abs=1e-16)
-
-
-def test_parabolic_relief_leaves_the_involute_without_a_kink(paper_pair):
-    """Definition: zero slope at the start; a linear one of the same depth has half the slope at the tip."""
-    linear, parabolic = (
-        tip_reliefs(paper_pair, TipRelief(Relief(DEPTH, shape=shape), None))[0] for shape in (LINEAR, PARABOLIC)
-    )
-    start, tip, small = linear.start_roll_angle, linear.end_roll_angle, 1e-6
-
-    def slope(curve, roll):
-        return (curve(roll + small) - curve(roll - small)) / (2.0 * small)
-
-    assert slope(parabolic, start + small) / slope(linear, start + 2 * small) == pytest.approx(0.0, abs=2e-4)
-    assert slope(parabolic, tip) == pytest.approx(2.0 * slope(linear, tip), rel=1e-6)
 
 
 @pytest.mark.parametrize("section", KINDS)
@@ -136,61 +119,6 @@ def test_a_start_means_one_place(paper_scene, section, word):
     )
 
 
-@pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
-def test_a_scene_says_start_and_shape_for_both_gears_and_for_one(paper_scene, section, word):
-    """Definition of the scene's fields; the wheel's own come before those of both."""
-    own = f'[{section}.wheel]\nstart = "110 mm"\nshape = "parabolic"'
-    scene = scene_from_text(f'{paper_scene.text}\n[{section}]\ndepth = "20 um"\nstart = "{word}"\n{own}\n')
-    assert getattr(scene, section) == KINDS[section][0](
-        Relief(0.02, None), Relief(0.02, Measured(110.0, "a length"), shape=PARABOLIC)
-    )
-
-
-@pytest.mark.parametrize(
-    ("relief", "said"),
-    [
-        (
-            Relief(DEPTH, Measured(90.0, "a length")),
-            ["starts at diameter 90 mm", "diameters", "to 82.64 mm", "root_relief.pinion.start"],
-        ),
-        (
-            Relief(DEPTH, Measured(60.0, "a length")),
-            ["starts at diameter 60 mm", "(form circle)", "root_relief.pinion.start"],
-        ),
-        (Relief(DEPTH, radians(2.0)), ["roll angle 2 deg", "2.904 deg (form circle)"]),
-        (Relief(5.0, None), ["depth 5 mm", "at the form circle", "lower root_relief.pinion.depth"]),
-        (Relief(-0.01, None), ["root_relief depth -0.01 mm", "zero or a positive length"]),
-    ],
-)
-def test_relief_off_the_flank_is_refused(paper_pair, relief, said):
-    """House rule on errors: what, which gear, the value, what is allowed, the field."""
-    with pytest.raises(GeometryError) as refused:
-        root_reliefs(paper_pair, RootRelief(relief, None))
-    for words in ("pinion: ", *said):
-        assert words in str(refused.value)
-
-
-def test_a_start_on_its_own_end_is_refused(paper_pair):
-    """A relief of no length has no slope."""
-    for section, roll in (
-        ("tip_relief", paper_pair.pinion.tip_roll_angle),
-        ("root_relief", paper_pair.pinion.form_roll_angle),
-    ):
-        kind, curves = KINDS[section]
-        with pytest.raises(GeometryError, match=f"{degrees(roll):.4g} deg"):
-            curves(paper_pair, kind(Relief(DEPTH, roll), None))
-
-
-@pytest.mark.parametrize("section", KINDS)
-def test_no_depth_changes_nothing(paper_scene, section):
-    """Omitted equals its zero limit, to the last bit, with inertia and friction."""
-    scene = coarse_scene(paper_scene, cycles=1)
-    none = Relief(0.0, shape=PARABOLIC)
-    plain, zero = simulate(scene), simulate(replace(scene, **{section: KINDS[section][0](none, none)}))
-    for name in plain.data_vars:
-        assert np.array_equal(plain[name].values, zero[name].values, equal_nan=True)
-
-
 @pytest.mark.parametrize("section", KINDS)
 def test_gaps_open_by_the_removal_there(paper_scene, paper_pair, stand_in_flanks, section):
     """Finite differences: the gap's derivative with the depth is the removal per depth averaged over the node's hat, by
@@ -229,27 +157,3 @@ def test_gaps_open_by_the_removal_there(paper_scene, paper_pair, stand_in_flanks
 def _operator(pair, flanks, scene, grid, step):
     flanks = Flanks(pair, flanks.compliance, removals(scene, pair))
     return MeshCycle(flanks, grid, 20, [5], tangential=False).position(step).operator
-
-
-def test_relief_of_either_flank_of_a_contact_is_felt_alike(paper_scene, paper_pair):
-    """Known answer: on the line of action it does not matter which of two flanks that meet has lost the material: root
-    relief of the pinion that removes at every point what tip relief of the wheel does at the point that it meets gives
-    rigid flanks the same transmission error. What contact gains beside the line of action differs; it is below the
-    flanks' relative radius (7 mm) times half the square of the relief's
-    slope along them (1.6e-3): 1e-5 mm for this shallow relief. (The pinion's tips are relieved too; a pair without
-    relief would carry otherwise.)"""
-    shallow = 0.1 * DEPTH
-    scene = without(frictionless(teeth_alone(coarse_scene(paper_scene))), "tooth_elasticity")
-    tips = Relief(shallow, None)
-    scene = replace(scene, tip_relief=TipRelief(tips, None))
-    plain = simulate(scene)
-    tip = simulate(replace(scene, tip_relief=TipRelief(tips, tips)))
-    # The wheel's roll angles fall as the pinion's rise; its tip meets the pinion's start of active profile.
-    start, sap, form = paper_pair.lpstc_roll_angles[0], paper_pair.sap_roll_angles[0], paper_pair.pinion.form_roll_angle
-    depth = shallow * (start - form) / (start - sap)
-    root = simulate(replace(scene, root_relief=RootRelief(Relief(depth, None), None)))
-    on_plain, on_tip, on_root = (
-        result.transmission_error.values * paper_pair.wheel.base_radius for result in (plain, tip, root)
-    )
-    assert np.abs(on_tip - on_plain).max() > 0.2 * shallow
-    assert np.abs(on_tip - on_root).max() <= 1e-5

@@ -9,25 +9,16 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from tests.coarse import COARSE, frictionless
-from tests.frozen_gears import GRID, frozen_marcher
+from tests.frozen_gears import frozen_marcher
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.mesh_cycle import MeshCycle
-from fenics_gears.dynamics.clock import SteadyClock
-from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
-from fenics_gears.dynamics.stepping import EquationsOfMotion
-from fenics_gears.dynamics.steps import Steps
-from fenics_gears.dynamics.torque_ripple import varying_load
-from fenics_gears.effects import effect_named, result_variables
 from fenics_gears.effects.speed_ramp import SpeedRamp
-from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.errors import SceneError
 from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.model.model import model_of
-from fenics_gears.results.energy_variables import energy_variables
 from fenics_gears.scene.data import Load, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.routes import prepared
@@ -41,14 +32,6 @@ UP, DOWN = RampClock(100.0, 300.0, 80, 480, 40), RampClock(300.0, 100.0, 0, 400,
 def coarse(scene, cycles, recorded=None, start=200.0):
     """The scene on a coarse mesh, every cycle kept unless said."""
     return replace(scene, accuracy=COARSE, motion=Motion(start, cycles, recorded or cycles))
-
-
-def test_the_section_is_read():
-    """Authority: the section's own words; the ramp begins at once unless it is held."""
-    assert scene_from_text(DEMO + '[speed_ramp]\nend_frequency = "260 Hz"\n').speed_ramp == SpeedRamp(260.0, 0)
-    assert scene_from_text(DEMO + '[speed_ramp]\nend_frequency = "0.1 kHz"\nhold_cycles = 3\n').speed_ramp == SpeedRamp(
-        100.0, 3
-    )
 
 
 @pytest.mark.parametrize(
@@ -94,37 +77,6 @@ def test_the_clock_is_that_of_a_frequency_linear_in_time(clock):
     ).y[0]
     assert phases * 40 == pytest.approx(steps[:-1], rel=1e-8, abs=1e-8)
     assert [clock.mesh_frequency(step) for step in steps] == pytest.approx(frequency(np.array(times)), rel=1e-12)
-
-
-@pytest.mark.parametrize("clock", [UP, DOWN, SteadyClock(1e-4)], ids=["up", "down", "steady"])
-def test_durations_add_up(clock):
-    """Exact identity: parts of a step, and steps, add up to the time between; before the start the speed is the first
-    one."""
-    for first, middle, last in ((0, 0.25, 1), (70, 80, 90), (-1, 0, 1), (100, 200.5, 399)):
-        whole = clock.duration(first, last)
-        assert clock.duration(first, middle) + clock.duration(middle, last) == pytest.approx(whole, rel=1e-13)
-        assert clock.time(last) - clock.time(first) == pytest.approx(whole, rel=1e-12)
-
-
-def test_a_vanishing_ramp_is_a_steady_speed(paper_scene):
-    """Exact limit: a ramp from 200 Hz to 200 Hz and 1e-12 of it leaves the result of a scene without the section, to
-    round-off."""
-    scene = coarse(paper_scene, 2)
-    off, on = (simulate(replace(scene, speed_ramp=ramp)) for ramp in (None, SpeedRamp(200.0 * (1.0 + 1e-12))))
-    assert set(on) - set(off) == {"mesh_frequency"} and set(on.coords) == set(off.coords)
-    for name in [*off, "time"]:
-        size = np.nanmax(np.abs(off["work_input" if name.startswith(("work_", "energy")) else name].values)) or 1.0
-        assert on[name].values == pytest.approx(off[name].values, rel=1e-8, abs=1e-8 * size, nan_ok=True), name
-
-
-def test_a_ramp_that_has_not_begun_is_a_steady_speed(paper_scene):
-    """Exact: steps before the end of the hold are those of a scene without the section, bit by bit but for the load of
-    zeros."""
-    scene = coarse(paper_scene, 3, 3)
-    off, on = (simulate(replace(scene, speed_ramp=ramp)) for ramp in (None, SpeedRamp(400.0, hold_cycles=2)))
-    before = slice(0, 2 * 40)
-    assert on.transmission_error.values[before] == pytest.approx(off.transmission_error.values[before], rel=1e-9)
-    assert np.abs(on.transmission_error.values - off.transmission_error.values)[2 * 40 :].max() > 1e-6
 
 
 def test_result_tells_time_and_frequency(paper_scene):
@@ -182,26 +134,6 @@ def test_spin_up_at_rest_changes_the_mesh_force_by_inertia_times_acceleration(
             assert rest.solution.forces[:n].sum() == pytest.approx(force, rel=1e-10)
 
 
-def test_mean_mesh_force_while_rolling_is_the_momentum_balance(paper_scene, paper_pair, stand_in_flanks):
-    """Exact identity of average acceleration: over any time the mean mesh force, by trapezoids, is (T + J alpha)/rb2
-    less J/rb2^2 times
-    the change of the wheel's own velocity over the time passed; rigid shafts, no friction."""
-    scene = replace(paper_scene, friction=None, damping=None, shafts=None, bearings=None)
-    shafts, clock = drivetrain(scene, paper_pair), RampClock(100.0, 140.0, 0, 6 * 50, 50)
-    cycle = MeshCycle(stand_in_flanks, GRID, 50, shafts.indices, tangential=False)
-    marcher = Marcher(
-        cycle, EquationsOfMotion(shafts, clock.duration(0, 1), clock=clock, loads=(inertia_forces(clock, shafts, 24),))
-    )
-    records = list(marcher.run(6 * 50, 6 * 50 + 1).records)
-    force = np.array([record.solution.forces.sum() for record in records])
-    steps = np.array([clock.duration(a.step, b.step) for a, b in zip(records[:-1], records[1:])])
-    mean = float((0.5 * (force[1:] + force[:-1]) * steps).sum() / steps.sum())
-    radius, alpha = paper_pair.wheel.base_radius, 2.0 * np.pi * clock.acceleration / 24
-    gained = shafts.mass[0, 0] * float(records[-1].state.velocity[0] - records[0].state.velocity[0]) / steps.sum()
-    assert mean + gained == pytest.approx((437e3 + 24.5 * alpha) / radius, rel=1e-10)
-    assert 24.5 * alpha > 1e-3 * 437e3
-
-
 def test_a_slow_ramp_follows_the_steady_runs(paper_scene):
     """Known limit: a ramp that takes 200 mesh cycles from 300 to 350 Hz, clear of resonance, has in each cycle the
     peak-to-peak transmission error
@@ -233,67 +165,6 @@ def test_the_energy_account_closes(paper_scene, ramp, absent):
     assert float(np.abs(result.energy_defect).max()) <= 1e-9 * done
 
 
-def test_the_energy_account_closes_over_divided_steps(paper_scene, paper_pair, stand_in_flanks):
-    """Exact identity: where every step is divided, into parts of unequal length under loads that vary, the account
-    closes as well."""
-    shafts = drivetrain(paper_scene, paper_pair)
-    cycle = MeshCycle(stand_in_flanks, GRID, 50, shafts.indices, tangential=True)
-    clock = RampClock(100.0, 400.0, 0, 2 * 50, 50)
-    ripple = varying_load(TorqueRipple((Harmonic(30.0, 50e3),)), shafts, 2.0 * np.pi / (24 * 50))
-    loads = (inertia_forces(clock, shafts, 24), ripple)
-    marcher = Marcher(cycle, EquationsOfMotion(shafts, clock.duration(0, 1), 0.1, clock=clock, loads=loads))
-    records = [marcher.start()]
-    for step in range(1, 101):
-        records.append(marcher._divided(marcher.scheme(step), records[-1], step, None, 1))
-    assert all(len(record.parts) == 2 for record in records[1:])
-    steps = Steps.of(records)
-    work = account(shafts, clock, steps, energy_variables(paper_scene, shafts, steps)["energy"], loads)
-    assert np.abs(work.defect).max() <= 1e-9 * np.abs(np.diff(work.load)).sum()
-
-
-def test_the_drive_also_gives_the_kinetic_energy_of_the_nominal_motion(paper_scene):
-    """Exact: of rigidly driven gears the output, less the couple's and the deviation's part, is the kinetic energy that
-    the wheel gains."""
-    scene = replace(
-        coarse(frictionless(paper_scene), 4), shafts=None, bearings=None, damping=None, speed_ramp=SpeedRamp(300.0)
-    )
-    result = simulate(scene)
-    turning, phase = 2.0 * np.pi * result.mesh_frequency.values / 24, result.mesh_phase.values
-    nominal = 0.5 * 24.5 * (turning**2 - turning[0] ** 2)
-    deviation = result.rotation.sel(gear="wheel").values
-    alpha = 2.0 * np.pi * (300.0 - 200.0) / float(result.time[-1]) / 24
-    expected = 437e3 * 2.0 * np.pi * phase / 24 + nominal - (437e3 + 24.5 * alpha) * (deviation - deviation[0])
-    assert result.work_output.values == pytest.approx(expected, rel=1e-9, abs=1e-9 * expected[-1])
-
-
-def test_warnings_and_steps_go_by_the_range_of_frequencies(paper_scene):
-    """Authority: a run's longest step is at its lowest frequency, whichever end that is, and hardly shorter than a
-    steady one there."""
-    up = replace(
-        paper_scene,
-        motion=Motion(50.0, 30, 2),
-        speed_ramp=SpeedRamp(500.0),
-        accuracy=replace(COARSE, steps_per_mesh_cycle=None),
-    )
-    down = replace(up, motion=Motion(500.0, 30, 2), speed_ramp=SpeedRamp(50.0))
-    slow = model_of(replace(up, speed_ramp=None))
-    assert (
-        model_of(up).resolution.steps_per_mesh_cycle
-        == model_of(down).resolution.steps_per_mesh_cycle
-        == slow.resolution.steps_per_mesh_cycle
-    )
-    for ramp in (model_of(up), model_of(down)):
-        steps = [ramp.clock.duration(step, step + 1) for step in range(ramp.steps)]
-        assert ramp.time_step == pytest.approx(max(steps), rel=1e-12)
-        assert 0.9 * slow.time_step < ramp.time_step < slow.time_step
-    # Inertia does not matter at 0.5 Hz, but it does at the other end.
-    crawling = replace(up, motion=Motion(0.5, 30, 2), speed_ramp=None)
-    assert any("inertia hardly matters" in said for said in model_of(crawling).warnings)
-    assert not any(
-        "inertia hardly matters" in said for said in model_of(replace(crawling, speed_ramp=SpeedRamp(200.0))).warnings
-    )
-
-
 def test_a_ramp_to_a_crawl_says_what_its_slow_end_does_to_the_whole_run(paper_scene):
     """Authority: the rule of `dynamics.time_scales`, half the slowest period, on the ramp's true steps; above the
     frequency that the warning
@@ -306,15 +177,6 @@ def test_a_ramp_to_a_crawl_says_what_its_slow_end_does_to_the_whole_run(paper_sc
     assert model_of(replace(crawl, speed_ramp=SpeedRamp(1.01 * needed))).time_scales.samples_vibration
     steady = 1.0 / (0.01 * model_of(crawl).resolution.steps_per_mesh_cycle)
     assert model_of(crawl).time_step < 0.01 * steady
-
-
-def test_without_the_section_there_is_nothing_of_it(paper_scene):
-    """House rule 9: no variable, one clock of equal steps. What is imported is told by test_every_effect.py."""
-    model = model_of(paper_scene)
-    assert isinstance(model.clock, SteadyClock) and model.loads == ()
-    assert not {variable.name for variable in effect_named("speed_ramp").variables} & {
-        variable.name for variable in result_variables(paper_scene)
-    }
 
 
 def test_a_ramp_that_pulls_the_flanks_apart_is_named(paper_scene):

@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.rigid_cycle import SAME_GAP
-from fenics_gears.effects import result_variables, without
-from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.effects import without
 from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.errors import SceneError
 from fenics_gears.model.modification import removals
-from fenics_gears.scene.data import Accuracy, Load, Motion
+from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
 
@@ -78,43 +77,6 @@ def test_elastic_flanks_tend_to_rigid_ones(paper_scene, rigid_scene):
     assert np.abs(difference.values).max() <= 3e-4
 
 
-@pytest.mark.parametrize("torque", [437e3, 1.0, 0.0, -437e3])
-def test_coast_flanks_stand_a_backlash_away(rigid_scene, paper_pair, torque):
-    """Exact: turned by the load to its coast flanks the wheel moves by the backlash along the line of action, and no
-    more."""
-    result = simulate(
-        replace(rigid_scene, coast_flanks=CoastFlanks(), load=Load(torque), accuracy=Accuracy(steps_per_mesh_cycle=40))
-    )
-    moved = 0.0 if torque >= 0.0 else -paper_pair.backlash
-    assert result.transmission_error.values * paper_pair.wheel.base_radius == pytest.approx(moved, abs=1e-10)
-    sides = result.normal_force.values, result.coast_normal_force.values
-    assert sides[0 if torque >= 0.0 else 1] == pytest.approx(abs(torque) / paper_pair.wheel.base_radius, rel=1e-12)
-    assert not np.any(sides[1 if torque >= 0.0 else 0])
-
-
-def test_springs_give_way_as_they_are(rigid_scene, paper_scene, paper_pair):
-    """Exact: with rigid flanks only shafts and bearings are elastic: T_E = T (1/k2 + ratio^2/k1) of rotations and 2
-    F/(k_b rb) of centres."""
-    scene = replace(rigid_scene, shafts=paper_scene.shafts, bearings=paper_scene.bearings)
-    result = simulate(scene)
-    force = scene.load.wheel_torque / paper_pair.wheel.base_radius
-    pinion = force * paper_pair.pinion.base_radius / scene.shafts.torsional_stiffness
-    # The wheel follows the pinion's rotation back, and both centres' displacement along the line of action.
-    expected = 2.0 * force / scene.bearings.stiffness / paper_pair.wheel.base_radius
-    expected += (paper_pair.rotation_ratio - paper_pair.pinion.base_radius / paper_pair.wheel.base_radius) * pinion
-    assert result.transmission_error.values == pytest.approx(expected, rel=1e-9)
-
-
-def test_no_variable_of_elastic_teeth_is_left(rigid_scene, paper_scene):
-    """House rule 9: no pressures, no energy of teeth."""
-    gone = {variable.name for variable in result_variables(paper_scene)} - {
-        variable.name for variable in result_variables(rigid_scene)
-    }
-    assert {"contact_pressure", "contact_offset", "contact_roll_angle", "energy_teeth"} <= gone
-    result = simulate(rigid_scene)
-    assert set(result.data_vars) == {variable.name for variable in result_variables(rigid_scene)}
-
-
 def test_friction_needs_elastic_teeth(paper_scene):
     """Between rigid flanks friction is not determined: refused in words."""
     text = (
@@ -147,10 +109,3 @@ def test_rigid_gears_accelerate_as_their_errors_say(rigid_scene, paper_scene):
     forces = result.normal_force.values[2:]
     assert np.all(forces > 0.0)
     assert forces == pytest.approx(expected, rel=1e-6)
-
-
-def test_rigid_flanks_say_nothing_of_pressures(rigid_scene):
-    """Authority: the result, which has no pressures; what does not exist need not converge."""
-    result = simulate(rigid_scene)
-    assert "contact_pressure" not in result
-    assert "sharp edge" not in result.attrs["warnings"]

@@ -15,7 +15,6 @@ from fenics_gears.dynamics.torque_ripple import varying_load
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.errors import SceneError
 from fenics_gears.model.drivetrain import drivetrain
-from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
@@ -34,17 +33,6 @@ def expected_couple(result, ripple, torque=437e3, teeth=24):
     """The couple (time,), N mm, written out by hand."""
     turned = 2.0 * np.pi * result.mesh_phase.values / teeth
     return torque + sum(each.amplitude * np.cos(each.order * turned + each.phase) for each in ripple.harmonics)
-
-
-def test_the_section_is_read_in_program_units():
-    """Authority: 1 N m = 1000 N mm, 180 deg = pi; a phase left out is zero."""
-    lines = (
-        '[torque_ripple]\nharmonics = [{ order = 1, amplitude = "20 N m", phase = "90 deg" }, { order = 2.5, amplitude'
-        ' = "3 N m" }]\n'
-    )
-    read = scene_from_text(DEMO + lines).torque_ripple
-    assert [(each.order, each.amplitude) for each in read.harmonics] == [(1.0, 20e3), (2.5, 3e3)]
-    assert [each.phase for each in read.harmonics] == pytest.approx([np.pi / 2, 0.0], rel=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -69,12 +57,6 @@ def test_a_wrong_section_is_refused(harmonics, said):
     with pytest.raises(SceneError) as refused:
         scene_from_text(DEMO + f"[torque_ripple]\nharmonics = {harmonics}\n")
     assert said in str(refused.value) and "Allowed: " in str(refused.value)
-
-
-def test_with_coast_flanks_the_couple_may_turn_its_sign():
-    """Authority: the rule's own remedy."""
-    text = DEMO + '[torque_ripple]\nharmonics = [{ order = 1, amplitude = "500 N m" }]\n[coast_flanks]\n'
-    assert scene_from_text(text).torque_ripple.harmonics[0].amplitude == 500e3
 
 
 @pytest.mark.parametrize("static", [True, False], ids=["quasi-static", "dynamic"])
@@ -137,25 +119,6 @@ def with_ripple(scene, pair, flanks, time_step, ripple, shaft_step):
     return marcher, shafts
 
 
-def test_linear_range_moves_by_amplitude_times_compliance(paper_scene, paper_pair, stand_in_flanks):
-    """Exact in the linear range: on gears that do not roll, a ripple that closes or opens no node moves the drivetrain
-    by its compliance."""
-    ripple, per_turn = TorqueRipple((Harmonic(3.0, 0.5, 0.2),)), 48
-    marcher, shafts = with_ripple(
-        quasi_static(paper_scene), paper_pair, stand_in_flanks, 1e-4, ripple, 2.0 * np.pi / per_turn
-    )
-    stiffness, record = tied(marcher, shafts)
-    positions, status = [], record.solution.status
-    for step in range(per_turn):
-        record = marcher.step(marcher.dynamic, record, step)
-        assert np.array_equal(record.solution.status, status)
-        positions.append(record.state.position)
-    unit = varying_load(TorqueRipple((Harmonic(3.0, 1.0),)), shafts, 0.0)(0)
-    phasor = 2.0 / per_turn * np.exp(-2j * np.pi * 3.0 * np.arange(per_turn) / per_turn) @ np.array(positions)
-    expected = 0.5 * np.exp(0.2j) * np.linalg.solve(stiffness, unit)
-    assert phasor == pytest.approx(expected, rel=1e-7, abs=1e-9 * np.abs(expected).max())
-
-
 @pytest.mark.parametrize("frequency", [5.0, 120.0, 400.0])
 def test_steady_vibration_is_the_frequency_response(paper_scene, paper_pair, stand_in_flanks, frequency):
     """Exact solution: gears that do not roll, closed nodes staying closed, are linear; the march's steady answer to one
@@ -198,20 +161,6 @@ def test_steady_vibration_is_the_frequency_response(paper_scene, paper_pair, sta
     assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.15)
 
 
-def test_far_below_resonance_the_ripple_acts_as_at_rest(paper_scene):
-    """Known limit: at 0.5 Hz the dynamic error differs from the quasi-static one by less than 1e-3 of its own
-    peak-to-peak value."""
-    scene = replace(
-        coarse(frictionless(paper_scene)),
-        torque_ripple=RIPPLE,
-        motion=Motion(0.5, 2, 2),
-        accuracy=replace(COARSE, steps_per_mesh_cycle=200),
-    )
-    moving, resting = simulate(scene), simulate(quasi_static(scene))
-    difference = np.abs(moving.transmission_error - resting.transmission_error).max()
-    assert float(difference) < 1e-3 * resting.attrs["peak_to_peak_transmission_error"]
-
-
 def test_a_ripple_far_above_all_vibrations_is_not_felt(paper_scene):
     """Known limit: at 20 kHz the gears stay at their mean position whatever rides on the couple; they start where the
     loads of a whole
@@ -235,20 +184,3 @@ def test_the_energy_account_closes(paper_scene, absent):
     done = float(result.work_input[-1])
     assert float(np.abs(defect).max()) <= 1e-9 * done
     assert float(np.abs(result.energy_defect).max()) <= 1e-9 * done
-
-
-def test_work_done_on_the_load_is_that_of_the_couple(paper_scene):
-    """Exact: the couple's work over a step is its mean times the angle turned; with rigid shafts the wheel's own
-    rotation gives it."""
-    scene = replace(coarse(paper_scene), torque_ripple=RIPPLE, shafts=None)
-    result = simulate(scene)
-    couple = expected_couple(result, RIPPLE)
-    turned = 2.0 * np.pi / 24.0 * result.mesh_phase.values - result.rotation.sel(gear="wheel").values
-    work = np.concatenate(([0.0], np.cumsum(0.5 * (couple[1:] + couple[:-1]) * np.diff(turned))))
-    assert result.work_output.values == pytest.approx(work, rel=1e-10, abs=1e-10 * work[-1])
-
-
-def test_without_the_section_no_load_varies(paper_scene):
-    """House rule 9; that its module is not imported either is told by test_every_effect.py."""
-    model = model_of(paper_scene)
-    assert model.loads == () and model.clock.duration(0, 1) > 0

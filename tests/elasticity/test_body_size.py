@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from fenics_gears.elasticity.compliance import Reach
-from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES, HUB_ANGLE, Discretisation, element_sizes
+from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES, Discretisation
 from fenics_gears.elasticity.elements import Element, element_named
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 
@@ -34,21 +34,6 @@ def test_the_error_falls_with_the_square_of_the_size(pinion, steel, element, fac
     assert (changes > 0.0).all()
     orders = np.log2(changes[:-1] / changes[1:])
     assert np.abs(orders - 2.0).max() < 0.5
-
-
-@pytest.mark.parametrize("element", ["P1", "P2"])
-def test_the_default_is_one_of_the_family(pinion, element):
-    """Exact: the default's own size changes nothing; another one all but the flank's, in proportion."""
-    chosen = element_named(element)
-    default = element_sizes(pinion, chosen, FLANK)
-    assert element_sizes(pinion, chosen, FLANK, default.body) == default
-    half = element_sizes(pinion, chosen, FLANK, 0.5 * default.body)
-    for name in ("fillet", "coast", "body", "growth", "hub_angle"):
-        assert getattr(half, name) == pytest.approx(0.5 * getattr(default, name))
-    twice = element_sizes(pinion, chosen, FLANK, 2.0 * default.body)
-    assert (twice.fillet, twice.hub_angle) == (pytest.approx(2.0 * default.fillet), HUB_ANGLE)
-    assert twice.growth == pytest.approx(0.35 if element == "P2" else 2.0 * default.growth)
-    assert half.flank == twice.flank == FLANK and half.depth == twice.depth == default.depth
 
 
 def test_an_element_of_third_order_is_refused():

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import by_radius
 from fenics_gears.elasticity.element_sizes import Discretisation, element_sizes
@@ -24,11 +23,6 @@ BOTH = Reach(2, (-2, 2))
 @pytest.fixture(scope="module")
 def both(pinion, steel):
     return flank_compliance(pinion, steel, Discretisation("P2", 0.4), BOTH)
-
-
-def split(both, offset):
-    block, size = both.block(offset), 2 * both.nodes
-    return block[:size, :size], block[:size, size:], block[size:, :size], block[size:, size:]
 
 
 def difference(first, second):
@@ -68,30 +62,6 @@ def test_flank_pairs_that_are_not_asked_for_are_not_known(pinion, steel, both):
         fewer.between(2, 0, (0, 1))
     with pytest.raises(ComputationError, match="known are -1 to 1"):
         fewer.between(2, 0, (1, 1))
-
-
-def test_cache_gives_both_flanks_back(pinion, steel, both, tmp_path):
-    """Exact identity: what is kept comes back bit for bit."""
-    computed, kept = (
-        flank_compliance(pinion, steel, Discretisation("P2", 0.4), BOTH, Cache(tmp_path)) for _ in range(2)
-    )
-    assert kept.timings["from_cache"] and not computed.timings["from_cache"]
-    for offset in (0, 1, -2):
-        assert np.array_equal(computed.block(offset), kept.block(offset))
-
-
-def test_drive_flank_is_as_without_the_coast_flank(both, pinion, steel):
-    """Knowing more of the body changes nothing of it, but for the finer mesh along the coast flank."""
-    alone = flank_compliance(pinion, steel, Discretisation("P2", 0.4), Reach(2))
-    assert np.array_equal(alone.roll_angle, both.roll_angle)
-    for offset in range(3):
-        assert difference(split(both, offset)[0], alone.blocks[offset]) < 5e-3
-
-
-def test_compliance_over_both_flanks_is_positive_definite(both):
-    """Betti's theorem, and elastic energy is positive."""
-    assert np.array_equal(both.block(0), both.block(0).T)
-    assert np.linalg.eigvalsh(both.block(0)).min() > 0.0
 
 
 @pytest.mark.parametrize("element", ELEMENTS)

@@ -2,16 +2,14 @@
 
 import numpy as np
 import pytest
-import ufl
 from scipy.linalg import eigvalsh
-from scipy.sparse import bmat, csr_matrix
+from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import spsolve
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.incompatible_modes import mode_forms
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.stiffness import displacement_space, stiffness_matrix, stress_of_strain
+from fenics_gears.elasticity.stiffness import displacement_space, stiffness_matrix
 
 ELEMENT = ELEMENTS["Q1 incompatible"]
 RATIOS = [0.0, 0.3, 0.499]
@@ -89,24 +87,3 @@ def test_beam_of_one_element_across(poissons_ratio):
     locks."""
     assert bent(ELEMENT.name, poissons_ratio) == pytest.approx(1.0, abs=1e-9)
     assert bent("Q1", poissons_ratio) < 0.7
-
-
-def test_condensed_modes_are_those_of_the_whole_system():
-    """Exact identity, other solver (SuperLU): amplitudes kept as unknowns give the same displacements, 1e-9."""
-    space = displacement_space(rectangle(5, 4, 1.0, 1.0, distortion=0.35), ELEMENT)
-    measure = ufl.dx(metadata={"quadrature_degree": ELEMENT.quadrature_degree})
-    forms = mode_forms(space, lambda strain: stress_of_strain(strain, 0.3), measure)
-    displacements, coupling, modes = (sparse(adapter.assemble_matrix(form)) for form in forms)
-    inside = inner_dofs(adapter.node_coordinates(space))
-    whole = bmat([[displacements[inside][:, inside], coupling[:, inside].T], [coupling[:, inside], modes]]).tocsc()
-    force = np.random.default_rng(3).normal(size=inside.sum())
-    kept = spsolve(whole, np.concatenate([force, np.zeros(modes.shape[0])]))[: inside.sum()]
-    stiffness = sparse(stiffness_matrix(space, ELEMENT, 0.3))
-    condensed = spsolve(stiffness[inside][:, inside].tocsc(), force)
-    assert np.abs(condensed - kept).max() <= 1e-9 * np.abs(kept).max()
-
-
-def test_no_more_is_coupled_than_by_the_bilinear_element():
-    """From the method: amplitudes are a cell's own, so that condensing them adds no entries."""
-    mesh = rectangle(5, 4, 1.0, 1.0, distortion=0.35)
-    assert assembled(mesh, 0.3)[1].nnz == assembled(mesh, 0.3, "Q1")[1].nnz

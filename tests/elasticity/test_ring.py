@@ -8,7 +8,6 @@ import pytest
 from tests.coarse_sector import flank_motion, relative
 from tests.whole_gear import ring_stiffness, whole_gear_compliance, whole_gear_mesh
 
-from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.ring import centre_motion, condensed_sector, ring_compliance
 from fenics_gears.errors import ComputationError
@@ -41,13 +40,6 @@ def test_cuts_that_do_not_match_are_refused(pinion, coarse_sector):
     sector = condensed_sector(coarse_sector("P1"), ELEMENTS["P1"], 0.3)
     with pytest.raises(ComputationError, match="do not match"):
         ring_compliance(sector, pinion.teeth + 1, 1)
-
-
-def test_offset_that_was_not_computed_is_refused():
-    """A tooth outside the blocks is an error, not a wrapped index."""
-    compliance = FlankCompliance(np.linspace(0.1, 0.6, 2), 1, np.zeros((2, 4, 4)))
-    with pytest.raises(ComputationError, match="offset -2"):
-        compliance.block(-2)
 
 
 def test_centre_motion_in_a_turned_frame():

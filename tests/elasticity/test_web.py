@@ -17,7 +17,6 @@ from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear_data import Web
 from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.geometry.section import gear_section
 from fenics_gears.scene.read import scene_from_text
 
 POISSON = 0.3
@@ -94,29 +93,6 @@ def test_the_ring_of_sectors_is_the_whole_gear():
         / STEEL.youngs_modulus
     )
     assert found == pytest.approx(expected, abs=1e-9 * np.abs(expected).max())
-
-
-def test_a_web_as_wide_as_the_face_changes_nothing_and_a_thin_one_gives_way():
-    """Limit, and order: compliances under even loads grow as the web gets thinner."""
-    loads, found = None, []
-    for web in (None, *(replace(PINION_WEB, share=share) for share in (1.0, 0.5, 0.1))):
-        blocks = ring_compliance(
-            condensed_sector(sector_mesh(replace(PINION, web=web), COARSE), ELEMENTS["P2"], STEEL.poissons_ratio),
-            PINION.teeth,
-            0,
-        )
-        loads = np.ones(len(blocks[0])) if loads is None else loads
-        found.append(loads @ blocks[0] @ loads)
-    assert found[1] == pytest.approx(found[0], rel=1e-10)
-    assert found[1] < found[2] < found[3]
-
-
-def test_mass_and_moment_of_inertia_leave_out_what_the_web_has_not():
-    """Exact: a ring of (1 - share) of the width is taken out."""
-    plain, with_web = gear_section(PINION), gear_section(replace(PINION, web=PINION_WEB))
-    ring = [pi * (PINION_WEB.rim_radius**n - PINION_WEB.hub_radius**n) * 2.0 / n for n in (2, 4)]
-    assert plain.area - with_web.area == pytest.approx(0.6 * ring[0], rel=1e-12)
-    assert plain.polar_moment - with_web.polar_moment == pytest.approx(0.6 * ring[1], rel=1e-12)
 
 
 WEB = '[gears.pinion.web]\nrim_inner_diameter = "45 mm"\nwidth = "{}"\n'

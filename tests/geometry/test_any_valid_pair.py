@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from tests.random_pairs import valid_pairs
 
@@ -15,7 +15,6 @@ from fenics_gears.geometry.outline import tooth_outline
 PAIRS = st.one_of(valid_pairs(), valid_pairs(helix_angles=(1.0, 40.0)))
 
 
-@settings(max_examples=60, deadline=None)
 @given(PAIRS)
 def test_points_of_the_path_of_contact_are_in_order(pair):
     """Authority: meaning of the characteristic points: T1, start, single contact, end, T2; roll angles within either
@@ -42,7 +41,6 @@ def test_points_of_the_path_of_contact_are_in_order(pair):
         assert mate.undercut or end == pytest.approx(gear.tip_roll_angle, abs=1e-12)
 
 
-@settings(max_examples=60, deadline=None)
 @given(PAIRS)
 def test_swapped_gears_are_the_same_pair(pair):
     """Authority: exact symmetry: wheel driving pinion mirrors the line of action; ratio, backlash and clearances
@@ -57,7 +55,6 @@ def test_swapped_gears_are_the_same_pair(pair):
     assert swapped.tip_clearances[0] == pair.tip_clearances[1]
 
 
-@settings(max_examples=60, deadline=None)
 @given(PAIRS, st.floats(0.1, 10.0))
 def test_angles_and_ratios_do_not_know_the_module(pair, scale):
     """Authority: similarity: lengths times a factor leave every angle and ratio and scale every length."""
@@ -79,7 +76,6 @@ def test_angles_and_ratios_do_not_know_the_module(pair, scale):
     )
 
 
-@settings(max_examples=60, deadline=None)
 @given(PAIRS)
 def test_outline_of_every_valid_gear_is_a_simple_curve(pair):
     """Authority: a tooth: from root to tip the radius grows and the tooth gets thinner, unless it is undercut, the
@@ -99,7 +95,6 @@ def test_outline_of_every_valid_gear_is_a_simple_curve(pair):
         assert 2.0 * gear.tip_radius * angle[-1] == pytest.approx(gear.tip_thickness, abs=1e-11 * gear.tip_radius)
 
 
-@settings(max_examples=60, deadline=None)
 @given(PAIRS)
 def test_thickness_and_backlash_fill_the_pitch_circle(pair):
     """Authority: exact identity: at the rolling pitch circles the teeth and the circumferential backlash fill the

@@ -2,7 +2,7 @@
 cutting."""
 
 from dataclasses import replace
-from math import cos, pi, radians, sin, tan
+from math import cos, pi, radians, tan
 
 import numpy as np
 import pytest
@@ -108,30 +108,3 @@ def test_a_tooth_cut_with_protuberance_is_what_the_rolling_rack_leaves(cut_gear,
     plain = replace(gear, protuberance=0.0)
     assert gear.undercut and gear.form_radius > plain.form_radius
     check(gear)
-
-
-def test_a_vanishing_protuberance_leaves_the_plain_fillet(cut_gear):
-    """Limit: the fillet crosses the involute where it would touch it; the place of the crossing goes with the root of
-    the protuberance."""
-    plain = cut_gear(25, module=MODULE)
-    apart = []
-    for protuberance in (1e-4, 1e-6, 1e-8):
-        gear = replace(plain, protuberance=protuberance, protuberance_angle=radians(10.0))
-        apart.append(gear.form_radius - plain.form_radius)
-        assert np.abs(tooth_outline(gear).fillet[0] - tooth_outline(plain).fillet[0]).max() < 2.0 * protuberance
-    assert apart[1] / apart[0] == pytest.approx(0.1, rel=0.1) and apart[2] / apart[1] == pytest.approx(0.1, rel=0.02)
-
-
-def test_the_rack_s_corner_lies_as_iso_6336_3_says(cut_gear):
-    """ISO 6336-3, auxiliary value E = pi/4 m - h_fP tan(alpha) + s_pr/cos(alpha) - (1 - sin(alpha)) rho_fP/cos(alpha):
-    centre of the rounding, from the tooth space's
-    middle."""
-    gear = replace(cut_gear(25, module=MODULE), protuberance=0.1, protuberance_angle=radians(10.0))
-    alpha = radians(20.0)
-    auxiliary = (
-        0.25 * pi * MODULE
-        - 1.25 * MODULE * tan(alpha)
-        + 0.1 / cos(alpha)
-        - (1.0 - sin(alpha)) * 0.38 * MODULE / cos(alpha)
-    )
-    assert gear.rack_tip_centre[0] == pytest.approx(auxiliary, rel=1e-12)

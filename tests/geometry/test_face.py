@@ -1,6 +1,5 @@
 """What lead modifications and misalignment open along the face, and where the face is."""
 
-from dataclasses import replace
 from math import cos, radians, sin
 
 import numpy as np
@@ -135,19 +134,3 @@ def test_the_common_face_is_where_both_gears_are(widths, offsets, width, middles
     assert pair.gear_middles == pytest.approx(middles, abs=1e-14)
     assert pair.overlap_ratio == pytest.approx(width * sin(radians(15.0)) / (np.pi * 3.0), rel=1e-14)
     assert pair.total_contact_ratio == pair.contact_ratio + pair.overlap_ratio
-
-
-def test_hands_mirror_each_other():
-    """Authority: symmetry; all but the sign of the slope is the same, and a spur pair has none."""
-    right, left, spur = gear_pair(data_of()), gear_pair(data_of(hand="left")), gear_pair(data_of(0.0))
-    assert (left.slope, left.cosine, left.overlap_ratio) == (-right.slope, right.cosine, right.overlap_ratio)
-    assert (left.pinion, left.wheel) == (right.pinion, right.wheel)
-    assert (spur.slope, spur.cosine, spur.overlap_ratio, spur.helix) == (0.0, 1.0, 0.0, None)
-    # tan(beta_b) = tan(beta) cos(alpha_t), sin(beta_b) = sin(beta) cos(alpha_n): ISO 21771.
-    assert right.slope * right.cosine == pytest.approx(sin(radians(15.0)) * cos(radians(20.0)), rel=1e-14)
-
-
-def test_the_section_repeats_after_an_axial_pitch():
-    """Authority: geometry; over the axial pitch pi m_n/sin(beta) a contact line passes one transverse base pitch."""
-    pair = gear_pair(replace(data_of(22.0), face_width=30.0))
-    assert pair.slope * np.pi * 3.0 / sin(radians(22.0)) == pytest.approx(pair.base_pitch, rel=1e-14)

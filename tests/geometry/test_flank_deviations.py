@@ -81,17 +81,3 @@ def test_given_pitches_are_kept_and_what_rounding_leaves_of_their_sum_is_shared_
     assert pinion.single_pitch == pytest.approx(given - given.mean(), abs=1e-15)
     for nothing in (pinion.slope, pinion.form, wheel.index, wheel.slope, wheel.form):
         assert not nothing.any()
-
-
-def test_the_seed_decides_and_given_values_leave_the_other_draws_alone(paper_pair):
-    """Definition: one seed, one pair of gears; each kind of deviation of each gear is drawn by itself."""
-    first, other = (flank_deviations(FlankErrors(tolerance_class=6, seed=seed), paper_pair) for seed in (1, 2))
-    again = flank_deviations(FlankErrors(tolerance_class=6, seed=1), paper_pair)
-    own = GearErrors(pitch=(0.0,) * 16)
-    given = flank_deviations(FlankErrors(pinion=own, tolerance_class=6, seed=1), paper_pair)
-    for gear in range(2):
-        assert np.array_equal(first[gear].index, again[gear].index)
-        assert np.array_equal(first[gear].slope, given[gear].slope)
-        assert np.abs(first[gear].slope - other[gear].slope).max() > 1e-3
-    assert not given[0].index.any() and np.array_equal(given[1].index, first[1].index)
-    assert np.abs(first[0].slope - first[1].slope[:16]).max() > 1e-3

@@ -151,12 +151,6 @@ def test_the_remedies_given_are_the_limits(paper_data):
         gear_pair(changed(paper_data, {"wheel.tip_diameter": tip + 1e-4}))
 
 
-def test_touching_on_both_flanks_is_allowed(paper_data):
-    """Authority: zero backlash within 1e-9 m is zero, not an overlap: the pair at its own touching centre distance."""
-    touching = gear_pair(paper_data).centre_distance_without_backlash
-    assert abs(gear_pair(replace(paper_data, centre_distance=touching)).backlash) < 1e-9
-
-
 def test_thin_tips_are_remarked_upon_not_refused(paper_data):
     """Authority: design practice (e.g. DIN 3960 / ISO 21771 recommend at least 0.2 modules); the paper's pair has
     0.6."""

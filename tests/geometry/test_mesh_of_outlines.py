@@ -9,7 +9,6 @@ from fenics_gears.geometry.fillet import fillet_point
 from fenics_gears.geometry.interference import fillet_clearance
 from fenics_gears.geometry.involute import involute_function
 from fenics_gears.geometry.outline import tooth_outline
-from fenics_gears.geometry.pair import GearPair
 
 
 def tooth_points(gear):
@@ -65,26 +64,6 @@ def test_drive_flanks_touch_and_coast_flanks_are_apart_by_the_backlash(paper_pai
     drive, coast = gaps(pair, pair.path_start + phase * pair.base_pitch)
     assert drive * pair.pinion.base_radius == pytest.approx(0.0, abs=1e-6)
     assert coast * pair.pinion.base_radius == pytest.approx(pair.backlash, abs=1e-6)
-
-
-def test_standard_gears_at_standard_distance_have_no_backlash(cut_gear):
-    """Authority: exact identity: without profile shift tooth and space are pi m/2 each at the rolling pitch circles."""
-    pair = GearPair(cut_gear(20), cut_gear(40), centre_distance=30.0, face_width=1.0)
-    assert pair.backlash == pytest.approx(0.0, abs=1e-14)
-    assert pair.centre_distance_without_backlash == pytest.approx(30.0, abs=1e-10)
-
-
-def test_backlash_of_a_wider_centre_distance(cut_gear):
-    """Authority: first-order rule of the workshop: circumferential backlash 2 da tan(alpha), along the normal 2 da
-    sin(alpha)."""
-
-    def backlash(widened):
-        return GearPair(cut_gear(20), cut_gear(40), centre_distance=30.0 + widened, face_width=1.0).backlash
-
-    rule = 2.0 * np.sin(np.radians(20.0))
-    assert backlash(1e-5) / 1e-5 == pytest.approx(rule, rel=1e-5)
-    error = [backlash(widened) - rule * widened for widened in (2e-2, 1e-2)]
-    assert error[0] / error[1] == pytest.approx(4.0, rel=0.01)
 
 
 def test_tip_corner_that_cuts_into_a_fillet_off_the_line_of_action(paper_pair):

@@ -1,6 +1,5 @@
 """Tip relief, linear in the roll angle."""
 
-from dataclasses import replace
 from math import radians
 
 import numpy as np
@@ -67,16 +66,3 @@ def test_relief_off_the_flank_is_refused(paper_pair, relief, said):
     assert str(refused.value).startswith("pinion: tip")
     for part in said:
         assert part in str(refused.value)
-
-
-def test_relief_of_a_pair_with_contact_ratio_above_two(cut_gear, paper_pair):
-    """Authority: with two or three pairs in contact no point is ever a single contact; relief then starts where the
-    third pair
-    arrives, two base pitches after the start of contact."""
-    gear = cut_gear(60, addendum=1.4, dedendum=1.6, rack_tip=0.2)
-    pair = replace(paper_pair, pinion=gear, wheel=gear, centre_distance=60.0)
-    assert 2.0 < pair.contact_ratio < 3.0 and pair.fewest_pairs == 2
-    pinion, _ = tip_reliefs(pair, TipRelief(Relief(0.01, None), None))
-    assert pinion.start_roll_angle * pair.pinion.base_radius == pytest.approx(
-        pair.path_start + 2.0 * pair.base_pitch, rel=1e-14
-    )

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.fillet import fillet_point, fillet_speed, fillet_tangent
+from fenics_gears.geometry.fillet import fillet_tangent
 from fenics_gears.geometry.involute import canonical_normal
 from fenics_gears.geometry.outline import tooth_outline
 
@@ -27,7 +27,6 @@ UNDERCUT = {
     "undercut by a hair": dict(teeth=17, dedendum=1.2503, rack_tip=0.38),
 }
 CUTS |= UNDERCUT
-SPUR = list(CUTS)
 CUTS |= {
     "undercut helix of 20 deg": dict(teeth=10, helix_angle=20.0, module=3.0),
     "undercut helix of 35 deg, sharp rack": dict(teeth=6, rack_tip=0.0, helix_angle=35.0),
@@ -101,23 +100,6 @@ def test_the_outline_is_what_the_rack_leaves(gear):
     assert least_distance(gear, points) == pytest.approx(0.0, abs=2e-10 * gear.module)
 
 
-@pytest.mark.parametrize("gear", SPUR, indirect=True)
-def test_brute_force_sees_a_shift_of_a_micrometre(gear):
-    """Authority: the yardstick itself: points moved into the tooth stay clear by just that much, into the space are
-    cut.
-
-    Inside a sharp corner the nearest face is nearer than the corner, hence the lower bound there.
-    """
-    # The edge where an undercut fillet ends has two normals.
-    parameter = np.linspace(0.1, 0.9 if gear.undercut else 1.0, 5) * gear.fillet_end
-    speed = fillet_speed(gear, parameter)[:, None]
-    into_space = fillet_tangent(gear, parameter) @ np.array([[0.0, 1.0], [-1.0, 0.0]]) / speed
-    clear = least_distance(gear, fillet_point(gear, parameter) - 1e-3 * into_space)
-    cut = least_distance(gear, fillet_point(gear, parameter) + 1e-3 * into_space)
-    assert clear == pytest.approx(1e-3, rel=1e-3)
-    assert np.all((cut > -1.001e-3) & (cut < (-0.5e-3 if gear.rack_tip_radius == 0.0 else -0.999e-3)))
-
-
 def test_fillet_ends_on_root_circle_and_involute_exactly(gear):
     """Authority: exact identities: both end points, tangent to the root circle, tangent to the involute."""
     outline = tooth_outline(gear)
@@ -136,13 +118,6 @@ def test_fillet_ends_on_root_circle_and_involute_exactly(gear):
     assert tangents[1] @ end > 0.0
 
 
-def test_fillet_tangent_is_the_derivative(gear):
-    """Authority: central differences, error of second order in a step of 1e-5."""
-    parameter, step = np.linspace(0.05, 0.95, 9) * gear.fillet_end, 1e-5
-    difference = (fillet_point(gear, parameter + step) - fillet_point(gear, parameter - step)) / (2.0 * step)
-    assert fillet_tangent(gear, parameter) == pytest.approx(difference, abs=1e-8 * gear.module)
-
-
 def test_fillet_rises_towards_the_flank_in_even_steps(gear):
     """Authority: what a mesh needs: radius and, but for a neck by undercut, polar angle are monotone, neighbouring
     points equally far apart."""
@@ -154,21 +129,6 @@ def test_fillet_rises_towards_the_flank_in_even_steps(gear):
     # At most one neck: thinner from the root on, thicker after.
     assert np.all(np.diff(thinner.astype(int)) <= 0)
     assert steps == pytest.approx(steps.mean(), rel=2e-3)
-
-
-def test_coast_side_is_the_mirror_image(gear):
-    """Authority: a mirror keeps radii, reverses angles from its line, and twice is nothing; the tip is as thick as
-    said."""
-    outline = tooth_outline(gear)
-    coast = outline.coast(outline.fillet)
-    angle = np.arctan2(outline.fillet[:, 1], outline.fillet[:, 0]) - outline.centreline_angle
-    mirrored = np.arctan2(coast[:, 1], coast[:, 0]) - outline.centreline_angle
-    assert np.hypot(*coast.T) == pytest.approx(np.hypot(*outline.fillet.T), rel=1e-14)
-    assert np.exp(1j * mirrored) == pytest.approx(np.exp(-1j * angle), abs=1e-14)
-    assert outline.coast(coast) == pytest.approx(outline.fillet, abs=1e-13 * gear.tip_radius)
-    tip = outline.involute(gear.tip_roll_angle)
-    chord = np.hypot(*(outline.coast(tip) - tip))
-    assert chord == pytest.approx(2.0 * gear.tip_radius * sin(0.5 * gear.tip_thickness / gear.tip_radius), rel=1e-12)
 
 
 @pytest.mark.parametrize("helix_angle", [0.0, 25.0])
@@ -195,34 +155,3 @@ def test_undercut_begins_at_the_textbook_s_number_of_teeth(cut_gear, pressure_an
         gear = cut_gear(teeth, dedendum=1.0, rack_tip=0.0, pressure_angle=pressure_angle)
         assert gear.undercut == (teeth < fewest)
         assert gear.form_radius > gear.base_radius
-
-
-def test_profile_shift_that_avoids_undercut_is_the_textbook_s(cut_gear):
-    """Authority: x_min = 1 - z sin^2(alpha)/2 (e.g. ISO/TR 21771, Litvin & Fuentes): the form circle is then the base
-    circle."""
-    for teeth in (8, 10, 12, 14):
-        least = 1.0 - 0.5 * teeth * sin(radians(20.0)) ** 2
-        gear = cut_gear(teeth, profile_shift=least, dedendum=1.0, rack_tip=0.0)
-        assert gear.form_roll_angle == pytest.approx(0.0, abs=1e-14)
-
-
-@pytest.mark.parametrize("helix_angle", [10.0, 20.0, 30.0])
-def test_undercut_of_helical_gears_begins_at_the_textbook_s_number_of_teeth(cut_gear, helix_angle):
-    """Authority: z_min = 2 cos(beta)/sin^2(alpha_t) for a sharp full-depth rack (e.g. Litvin & Fuentes, ch. 14): fewer
-    than of spur gears."""
-    cosine = cos(radians(helix_angle))
-    fewest = 2.0 * cosine / sin(atan(tan(radians(20.0)) / cosine)) ** 2
-    assert fewest < 17.097
-    for teeth in range(8, 20):
-        gear = cut_gear(teeth, dedendum=1.0, rack_tip=0.0, helix_angle=helix_angle)
-        assert gear.undercut == (teeth < fewest)
-
-
-@pytest.mark.parametrize("name", SPUR)
-def test_a_vanishing_helix_angle_leaves_the_spur_gear(cut_gear, name):
-    """Authority: limit; the transverse section differs in the square of the angle, by 3e-12 at 1e-4 deg."""
-    spur, helical = cut_gear(**CUTS[name]), cut_gear(**CUTS[name], helix_angle=1e-4)
-    scale = spur.tip_radius
-    assert tooth_outline(helical).fillet == pytest.approx(tooth_outline(spur).fillet, abs=1e-10 * scale)
-    for length in ("base_radius", "form_radius", "tip_thickness", "largest_rack_tip_radius"):
-        assert getattr(helical, length) == pytest.approx(getattr(spur, length), abs=1e-10 * scale)

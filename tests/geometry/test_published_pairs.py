@@ -1,13 +1,11 @@
 """Whole pairs against numbers that others have printed."""
 
-from dataclasses import replace
 from itertools import permutations
-from math import atan, cos, degrees, pi, radians, sin, sqrt, tan
+from math import atan, cos, degrees, radians, sin, sqrt, tan
 from pathlib import Path
 
 import pytest
 
-from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.involute import involute_function
 from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
@@ -41,18 +39,6 @@ def test_the_paper_s_numbers_come_out_of_its_gear_data(paper_pair, label):
     assert abs(rows[label][0] - printed) < 0.01
 
 
-def test_the_paper_s_root_diameters_are_these_dedenda(paper_pair):
-    """Authority: model.md section 5, 62.50 and 98.37 mm are 1.25 and 1.195 modules below the shifted pitch line."""
-    assert paper_pair.pinion.dedendum / 4.5 == pytest.approx(1.25, abs=2e-3)
-    assert paper_pair.wheel.dedendum / 4.5 == pytest.approx(1.195, abs=1e-12)
-
-
-def test_the_paper_s_pair_has_about_a_tenth_of_a_millimetre_of_backlash(paper_pair):
-    """Authority: model.md section 5, to the digit it gives; the touching centre distance is below 91.5 mm."""
-    assert paper_pair.backlash == pytest.approx(0.1, abs=0.05)
-    assert 91.0 < paper_pair.centre_distance_without_backlash < 91.5
-
-
 def test_profile_shifted_pair_of_the_technical_reference():
     """Authority: KHK Gear Technical Reference, table "The calculation of profile shifted spur gear" (also printed at
     bolsover.com, Profile Shifted External Spur Gears): m 3, z 12/24, x 0.6/0.36, all results to the printed digits."""
@@ -73,17 +59,6 @@ def test_profile_shifted_pair_of_the_technical_reference():
     assert pair.contact_ratio == pytest.approx(1.202, abs=5e-4)
     assert pair.centre_distance_without_backlash == pytest.approx(56.4999, abs=5e-5)
     assert pair.pinion.dedendum == pytest.approx(1.25 * 3.0, abs=1e-9)
-
-
-@pytest.mark.parametrize("teeth", [(20, 40), (19, 42), (30, 60)])
-def test_contact_ratio_of_standard_gears_by_the_textbook(cut_gear, teeth):
-    """Authority: the textbook's path of contact sqrt(ra1^2 - rb1^2) + sqrt(ra2^2 - rb2^2) - a sin(alpha) over
-    pi m cos(alpha) (e.g. Shigley, Mechanical Engineering Design, contact ratio), full-depth teeth of 20 deg."""
-    alpha = radians(20.0)
-    pair = GearPair(cut_gear(teeth[0]), cut_gear(teeth[1]), centre_distance=0.5 * sum(teeth), face_width=1.0)
-    recess, approach = (sqrt((0.5 * z + 1.0) ** 2 - (0.5 * z * cos(alpha)) ** 2) for z in teeth)
-    textbook = (recess + approach - pair.centre_distance * sin(alpha)) / (pi * cos(alpha))
-    assert pair.contact_ratio == pytest.approx(textbook, rel=1e-12)
 
 
 def test_profile_shifted_helical_pair_of_the_technical_reference():
@@ -138,15 +113,6 @@ def test_scenes_of_cited_helical_pairs(scene):
     for label, printed in CITED[scene].items():
         digits = len(str(printed).split(".")[1])
         assert rows[label] == pytest.approx(printed, abs=(0.51 if digits < 5 else 5.0) * 10.0**-digits), label
-
-
-def test_a_pair_without_backlash_is_accepted_with_its_printed_digits():
-    """Rule: profile shifts of four decimals leave an overlap of 0.2 um in the FZG gears H501 at their centre distance;
-    a hundredth of a millimetre less is refused."""
-    data = load_scene(SCENES / "fzg_h501.toml").gears
-    assert -1e-3 < gear_pair(data).backlash < 0.0
-    with pytest.raises(GeometryError, match="no backlash"):
-        gear_pair(replace(data, centre_distance=data.centre_distance - 0.01))
 
 
 @pytest.fixture
@@ -204,25 +170,6 @@ def test_centre_distance_without_backlash_is_the_standard_s(cut_gear, helix_angl
     assert involute_function(roll) == pytest.approx(
         involute_function(tan(transverse)) + 2.0 * sum(shifts) * tan(radians(20.0)) / sum(teeth), rel=1e-12
     )
-
-
-# Module m_n, helix angle, teeth, profile shifts and centre distance of each stage.
-GEARBOX = {
-    "first stage": (1.0, 30.0, (23, 67), (0.581, 0.5131), 53.0),
-    "second stage": (1.25, 10.0, (13, 76), (0.521, -0.094), 57.0),
-    "third stage": (1.5, 10.0, (14, 87), (0.536, -0.4815), 77.0),
-}
-
-
-@pytest.mark.parametrize("stage", GEARBOX)
-def test_centre_distances_of_an_industrial_gearbox(cut_gear, stage):
-    """Authority: the file SEW_3-stage_cylindrical_gearbox_1.0.rexs of fva-net/rexs-api-java, whose profile shifts,
-    rounded to 1e-4 there, leave no
-    backlash at its centre distances in whole millimetres: within the 0.5e-4 m_n that is left of them."""
-    module, helix_angle, teeth, shifts, distance = GEARBOX[stage]
-    gears = [cut_gear(z, x, module=module, helix_angle=helix_angle) for z, x in zip(teeth, shifts)]
-    pair = GearPair(*gears, centre_distance=distance, face_width=1.0)
-    assert pair.centre_distance_without_backlash == pytest.approx(distance, abs=1e-4 * module)
 
 
 def test_diameters_of_the_active_profile(paper_pair):

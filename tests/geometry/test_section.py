@@ -62,23 +62,3 @@ def test_cells_of_a_regular_polygon():
         assert found.area == pytest.approx(area, rel=1e-12)
         assert found.polar_moment == pytest.approx(area * radius**2 * (2.0 + cos(step)) / 6.0, rel=1e-12)
     assert (found.area, found.polar_moment) == pytest.approx((pi * radius**2, 0.5 * pi * radius**4), rel=1e-8)
-
-
-def test_quadrilaterals_are_two_triangles_each():
-    """Identity: a cell cut along its diagonal."""
-    points = np.array([[1.0, 0.0], [3.0, 1.0], [2.5, 4.0], [0.5, 2.0]])
-    whole, halves = (
-        cells_section(points, np.array([[0, 1, 2, 3]])),
-        cells_section(points, np.array([[0, 1, 2], [0, 2, 3]])),
-    )
-    assert (whole.area, whole.polar_moment) == pytest.approx((halves.area, halves.polar_moment), rel=1e-14)
-
-
-def test_the_paper_s_gears_against_their_reference_discs(paper_pair):
-    """Common practice: a gear weighs what a disc of its reference diameter, shifted by the profile shift, weighs,
-    within some per cent."""
-    for gear in (paper_pair.pinion, paper_pair.wheel):
-        radius = gear.reference_radius + gear.profile_shift * gear.module
-        disc = pi * (radius**2 - gear.bore_radius**2), 0.5 * pi * (radius**4 - gear.bore_radius**4)
-        found = gear_section(gear)
-        assert (found.area, found.polar_moment) == pytest.approx(disc, rel=0.05)

@@ -44,26 +44,3 @@ def test_sliding_speed_is_the_distance_from_the_pitch_point_times_both_speeds(pa
     expected = distance * first * (1.0 + paper_pair.rotation_ratio)
     assert sliding_speed(paper_pair, positions, 200.0) == pytest.approx(expected, rel=1e-12, abs=1e-9)
     assert sliding_speed(paper_pair, positions[CONTACT_POINTS.index("C")], 200.0) == pytest.approx(0.0, abs=1e-9)
-
-
-def test_specific_sliding_at_the_ends_by_the_closed_forms(paper_pair):
-    """Authority: Niemann/Winter, zeta_f1 = 1 - rho_A2/(u rho_A1) at the pinion's root, zeta_f2 = 1 - u rho_E1/rho_E2 at
-    the wheel's,
-    with the curvatures from tip and base circles: rho_A2 = sqrt(ra2^2 - rb2^2), rho_E1 = sqrt(ra1^2 - rb1^2)."""
-    pinion, wheel = paper_pair.pinion, paper_pair.wheel
-    ratio, length = wheel.teeth / pinion.teeth, paper_pair.line_of_action_length
-    of_wheel_tip, of_pinion_tip = (np.sqrt(gear.tip_radius**2 - gear.base_radius**2) for gear in (wheel, pinion))
-    at_root_1 = 1.0 - of_wheel_tip / (ratio * (length - of_wheel_tip))
-    at_root_2 = 1.0 - ratio * of_pinion_tip / (length - of_pinion_tip)
-    points = contact_points(paper_pair)
-    of_pinion, of_wheel = specific_sliding(paper_pair, points)
-    assert of_pinion[0] == pytest.approx(at_root_1, rel=1e-9) and of_wheel[-1] == pytest.approx(at_root_2, rel=1e-9)
-    assert of_pinion[0] == min(of_pinion) and of_wheel[-1] == min(of_wheel)
-
-
-def test_contact_points_are_in_order_and_a_base_pitch_apart(paper_pair):
-    """Identity: A and D are a base pitch apart where one pair is alone in between, so are B and E; with more pairs as
-    many pitches."""
-    first, begin, _, end, last = contact_points(paper_pair)
-    assert end - first == pytest.approx(paper_pair.base_pitch) and last - begin == pytest.approx(paper_pair.base_pitch)
-    assert np.all(np.diff(contact_points(paper_pair)) > 0.0)

@@ -164,8 +164,8 @@ def whole_scene() -> dict[str, Any]:
     }
 
 
-def plane_scene_with_webs() -> dict[str, Any]:
-    """The whole scene without what makes it three-dimensional, which webs are not for."""
+def plane_scene() -> dict[str, Any]:
+    """The whole scene without what makes it three-dimensional."""
     tree = whole_scene()
     for path in (
         ("lead_modifications",),
@@ -174,16 +174,23 @@ def plane_scene_with_webs() -> dict[str, Any]:
         *(("accuracy", name) for name in ("slices", "layers")),
     ):
         tree = changed(tree, path, ABSENT)
-    for gear, rim, hub in (("pinion", "50 mm", "36 mm"), ("wheel", "80 mm", "50 mm")):
+    for gear in ("pinion", "wheel"):
         tree = changed(tree, ("gears", gear, "axial_offset"), ABSENT)
+    return tree
+
+
+def plane_scene_with_webs() -> dict[str, Any]:
+    """Webs are for plane scenes alone."""
+    tree = plane_scene()
+    for gear, rim, hub in (("pinion", "50 mm", "36 mm"), ("wheel", "80 mm", "50 mm")):
         tree["gears"][gear]["web"] = {"rim_inner_diameter": rim, "width": "8 mm", "hub_diameter": hub}
     return tree
 
 
-def scene_with(path: tuple[str, ...], literal: str | None, name: str | None = None) -> str:
-    """The whole scene's text with `literal` (TOML) at a path, nothing there where that is None; under another `name` if
-    given."""
-    tree = whole_scene() if "web" not in path else plane_scene_with_webs()
+def scene_with(path: tuple[str, ...], literal: str | None, name: str | None = None, tree: dict | None = None) -> str:
+    """The text of a scene (`tree`, or the whole one) with `literal` (TOML) at a path, nothing there where that is None;
+    under another `name` if given."""
+    tree = tree or (whole_scene() if "web" not in path else plane_scene_with_webs())
     for other in INSTEAD.get(path, ()):
         tree = changed(tree, (*path[:-1], other), ABSENT)
     tree = changed(tree, path, ABSENT)

@@ -77,7 +77,7 @@ class MethodsToo(Tally):
         measured(f"steps by another method than Newton's, {gears}", f"of {solved}: {fallbacks}", "recorded", row=1)
 
 
-@pytest.mark.parametrize("examples", [4, pytest.param(150, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize("examples", [2, pytest.param(60, marks=pytest.mark.nightly)])
 def test_every_step_of_any_scene_over_the_face(measured, examples):
     """Authority: the contact laws and Newton's third law in three dimensions, from the equations."""
     judged(MethodsToo(), measured, "stand-in bodies", on_stand_in_bodies, examples, face_scenes())

@@ -9,7 +9,6 @@ from tests.hard_cases.invariants import Run, cycle_of, run_of, worst_of
 from tests.hard_cases.test_any_scene import LAWS
 from tests.helical import BEARINGS, CROWNED, FRICTION, INERTIA, SHAFTS, helical_scene, on_stand_in_bodies
 
-from fenics_gears.dynamics.guidance import resolved_frequency
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.model.model import model_of
 from fenics_gears.results import dataset
@@ -115,62 +114,3 @@ def test_sudden_release(measured):
     changed = max((float(np.abs(b - a).max() / np.abs(a).max()) for a, b in pairs), default=np.inf)
     measured("released suddenly: change of speed in a step of free flight", changed, "1e-12", row=17)
     assert len(pairs) > 2 and changed <= 1e-12 and "lose contact" in result.attrs["warnings"]
-
-
-def test_resonance_without_damping(measured):
-    """Row 17. At its own frequency an undamped pair parts and comes back; laws hold at every step and the energy stays
-    finite."""
-    model = model_of(helical_scene(INERTIA + BOTH + BEARINGS))
-    frequency = max(vibration.frequency for vibration in model.vibrations)
-    found = run(INERTIA + BOTH + BEARINGS, frequency=frequency, cycles=15, helix=0.0, torque=5e3)
-    penetration, energy = obeys_the_laws(found), found.result["energy"].values
-    lost = int((found.result["normal_force"].values == 0.0).sum())
-    measured(
-        "undamped resonance: steps without contact on drive flanks, largest / first energy",
-        f"{lost} of {len(energy)}, {energy.max() / energy[0]:.2g}",
-        "finite",
-        row=17,
-    )
-    assert penetration <= 1e-4 and np.all(np.isfinite(energy))
-
-
-@pytest.mark.parametrize(
-    "more", [FRICTION + BEARINGS, pytest.param(CROWNED, marks=BY_NIGHT)], ids=["tilting, friction", "rigid shafts"]
-)
-def test_slow_is_quasi_static(more, measured):
-    """Row 23. Known limit: at 0.01 Hz inertia does nothing."""
-    slow, static = (run(more + extra, frequency=0.01).result["transmission_error"].values for extra in (DAMPED, ""))
-    apart = float(np.abs(slow - static).max() / np.abs(static).max())
-    measured("0.01 Hz: relative difference from the quasi-static transmission error", apart, "1e-6", row=23)
-    assert apart <= 1e-6
-
-
-def test_fast_gears_follow_the_mean_motion(measured):
-    """Row 23. Known limit: far above all natural frequencies the gears no longer follow the teeth's stiffness."""
-    slow, fast = (
-        run(DAMPED + BEARINGS + CROWNED, frequency=frequency, cycles=cycles, helix=0.0)
-        .result["transmission_error"]
-        .values
-        for frequency, cycles in ((200.0, 2), (20e3, 40))
-    )
-    ratio = float(np.ptp(fast[-17:]) / np.ptp(slow[-17:]))
-    measured("20 kHz: peak-to-peak transmission error / that of 200 Hz", ratio, "below 0.1", row=23)
-    assert ratio < 0.1
-
-
-@pytest.mark.parametrize("damping", [pytest.param(True, marks=BY_NIGHT), False])
-def test_large_steps(damping, measured):
-    """Row 24. Energy: finite and bounded by twice the static one with two steps to a mesh cycle; a warning names what
-    is resolved."""
-    accuracy = "slices = 4\ncontact_nodes = 9\nsteps_per_mesh_cycle = 2"
-    changes = {"frequency": 17.0, "cycles": 30, "accuracy": accuracy}
-    found, static = (
-        run((DAMPED if damping else INERTIA) + BEARINGS + FRICTION, **changes),
-        run(BEARINGS + FRICTION, **changes),
-    )
-    ratio = float(found.result["energy"].values.max() / static.result["energy"].values.max())
-    words = "damped" if damping else "undamped"
-    measured(f"2 steps to a mesh cycle at 17 Hz, {words}: largest energy / static energy", ratio, "2", row=24)
-    assert ratio <= 2.0 and any(
-        f"up to {resolved_frequency(found.model.time_step):.4g} Hz" in words for words in found.model.warnings
-    )

@@ -1,19 +1,12 @@
 """Rows 9 to 21 without inertia, on flanks resolved over the face; bodies without finite elements."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from tests.hard_cases.invariants import cycle_of, run_of
-from tests.hard_cases.test_row_11_scale_of_r import scaled_step
-from tests.helical import BEARINGS, CROWNED, FRICTION, SHAFTS, helical_scene, on_stand_in_bodies
+from tests.helical import BEARINGS, CROWNED, FRICTION, helical_scene, on_stand_in_bodies
 
-from fenics_gears.contact.errors import ContactNotConverged, MoreThanOneSolution, SelfLocking
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.model.model import model_of
-
-EVERYTHING = BEARINGS + FRICTION + SHAFTS + CROWNED
-
 
 FEW = "slices = 5\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8"
 BY_NIGHT = pytest.mark.nightly
@@ -78,111 +71,6 @@ def test_hands_in_the_mirror(friction, measured):
     assert max(apart, axial, tilts) <= 1e-10
 
 
-def test_friction_to_zero(measured):
-    """Row 10. Known order: the difference from the frictionless run is in proportion to the coefficient; that has no
-    tangential unknowns."""
-    (model, records), apart = marched(CROWNED + BEARINGS), {}
-    assert all(len(record.solution.forces) == record.position.operator.nodes for record in records)
-    plain = states(model, records, "transmission_error")
-    for friction in (1e-2, 1e-4, 1e-6, 1e-12):
-        rubbing = states(
-            *marched(CROWNED + BEARINGS + f"[friction]\ncoefficient = {friction!r}\n"), "transmission_error"
-        )
-        apart[friction] = difference(rubbing, plain) / friction
-        measured(
-            f"mu = {friction:g}: relative difference of the transmission error / mu",
-            apart[friction],
-            "alike; from 1e-12 round-off",
-            row=10,
-        )
-    assert apart[1e-4] == pytest.approx(apart[1e-2], rel=0.1) and apart[1e-6] == pytest.approx(apart[1e-4], rel=0.1)
-    assert apart[1e-12] * 1e-12 < 1e-10
-
-
-@pytest.mark.parametrize("scale", [pytest.param(1e-6, marks=BY_NIGHT), 1e6])
-def test_scale_of_r(scale, measured):
-    """Row 11. Exact: r steers which sets are tried, never what a solution is."""
-    model = model_of(helical_scene(EVERYTHING, accuracy=FEW))
-    compliances, marches = on_stand_in_bodies(model), []
-    for scaled in (False, True):
-        cycle = cycle_of(model, compliances)
-        if scaled:
-            cycle.solve = lambda position, problem, status, last: scaled_step(problem, status, scale)
-        marches.append(Marcher(cycle, model.equations_of_motion).run(8, 9).records)
-    worst = max(difference(one.solution.forces, other.solution.forces) for one, other in zip(*marches))
-    measured(f"r x {scale:g}: difference of forces", worst, "1e-9", row=11)
-    assert worst <= 1e-9
-
-
-def test_order_of_nodes_and_coordinates(measured):
-    """Row 12. Exact: a step's equations with nodes of all slices and coordinates shuffled have the same solution."""
-    model, random = model_of(helical_scene(EVERYTHING, accuracy=FEW)), np.random.default_rng(3)
-    (_, plain), cycle = marched(EVERYTHING), cycle_of(model, on_stand_in_bodies(model))
-    own = cycle.solve
-
-    def solve(position, problem, status, last):
-        nodes, coordinates = random.permutation(len(problem.gap)), random.permutation(len(problem.load))
-        rows = np.concatenate([nodes, len(nodes) + nodes])
-        shuffled = replace(
-            problem, stiffness=problem.stiffness[np.ix_(coordinates, coordinates)].copy(),
-            load=problem.load[coordinates],
-            compliance=problem.compliance[np.ix_(rows, rows)].copy(),
-            jacobian=problem.jacobian[np.ix_(rows, coordinates)].copy(),
-            gap=problem.gap[nodes],
-            slip_before=problem.slip_before[nodes] if len(problem.slip_before) else problem.slip_before,
-            free_motion=problem.free_motion[coordinates] if len(problem.free_motion) else problem.free_motion,
-        )  # fmt: skip
-        found = own(position, shuffled, status[nodes], None)
-        orders = {"forces": rows, "displacement": rows, "coordinates": coordinates, "status": nodes}
-        return replace(
-            found,
-            **{
-                name: getattr(found, name)[np.argsort(order[: len(getattr(found, name))])]
-                for name, order in orders.items()
-            },
-        )
-
-    cycle.solve = solve
-    records = Marcher(cycle, model.equations_of_motion).run(model.steps, model.steps + 1).records
-    worst = max(difference(one.solution.forces, other.solution.forces) for one, other in zip(records, plain))
-    measured("contact nodes of all slices and coordinates shuffled: change of forces", worst, "1e-11", row=12)
-    assert worst <= 1e-11
-
-
-def test_units(measured):
-    """Row 13. Exact: all stiffnesses and loads times a million (stresses in another unit) change no displacement and no
-    iteration."""
-    million, found = 1e6, []
-    for factor in (1.0, million):
-        more = (
-            CROWNED
-            + FRICTION
-            + f'[shafts]\ntorsional_stiffness = "{1e8 * factor!r} N mm/rad"\n'
-            + places((-40, 60), (-45, 50))
-            .replace('"0.2e6', f'"{0.2e6 * factor!r}')
-            .replace('"0.1e6', f'"{0.1e6 * factor!r}')
-        )
-        model = model_of(
-            helical_scene(more, accuracy=FEW, torque=200e3 * factor, elasticities=(206e3 * factor, 206e3 * factor))
-        )
-        sections, bodies = on_stand_in_bodies(model)
-        sections = tuple(replace(each, blocks=each.blocks / factor) for each in sections)
-        bodies = tuple(
-            replace(each, blocks=each.blocks / factor, plane=replace(each.plane, blocks=each.plane.blocks / factor))
-            for each in bodies
-        )
-        found.append(run_of(model, (sections, bodies)))
-    apart = difference(errors(found[1]), errors(found[0]))
-    same = np.array_equal(*(each.result["newton_iterations"].values for each in found))
-    measured(
-        "stresses in a unit a million times smaller: difference of the transmission error, same iterations",
-        f"{apart:.1g}, {same}",
-        "1e-9, True",
-        row=13,
-    )
-    assert apart <= 1e-9 and same
-
-
 def test_springs_from_soft_to_rigid(measured):
     """Row 15. Known limit: tilts and axial motion fall as the bearings stiffen, in proportion to 1/k in the end, to the
     pair on rigid shafts."""
@@ -210,33 +98,6 @@ def test_springs_from_soft_to_rigid(measured):
     )
 
 
-TILTING = CROWNED + FRICTION + BEARINGS
-
-
-@pytest.mark.parametrize(
-    ("torque", "more"),
-    [(0.0, TILTING), (1e-12, CROWNED), (1.0, CROWNED), (2e6, TILTING)]
-    + [
-        pytest.param(torque, more, marks=BY_NIGHT)
-        for torque, more in ((0.0, CROWNED), (1e-12, TILTING), (1.0, TILTING), (2e6, CROWNED))
-    ],
-)
-def test_any_torque(torque, more, measured):
-    """Row 16. Exact (equilibrium): the wheel's torque is the load; nothing is added, no step fails."""
-    result = run(more, torque=torque).result
-    spurious = float(np.abs(result["reaction_couple"].sel(gear="wheel").values + torque).max())
-    measured(
-        f"torque {torque:g} N mm: largest spurious torque",
-        spurious,
-        "1e-9 of the torque, at least 1e-9 N mm",
-        "N mm",
-        row=16,
-    )
-    assert spurious <= 1e-9 * max(torque, 1.0)
-    # Without load the touching node's force is the round-off of zero.
-    assert result["line_load"].values.min() >= -1e-9
-
-
 @pytest.mark.parametrize(
     ("helix", "in_plane"),
     [(0.0, 0.3), (20.0, -0.3), pytest.param(0.0, -0.3, marks=BY_NIGHT), pytest.param(20.0, 0.3, marks=BY_NIGHT)],
@@ -258,29 +119,6 @@ def test_misaligned_so_far_that_one_end_touches(helix, in_plane, measured):
     )
     assert apart <= 1e-11 and 0 < loaded.sum() < 4 and loaded[0 if end == "left" else -1]
     assert "of the face only" in result.attrs["warnings"] and f"at its {end} end" in result.attrs["warnings"]
-
-
-def test_touching_over_the_whole_face_is_no_warning():
-    """Row 18. The other side: a pair that carries over its face says nothing of it; a strongly crowned one touches in
-    the middle."""
-    assert "of the face only" not in run().result.attrs["warnings"]
-    crowned = run('[lead_modifications.pinion]\ncrowning = "0.2 mm"\n', torque=2e3).result.attrs["warnings"]
-    assert "of the face only, from" in crowned and "crowning" in crowned
-
-
-@pytest.mark.parametrize("friction", [0.3, pytest.param(0.6, marks=BY_NIGHT), 1.0])
-def test_strong_friction(friction, measured):
-    """Row 20. The run converges or names self-locking or more than one solution; what it has done until then obeys the
-    laws (row 2)."""
-    model = model_of(helical_scene(BEARINGS + f"[friction]\ncoefficient = {friction}\n", accuracy=FEW))
-    found = run_of(model, on_stand_in_bodies(model))
-    warnings = found.result.attrs["warnings"]
-    outcome = "converges" if found.failure is None else type(found.failure).__name__
-    outcome += ", self-locking named" if "self-locking" in warnings else ""
-    outcome += ", not certified as the only solution" if "more than one solution" in warnings else ""
-    measured(f"mu = {friction}: outcome", outcome, "converges, or the cause is named", row=20)
-    assert found.failure is None or isinstance(found.failure, (SelfLocking, MoreThanOneSolution))
-    assert not isinstance(found.failure, ContactNotConverged) or found.failure.reason
 
 
 @pytest.mark.parametrize("steps", [pytest.param(10, marks=BY_NIGHT), 100])

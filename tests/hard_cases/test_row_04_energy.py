@@ -82,9 +82,9 @@ def test_frozen_account_closes_with_friction(paper_scene, paper_pair, stand_in_f
     assert work.friction[-1] > 1e-3 * done
 
 
-def test_undamped_bounce_is_bounded(paper_scene, paper_pair, stand_in_flanks, measured):
-    """Dropped on the flanks by the load, undamped, 400 flights long: what the algorithm takes at impacts it gives back
-    at releases."""
+@pytest.mark.parametrize("most", [60, pytest.param(400, marks=pytest.mark.nightly)])
+def test_undamped_bounce_is_bounded(paper_scene, paper_pair, stand_in_flanks, measured, most):
+    """Dropped on the flanks by the load, undamped: what the algorithm takes at impacts it gives back at releases."""
     scene = replace(paper_scene, friction=None, damping=None, shafts=None, bearings=None)
     marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 2e-5)
     rest = marcher.start()
@@ -98,12 +98,12 @@ def test_undamped_bounce_is_bounded(paper_scene, paper_pair, stand_in_flanks, me
         loaded = bool(np.any(record.solution.forces))
         flights += flying and loaded
         flying = not loaded
-        if flights == 400:
+        if flights == most:
             break
     largest, smallest = max(energies) / dropped, min(energies) / dropped
-    measured("undamped bounce, 400 flights: largest energy / initial energy", largest, "1.1")
-    measured("undamped bounce, 400 flights: smallest energy / initial energy", smallest, "at least 0.9")
-    assert flights == 400
+    measured(f"undamped bounce, {most} flights: largest energy / initial energy", largest, "1.1")
+    measured(f"undamped bounce, {most} flights: smallest energy / initial energy", smallest, "at least 0.9")
+    assert flights == most
     assert 0.9 <= smallest <= largest <= 1.1
 
 
@@ -130,21 +130,6 @@ def test_account_of_a_run_closes(paper_scene, measured, absent):
     measured(f"rotating gears, {name}: defect / work of the drive", float(np.abs(defect).max()) / done, "1e-9")
     assert float(np.abs(defect).max()) <= 1e-9 * done
     assert result.energy_defect.values == pytest.approx(defect.values, abs=1e-9 * done)
-
-
-def test_term_at_changes_of_contact_vanishes_with_the_step(paper_scene, measured):
-    """Known limit: without friction the algorithm's own term falls faster than the step, and what damping takes the
-    drive gives."""
-    scene = replace(paper_scene, friction=None, motion=Motion(200.0, 2, 2))
-    terms = []
-    for steps in (160, 640):
-        result = simulate(replace(scene, accuracy=replace(COARSE, steps_per_mesh_cycle=steps)))
-        terms.append(abs(float(result.work_contact_changes[-1])) / float(result.work_damping[-1]))
-    measured("`work_contact_changes` / damping loss, 160 steps per mesh cycle", terms[0], "recorded")
-    measured(
-        "`work_contact_changes` / damping loss, 640 steps per mesh cycle", terms[1], "a quarter of that with 160 steps"
-    )
-    assert terms[1] <= 0.25 * terms[0]
 
 
 def test_friction_loss_is_that_of_the_literature(paper_scene, measured):

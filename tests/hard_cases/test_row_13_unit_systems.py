@@ -8,11 +8,6 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
 
-from fenics_gears.elasticity import gear_compliance
-from fenics_gears.elasticity.cache import Cache
-from fenics_gears.elasticity.compliance import Reach
-from fenics_gears.elasticity.element_sizes import Discretisation
-from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.simulation.simulate import simulate
 
@@ -114,20 +109,3 @@ def test_units_scale_out(system, maker, usual, measured):
     assert angle <= 1e-9
     assert forces <= 1e-9
     assert iterations == 0
-
-
-@pytest.mark.parametrize("scale", [1e-3, 1.0 / 25.4, 1.0 / 3.0, 3.0, 7.0 / 3.0])
-def test_similar_gears_share_their_compliance(scale, paper_pair, paper_scene, tmp_path, monkeypatch, measured):
-    """Exact identity: in plane strain displacement per line force has no length in it; the similar gear is found in the
-    cache."""
-    gear, material, cache = paper_pair.pinion, paper_scene.gears.material, Cache(tmp_path)
-    lengths = ("module", "tip_radius", "root_radius", "bore_radius", "rack_tip_radius")
-    similar = replace(gear, **{name: scale * getattr(gear, name) for name in lengths})
-    first = flank_compliance(gear, material, Discretisation("P2", 0.5), Reach(1), cache)
-    monkeypatch.setattr(gear_compliance, "_computed", None)
-    second = flank_compliance(similar, material, Discretisation("P2", scale * 0.5), Reach(1), cache)
-    difference = np.abs(second.blocks - first.blocks).max()
-    measured("similar gears: difference of their compliance", difference, "0, from one cache entry", "mm per N/mm")
-    assert second.timings["from_cache"]
-    assert difference == 0.0
-    np.testing.assert_array_equal(first.roll_angle, second.roll_angle)

@@ -13,12 +13,11 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import model_of
-from fenics_gears.results import dataset, shown
+from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion
 from fenics_gears.show.forces import pair_forces
 from fenics_gears.show.run import Run
-from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
@@ -72,73 +71,6 @@ def test_reversed_torque_is_the_mirror_image(both_flanks, paper_pair, absent, me
     assert backward.coast_flank_opening.values.max() <= 1e-12
     lowest = min(np.nanmin(curve.y) for curve in next(pair_forces(Run(backward))).curves)
     assert lowest == pytest.approx(-backward.pair_coast_normal_force.values.max())
-
-
-def test_reversed_torque_with_friction_balances(both_flanks, paper_scene, measured):
-    """Equilibrium: the wheel's couple is the load; friction of the single pair is mu times its normal force."""
-    scene = replace(quasi_static(both_flanks), friction=paper_scene.friction)
-    result = simulate(backwards(scene))
-    assert result.reaction_couple.sel(gear="wheel").values == pytest.approx(scene.load.wheel_torque, rel=1e-9)
-    # Across the coast flanks' own line of action: the reaction's part that the normal force does not explain.
-    force = np.hypot(result.reaction_x.sel(gear="pinion").values, result.reaction_y.sel(gear="pinion").values)
-    ratio = (force / result.coast_normal_force.values).max()
-    measured(
-        "static reversal with friction: reaction / normal force, relative difference from sqrt(1 + mu^2)",
-        ratio / np.hypot(1.0, 0.1) - 1.0,
-        "1e-6",
-    )
-    assert ratio == pytest.approx(np.hypot(1.0, 0.1), rel=1e-6)
-
-
-def test_coast_flanks_stand_a_backlash_apart(both_flanks, paper_pair, measured):
-    """Exact: with the centres fixed the openings of drive and coast flanks sum to the geometry's backlash. The contact
-    nodes'
-    averages are exact for parabolas; what they add falls faster than the square of the node spacing."""
-    scene, excess = replace(quasi_static(both_flanks), shafts=None, bearings=None), []
-    compliances = gear_compliances(model_of(scene), SilentProgress(), user_cache())
-    for nodes in (26, 51, 101):
-        cycle = mesh_cycle(model_of(replace(scene, accuracy=replace(COARSE, contact_nodes=nodes))), compliances)
-        operators = [cycle.position(step).operator for step in range(20)]
-        sums = [
-            sum(operator.gap[operator.on_drive_flanks == drive].min() for drive in (True, False))
-            for operator in operators
-        ]
-        excess.append(np.mean(sums) - paper_pair.backlash)
-    order = 0.5 * np.log2(abs(excess[0] / excess[-1]))
-    measured(
-        "gaps of drive and coast flanks minus backlash, contact nodes 0.12 mm apart",
-        excess[0] * 1e3,
-        "above order 2",
-        "um",
-    )
-    measured("order of this difference in the node spacing", order, "above 2")
-    assert order > 2.0 and abs(excess[-1]) < 1e-4 * paper_pair.backlash
-
-
-def test_torque_reversed_and_turned_back_while_running(both_flanks, measured):
-    """Uniqueness of the damped periodic motion: once the transient has died the pair moves as one that always had that
-    torque."""
-    scene = replace(both_flanks, motion=Motion(200.0, 26, 26))
-    result = with_torque(scene, lambda step: -1.0 if 80 < step <= 560 else 1.0)
-    error = result.transmission_error.values
-    settled = {}
-    for name, run, last in (("forwards", scene, 1040), ("backwards", backwards(scene), 560)):
-        always = shown(simulate(replace(run, motion=Motion(200.0, 12, 1)))).transmission_error.values
-        settled[name] = np.abs(error[last - 40 : last + 1] - always).max() / np.abs(always).max()
-        measured(
-            f"reversal while running, settled {name}: relative difference from a run without reversal",
-            settled[name],
-            "1e-4",
-        )
-    assert max(settled.values()) <= 1e-4
-    driving, coasting = result.normal_force.values > 0.0, result.coast_normal_force.values > 0.0
-    free = ~driving & ~coasting
-    assert driving[:81].all() and free[81:561].any() and coasting[520:561].all() and driving[1000:].all()
-    first = result.attrs["contact_loss_first"]
-    measured("first contact loss after the reversal at 0.010 s", first, "0.012 s", "s")
-    assert 0.010 < first < 0.012
-    assert result.attrs["contact_loss_longest"] >= 0.9 * 480 * model_of(scene).time_step
-    assert "no meaning" not in result.attrs["warnings"]
 
 
 def test_sudden_release_flies_to_the_coast_flanks_and_comes_back(both_flanks, paper_pair, measured):

@@ -40,31 +40,6 @@ def thrown_apart(start, position, velocity, acceleration):
     return Record(0, State(position, velocity, acceleration), start.position, nothing)
 
 
-def test_free_flight_is_exact(paper_scene, paper_pair, stand_in_flanks, measured):
-    """Exact: thrown apart, without springs or damping, the wheel flies at constant acceleration C/J and no force
-    acts."""
-    scene = replace(paper_scene, friction=None, damping=None, shafts=None, bearings=None)
-    marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-5)
-    start = marcher.start()
-    free = float(shafts.load[0] / shafts.mass[0, 0])
-    record = thrown_apart(start, start.state.position - 5.0, np.array([-50.0]), np.array([free]))
-    thrown = record.state.position[0]
-    forces = 0.0
-    for step in range(1, 101):
-        record = marcher.step(marcher.dynamic, record, step)
-        forces = max(forces, float(np.abs(record.solution.forces).max()))
-    exact = thrown - 50.0 * 1e-3 + 0.5 * free * 1e-3**2
-    error = abs(record.state.position[0] - exact) / abs(exact)
-    measured(
-        "free flight of the wheel, 100 steps: relative difference from rotation at the acceleration torque / J",
-        error,
-        "1e-11",
-    )
-    measured("largest contact force in flight", forces, "0", "N")
-    assert forces == 0.0
-    assert error <= 1e-11
-
-
 def test_free_flight_of_the_whole_drivetrain(paper_scene, paper_pair, stand_in_flanks, measured):
     """Exact identity: apart, with friction, springs and damping in the scene, each step is that of the drivetrain
     without any gears."""

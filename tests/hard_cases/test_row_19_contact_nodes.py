@@ -8,10 +8,8 @@ from tests.coarse import coarse_scene, frictionless, teeth_alone
 
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.operator import CompliancePairing, contact_operator
-from fenics_gears.contact.rank import dependent_rows
 from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import drive_place, tooth_pair
-from fenics_gears.contact.window import ContactGrid
 from fenics_gears.model.model import model_of
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate
@@ -121,17 +119,3 @@ def test_nodes_closer_than_elements_are_reported(element, nodes, scene, model, m
     assert "contact compliance is singular" in result.attrs["warnings"]
     assert "the pressure oscillates" in result.attrs["warnings"]
     assert "contact compliance is singular" not in usual.attrs["warnings"]
-
-
-def test_rank_is_that_of_the_elements(flanks, measured):
-    """Brute force: the rank by Cholesky is the number of singular values above round-off, for grids from coarse to far
-    too fine."""
-    pair, differing = flanks.pair, 0
-    for nodes in (26, 51, 101, 151, 201):
-        contact_nodes = tooth_pair(flanks, ContactGrid(3.0, nodes), drive_place(pair, 0, pair.pitch_point))
-        compliance, _ = CompliancePairing(flanks).compliance([contact_nodes])
-        values = np.linalg.eigvalsh(compliance)
-        missing = int(np.count_nonzero(values < 1e-13 * values[-1]))
-        differing = max(differing, abs(dependent_rows(compliance) - missing))
-    measured("rank by Cholesky and by eigenvalues: largest difference", float(differing), "0")
-    assert differing == 0

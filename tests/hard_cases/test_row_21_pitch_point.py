@@ -101,19 +101,3 @@ def test_friction_turns_through_stick(absent, changes, friction, paper_scene, pa
     assert difference <= 1e-9
     assert total[0] == pytest.approx(-friction * forces[0][0, :n].sum(), rel=1e-9)
     assert total[-1] == pytest.approx(friction * forces[0][-1, :n].sum(), rel=1e-9)
-
-
-@pytest.mark.parametrize("steps", [10, pytest.param(40, marks=pytest.mark.nightly), 100])
-@pytest.mark.parametrize("changes", [{}, {"inertia": None, "damping": None}], ids=["dynamic", "quasi-static"])
-def test_no_step_fails_at_the_pitch_point(changes, steps, paper_scene, paper_pair, stand_in_flanks, measured):
-    """Any length of step: slip may turn within one. No step fails, and 1e-12 mm change nothing."""
-    marches = [
-        past_the_pitch_point(replace(paper_scene, **changes), paper_pair, stand_in_flanks, beside, steps)
-        for beside in BESIDE
-    ]
-    last = [march.records[-1].state.position for march in marches]
-    difference = max(np.abs(other - last[0]).max() for other in last[1:]) / np.abs(last[0]).max()
-    case = f"{'quasi-static' if changes else 'dynamic'}, {steps} steps per mesh cycle"
-    measured(f"{case}: change of coordinates with the step 1e-12 mm beside / largest", difference, "1e-9")
-    assert [sum(march.steps_by_method.values()) for march in marches] == 3 * [AT + AFTER]
-    assert difference <= 1e-9

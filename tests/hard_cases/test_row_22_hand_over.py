@@ -6,8 +6,6 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static, teeth_alone
 
-from fenics_gears.effects.relief import Relief
-from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.scene.data import Motion
 from fenics_gears.simulation.simulate import simulate
 
@@ -49,6 +47,7 @@ def test_transmission_error_is_continuous_in_time(coarse, kind, measured):
     assert orders[-1] == pytest.approx(1.0, abs=0.2)
 
 
+@pytest.mark.nightly
 def test_transmission_error_stays_continuous_as_the_mesh_is_refined(coarse, measured):
     """Continuity as h goes to 0: the steepest slope does not grow with refinement, as that of a jump in the making
     would (as 1/h)."""
@@ -92,12 +91,3 @@ def test_pressure_at_a_sharp_edge_grows_without_bound_and_is_flagged(coarse, mea
         "sharp edge of the pinion's and the wheel's tip" in said and "does not converge with the mesh" in said
         for *_, said in found
     )
-
-
-def test_relieved_tips_carry_nothing_on_their_edges_and_are_not_flagged(coarse, measured):
-    """Relief deeper than the teeth deflect: no contact on the edges, no pressure there, no warning."""
-    deep = replace(teeth_alone(frictionless(coarse)), tip_relief=TipRelief(Relief(0.08, None), Relief(0.08, None)))
-    pressure, _, said = at_the_edge(deep, 0.12)
-    measured("pressure on a relieved tip's edge", pressure, "0", "MPa")
-    assert pressure == 0.0
-    assert "sharp edge" not in said

@@ -5,21 +5,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
+from tests.coarse import coarse_scene, frictionless, quasi_static
 
 from fenics_gears.contact.step_solver import NEWTON
-from fenics_gears.dynamics.average_acceleration import AverageAcceleration
-from fenics_gears.dynamics.backward_euler import BackwardEuler
-from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.friction import Friction
-from fenics_gears.effects.relief import Relief
-from fenics_gears.effects.tip_relief import TipRelief
-from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Motion
 from fenics_gears.simulation.simulate import simulate
 
 CYCLES = 3
-TIP_RELIEF = TipRelief(pinion=Relief(0.031, None), wheel=Relief(0.031, None))
 
 
 @pytest.fixture(scope="module")
@@ -68,29 +61,6 @@ def test_difference_to_quasi_static_vanishes_with_the_frequency(coarse, measured
         assert found == pytest.approx(order, abs=0.1)
 
 
-def test_steps_that_sample_the_slowest_vibration_go_by_average_acceleration(coarse, measured):
-    """Nyquist: two steps in a period and more hold a vibration; the method changes there and nowhere else."""
-    for mesh_frequency in np.geomspace(0.01, 20e3, 40):
-        model = model_of(at(coarse, mesh_frequency))
-        steps = model.vibrations[0].steps_per_period(model.time_step)
-        marcher = Marcher(_AnyCycle(model.pair), model.equations_of_motion)
-        assert isinstance(marcher.dynamic, AverageAcceleration if steps >= 2.0 else BackwardEuler)
-    slowest = model_of(coarse).vibrations[0].frequency
-    measured(
-        "mesh frequency below which backward Euler is used, 40 steps per mesh cycle",
-        2.0 * slowest / 40,
-        "2 f0/steps",
-        "Hz",
-    )
-
-
-class _AnyCycle:
-    steps = 40
-
-    def __init__(self, pair):
-        self.pair = pair
-
-
 def test_high_end_is_the_rigid_mean_motion(coarse, measured):
     """Newton's law: far above every natural frequency the mesh force's fluctuation meets mass alone, the ripple falls
     as 1/f^2, and what
@@ -115,18 +85,6 @@ def test_high_end_is_the_rigid_mean_motion(coarse, measured):
     measured("order of the peak-to-peak value in 1 / mesh frequency", order, "2")
     assert ripple[20e3] <= 0.01 * np.ptp(static)
     assert order == pytest.approx(2.0, abs=0.1)
-
-
-@pytest.mark.nightly
-def test_high_end_with_friction_stays_in_contact(coarse, measured):
-    """The same with friction, whose mean force the start takes as that of full slip: some of it rings, in a few per
-    cent."""
-    static = simulate(at(quasi_static(coarse), 200.0)).transmission_error.values
-    result = simulate(at(replace(coarse, damping=None), 20e3, 100))
-    drift = np.ptp(result.transmission_error.values[1:].reshape(100, -1).mean(axis=1)) / np.ptp(static)
-    measured("20 kHz with friction: vibration left from the start / static peak-to-peak value", drift, "0.05")
-    assert drift <= 0.05
-    assert result.attrs["contact_loss_count"] == 0
 
 
 def swept(scene, mesh_frequencies, frictions, cycles):
@@ -160,23 +118,3 @@ def test_no_step_fails_at_any_frequency_and_friction(coarse, measured, count):
     }
     measured("failed steps, coarse", _outcome(sum(t[0] for t in told), sum(t[1] for t in told), rungs), "none")
     assert sum(t[0] for t in told) == count
-
-
-@pytest.mark.nightly
-@pytest.mark.parametrize("kind", ["damped", "undamped", "relieved", "damped, 0.06 mm"])
-def test_no_step_fails_in_a_dense_sweep(coarse, kind, measured):
-    """The same, 25 frequencies by 9 coefficients of friction, at 100 steps a cycle."""
-    scene = replace(coarse, accuracy=replace(COARSE, steps_per_mesh_cycle=100))
-    if kind == "undamped":
-        scene = replace(scene, damping=None)
-    if kind == "relieved":
-        scene = replace(scene, tip_relief=TIP_RELIEF)
-    if "mm" in kind:
-        scene = replace(
-            scene, accuracy=replace(scene.accuracy, element="P2", flank_element_size=0.06, contact_nodes=51)
-        )
-    runs, steps, rungs = swept(
-        scene, np.geomspace(0.01, 20e3, 25), (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.45, 0.6), 4
-    )
-    measured(f"failed steps, dense sweep, {kind}", _outcome(runs, steps, rungs), "none")
-    assert runs == 225

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, quasi_static
 
-from fenics_gears.dynamics.frequencies import PERIOD_ERROR, STEPS_OF_A_RESOLVED_PERIOD, Vibration
+from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import resolved_frequency, steps_to_resolve
 from fenics_gears.model.description import describe
 from fenics_gears.model.model import model_of
@@ -69,21 +69,6 @@ def test_the_remedy_is_a_remedy(coarse):
         assert (not said) == silent
         if said:
             assert f"steps_per_mesh_cycle = {needed} instead of {steps}" in said[0]
-
-
-def test_resolved_means_a_period_right_within_one_per_cent(measured):
-    """Exact: average acceleration turns a phase by 2 atan(omega dt/2) a step; its period is too long by (omega
-    dt)^2/12, to leading order."""
-    resolved = Vibration(resolved_frequency(1e-4), 0.0, True)
-    measured("steps per resolved period", STEPS_OF_A_RESOLVED_PERIOD, "2 pi/sqrt(0.12)")
-    measured("error of a period with that many steps", resolved.period_error(1e-4), "0.01")
-    assert resolved.steps_per_period(1e-4) == pytest.approx(STEPS_OF_A_RESOLVED_PERIOD)
-    assert resolved.period_error(1e-4) == pytest.approx(0.01, rel=0.01)
-    # An oscillator stepped by hand: x'' = -omega^2 x from rest at 1.
-    omega, step = 2.0 * np.pi * resolved.frequency, 1e-4
-    half = 0.5 * omega * step
-    turned = np.angle((1.0 + 1j * half) / (1.0 - 1j * half))
-    assert omega * step / turned - 1.0 == pytest.approx(resolved.period_error(step), rel=1e-9)
 
 
 def test_inertia_that_does_not_matter_is_named_and_its_effect_is_of_the_size_said(coarse, measured):

@@ -226,16 +226,3 @@ def test_order_two_through_stick_and_reversal(measured):
         f"order of a sliding block with inertia, {len(passed) - 1} changes between slip and stick", order, "2 or better"
     )
     assert STICK in passed and SLIP_FORWARD in passed and order > 1.8
-
-
-@pytest.mark.parametrize("steps", [8, 40, 400])
-def test_friction_at_a_reversal_is_exact_without_inertia(steps):
-    """Closed form: after the turn the force is -mu N + a t^2/(2 (c + 1/k)) until it reaches mu N, whatever the step."""
-    spring, bound, after = 1e5, FRICTION * FORCE, np.maximum(LAST * np.arange(1, steps + 1) / steps - TURN, 0.0)
-    forces, _, passed = marched_block(spring, False, steps)
-    expected = np.minimum(-bound + 0.5 * RISE * after**2 / (TANGENTIAL + 1.0 / spring), bound)
-    assert forces == pytest.approx(expected, abs=1e-12 * bound * steps) and passed == [
-        SLIP_BACKWARD,
-        STICK,
-        SLIP_FORWARD,
-    ]

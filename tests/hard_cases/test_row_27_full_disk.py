@@ -15,7 +15,8 @@ from pathlib import Path
 
 import pytest
 from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
-from tests.studies.conftest import environment, folder, undrawn, write_study  # noqa: F401
+from tests.programs import environment
+from tests.studies.conftest import folder, undrawn, write_study  # noqa: F401
 from tests.studies.test_run_study import TWO, load
 
 from fenics_gears import results
@@ -50,7 +51,8 @@ def run_into(directory):
     return ["run", "pair.toml", "--output", directory, "--quiet", "--no-pictures"]
 
 
-@pytest.mark.parametrize("size", [pytest.param(100, marks=pytest.mark.nightly), 8192])
+@pytest.mark.nightly
+@pytest.mark.parametrize("size", [100, 8192])
 def test_a_full_disk_leaves_no_half_result(folder, undrawn, measured, size):
     """`gears run` and `gears study` on a full disk: exit code 3, the reason in words, nothing half under a final name,
     an earlier result bit for bit as it was; with room again both run, and the study is the undisturbed one.

@@ -10,20 +10,19 @@ import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
 import pytest
 from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
-from tests.studies.conftest import command, environment, folder, gears, stamps, undrawn, write_study  # noqa: F401
-from tests.studies.test_run_study import FIVE, FOUR, load, stopped_in_the_middle
+from tests.programs import command, environment, gears
+from tests.studies.conftest import folder, stamps, undrawn, write_study  # noqa: F401
+from tests.studies.test_run_study import FIVE, load, stopped_in_the_middle
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.results.journal import is_journal
-from fenics_gears.runs.folder import sole_writer
 from fenics_gears.simulation.unfinished import unfinished
 
 
@@ -67,12 +66,9 @@ def kills(folder, measured, moments, what):
 
 
 @pytest.mark.parametrize(
-    ("number", "what"),
-    [
-        pytest.param(2, "before its second gear is kept", marks=pytest.mark.nightly),
-        (3, "before its result has its name"),
-    ],
+    ("number", "what"), [(2, "before its second gear is kept"), (3, "before its result has its name")]
 )
+@pytest.mark.nightly
 def test_a_run_killed_between_its_files(folder, measured, number, what):
     """kill -9 with the first gear kept and the second written aside, and with the result written aside."""
     program = (
@@ -186,13 +182,6 @@ def test_a_run_killed_while_it_marches_has_its_steps_on_disk(folder, measured, c
         )
 
 
-@pytest.mark.nightly
-def test_a_run_killed_at_many_moments(folder, measured):
-    """kill -9 while gears are meshed, the cache and the result written, at moments a few hundredths of a second
-    apart."""
-    kills(folder, measured, 60, "a run killed, by night")
-
-
 @pytest.mark.parametrize(
     "pauses", [(0.011,), pytest.param((0.0, 0.003, 0.007, 0.017, 0.023), marks=pytest.mark.nightly)]
 )
@@ -255,7 +244,8 @@ def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder, undrawn, meas
     assert load("here").attrs["complete"] == 1
 
 
-@pytest.mark.parametrize("count", [2, pytest.param(5, marks=pytest.mark.nightly)])
+@pytest.mark.nightly
+@pytest.mark.parametrize("count", [2, 5])
 def test_runs_at_once_on_one_empty_cache(folder, measured, tmp_path, count):
     """Processes condense the same gears into one cache at the same time: each has the number of a run alone, to the
     bit."""
@@ -280,27 +270,3 @@ def test_runs_at_once_on_one_empty_cache(folder, measured, tmp_path, count):
     measured(f"{count} runs at once on one empty cache", found, f"{count}, one entry for each gear, none")
     assert same == count and unfinished == [] and all("not usable" not in words for words in said)
     assert len(entries) == 2 and all(Cache(own).load(Path(name).stem) is not None for name in entries)
-
-
-def test_readers_beside_a_writer(tmp_path, caplog, measured):
-    """Every reader sees a whole entry."""
-    own_cache = Cache(tmp_path / "own cache")
-
-    def write_and_read(number):
-        own_cache.store(KEY, ARRAYS)
-        return own_cache.load(KEY)
-
-    with ThreadPoolExecutor(4) as pool:
-        loaded = list(pool.map(write_and_read, range(40)))
-    whole = sum(each is not None and np.array_equal(each["blocks"], ARRAYS["blocks"]) for each in loaded)
-    measured("reads beside writers of the same entry", f"{whole} of 40 complete", "all")
-    assert whole == 40 and not caplog.records and len(list(own_cache.directory.iterdir())) == 1
-
-
-def test_two_studies_do_not_share_a_directory(folder, capsys, measured):
-    """The second says so and leaves the first's files alone."""
-    study = write_study(folder, FOUR)
-    with sole_writer(folder / "here"):
-        code = main(["study", str(study), "--output", "here"])
-    measured("two studies in one directory", f"exit code {code}, {len(stamps('here'))} cases", "3, none")
-    assert code == 3 and "another study is writing there" in capsys.readouterr().err and stamps("here") == {}

@@ -6,12 +6,12 @@ Authority throughout: hard case 28 and the exit codes of docs/promises.md.
 
 import signal
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.studies.conftest import command, environment, folder, mpirun, stamps, undrawn, write_study  # noqa: F401
+from tests.programs import command, environment, python
+from tests.studies.conftest import folder, stamps, undrawn, write_study  # noqa: F401
 from tests.studies.test_run_study import FIVE, THREE, load, stopped_in_the_middle
 
 from fenics_gears.commands.cli import main
@@ -28,9 +28,8 @@ def in_the_way(study, index, directory="here"):
     return case
 
 
-@pytest.mark.parametrize(
-    "failing", [(1,), *(pytest.param(cases, marks=pytest.mark.nightly) for cases in ((0,), (2,), (0, 2)))]
-)
+@pytest.mark.nightly
+@pytest.mark.parametrize("failing", [(1,), (0,), (0, 2)])
 def test_the_case_of_a_failing_rank_is_recorded_and_the_others_finish(folder, measured, capsys, failing):
     """Whichever of two ranks has the case, or both one each: rank 0 takes them from the last on, rank 1 from the first
     on. At the end the dataset
@@ -72,6 +71,7 @@ def test_the_case_of_a_failing_rank_is_recorded_and_the_others_finish(folder, me
     assert not list(Path("here/cases").glob("*.failed.txt"))
 
 
+@pytest.mark.nightly
 def test_a_killed_rank_loses_nothing_that_was_done(folder, measured, capsys):
     """kill -9 of one rank ends the job, without a hang; run again it computes only what is missing."""
     study = write_study(folder, FIVE)
@@ -111,14 +111,7 @@ def test_an_outcome_that_cannot_be_reported_is_the_failure_of_its_case(folder, m
         "        print(*(found[i] if isinstance(found[i], int) else 'failed' for i in range(5)))\n"
     )
     Path("program.py").write_text(program)
-    told = subprocess.run(
-        [*mpirun(2), sys.executable, "program.py"],
-        cwd=folder,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
+    told = python("program.py", folder=folder, ranks=2, ends=None, timeout=60)
     measured(
         "outcomes that cannot be sent back or made again",
         told.stdout.strip() or f"exit code {told.returncode}",

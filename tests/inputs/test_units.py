@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fenics_gears.inputs.units import AN_ANGULAR_SPEED, QuantityError, of_kind, quantity, unit_of
+from fenics_gears.inputs.units import AN_ANGULAR_SPEED, QuantityError, of_kind, quantity
 
 ROUND_OFF = 4e-16
 
@@ -74,15 +74,6 @@ def test_revolutions_a_minute_as_data_sheets_write_them(written):
         )
 
 
-@pytest.mark.parametrize("written", ["12.5 1/s", "12.5 Hz", "12.5 s^-1"])
-def test_what_may_be_radians_is_no_speed(written):
-    """Authority: the same; 1/s stands for rad/s as well, so that it is not taken for a speed, nor is 1/min where a
-    frequency is wanted."""
-    with pytest.raises(QuantityError, match="is a frequency .1/time., not an angular speed"):
-        of_kind(written, AN_ANGULAR_SPEED)
-    assert of_kind("60 1/min", "a frequency (1/time)") == (pytest.approx(1.0, rel=ROUND_OFF), "a frequency (1/time)")
-
-
 @pytest.mark.parametrize(
     ("one", "other"),
     [
@@ -145,9 +136,3 @@ def test_any_text_is_a_quantity_or_is_refused(text):
         assert str(error)
     else:
         assert isinstance(number, float) and kind
-
-
-def test_the_unit_is_found_as_written():
-    """Authority: the text itself."""
-    assert unit_of("4.5 mm") == "mm"
-    assert unit_of("nonsense") == ""

@@ -6,7 +6,6 @@ from math import pi, sqrt
 import pytest
 
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
-from fenics_gears.model.description import describe
 from fenics_gears.model.drivetrain import drivetrain, mesh_stiffness
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import (
@@ -36,14 +35,6 @@ def test_half_width_of_a_textbook_contact():
     assert hertz_half_width(100.0, 10.0, 0.5 * 206e3 / 0.91) == pytest.approx(0.10606, rel=1e-3)
 
 
-def test_elements_follow_the_half_width(paper_scene):
-    """Hertz: the half-width grows as the root of the load, and the elements with it."""
-    resolution = of_scene(paper_scene)
-    assert resolution.flank_element_size == pytest.approx(resolution.half_width / 3.0)
-    light = of_scene(replace(paper_scene, load=replace(paper_scene.load, wheel_torque=437e3 / 2.0)))
-    assert light.flank_element_size == pytest.approx(resolution.flank_element_size / sqrt(2.0))
-
-
 @pytest.mark.parametrize("torque, part", [(0.0, FINEST_ELEMENT), (437e7, COARSEST_ELEMENT)])
 def test_elements_stay_reasonable_whatever_the_load(paper_scene, torque, part):
     """No load has no half-width; an absurd one has a half-width of teeth: elements stay between two parts of the
@@ -62,35 +53,6 @@ def test_steps_follow_the_highest_frequency(paper_scene, paper_pair):
     assert resolve(slow, paper_pair, shafts).steps_per_mesh_cycle == MOST_STEPS_PER_MESH_CYCLE
     static = replace(scene, inertia=None, damping=None)
     assert model_of(static).resolution.steps_per_mesh_cycle == 200
-
-
-def test_natural_frequencies_against_single_oscillators(paper_scene, paper_pair):
-    """Exact: without the mesh the translations are sqrt(k_b/m)/2 pi, phi1 is sqrt(k_s/J)/2 pi, phi2 and phi3 a free
-    pair of sqrt(2 k_s/J)/2 pi."""
-    frequencies = natural_frequencies(drivetrain(paper_scene, paper_pair), 0.0)
-    translation, torsion = sqrt(0.155e6 / 4.9e-3) / (2.0 * pi), sqrt(0.203e9 / 24.5) / (2.0 * pi)
-    expected = sorted([0.0, *[translation] * 4, torsion, sqrt(2.0) * torsion])
-    assert frequencies == pytest.approx(expected, rel=1e-9, abs=1e-2)
-
-
-def test_description_says_what_a_run_will_use(paper_scene):
-    """`gears check` and a run read the same settings."""
-    sections = dict(describe(paper_scene))
-    accuracy = {label: value for label, value, _ in sections["Accuracy"]}
-    assert accuracy["flank element size"] == 0.08
-    assert accuracy["steps"] == "3000, curves are stored for all, contact fields for the last 201"
-    assert "Natural frequencies with one tooth pair in mesh (about)" in sections
-    rows = {
-        label: (value, unit)
-        for label, value, unit in sections["Natural frequencies with one tooth pair in mesh (about)"]
-    }
-    frequency, said = rows["mode 1"]
-    assert said.startswith(f"Hz: {1.0 / (frequency * 5e-5):.3g} steps per period, damping ratio")
-    # (omega dt)^2/12 = 1 %, and Nyquist's two steps.
-    assert rows["highest frequency that is resolved"][0] == pytest.approx(sqrt(0.12) / (2.0 * pi * 5e-5))
-    assert rows["highest frequency that is sampled"][0] == pytest.approx(1e4)
-    static = replace(paper_scene, inertia=None, damping=None)
-    assert "Natural frequencies with one tooth pair in mesh (about)" not in dict(describe(static))
 
 
 def test_damping_ratios_and_what_the_mesh_excites(paper_scene, paper_pair):

@@ -12,11 +12,10 @@ from fenics_gears.contact.spring_cycle import PairSprings, SpringCycle
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.effects import without
 from fenics_gears.model.model import model_of
-from fenics_gears.results.attributes import CUBICS, SOLVED, STEPS
-from fenics_gears.results.extrema import MOST_SOLVED, highest, largest_of_cubics
-from fenics_gears.scene.data import ISO_6336, Accuracy, Motion
+from fenics_gears.results.attributes import SOLVED
+from fenics_gears.results.extrema import MOST_SOLVED, highest
+from fenics_gears.scene.data import ISO_6336, Accuracy
 from fenics_gears.simulation.simulate import simulate
 
 CREST = 7.3137
@@ -49,37 +48,6 @@ def test_the_highest_place_of_a_curve_between_its_steps(name):
     assert top - curve(steps).max() > 20.0 * sought
 
 
-def test_what_is_lower_is_not_looked_at():
-    """Economy: of two crests at steps, only what may lie above the higher one is asked for; a flat curve needs
-    nothing."""
-    steps = np.arange(40.0)
-    curve = np.maximum(10.0 - 2.0 * abs(steps - 10.0), 8.0 - 2.0 * abs(steps - 30.2))
-    asked = []
-    highest(steps, curve, lambda place: asked.append(place) or 10.0 - 2.0 * abs(place - 10.0), 1e-3)
-    assert all(abs(place - 10.0) < 1.0 for place in asked)
-    assert highest(steps, np.ones(40), lambda place: pytest.fail("nothing to ask for"), 1e-3) == (0.0, 1.0)
-
-
-def test_cubics_are_of_fourth_order_and_leave_corners_alone():
-    """Exact: the crest of a sine, missed by h^4; and of a corner nothing above it is made up."""
-    errors = []
-    for steps in (16, 32, 64):
-        x = np.arange(steps)
-        # A third of a step beside a step: the same for every number of steps.
-        place, found = largest_of_cubics(x, np.cos(2.0 * np.pi * (x - (steps // 2 + 1.0 / 3.0)) / steps))
-        errors.append(abs(1.0 - found))
-        assert abs(place - (steps // 2 + 1.0 / 3.0)) < 0.01
-    assert np.log2(errors[0] / errors[1]) > 3.8 and np.log2(errors[1] / errors[2]) > 3.8
-    for corner in np.linspace(7.0, 8.0, 21):
-        x = np.arange(16.0)
-        for curve in (
-            -abs(x - corner),
-            np.where(x < corner, 0.1, -2.0) * (x - corner),
-            np.where(x < corner, 2.0, -0.1) * (x - corner),
-        ):
-            assert curve.max() <= largest_of_cubics(x, curve)[1] <= 1e-12
-
-
 def on_stand_ins(scene, flanks, steps):
     """The result of a scene on teeth without finite elements."""
     scene = replace(scene, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=steps))
@@ -108,20 +76,6 @@ def test_peak_to_peak_does_not_depend_on_the_steps(paper_scene, stand_in_flanks,
     assert few.attrs["peak_to_peak_transmission_error_from"] == SOLVED
     for name, place in (("largest", samples.argmax()), ("least", samples.argmin())):
         assert many.attrs[f"{name}_transmission_error_mesh_phase"] == pytest.approx(place / 320, abs=1.0 / 320)
-
-
-def test_at_a_crawl_extremes_are_those_of_the_quasi_static_run(paper_scene, stand_in_flanks):
-    """Limit: with inertia, at steps too long for any vibration, T_EPP of 20 steps is that without inertia, also where
-    corners lie between steps; what is left falls with the speed."""
-    moving = replace(coarse_scene(paper_scene, cycles=3), motion=Motion(0.005, 3, 1))
-    for scene in (moving, frictionless(moving)):
-        slow, still = (on_stand_ins(each, stand_in_flanks, 20) for each in (scene, quasi_static(scene)))
-        assert not model_of(
-            replace(scene, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=20))
-        ).time_scales.averages_acceleration
-        for name in ("peak_to_peak_transmission_error", "largest_pair_force"):
-            assert slow.attrs[name] == pytest.approx(still.attrs[name], rel=1e-4)
-        assert slow.attrs["peak_to_peak_transmission_error"] > 1.003 * np.ptp(slow.transmission_error.values)
 
 
 def test_springs_in_closed_form(paper_scene):
@@ -169,20 +123,3 @@ def test_a_step_solved_again_is_that_of_the_march(paper_scene, stand_in_flanks):
         np.testing.assert_allclose(
             again.solution.forces, records[step].solution.forces, atol=1e-6 * records[step].solution.forces.max()
         )
-
-
-def test_how_extrema_were_found_is_said(paper_scene, stand_in_flanks):
-    """Definition: with inertia by cubics, which lie above the samples; of rigid flanks, which have no positions between
-    steps, by the samples."""
-    moving = on_stand_ins(coarse_scene(paper_scene, cycles=3), stand_in_flanks, 40)
-    assert moving.attrs["peak_to_peak_transmission_error_from"] == moving.attrs["largest_pair_force_from"] == CUBICS
-    settled = moving.transmission_error.values[moving.time.values >= moving.attrs["settled_from"]]
-    assert np.ptp(settled) < moving.attrs["peak_to_peak_transmission_error"] < 1.01 * np.ptp(settled)
-    rigid = replace(
-        without(frictionless(quasi_static(paper_scene)), "tooth_elasticity"),
-        motion=Motion(200.0, 1, 1),
-        accuracy=Accuracy(steps_per_mesh_cycle=20),
-    )
-    rigid = simulate(rigid)
-    assert rigid.attrs["peak_to_peak_transmission_error_from"] == STEPS
-    assert rigid.attrs["peak_to_peak_transmission_error"] == np.ptp(rigid.transmission_error.values)

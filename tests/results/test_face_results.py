@@ -1,7 +1,6 @@
 """Results over the face: kept on disk while a run goes on, read again, and combined by a study."""
 
 import numpy as np
-import pytest
 import xarray as xr
 from tests.hard_cases.invariants import run_of
 from tests.helical import helical_scene, on_stand_in_bodies, wide_pair
@@ -11,10 +10,10 @@ from fenics_gears.contact.pressure import read_off
 from fenics_gears.model.model import model_of
 from fenics_gears.results import journal
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
-from fenics_gears.results.pairs import by_pair, in_middle_slice
+from fenics_gears.results.pairs import in_middle_slice
 from fenics_gears.runs.record import record_of
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.accuracy.measures import FACE_LOAD, LINE_LOAD, OVER_FACE, PART_OF_FACE, answer
+from fenics_gears.studies.accuracy.measures import OVER_FACE, answer
 
 OF_FACE = {
     "overlap_ratio",
@@ -51,18 +50,6 @@ def test_measures_of_accuracy_are_of_the_middle_slice():
         np.testing.assert_array_equal(values, whole[name])
 
 
-def test_line_loads_that_settings_are_judged_by():
-    """By hand: in the middle of an odd number of slices the load is that of the middle one, averaged over the cycle,
-    whose first and last step count half; the factors are the result's."""
-    run = helical_run()
-    found, load = answer(run, 1.0), run["line_load"].sum("slot").values
-    assert found[LINE_LOAD][len(found[LINE_LOAD]) // 2] == pytest.approx(
-        (0.5 * (load[0] + load[-1]) + load[1:-1].sum(axis=0))[2] / (len(load) - 1), rel=1e-12
-    )
-    assert len(np.unique(found[LINE_LOAD])) > 4 and PART_OF_FACE <= 0.8
-    assert found[FACE_LOAD][0] == run.attrs["face_load_factor"]
-
-
 def test_peak_pressure_is_not_of_an_end_of_the_face():
     """By definition, from the result's own fields: of a misaligned pair the ends of the face, as deep as a tenth of
     it, press most. Theirs is a pressure at edges, the headline's that of the rest of the face."""
@@ -86,13 +73,3 @@ def test_peak_pressure_is_not_of_an_end_of_the_face():
     assert (largest == rest).any() and result.attrs["peak_contact_pressure"] == largest[:-1].max() < result.attrs[
         "peak_edge_pressure"
     ]
-
-
-def test_pairs_have_their_own_fields():
-    """Identity: with pairs in place of slots line loads add up to the same forces."""
-    result = helical_run()
-    loads = by_pair(result["line_load"], absent=0.0)
-    assert set(loads.dims) == {"contact_time", "pair", "face_position"}
-    np.testing.assert_allclose(
-        loads.sum(["pair", "face_position"]), result["line_load"].sum(["slot", "face_position"]), rtol=1e-12
-    )

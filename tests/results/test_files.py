@@ -2,7 +2,6 @@
 
 import io
 
-import h5py
 import numpy as np
 import pytest
 import xarray as xr
@@ -105,18 +104,6 @@ def test_a_file_begun_as_a_copy_has_nothing_of_the_one_before():
             assert read.load().identical(dataset)
             wanted = dataset["force"].attrs.get("offset")
             assert wanted is None or read["force"].attrs["offset"].dtype == np.asarray(wanted).dtype
-
-
-def test_large_arrays_are_compressed_in_chunks_that_a_reader_holds():
-    """Authority: the format; arrays of several dimensions beyond the least size are packed, others are not, and values
-    come back."""
-    values = np.arange(400_000.0).reshape(-1, 4)
-    ours, content = xr.Dataset({"large": (("a", "b"), values), "small": (("c", "b"), values[:3])}), io.BytesIO()
-    write_netcdf(ours, content)
-    with h5py.File(content) as file:
-        assert file["large"].compression == "gzip" and file["small"].compression is None
-        assert 0 < np.prod(file["large"].chunks) * 8 <= netcdf.LARGEST_CHUNK
-        np.testing.assert_array_equal(file["large"][:], values)
 
 
 def _by_h5netcdf(dataset: xr.Dataset) -> io.BytesIO:

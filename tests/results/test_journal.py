@@ -8,13 +8,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from tests.coarse import coarse_scene
-from tests.studies.conftest import DEMO
+from tests.programs import DEMO
 
 import fenics_gears
 from fenics_gears.dynamics.march import LONGEST_BLOCK
 from fenics_gears.errors import ComputationError
 from fenics_gears.results import journal
-from fenics_gears.results.journal import COUNTS, HEADER, SPARE, STATE, Journal, Place, read
+from fenics_gears.results.journal import COUNTS, HEADER, SPARE, Journal, Place, read
 from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.sealed import seal
@@ -73,37 +73,6 @@ def test_it_holds_what_was_put(tmp_path, at_once, until, length):
     assert found.march == vars(known) and found.steps == STEPS - 1 and found.scene == load_scene(DEMO)
 
 
-def test_a_journal_that_begins_late_holds_what_was_put(tmp_path, monkeypatch):
-    """Identity: of a slow start, after which the places of the last steps are not all written once."""
-    monkeypatch.setattr(journal, "SECONDS_WITHOUT", 1e9)
-    begin, until = LAST + SPARE + 400, LAST + SPARE + 450
-    own = written(tmp_path, begin - 1, 77)
-    own._due = 0.0
-    own.put(begin - 1, block(begin - 1, until), march_of(until))
-    expected = block(0, until) | {"field": block(until - LAST, until)["field"]}
-    found = read(tmp_path / "run.nc.part")
-    for name, values in expected.items():
-        np.testing.assert_array_equal(own.get(name, until), values)
-        np.testing.assert_array_equal(found.values[name], values)
-
-
-def test_fields_that_are_written_over_meanwhile_are_left_out(tmp_path, at_once, monkeypatch):
-    """Identity, of a reader that is slower than the run: fields that the run has reached again are no fields of their
-    steps."""
-    until = 2 * SPARE
-    own, text, further, read_before = written(tmp_path, until, LONGEST_BLOCK), journal._text, until + SPARE, []
-
-    def later(path):
-        if path.name == STATE and any(read_before):
-            own.put(until, block(until, further), march_of(further))
-        read_before.append(path.name == STATE)
-        return text(path)
-
-    monkeypatch.setattr(journal, "_text", later)
-    found = read(tmp_path / "run.nc.part")
-    assert len(found.values["time"]) == until and len(found.values["field"]) == 0
-
-
 @pytest.mark.parametrize("failing", [0, 3, 200])
 def test_a_full_disk_does_not_end_the_march(tmp_path, paper_scene, at_once, monkeypatch, caplog, failing):
     """Row 27; two routes to the same result: in memory, and on a disk that is full from some write on."""
@@ -119,14 +88,6 @@ def test_a_full_disk_does_not_end_the_march(tmp_path, paper_scene, at_once, monk
     found, whole = simulate(scene, journal=Place(tmp_path / "run.nc.part")), simulate(scene)
     assert "No space left on device. The run goes on" in caplog.text and list(tmp_path.iterdir()) == []
     assert len(calls) == failing + 1 and found.equals(whole)
-
-
-def test_a_journal_changes_no_number(tmp_path, paper_scene, at_once):
-    """Two routes to the same result: steps kept in memory and on disk, with fields of the last cycle."""
-    scene = coarse_scene(paper_scene, cycles=60)
-    found, whole = simulate(scene, journal=Place(tmp_path / "run.nc.part")), simulate(scene)
-    assert (tmp_path / "run.nc.part" / STATE).is_file()
-    assert found.equals(whole) and found.attrs["warnings"] == whole.attrs["warnings"]
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from tests.helical import wide_pair
 from fenics_gears.contact.window import coast_roll_angles
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.results.face_ends import end_depth, inner_face, slice_ends, windows
-from fenics_gears.results.load_factors import contact_line_lengths, largest_even_share, load_factors, shortest_lines
+from fenics_gears.results.load_factors import load_factors
 
 SLICES, STEPS, FIRST, SLOTS = 10, 200, 2, 5
 
@@ -137,17 +137,6 @@ def test_average_over_the_mesh_cycle_of_a_helical_gear(helical, hand, side):
     assert found == pytest.approx(1.0 + 0.02 * (inner_face(pair)[1] - 0.5 * end_depth(pair)), rel=5e-3)
 
 
-@pytest.mark.parametrize("side", ["", "coast_"])
-def test_even_line_load_of_a_helical_pair(helical, side):
-    """Identity: one line load along all lines of contact is largest when these are shortest, and is then what the
-    factors compare with (but for the slices, steps of the lines' lengths)."""
-    result = of_one_force(run_of(helical, lambda xi, z: 100.0 + 0.0 * xi * z, slices=400))
-    factors = load_factors(on_coast_flanks(result) if side else result, helical)
-    assert factors["transverse_load_factor"] == pytest.approx(1.0, abs=3e-3)
-    for name in ("largest_line_load_factor", "edge_line_load_factor"):
-        assert factors[name] == pytest.approx(1.0, abs=1e-2), name
-
-
 @pytest.mark.parametrize("end", ["start", "end"])
 @pytest.mark.parametrize("side", ["", "coast_"])
 def test_edges_have_a_factor_of_their_own(helical, end, side):
@@ -174,44 +163,3 @@ def test_edges_have_a_factor_of_their_own(helical, end, side):
     # To the change of the lines' lengths between the times of the one and of the other.
     assert near["edge_line_load_factor"] == pytest.approx(3.0 * near["largest_line_load_factor"], rel=0.15)
     assert far["edge_line_load_factor"] == pytest.approx(far["largest_line_load_factor"], rel=0.15)
-
-
-def test_unequal_slices_have_their_own_ends(spur):
-    """By definition: ends are those that the slices were made from; a result without widths has slices of one width."""
-    ends = np.array([0.0, 0.02, 0.05, 0.2, 0.5, 0.9, 1.0])
-    result = run_of(spur, lambda xi, z: 1.0 + 0.0 * xi * z, list(ends))
-    assert slice_ends(result) == pytest.approx(spur.face_width * (ends - 0.5), abs=1e-12)
-    alike = run_of(spur, lambda xi, z: 1.0 + 0.0 * xi * z).drop_vars("face_slice_width")
-    assert slice_ends(alike) == pytest.approx(spur.face_width * np.linspace(-0.5, 0.5, SLICES + 1), abs=1e-12)
-
-
-def test_lengths_of_contact_lines(helical):
-    """Brute force: lengths, summed over points along the face whose contact is on the path; and all pairs together are
-    the path times the face over the base pitch on average."""
-    positions = np.linspace(helical.path_start - 10.0, helical.path_end + 10.0, 301)
-    z = helical.face_width * ((np.arange(20_000) + 0.5) / 20_000 - 0.5)
-    there = [
-        np.mean((xi + helical.slope * z >= helical.path_start) & (xi + helical.slope * z <= helical.path_end))
-        for xi in positions
-    ]
-    assert contact_line_lengths(helical, positions) == pytest.approx(
-        helical.face_width * np.array(there), abs=1e-3 * helical.face_width
-    )
-    phases = np.linspace(0.0, helical.base_pitch, 10_000, endpoint=False)
-    all_lines = contact_line_lengths(helical, phases[:, None] + helical.base_pitch * np.arange(-5, 9)).sum(axis=1)
-    assert all_lines.mean() == pytest.approx(helical.contact_ratio * helical.face_width, rel=1e-6)
-    assert (
-        shortest_lines(helical) == pytest.approx(all_lines.min(), rel=1e-4)
-        and shortest_lines(helical) <= all_lines.min() + 1e-6
-    )
-    brute = (
-        contact_line_lengths(helical, phases[:, None] + helical.base_pitch * np.arange(-5, 9)).max(axis=1) / all_lines
-    ).max()
-    assert (
-        largest_even_share(helical) == pytest.approx(brute, rel=1e-4) and largest_even_share(helical) >= brute - 1e-12
-    )
-
-
-def test_nothing_of_flanks_without_load(spur):
-    """A pair that touches nowhere has its geometry's ratios only."""
-    assert set(load_factors(run_of(spur, lambda xi, z: 0.0 * xi * z), spur)) == {"overlap_ratio", "total_contact_ratio"}

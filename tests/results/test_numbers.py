@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fenics_gears.results.numbers import harmonics, largest_of_one_pair, mean_where_positive, shares_at
+from fenics_gears.results.numbers import harmonics, shares_at
 
 
 @pytest.mark.parametrize("cycles", [1, 3])
@@ -24,11 +24,6 @@ def test_harmonics_have_the_power_of_the_curve():
     curve = np.random.default_rng(1).normal(size=31)
     power = 0.5 * np.sum(harmonics(curve, 1, count=15) ** 2)
     assert power == pytest.approx(np.var(curve), rel=1e-12)
-
-
-def test_harmonics_that_are_not_sampled_are_not_told():
-    """Nyquist: 6 steps a cycle sample two harmonics."""
-    assert np.isfinite(harmonics(np.arange(12.0), 2)).tolist() == [True, True, False, False, False]
 
 
 def test_shares_of_pairs_that_hand_over_in_a_straight_line():
@@ -56,13 +51,4 @@ def test_shares_by_slots_are_those_by_pairs():
     places = [0.1, 0.5, 0.75, 1.2]
     assert shares_at(places, phase, present, slots) == pytest.approx(
         shares_at(places, phase, numbers, forces), abs=1e-12
-    )
-
-
-def test_means_are_of_steps_that_touch():
-    """Definition."""
-    values = np.array([0.0, 2.0, 4.0, 0.0])
-    assert mean_where_positive(values) == 3.0 and np.isnan(mean_where_positive(np.zeros(3)))
-    assert largest_of_one_pair(values, np.array([0, 1, 2, 0])) == 2.0 and np.isnan(
-        largest_of_one_pair(values, np.array([0, 2, 2, 0]))
     )

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
-from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
+from tests.coarse import coarse_scene, frictionless, quasi_static
 from tests.dynamics.contact_work_by_numpy import contact_work as by_numpy
 
 from fenics_gears import results
@@ -14,12 +14,9 @@ from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects.coast_flanks import CoastFlanks
-from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.results.energy_variables import energy_variables, work_variables
-from fenics_gears.results.pairs import contact_times
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion, Output
 from fenics_gears.simulation.routes import prepared
@@ -141,37 +138,3 @@ def test_memory_is_as_it_was_counted(paper_scene, coast, friction, root_stress):
     result = simulate(scene if friction else frictionless(scene))
     held = sum(each.nbytes for each in result.variables.values() if {"time", "contact_time"} & set(each.dims))
     assert held == model_of(scene if friction else frictionless(scene)).stored_bytes
-
-
-def test_a_long_ramp_is_stored_as_curves(paper_scene):
-    """Count: 300 cycles of a run-up with friction and coast flanks, all curves, fields of the last two cycles; by pair
-    they took gigabytes."""
-    motion = Motion(150.0, 300, 2)
-    scene = replace(
-        paper_scene,
-        accuracy=replace(COARSE, steps_per_mesh_cycle=12),
-        motion=motion,
-        coast_flanks=CoastFlanks(),
-        speed_ramp=SpeedRamp(250.0),
-    )
-    result = simulate(scene)
-    assert (
-        result.sizes["time"] == 300 * 12 + 1
-        and result.sizes["contact_time"] == 2 * 12 + 1
-        and result.sizes["slot"] <= 5
-    )
-    assert result.nbytes < 3e6 and result["pair_normal_force"].dims == ("time", "slot")
-    assert result["pair_number"].values.max() >= 300
-    np.testing.assert_allclose(result["pair_normal_force"].sum("slot"), result["normal_force"], rtol=1e-12)
-
-
-def test_without_contact_fields_what_needs_them_says_so(paper_scene):
-    """Authority: docs/scene.md; curves and the peak pressure are there, the field is not, and what would draw it names
-    the key."""
-    scene = quasi_static(coarse_scene(paper_scene))
-    result, whole = simulate(replace(scene, output=Output(contact_fields=False))), simulate(scene)
-    assert not [name for name in result.variables if name.startswith("contact_")]
-    for name in ("peak_contact_pressure", "peak_to_peak_transmission_error", "friction_loss"):
-        assert result.attrs[name] == whole.attrs[name]
-    with pytest.raises(SceneError, match="contact_fields"):
-        contact_times(result)

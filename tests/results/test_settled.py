@@ -6,15 +6,13 @@ from math import ceil, log, pi
 
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene, quasi_static
+from tests.coarse import coarse_scene
 
 from fenics_gears.effects import common_period
-from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.model.description import describe
 from fenics_gears.model.model import model_of
 from fenics_gears.results.settled import settled
 from fenics_gears.results.summary import summary_rows
-from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
 
@@ -110,17 +108,6 @@ def test_fewer_cycles_than_the_common_period_are_told_first(by_cycles):
     assert any("only 23 of the 1081" in str(row[1]) for row in rows)
 
 
-@pytest.mark.parametrize(
-    ("order", "cycles"), [(1.0, 24), (24.0, 1), (12.0, 2), (1.5, 16), (0.5, 48), (5.0, 24)], ids=str
-)
-def test_a_ripple_repeats_after_whole_turns_of_its_order(paper_scene, order, cycles):
-    """Arithmetic: the least whole number of mesh cycles, 1/24 of the wheel's turn each, that is a multiple of 1/order
-    of a turn."""
-    ripple = TorqueRipple((Harmonic(order, 1e3),))
-    assert common_period(replace(paper_scene, torque_ripple=ripple)) == cycles
-    assert order * cycles / 24 == round(order * cycles / 24)
-
-
 def test_the_start_has_died_down(paper_scene):
     """Exponential decay of the slowest mode: exp(-zeta omega t) = 0.001 at the first step that counts; a warning where
     it is above 0.01 before the last cycles."""
@@ -141,16 +128,3 @@ def test_the_start_has_died_down(paper_scene):
     found = settled(short, short.steps)
     assert found.first == a_cycle and "has not died down" in found.warning
     assert f"motion.mesh_cycles = {ceil(calm * short.time_step * 200.0 + 1)}" in found.warning
-
-
-def test_without_damping_the_start_never_dies_down(paper_scene):
-    """Conservation: nothing takes the vibration's energy; the result says so, of a ramp too."""
-    model = model_of(replace(coarse_scene(paper_scene, cycles=30), damping=None))
-    assert "nothing damps" in settled(model, model.steps).warning
-
-
-def test_all_of_a_quasi_static_run_counts(paper_scene):
-    """Definition: without masses nothing rings."""
-    scene = replace(quasi_static(coarse_scene(paper_scene)), motion=Motion(200.0, 3, 1))
-    model = model_of(scene)
-    assert settled(model, model.steps).first == 0 and not settled(model, model.steps).warning

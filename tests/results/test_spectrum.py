@@ -11,7 +11,6 @@ from fenics_gears.results.spectrum import (
     NO_WINDOW,
     SIDEBANDS,
     WINDOWS,
-    level,
     order_lines,
     sidebands,
     weights_of,
@@ -64,12 +63,6 @@ def test_a_line_between_bins_is_too_low_by_no_more_than_is_known(window, most, l
         assert found.square(order) == pytest.approx(1.0, abs=2e-3)
 
 
-def test_levels_are_decibels_of_the_amplitude():
-    """Definition: 20 lg(a/a0)."""
-    np.testing.assert_allclose(level(np.array([1.0, 10.0, 0.5, 0.0])), [0.0, 20.0, -6.0205999133, -np.inf])
-    assert level(np.array([2e-3]), 2e-6)[0] == pytest.approx(60.0)
-
-
 @pytest.mark.parametrize(
     "shaft, window, periods", [("pinion", None, 1), ("wheel", None, 1), ("wheel", HANN, 3), ("pinion", FLAT_TOP, 9)]
 )
@@ -97,11 +90,3 @@ def test_phase_modulation_has_bessels_sidebands():
     # Every second sideband of the pinion is the third of the wheel, and so on.
     assert found.wheel == pytest.approx(2.0 * sum(jv(k, depth) ** 2 for k in (2, 4)), rel=1e-9)
     assert found.all == pytest.approx(found.pinion, rel=1e-9)
-
-
-def test_a_record_that_cannot_tell_sidebands_apart_has_none():
-    """Definition: sidebands of 16 and 24 teeth stand a third of an order apart, 1/48 of a mesh order; Hann's lines are
-    three bins wide."""
-    for cycles, window in ((PERIOD - 1, HANN), (2 * PERIOD, HANN), (8 * PERIOD, FLAT_TOP), (PERIOD - 8, None)):
-        assert sidebands(order_lines(cosine(16.0, cycles), cycles, TEETH, window), TEETH, 1) is None
-    assert sidebands(order_lines(cosine(16.0, PERIOD), PERIOD, TEETH), TEETH, STEPS) is None

@@ -1,13 +1,12 @@
 """A scene from plain dictionaries. Authority: the same scene read from a file."""
 
-import subprocess
-import sys
 import tomllib
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.programs import python
 
 import fenics_gears
 from fenics_gears import build_scene, load_scene
@@ -70,12 +69,6 @@ def test_what_no_file_can_hold_is_refused(sections, said):
         build_scene(DEMO | sections)
 
 
-def test_it_is_public():
-    """Authority: the package's own list of names."""
-    assert "build_scene" in fenics_gears.__all__
-    assert all(hasattr(fenics_gears, name) for name in fenics_gears.__all__)
-
-
 def test_a_notebook_shows_fields_with_units_and_meanings(paper_scene):
     """The scene file, whose quantities are those of the table; markup of a title is none of the page's."""
     html = replace(paper_scene, title="<b>paper</b>")._repr_html_()
@@ -98,9 +91,4 @@ def test_names_of_the_package_are_told_without_loading_them():
     program = (
         "import sys, fenics_gears; dir(fenics_gears); print(sorted({'numpy', 'xarray', 'pydantic'} & set(sys.modules)))"
     )
-    assert (
-        subprocess.run(
-            [sys.executable, "-c", program], cwd=DEMOS[0].parents[1], capture_output=True, text=True, check=True
-        ).stdout
-        == "[]\n"
-    )
+    assert python("-c", program).stdout == "[]\n"

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from tests.stand_in import stand_in_compliance
 
-from fenics_gears.model.description import describe
 from fenics_gears.results import shown
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text
@@ -76,10 +75,3 @@ def test_one_mesh_cycle_without_speed_is_the_last_of_many_at_any_speed():
     assert np.ptp(alone["time"].values) == pytest.approx(1.0, rel=1e-12)
     assert alone["time"].attrs["long_name"].startswith("nominal time") and many["time"].attrs["long_name"] == "time"
     assert alone.attrs["peak_to_peak_transmission_error"] == many.attrs["peak_to_peak_transmission_error"] > 0.0
-
-
-@pytest.mark.parametrize(("text", "said"), [(SPEEDLESS, ["counts mesh cycles, 1 s each"]), (STATIC, [])])
-def test_check_says_that_time_is_nominal(text, said):
-    """Only where it is."""
-    rows = dict(describe(scene_from_text(text)))["Model"]
-    assert [value for label, value, _ in rows if label == "time"] == said

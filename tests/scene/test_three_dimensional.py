@@ -7,7 +7,6 @@ from math import cos, radians
 import pytest
 
 from fenics_gears.commands.cli import main
-from fenics_gears.effects.bearings import BearingPlaces, Bearings
 from fenics_gears.effects.lead_modifications import EndRelief, LeadModification, LeadModifications
 from fenics_gears.effects.misalignment import Misalignment
 from fenics_gears.errors import GeometryError, SceneError
@@ -89,13 +88,6 @@ def test_a_scene_is_three_dimensional_where_it_names_what_a_plane_has_not(text, 
     """Authority: the rule; amounts of zero count, for they send a spur pair the three-dimensional way. An axial offset
     alone makes a face narrower."""
     assert scene_from_text(text).three_dimensional is expected
-
-
-def test_bearings_with_places_make_a_scene_three_dimensional():
-    """Authority: the rule; gears then tilt."""
-    from dataclasses import replace
-
-    assert replace(scene_from_text(SPUR), bearings=Bearings(1e5, places=BearingPlaces((-40.0, 60.0)))).three_dimensional
 
 
 def accuracy(line):
@@ -221,26 +213,3 @@ def test_check_shows_the_third_dimension(tmp_path, capsys):
         "misalignment in plane 12 um",
     ):  # fmt: skip
         assert any(line.startswith(words) for line in shown), (words, shown)
-
-
-def test_a_plane_scene_loads_nothing_of_the_third_dimension():
-    """Authority: house rule; only data classes of sections that a scene may have are loaded where it has none of
-    them."""
-    import subprocess
-    import sys
-    from pathlib import Path
-
-    program = (
-        "import sys; from fenics_gears.scene.read import scene_from_text; from fenics_gears.model.model import"
-        " model_of;model_of(scene_from_text(sys.stdin.read()));print([name for name in ('fenics_gears.geometry.face',"
-        " 'fenics_gears.geometry.helix') if name in sys.modules])"
-    )
-    done = subprocess.run(
-        [sys.executable, "-P", "-c", program],
-        input=SPUR,
-        capture_output=True,
-        text=True,
-        cwd=Path(__file__).parents[2],
-        env={"PYTHONPATH": str(Path(__file__).parents[2])},
-    )
-    assert done.stdout.strip() == "[]", done.stderr

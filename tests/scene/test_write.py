@@ -11,7 +11,7 @@ from tests.effects.examples import EXAMPLES, scene_of, with_needs
 from tests.hard_cases.random_scenes import valid_scenes
 
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.gear_data import Material, Web
+from fenics_gears.geometry.gear_data import Material
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.scene.data import Accuracy, Load, Motion, Scene
 from fenics_gears.scene.read import load_scene, scene_from_text
@@ -85,54 +85,6 @@ def test_every_effect_is_written_from_its_data():
         assert_written(scene_from_text(base + more))
 
 
-def test_figures_of_a_drawing_are_written():
-    """The same, of gears that a drawing leaves half open: thickness measured, rack with protuberance, webs, widths and
-    hands of their own."""
-    base, gears = (
-        scene_of("tooth_elasticity"),
-        (
-            '[gears]\nhelix_angle = "17.3 deg"\npinion_hand = "left"\nbacklash = "0.1 mm"\nrack = { profile = "ISO 53'
-            ' D", protuberance = "0.15 mm" }\n'
-        ),
-    )
-    text = base.text.replace("[gears]\n", gears).replace('centre_distance = "91.5 mm"\n', "")
-    text = "\n".join(
-        line
-        for line in text.splitlines()
-        if not line.startswith(("tip_diameter", "root_diameter", "[gears.material", "youngs", "poissons"))
-    )
-    scene = scene_from_text(
-        text.replace(
-            "[gears.wheel]\n",
-            'material = "POM"\naxial_offset = "0.7 mm"\nface_width = "13.1 mm"\n[gears.wheel]\nmaterial = "steel"\n',
-        )
-    )
-    assert scene.derived and scene.gears.pinion.protuberance
-    assert_written(scene)
-    for share in (0.3, 1.0 / 3.0, 0.7):
-        web = replace(base.gears, pinion=replace(base.gears.pinion, web=Web(16.1, 28.7, share)))
-        assert_written(replace(base, gears=web))
-
-
-@pytest.mark.parametrize(
-    "motion",
-    [
-        "",
-        "mesh_cycles = 48",
-        'mesh_cycles = "hunting tooth period"',
-        'settling_time = "21 ms"',
-        "mesh_cycles = 48\nrecorded_cycles = 7",
-    ],
-)
-def test_lengths_of_runs_are_written(motion):
-    """The same, for scenes whose mesh cycles are alike and for those whose are not."""
-    for effects in ((), ("eccentricity",), ("inertia",), ("inertia", "eccentricity")):
-        # With inertia a length has to be given, and a settling time is for that alone.
-        if not motion if "inertia" in effects else "settling" in motion:
-            continue
-        assert_written(scene_from_text(scene_of("tooth_elasticity", *effects).text.replace("mesh_cycles = 1", motion)))
-
-
 @settings(max_examples=4)
 @given(valid_scenes())
 def test_random_scenes_are_written_from_their_data(scene):
@@ -174,13 +126,6 @@ def test_a_change_shows_in_the_text_and_the_rest_stays_as_written(paper_scene):
         replace(changed, load=paper_scene.load).load
         == scene_from_text(replace(changed, load=paper_scene.load).text).load
     )
-
-
-def test_a_load_that_follows_from_the_speed_stays_what_it_is():
-    """Identity: where the speed of a scene with a power is changed in Python, its torque is not."""
-    power = scene_from_text(scene_of("tooth_elasticity").text.replace('wheel_torque = "437 N m"', 'power = "20 kW"'))
-    changed = replace(power, motion=Motion(100.0, 1, 1))
-    assert scene_from_text(changed.text).load == power.load
 
 
 def test_what_no_file_gives_is_said(paper_scene):

@@ -8,7 +8,6 @@ import pytest
 from tests.debians.command import main
 from tests.debians.dockerfile import read_dockerfile
 from tests.debians.root import Call
-from tests.debians.summary import table
 from tests.debians.trial import OF_RANKS, QUICK, QUICK_OF_RANKS, RANKS, SUITES, Counts, Trial, counted
 
 CHECKOUT = Path(__file__).parents[2]
@@ -91,56 +90,12 @@ def test_counts_are_pytests_own(tmp_path):
     assert (found.passed, found.failed, found.skipped, found.reasons) == (1, 2, 1, ("no browser",))
 
 
-def test_one_column_for_each_debian_and_one_verdict(tmp_path):
-    """What was not come to is a dash, and nothing but a whole green trial is called green."""
-    broken = green("sid", tmp_path)
-    broken.tests[3] = Counts(9, 1, 0, 2.0, complete=True)
-    short = Trial("bookworm", tmp_path)
-    lines = table([green("trixie", tmp_path), broken, short]).splitlines()
-    cells = {line.split("|")[1].strip(): [cell.strip() for cell in line.split("|")[2:-1]] for line in lines}
-    assert cells[""] == ["Debian 13", "unstable", "Debian 12"]
-    assert cells["DOLFINx"] == ["0.9.0", "0.9.0", "-"]
-    assert cells["the suite: passed, failed, skipped"] == ["10, 0, 1", "10, 0, 1", "-"]
-    assert cells["all green"] == ["yes", "NO", "NO"]
-    assert len({len(line) for line in lines}) == 1
-
-
-def test_why_tests_were_skipped_is_told(tmp_path):
-    """A skipped test is nobody's proof; whoever reads the table sees why it was left out, and where."""
-    trial = green("trixie", tmp_path)
-    trial.tests[1] = Counts(10, 0, 2, 2.0, complete=True, reasons=("no CalculiX",))
-    assert table([trial, green("sid", tmp_path)]).splitlines()[-1] == "Skipped on Debian 13: no CalculiX."
-
-
-def test_few_tests_are_not_called_the_suite(tmp_path):
-    """The table of --quick says so."""
-    trial = green("trixie", tmp_path)
-    trial.quick = True
-    assert "a few of the suite: passed" in table([trial]) and "| the suite" not in table([trial])
-
-
-def test_a_call_that_fails_is_not_green(tmp_path):
-    """A container that does not start spoils a trial whose tests all pass."""
-    trial = green("trixie", tmp_path)
-    assert trial.is_green
-    trial.note("container", Call(127, 0.1, ""))
-    assert not trial.is_green
-
-
 def test_without_root_nothing_is_tried(monkeypatch, capsys, tmp_path):
     """Exit code 2 and the remedy, before anything is made."""
     monkeypatch.setattr("os.geteuid", lambda: 1000)
     assert main(["trixie", "--roots", str(tmp_path / "roots"), "--logs", str(tmp_path / "logs")], "") == 2
     assert "sudo" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
-
-
-def test_a_missing_tool_is_named_with_its_package(monkeypatch, capsys, tmp_path):
-    """mmdebstrap is on few machines."""
-    monkeypatch.setattr("os.geteuid", lambda: 0)
-    monkeypatch.setenv("PATH", str(tmp_path))
-    assert main(["--roots", str(tmp_path / "roots"), "--logs", str(tmp_path / "logs")], "") == 2
-    assert "apt-get install mmdebstrap" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("wrong", [["buster"], ["--fast"], ["trixie", "--"]])

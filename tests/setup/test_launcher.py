@@ -4,7 +4,6 @@ Each test has a checkout of its own in a folder with spaces; its program only te
 tools are stood in for by scripts of a few lines, first and only on PATH.
 """
 
-import fcntl
 import os
 import re
 import shutil
@@ -159,15 +158,6 @@ def test_debian_without_root_or_sudo_is_told_the_command(checkout, machine):
     assert not ONLY_FOR_TESTS & set(done.stderr.split())
 
 
-@pytest.mark.parametrize("arguments", [("test",), ("test", "-x"), ("--set-up-only", "--test")])
-def test_packages_of_the_tests_are_asked_for_by_the_tests(checkout, machine, arguments):
-    """What the program needs and what only the tests need, in one installation."""
-    environment = machine(python3=BARE_PYTHON, apt_get=NO_PACKAGES, dpkg_query=NO_PACKAGES, id="echo 1000")
-    done = call(checkout / "gears", *arguments, environment=environment)
-    assert done.returncode == 1
-    assert {"python3-dolfinx-real", *ONLY_FOR_TESTS} <= set(done.stderr.split())
-
-
 def test_what_a_relative_of_debian_lacks_for_some_tests_is_left_out(checkout, machine, tmp_path):
     """Ubuntu has no chromium; that is told and left out, while a package of the program that is not offered is still
     asked for and fails."""
@@ -197,15 +187,6 @@ def test_program_is_ready_without_what_the_tests_need(checkout, this_python):
     assert (again.returncode, again.stdout) == (0, "/|run\n"), again.stderr
 
 
-def test_tests_that_are_ready_make_the_program_ready(checkout, this_python):
-    """The second call needs no set-up: what the program needs was found with what the tests need."""
-    done = call(checkout / "gears", "--set-up-only", "--test", environment=this_python)
-    assert done.returncode == 0, done.stderr
-    (checkout / "setup/install").chmod(0o644)
-    for arguments in (["run"], ["test", "--version"]):
-        assert call(checkout / "gears", *arguments, environment=this_python).returncode == 0
-
-
 @pytest.mark.parametrize(
     ("printed", "sentence"),
     [
@@ -230,16 +211,6 @@ def test_failure_of_apt_is_one_sentence_with_its_reason(checkout, machine, print
     assert not (checkout / ".setup/ready").exists()
 
 
-def test_progress_of_apt_is_told(checkout, machine):
-    """apt's own percentages (its status-fd protocol) reach the user, at most one line for every fifth of the way."""
-    status = "\n".join(f"echo pmstatus:package:{percent}.5:Unpacking" for percent in range(100)) + "\nexit 100"
-    environment = machine(python3=BARE_PYTHON, apt_get=status, dpkg=NO_PACKAGES, dpkg_query=NO_PACKAGES, id="echo 0")
-    done = call(checkout / "gears", "run", environment=environment)
-    told = [line.split("installed ")[1].split(" %")[0] for line in done.stderr.splitlines() if "installed " in line]
-    # `apt-get update` and `apt-get install` are the same stand-in, so the count runs twice.
-    assert told == ["0", "20", "40", "60", "80"] * 2
-
-
 def test_interrupted_set_up_leaves_nothing_that_looks_finished(checkout, machine):
     """Ctrl-C while apt works: exit code 130 and no mark, so that the next call sets up."""
     # The stand-in of apt reaches all of the call's processes, as the terminal's Ctrl-C does.
@@ -255,28 +226,10 @@ def test_interrupted_set_up_leaves_nothing_that_looks_finished(checkout, machine
     started = subprocess.Popen(
         [checkout / "gears", "run"], env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
     )
-    said = started.communicate(timeout=20)[1]
+    said = started.communicate(timeout=300)[1]
     assert "[1/" in said
     assert started.returncode == 130 and "interrupted" in said
     assert not (checkout / ".setup/ready").exists()
-
-
-def test_second_set_up_waits_for_the_first(checkout, this_python):
-    """While another holds the lock it says so and waits; what that one finished is not done again."""
-    set_up_already(checkout, this_python)
-    ready = checkout / ".setup/ready"
-    finished = ready.read_text()
-    ready.unlink()
-    with open(checkout / ".setup/lock") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        second = subprocess.Popen(
-            [checkout / "gears", "run"], env=this_python, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-        )
-        assert "another set-up" in second.stderr.readline()
-        (checkout / "setup/check.py").unlink()  # trying the imports once more would fail
-        ready.write_text(finished)
-    out, said = second.communicate(timeout=20)
-    assert second.returncode == 0 and out.endswith("|run\n"), said
 
 
 @pytest.mark.parametrize("script", ["gears", "setup/install", ".ci/run"])

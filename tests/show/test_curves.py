@@ -2,16 +2,11 @@
 
 import numpy as np
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from tests.show.synthetic import BARE, made_up_run, right_scale, words
+from tests.show.synthetic import made_up_run, right_scale, words
 
-from fenics_gears.errors import ComputationError
 from fenics_gears.results import by_pair
-from fenics_gears.show.motion import motion_charts
 from fenics_gears.show.plots import run_figures
-from fenics_gears.show.run import Run
 from fenics_gears.show.ticks import ticks, written
-from fenics_gears.show.units import factor, in_unit
 
 
 def transmission_error(run):
@@ -33,32 +28,6 @@ def curve(axes, which=-1):
     """The data of one of the panel's curves; lines across the panel are no curves."""
     lines = [line for line in axes.get_lines() if len(np.asarray(line.get_xdata())) > 2]
     return np.asarray(lines[which].get_xdata()), np.asarray(lines[which].get_ydata())
-
-
-@pytest.mark.parametrize(
-    ("unit", "wanted", "expected"),
-    [
-        ("rad", "µrad", 1e6),
-        ("mm", "µm", 1e3),
-        ("N mm", "N m", 1e-3),
-        ("MPa", "MPa", 1.0),
-        ("rad", "deg", 180 / np.pi),
-        ("kN", "N", 1e3),
-    ],
-)
-def test_factors_are_those_of_the_si(unit, wanted, expected):
-    """Authority: the SI's prefixes."""
-    assert factor(unit, wanted) == pytest.approx(expected, rel=1e-15)
-
-
-def test_a_variable_of_another_kind_or_without_units_is_refused_by_name():
-    """Authority: a length is no angle; a figure without a unit must not get a label with one."""
-    run = made_up_run()
-    with pytest.raises(ComputationError, match="centre_y.*length.*angle"):
-        in_unit(run["centre_y"], "µrad")
-    del run["normal_force"].attrs["units"]
-    with pytest.raises(ComputationError, match="normal_force"):
-        mesh_forces(run)
 
 
 def test_transmission_error_and_the_wheels_sideways_motion():
@@ -84,14 +53,6 @@ def test_the_peak_to_peak_is_named():
     """Authority: 400 µrad by construction (amplitude 200 µrad, extremes on steps), 20 µm on a base radius of 50 mm."""
     above, _ = transmission_error(made_up_run(steps=41)).get_axes()
     assert above.get_title(loc="left") == "Transmission error on the wheel's base circle: peak to peak 20.00 µm"
-
-
-def test_an_incomplete_run_names_the_peak_to_peak_of_what_is_stored():
-    """Authority: the stored values; the first quarter of the wave rises by its amplitude, 200 µrad, 10 µm on a base
-    radius of 50 mm."""
-    run = made_up_run(steps=41, complete=0).isel(time=slice(0, 6))
-    title = transmission_error(run).get_axes()[0].get_title(loc="left")
-    assert title.endswith("peak to peak of what is stored 10.00 µm")
 
 
 def test_a_motion_of_rounding_errors_is_shown_as_none():
@@ -152,16 +113,6 @@ def test_mesh_forces():
     assert [text.get_text() for text in torques.get_legend().get_texts()] == ["pinion", "wheel"]
 
 
-def test_friction_of_both_flanks_is_drawn_where_both_have_it():
-    """A wheel that drives rubs on the coast flanks alone: their friction must not be left out."""
-    run = made_up_run()
-    for name in ("normal_force", "friction_force"):
-        run[f"coast_{name}"] = (2.0 * run[name]).assign_attrs(units="N")
-    drawn = {line.get_label(): line.get_ydata() for line in mesh_forces(run).get_axes()[1].get_lines()}
-    np.testing.assert_array_equal(drawn["drive flanks"], run["friction_force"].values)
-    np.testing.assert_array_equal(drawn["coast flanks"], run["coast_friction_force"].values)
-
-
 def test_load_sharing():
     """Authority: each curve is its pair's force while it carries, and the pairs' sum is the mesh's normal force."""
     run = made_up_run()
@@ -182,61 +133,6 @@ def test_load_sharing():
     assert "Force (N)" in words(axes)
 
 
-def test_pairs_that_never_carry_have_no_curve():
-    """Authority: rule 9 of the house, shown as it is: what is not there is not drawn."""
-    run = made_up_run()
-    numbers = run["pair_number"].values
-    first = numbers[numbers > 0].min()
-    run["pair_normal_force"].values[numbers == first] = 0.0
-    labels = [line.get_label() for line in load_sharing(run).get_axes()[0].get_lines()]
-    assert f"pair {first}" not in labels and f"pair {first + 1}" in labels
-
-
-def test_absent_variables_leave_no_panel():
-    """Authority: rule 9 of the house. A scene without friction and bearings has neither variable."""
-    bare = made_up_run().drop_vars(BARE)
-    assert len(transmission_error(bare).get_axes()) == 1
-    normal, torques = mesh_forces(bare).get_axes()
-    assert "Normal force (N)" in words(normal) and "Torque (N m)" in words(torques)
-    assert mesh_forces(bare.drop_vars(["normal_force", "reaction_couple", "pair_normal_force"])) is None
-    assert load_sharing(bare.drop_vars("pair_normal_force")) is None
-
-
-def test_no_length_axis_without_a_base_radius():
-    """Authority: a length on the base circle needs its radius."""
-    run = made_up_run()
-    del run.attrs["base_radius_wheel"]
-    assert right_scale(transmission_error(run).get_axes()[0]) == []
-
-
-@pytest.mark.parametrize("cycles", [2.0, 14.0])
-def test_legends_cover_no_curve_and_stay_in_the_picture(cycles):
-    """Authority: the legend's box, as drawn, lies outside the panel's and inside the picture's."""
-    for draw in (mesh_forces, load_sharing):
-        figure = draw(made_up_run(cycles=cycles, steps=141))
-        canvas = FigureCanvasAgg(figure)
-        canvas.draw()
-        for axes in figure.get_axes():
-            if axes.get_legend() is None:
-                continue
-            box, panel = axes.get_legend().get_window_extent(), axes.get_window_extent()
-            assert box.y0 >= panel.y1 - 1.0
-            assert box.x0 >= 0 and box.x1 <= figure.bbox.x1 and box.y1 <= figure.bbox.y1
-
-
-def test_a_heading_with_every_effect_stays_on_the_paper(paper_scene):
-    """Authority: the edge of the figure. Conditions of a scene with all effects are longer than a line."""
-    sections = (
-        '[root_relief]\ndepth = "5 um"\nstart = "LPSTC"\n[flank_errors]\ntolerance_class ='
-        ' 6\n[eccentricity.pinion]\ndistance = "9 um"\n'
-    )
-    if "[tip_relief]" not in paper_scene.text:
-        sections += '[tip_relief]\ndepth = "9 um"\nstart = "HPSTC"\n'
-    figure = transmission_error(made_up_run(scene=paper_scene.text + "\n" + sections))
-    FigureCanvasAgg(figure).draw()
-    assert figure._suptitle.get_window_extent().x1 <= figure.bbox.x1
-
-
 @pytest.mark.parametrize(("ends", "logarithmic", "expected"), [
     ((-6.2, 5.1), False, ["−5.0", "−2.5", "0.0", "2.5", "5.0"]),
     ((7990.0, 10010.0), False, ["8000", "8500", "9000", "9500", "10000"]),
@@ -251,21 +147,3 @@ def test_ticks_are_round_numbers_written_with_the_decimals_they_need(ends, logar
     places = ticks(ends, 5.0, logarithmic)
     assert written(places, logarithmic) == expected
     np.testing.assert_allclose([float(each.replace("−", "-")) for each in expected], places, atol=1e-9 * np.ptp(ends))
-
-
-def test_gears_that_tilt_have_their_tilts_shown_and_all_motions_of_their_centres():
-    """Authority: model.md section 4; axial forces tilt the shafts off the plane of action and so move their centres off
-    the line, without friction too."""
-    run = made_up_run().drop_vars("friction_force")
-    run["centre_x"] = run["centre_y"]
-    assert not [
-        chart.caption for chart in motion_charts(Run(run)) if "off the line" in chart.caption or "Tilt" in chart.caption
-    ]
-    for name, unit in (("axial_position", "mm"), ("tilt_x", "rad"), ("tilt_y", "rad")):
-        run[name] = run["centre_y"].assign_attrs(units=unit)
-    captions = [chart.caption for chart in motion_charts(Run(run))]
-    for expected in (
-        "Displacement of the gears' centres off the line of action", "Displacement of the gears along their axes",
-        "Tilt of the gears about the line of action", "Tilt of the gears in the plane of action",
-    ):  # fmt: skip
-        assert expected in captions

@@ -48,16 +48,6 @@ def test_an_angle_of_the_wheel_is_a_length_on_its_base_circle():
         np.testing.assert_allclose(same, length, rtol=1e-12)
 
 
-def test_a_torque_in_another_unit_and_order_is_the_same_map():
-    """Authority: a map does not depend on how its loads are written."""
-    other = errors().assign_coords(load=("load", np.array(LOADS) * 1e3, {"units": "N mm"})).isel(load=[2, 0, 3, 1])
-    for (name, (_, values)), (same_name, (_, same)) in zip(
-        drawn(harris_map(errors())).items(), drawn(harris_map(other)).items()
-    ):
-        assert name == same_name
-        np.testing.assert_array_equal(values, same)
-
-
 def test_loads_stand_at_their_curves_and_apart(tmp_path):
     """Authority: the names' least distance; the picture is written."""
     close = errors().assign_coords(load=("load", [50.0, 50.1, 50.2, 437.0], {"units": "N m"}))
@@ -67,20 +57,6 @@ def test_loads_stand_at_their_curves_and_apart(tmp_path):
     assert list(names.words) == ["50 N m", "50.1 N m", "50.2 N m", "437 N m"]
     assert (np.diff(names.y) > 0.0).all()
     assert save_figures({"map.png": picture("Harris map", [chart])}, tmp_path)[0].stat().st_size > 10_000
-
-
-def test_a_load_without_a_result_has_no_curve():
-    """Authority: rule 9 of the house."""
-    failed = errors()
-    failed[1] = np.nan
-    assert list(drawn(harris_map(failed))) == ["50 N m", "200 N m", "437 N m"]
-
-
-def test_curves_that_differ_by_round_off_are_drawn_flat():
-    """Authority: contact is solved to 1e-4 um; less than 0.1 um fills no chart."""
-    flat = errors() * 0.0 + 20.0 + np.random.default_rng(1).normal(size=(4, 81)) * 1e-14
-    low, high = harris_map(flat.assign_attrs(units="um")).limits
-    assert high - low >= 0.1
 
 
 def test_what_is_no_map_is_refused():

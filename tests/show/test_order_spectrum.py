@@ -2,14 +2,11 @@
 
 import numpy as np
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PolyCollection
-from matplotlib.text import Annotation, Text
+from matplotlib.text import Annotation
 from tests.show.synthetic import made_up_run
 
 from fenics_gears.results.spectrum import BOTH, HUNTING, MESH, PINION, WHEEL, order_lines, origin
-from fenics_gears.show.chart import Chart, Curve, Flag
-from fenics_gears.show.drawing import picture
 from fenics_gears.show.plots import run_figures
 
 TEETH, PERIOD, STEPS = (16, 24), 48, 40
@@ -49,12 +46,6 @@ def test_a_shorter_record_shows_them_in_a_window(cycles):
     assert 0.999 * 8.0 / (3.0 * np.pi) * 4.0 <= found.amplitudes.max() <= 4.0 + 1e-3
     assert abs(found.orders[np.argmax(found.amplitudes)] - 16.0) <= 0.5 * TEETH[0] / cycles + 1e-9
     assert found.amplitudes[np.abs(found.orders - 16.0) > 4.0 * TEETH[0] / cycles].max() < 0.04
-
-
-def test_less_than_a_turn_of_the_pinion_has_no_orders():
-    """Definition: the lowest order needs its whole turn."""
-    assert order_lines(error_of([(16.0, 1.0)], 15), 15, TEETH) is None
-    assert order_lines(np.zeros(2), 48, TEETH) is None
 
 
 def test_orders_are_told_by_what_they_come_back_with():
@@ -103,35 +94,6 @@ def test_the_picture_names_mesh_orders_run_out_and_ghosts(paper_scene):
         pytest.approx(bar, rel=1e-9) for bar in bars["turn of either gear"] + bars["turn of the pinion"]
     ]
     assert flags["ghost order: 90 waves on the wheel"] == pytest.approx((60.0, 1e-8 * 50e3), rel=1e-9)
-
-
-@pytest.mark.parametrize("beside", [(1.0, 15.0, 16.0, 17.0), (0.66, 1.0, 2.0, 3.0), (16.0, 16.0, 16.0)])
-def test_words_of_orders_lie_neither_on_each_other_nor_on_each_others_lines(beside):
-    """Authority: the boxes of the words as they are drawn, and the lines down to the orders."""
-    flags = [Flag(order, 1.0, f"words on the order {order:g}") for order in beside]
-    figure = picture(
-        "",
-        [
-            Chart(
-                "",
-                [Curve("", np.array([0.0, 72.0]), np.array([1.0, 2.0]))],
-                "",
-                "",
-                x_range=(0.0, 72.0),
-                height=500,
-                flags=flags,
-            )
-        ],
-    )
-    canvas = FigureCanvasAgg(figure)
-    canvas.draw()
-    boxes = [Text.get_window_extent(text) for text in figure.axes[0].texts if isinstance(text, Annotation)]
-    for place, box in enumerate(boxes):
-        others = boxes[:place] + boxes[place + 1 :]
-        assert not any(box.overlaps(other) for other in others)
-        for order, other in zip(beside, boxes):
-            line = figure.axes[0].transData.transform((order, 1.0))[0]
-            assert other is box or not (box.x0 < line < box.x1 and other.y0 > box.y0)
 
 
 def test_a_run_of_a_turn_has_the_picture_and_a_shorter_one_has_not(paper_scene):

@@ -117,18 +117,6 @@ def test_fields_survive(run, series):
     assert connectivity.max() + 1 == len(expected["displacement"]) and len(connectivity) % 3 == 0
 
 
-def test_points_are_the_same_material_points_through_both_cycles(run, series):
-    """From step to step either gear turns by a quarter of its angular pitch, as a rigid body, through the change of the
-    cycle as well."""
-    points = [array(series.with_name(f"turn_{n:04d}.vtu"), None, "Points")[:, :2] for n in range(8)]
-    gear = array(series.with_name("turn_0000.vtu"), "gear")[:, 0]
-    centres = [points[0][gear == number].mean(axis=0) for number in (1, 2)]
-    for number, teeth, sense in ((1, 16, 1), (2, 24, -1)):
-        complex_points = [(each[gear == number] - centres[number - 1]) @ [1, 1j] for each in points]
-        for before, after in zip(complex_points, complex_points[1:]):
-            np.testing.assert_allclose(np.angle(after / before), sense * 2 * np.pi / teeth / 4, atol=1e-4)
-
-
 def test_tooth_is_the_pair_that_loads_it(run, series):
     """Teeth have the numbers of their tooth pairs: the loaded pairs' teeth, and no others, have flanks under
     pressure."""
@@ -145,9 +133,3 @@ def test_tooth_is_the_pair_that_loads_it(run, series):
         for number, teeth in ((1, 16), (2, 24)):
             largest = [stress[(gear == number) & (tooth == each)].max() for each in range(teeth)]
             assert {int(each) for each in np.argsort(largest)[-len(loaded) :]} == {pair % teeth for pair in loaded}
-
-
-def test_calls_that_make_no_sense_are_refused(run, tmp_path, capsys):
-    """Exit code 2 and nothing written."""
-    assert main(["picture", str(run[0]), "--pvd", str(tmp_path / "turn.vtu")]) == 2
-    assert "--pvd writes a .pvd file" in capsys.readouterr().err and not list(tmp_path.iterdir())

@@ -1,12 +1,10 @@
 """The files of a run's pictures: which there are, that they are whole, and what each says about the run."""
 
-import subprocess
-import sys
-
 import matplotlib
 import numpy as np
 import pytest
 from matplotlib.image import imread
+from tests.programs import python
 from tests.show.synthetic import BARE, made_up_run
 
 from fenics_gears.errors import ComputationError
@@ -31,20 +29,6 @@ def test_a_picture_without_its_variable_is_not_written(tmp_path):
     """Authority: rule 9 of the house."""
     files = draw_run(made_up_run().drop_vars("contact_pressure"), tmp_path)
     assert {file.name for file in files} == OF_A_SHORT_RUN - {"contact_pressure.png"}
-
-
-@pytest.mark.parametrize("steps", [0, 1])
-def test_too_few_steps_are_said_and_nothing_is_written(tmp_path, steps):
-    """Authority: a curve needs two points."""
-    run = made_up_run(complete=0).isel(time=slice(0, steps))
-    with pytest.raises(ComputationError, match="nothing to draw.*step is stored.*Run the scene again"):
-        draw_run(run, tmp_path / "run")
-    assert not (tmp_path / "run").exists()
-
-
-def test_two_steps_are_enough(tmp_path):
-    """Authority: a line has two ends."""
-    assert len(draw_run(made_up_run().isel(time=slice(0, 2)), tmp_path)) == len(OF_A_SHORT_RUN)
 
 
 def test_a_failure_leaves_the_pictures_of_before_alone(tmp_path):
@@ -78,14 +62,6 @@ def test_the_heading_names_scene_and_conditions(paper_scene):
         assert "friction coefficient 0.1, torque ripple" in figure._suptitle.get_text()
 
 
-def test_any_title_is_drawn_as_it_is(tmp_path):
-    """Authority: a title is text; what matplotlib would read as a broken formula must not stop a run's pictures."""
-    title = "costs $5_{ and $6 \\frac"
-    run = made_up_run(title=title)
-    assert title in run_figures(run)["mesh_forces.png"]._suptitle.get_text()
-    assert len(draw_run(run, tmp_path)) == len(OF_A_SHORT_RUN)
-
-
 def test_a_users_matplotlib_settings_neither_matter_nor_change(tmp_path):
     """Authority: the same dataset gives the same pictures, byte for byte."""
     plain = [file.read_bytes() for file in draw_run(made_up_run(), tmp_path / "plain")]
@@ -106,10 +82,10 @@ def test_commands_import_matplotlib_without_its_lists_of_properties_and_leave_it
         "assert 'linewidth' in artist.kwdoc(lines.Line2D) and 'linewidth' not in lines.Line2D.set.__doc__\n"
         "assert 'linewidth' in str(lines.Line2D.set.__signature__)"
     )
-    subprocess.run([sys.executable, "-c", code], check=True)
+    python("-c", code)
 
 
 def test_the_command_starts_without_matplotlib():
     """Authority: the start-up time of the command; matplotlib is for those who draw."""
     code = "import sys, fenics_gears.commands.cli; sys.exit('matplotlib' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+    python("-c", code)

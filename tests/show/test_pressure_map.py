@@ -41,14 +41,6 @@ def test_every_node_under_pressure_is_in_the_raster(steps):
     assert np.isin(field.values[np.isfinite(field.values)], pressure).all()
 
 
-def test_the_raster_covers_no_more_of_the_flank_than_the_nodes():
-    """Authority: three nodes under pressure 0.4 deg apart: 1.2 deg, to a row of the raster."""
-    field, *_ = field_of(made_up_run(steps=3, cycles=0.2))
-    height = np.isfinite(field.values).sum(axis=0) * np.diff(field.y)[0]
-    bands = 2 * np.isfinite(field.values).any(axis=0)
-    np.testing.assert_allclose(height, 1.2 * bands, atol=2.1 * np.diff(field.y)[0])
-
-
 @pytest.mark.parametrize("falling", [False, True])
 def test_cells_tile_uneven_nodes_without_gap_or_overlap(falling):
     """Authority: half-way points. Edges of neighbouring nodes are shared, whichever way the nodes are counted; the ends
@@ -57,21 +49,6 @@ def test_cells_tile_uneven_nodes_without_gap_or_overlap(falling):
     low, high = node_edges(rolls[::-1] if falling else rolls)
     np.testing.assert_allclose(np.sort(low), edges[:-1], rtol=1e-13)
     np.testing.assert_allclose(np.sort(high), edges[1:], rtol=1e-13)
-
-
-def test_nodes_beyond_the_flank_bound_no_cell():
-    """Authority: the dataset's NaN, where a pair has fewer nodes; the last node before it keeps its own cell."""
-    low, high = node_edges(np.array([10.0, 10.4, 10.8, np.nan, np.nan]))
-    assert (low[2], high[2]) == pytest.approx((10.6, 11.0)) and np.isnan(low[3:]).all()
-
-
-def test_labels_and_units():
-    """Authority: docs/promises.md, units on every axis."""
-    figure = contact_pressure(made_up_run())
-    flank, bar = figure.get_axes()
-    assert "Roll angle on the pinion's flank (deg)" in words(flank)
-    assert flank.get_xlabel() == "Time (mesh cycles since the start)"
-    assert "Contact pressure (MPa)" in words(bar)
 
 
 def test_a_peak_far_above_all_others_is_said_and_leaves_the_scale_alone():
@@ -84,14 +61,6 @@ def test_a_peak_far_above_all_others_is_said_and_leaves_the_scale_alone():
     assert figure.get_axes()[0].get_title(loc="left").endswith("beyond the colours up to 9000 MPa at mesh cycle 29.00")
 
 
-def test_of_cycles_that_repeat_the_last_one_is_named():
-    """Authority: by construction the peak stands a mesh cycle later again, lower by round-off."""
-    run = made_up_run(steps=101)
-    for step, peak in ((25, 9000.0), (75, 9000.0 * (1.0 - 1e-14))):
-        run["contact_pressure"][step, np.flatnonzero(run["contact_pressure"].values[step, :, 2] > 0.0)[0], 2] = peak
-    assert contact_pressure(run).get_axes()[0].get_title(loc="left").endswith("at mesh cycle 29.50")
-
-
 def test_pitch_point_and_the_wheels_axis(paper_scene):
     """Authority: at the pitch point either roll angle is tan(alpha_w) (exact); the paper's alpha_w is 22.44 deg."""
     (axes, _) = contact_pressure(made_up_run(scene=paper_scene.text)).get_axes()
@@ -102,12 +71,6 @@ def test_pitch_point_and_the_wheels_axis(paper_scene):
     # Along the line of action the wheel's roll angle falls by z1/z2 of what the pinion's rises.
     assert "Roll angle on the wheel's flank (deg)" in words(axes) and len(angles) > 3
     assert all(wheel == pytest.approx(roll - (pinion - roll) * 16 / 24, abs=1e-9) for wheel, pinion in angles)
-
-
-def test_without_a_readable_scene_the_map_is_there_without_the_pitch_point():
-    """Authority: a result of another version still has its picture."""
-    (axes, _) = contact_pressure(made_up_run(scene="gears = 'of another version'")).get_axes()
-    assert "pitch point" not in [line.get_label() for line in axes.get_lines()] and right_scale(axes) == []
 
 
 def test_no_contact_at_all_and_no_pressure_variable():

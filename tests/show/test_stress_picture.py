@@ -1,19 +1,14 @@
 """gears picture: what is written, what is refused, and that colours are where the stress is."""
 
-import subprocess
-import sys
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from matplotlib.image import imread
 from tests.coarse import coarse_scene
+from tests.programs import python
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.show.picture_marks import place_of_name
-from fenics_gears.show.stress_picture import _time
 from fenics_gears.system import environment
 
 environment.prepare()
@@ -113,52 +108,7 @@ def test_teeth_that_have_parted_move_and_are_reported(parted, tmp_path, monkeypa
     assert "It could not be drawn" not in (tmp_path / "report.html").read_text(encoding="utf-8")
 
 
-def test_no_tooth_is_missing(run):
-    """Count: going round each drawn gear at its pitch circle one passes every tooth's two flanks."""
-    from fenics_gears.show.drawn_scale import outer_loop
-    from fenics_gears.show.run import scene_of
-    from fenics_gears.show.stress_grid import in_plane, shown_points
-    from fenics_gears.simulation.run_stresses import RunStresses
-
-    dataset = results.load(run / "run.nc")
-    with RunStresses(dataset, scene_of(dataset)) as stresses:
-        mesh = stresses.at(0)
-    for number, gear in enumerate((mesh.pair.pinion, mesh.pair.wheel)):
-        points = shown_points(mesh, number, 0.0)[outer_loop(mesh, number)]
-        centre = np.array([0.0, -mesh.pair.centre_distance * number])
-        beyond = np.linalg.norm(points - centre, axis=1) > gear.reference_radius
-        assert np.count_nonzero(beyond != np.roll(beyond, 1)) == 2 * gear.teeth
-        # Green's theorem: the area of the outline less that of the bore is that of the cells.
-        x, y = (points - centre).T
-        area = 0.5 * abs(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) - np.pi * gear.bore_radius**2
-        body = mesh.gears[number]
-        corners = in_plane(body.points)[body.of_sectors(body.section.subcells)]
-        along, across = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-        assert 0.5 * np.sum(along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]) == pytest.approx(area, rel=2e-3)
-
-
-@pytest.mark.parametrize(("bore", "place", "alignment"), [
-    (40.0, (0.0, 0.0), ("center", "center")),
-    (10.0, (0.0, 16.0), ("center", "bottom")),
-])  # fmt: skip
-def test_names_stand_in_the_bores_or_above_those_too_small(bore, place, alignment):
-    """A name in a bore of a few points would lie over its edge; a large body has room for it, beside a small gear there
-    is some."""
-    found, *aligned = place_of_name(SimpleNamespace(bore_radius=bore, root_radius=100.0, tip_radius=120.0), point=1.0)
-    assert tuple(found) == place and tuple(aligned) == alignment
-
-
-def test_names_stand_beside_small_gears():
-    """The gear's teeth end where its name does."""
-    found, *aligned = place_of_name(SimpleNamespace(bore_radius=10.0, root_radius=30.0, tip_radius=40.0), point=1.0)
-    assert found[0] < -40.0 and aligned == ["right", "center"]
-
-
-def test_times_have_readable_units():
-    """Slow quasi-static runs last minutes."""
-    assert [_time(seconds) for seconds in (0.0, 0.3051, 600.0)] == ["0 ms", "305.1 ms", "600 s"]
-
-
+@pytest.mark.nightly
 def test_animation_goes_through_the_cycle_once(run, tmp_path, monkeypatch):
     """Frames asked for, all of one size, which differ; the last is not the first again."""
     image = pytest.importorskip("PIL.Image")
@@ -179,12 +129,6 @@ def test_animation_goes_through_the_cycle_once(run, tmp_path, monkeypatch):
     assert stress_animation.frame_steps(results.load(run / "run.nc")) == [0, 13, 27]
 
 
-def test_file_for_paraview_alone_draws_no_picture(run, tmp_path):
-    """--vtu without --output writes the one file."""
-    assert main(["picture", str(run), "--vtu", str(tmp_path / "gears.vtu"), "--quiet"]) == 0
-    assert [file.name for file in tmp_path.iterdir()] == ["gears.vtu"]
-
-
 @pytest.mark.parametrize(("options", "said"), [
     (["--at", "1.5"], "stored mesh cycles 0 to 1"),
     (["--at", "nan"], "stored mesh cycles 0 to 1"),
@@ -201,33 +145,10 @@ def test_calls_that_make_no_sense_are_refused(run, tmp_path, monkeypatch, capsys
     assert not list(tmp_path.iterdir()) and sorted(run.iterdir()) == before
 
 
-def test_a_mesh_of_springs_has_no_picture(run, tmp_path, capsys):
-    """Exit code 2, what would have one is said: nothing was computed in vain, the call is wrong."""
-    dataset = results.load(run / "run.nc")
-    springs = dataset.attrs["scene"].replace("[accuracy]", '[accuracy]\nmodel = "stiffness table"')
-    results.save(dataset.assign_attrs(scene=springs), tmp_path / "run.nc")
-    assert main(["picture", str(tmp_path), "--quiet"]) == 2
-    assert "the run has a mesh of springs" in capsys.readouterr().err
-
-
-def test_a_scale_must_be_a_number(run):
-    """argparse's own refusal, exit code 2."""
-    for wrong in ("-1", "inf", "nan", "big"):
-        with pytest.raises(SystemExit, match="2"):
-            main(["picture", str(run), "--scale", wrong])
-
-
-def test_no_such_run_is_refused(tmp_path, capsys):
-    """Exit code 2, and what a run is."""
-    assert main(["picture", str(tmp_path)]) == 2
-    assert "gears run" in capsys.readouterr().err
-
-
 def test_command_line_does_not_load_vtk():
     """Rule of the platform: neither the package nor its command line imports pyvista; only a file for ParaView does."""
     code = (
         "import sys, fenics_gears, fenics_gears.commands.cli; from fenics_gears.commands import picture;"
         " print('pyvista' in sys.modules, 'vtkmodules' in sys.modules)"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == ["False", "False"]
+    assert python("-c", code).stdout.split() == ["False", "False"]

@@ -13,9 +13,7 @@ from fenics_gears.model.model import model_of
 from fenics_gears.runs.gear_store import cycle_key, gear_key
 from fenics_gears.scene.data import GearData, Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.reference_route import reference_route
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.system.progress import SilentProgress
 
 
 @pytest.fixture
@@ -43,6 +41,7 @@ def test_defaults_are_the_limits_to_the_last_bit(paper_scene):
             assert np.array_equal(expected[variable], found[variable], equal_nan=True), (name, variable)
 
 
+@pytest.mark.nightly
 def test_smaller_elements_in_the_body(error_of):
     """Known: conforming elements are too stiff, and less so the smaller they are; 0.45 mm everywhere is the
     reference."""
@@ -52,6 +51,7 @@ def test_smaller_elements_in_the_body(error_of):
     assert abs(errors[2]) < 0.2 * abs(errors[0])
 
 
+@pytest.mark.nightly
 def test_teeth_that_feel_each_other(error_of, paper_scene):
     """Limit: with as many teeth as are loaded together the result is the default's; with fewer the error falls from one
     to the next."""
@@ -68,20 +68,6 @@ def test_teeth_that_feel_each_other(error_of, paper_scene):
     assert errors[0] > 0.1
     assert errors[1] < 0.3 * errors[0]
     assert errors[2] == 0.0
-
-
-def test_collocation_approaches_averages(error_of):
-    """Limit: both are consistent, and their difference vanishes as elements and contact nodes are refined together."""
-    differences = []
-    for size, nodes in ((0.24, 13), (0.12, 26), (0.06, 51)):
-        averaged, collocated = (
-            error_of(flank_element_size=size, contact_nodes=nodes, interpolation=name)
-            for name in (AVERAGED, COLLOCATED)
-        )
-        differences.append(np.sqrt(np.mean((collocated - averaged) ** 2)) / averaged.mean())
-    assert differences[1] < 0.5 * differences[0]
-    assert differences[2] < 0.5 * differences[1]
-    assert differences[2] < 2e-3
 
 
 @pytest.mark.parametrize("order", [1, 2])
@@ -110,20 +96,3 @@ def test_remeshing_refuses_what_it_does_not_have(line, paper_scene):
     text = paper_scene.text.replace('condensation = "once"', f'condensation = "every step"\n{line}')
     with pytest.raises(SceneError, match='has no meaning beside condensation = "every step"'):
         scene_from_text(text)
-
-
-def test_remeshed_bodies_take_the_size_too(paper_scene):
-    """Exact: a smaller size in the body gives other stiffness by the reference route as well."""
-    scene = frictionless(teeth_alone(coarse_scene(paper_scene)))
-    accuracy = replace(
-        scene.accuracy, element="Q1 incompatible", condensation="every step", contact_length=1.2, contact_nodes=5,
-        flank_element_size=0.3, steps_per_mesh_cycle=1,
-    )  # fmt: skip
-
-    def stiffness(size):
-        model = model_of(replace(scene, accuracy=replace(accuracy, body_element_size=size)))
-        return reference_route(model, SilentProgress(), None)[0][0].positions[0]
-
-    default, fine = stiffness(None), stiffness(2.0)
-    assert default.shape == fine.shape
-    assert np.abs(default - fine).max() > 1e-6 * np.abs(default).max()

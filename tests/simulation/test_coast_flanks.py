@@ -13,7 +13,6 @@ from fenics_gears.effects.friction import Friction
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.involute import canonical_point
 from fenics_gears.geometry.outline import tooth_outline
-from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.simulation.simulate import simulate
@@ -68,45 +67,6 @@ def test_a_pair_that_stays_in_contact_does_not_feel_its_coast_flanks(both_flanks
     assert np.all(with_coast.coast_normal_force.values == 0.0)
     assert with_coast.transmission_error.values == pytest.approx(without.transmission_error.values, rel=1e-3)
     assert not any("coast" in str(name) for name in without)
-
-
-def test_numbers_of_a_run_are_those_of_the_flanks_that_carry(both_flanks):
-    """Authority: the mirror. Driven by the wheel, the pair presses as hard as driven by the pinion, and calls that no
-    loss of contact."""
-    forward = simulate(quasi_static(both_flanks))
-    backward = simulate(
-        quasi_static(both_flanks, load=replace(both_flanks.load, wheel_torque=-both_flanks.load.wheel_torque))
-    )
-    assert np.all(backward.normal_force.values == 0.0)
-    assert largest_normal_force(backward) == pytest.approx(largest_normal_force(forward), rel=1e-9)
-    # The steps of one do not mirror those of the other, and tips press with sharp edges.
-    assert backward.attrs["peak_contact_pressure"] == pytest.approx(forward.attrs["peak_contact_pressure"], rel=0.25)
-    assert "lose contact" not in backward.attrs["warnings"]
-
-
-def test_friction_takes_its_share_of_the_wheels_work_where_the_wheel_drives(both_flanks):
-    """Conservation of energy over a mesh cycle: the wheel's work is what the pinion's shaft takes and what friction
-    takes."""
-    load = replace(both_flanks.load, wheel_torque=-both_flanks.load.wheel_torque)
-    driven = simulate(quasi_static(both_flanks, load=load, friction=Friction(0.1)))
-    wheel, pinion, friction = (
-        float(driven[name].values[-1]) for name in ("work_output", "work_input", "work_friction")
-    )
-    assert wheel < pinion < 0.0 < friction
-    assert driven.attrs["friction_loss"] == pytest.approx(friction / -wheel, rel=1e-12)
-    assert driven.attrs["friction_loss"] == pytest.approx(1.0 - pinion / wheel, abs=1e-3)
-
-
-def test_a_pair_without_load_says_nothing_of_friction_and_pressure(both_flanks):
-    """Authority: zero. What rounding leaves on the closed node is neither a friction loss nor pressure on a sharp
-    edge."""
-    idle = simulate(
-        quasi_static(
-            both_flanks, load=replace(both_flanks.load, wheel_torque=0.0), friction=Friction(0.1), coast_flanks=None
-        )
-    )
-    assert "friction_loss" not in idle.attrs
-    assert "sharp edge" not in idle.attrs["warnings"]
 
 
 def test_run_out_beyond_the_backlash_wedges_the_teeth_and_is_named(both_flanks, paper_pair):

@@ -2,21 +2,17 @@
 two materials."""
 
 from dataclasses import replace
-from math import pi, sqrt
 
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene, frictionless, teeth_alone
+from tests.coarse import coarse_scene
 
 from fenics_gears import simulate
 from fenics_gears.elasticity.overhang import near_field
-from fenics_gears.geometry.iso_6336 import pair_stiffness
 from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.model.model import model_of
 from fenics_gears.model.plane_strain import too_stiff
-from fenics_gears.model.resolution import resolve
-from fenics_gears.scene.data import Accuracy, Material, Motion
+from fenics_gears.scene.data import Material
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.elastic_route import flanks_of
 
@@ -67,46 +63,6 @@ def test_a_gear_that_stands_out_gives_way_by_the_width_that_counts(stand_in_flan
     np.testing.assert_allclose(flanks.compliance[0].block(1), share * plain.block(1), rtol=1e-12)
     equal = model_of(coarse_scene(paper_scene))
     assert flanks_of(equal, stand_in_flanks.compliance).compliance is stand_in_flanks.compliance
-
-
-def test_a_wider_gear_has_the_pressure_of_the_common_width(paper_scene):
-    """Authority: Hertz, whose pressure follows from the line load and the flanks' curvature alone; a gear twice as wide
-    is stiffer, but its mate is as
-    wide as before. With all of the wide gear's compliance over its own width the pressure would be 15 % higher."""
-    accuracy = Accuracy(flank_element_size=0.1, steps_per_mesh_cycle=10)
-    scene = replace(frictionless(teeth_alone(paper_scene)), accuracy=accuracy, motion=Motion(1.0, 1, 1))
-    wider = of_gears(scene, pinion={"face_width": 30.0}, wheel={"face_width": 15.0})
-    plain, wide = (simulate(each) for each in (scene, wider))
-    assert wide.attrs["peak_contact_pressure"] == pytest.approx(plain.attrs["peak_contact_pressure"], rel=0.01)
-    assert wide.attrs["mean_transmission_error"] < 0.93 * plain.attrs["mean_transmission_error"]
-
-
-def test_half_width_of_two_moduli_and_two_widths(quasi_static_scene, paper_pair):
-    """Authority: Johnson, Contact Mechanics, 1985, eq. 4.43 with 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2; where the
-    flanks touch, a gear that is
-    wider has the line load of the common width."""
-
-    def half_width(**gears):
-        scene = replace(of_gears(quasi_static_scene, **gears), accuracy=Accuracy())
-        pair = gear_pair(scene.gears)
-        return resolve(scene, pair, drivetrain(scene, pair)).half_width
-
-    line_load = 437e3 / paper_pair.wheel.base_radius / 15.0
-    length, start, end = paper_pair.line_of_action_length, paper_pair.path_start, paper_pair.path_end
-    radius = min(xi * (length - xi) / length for xi in (start, end))
-    softness = (1.0 - 0.3**2) / 206e3 + (1.0 - 0.35**2) / 103e3
-    assert half_width(wheel={"material": BRONZE}) == pytest.approx(
-        sqrt(4.0 * line_load * radius * softness / pi), rel=1e-12
-    )
-    assert half_width(pinion={"face_width": 30.0}, wheel={"face_width": 15.0}) == half_width()
-
-
-def test_the_standards_stiffness_of_two_materials(paper_scene):
-    """Authority: ISO 6336-1, tooth stiffness of other materials: times E/E_steel with E = 2 E1 E2/(E1 + E2); over the
-    common width."""
-    steel = pair_stiffness(paper_scene.gears, 500.0)
-    pair = of_gears(paper_scene, pinion={"face_width": 20.0}, wheel={"face_width": 15.0, "material": BRONZE}).gears
-    assert pair_stiffness(pair, 500.0) == pytest.approx(steel * 2.0 * 103.0 / (206.0 + 103.0), rel=1e-12)
 
 
 RESOLVED = """

@@ -1,31 +1,19 @@
 """[output] root_stress over the face: against recovered sectors and plane strain."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-from tests.coarse_sector import PINION, STEEL
-from tests.iso_tooth_root import helical_form_and_stress_correction, helix_angle_factor, standard_gear
 from tests.over_face import root_stress_run
 
-from fenics_gears.contact.face import even_slices
 from fenics_gears.contact.face_forces import face_forces
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH
-from fenics_gears.elasticity.element_sizes import Discretisation
-from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.fine_fillet import fine_over_swept
 from fenics_gears.elasticity.fillet_points import POINTS_OVER_FACE, fillet_curve, fillet_weights
-from fenics_gears.elasticity.root_stress import root_stress_rows
 from fenics_gears.elasticity.slice_averages import slice_averages
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.face_resolution import face_discretisation
-from fenics_gears.model.model import model_of
-from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.run_stresses import RunStresses
 from fenics_gears.simulation.stored_forces import stored_forces
 
 STEP = 5
-CITED = Path(__file__).parents[1] / "benchmarks" / "third_dimension" / "cited"
 
 
 @pytest.mark.parametrize("coast", [False, True])
@@ -97,67 +85,3 @@ def test_largest_values_are_those_over_the_face():
         np.testing.assert_array_equal(result["root_stress_at_30_degrees"].values, over_face.values)
         assert (np.isnan(along.values).all(axis=1) == (result["pair_number"].values == 0)).all()
         assert result.attrs["largest_root_stress_pinion"] > 0.0
-
-
-def test_memory_is_as_it_was_counted():
-    """Count: what `gears check` counts is what the result's arrays over time take, to the byte."""
-    scene, result = root_stress_run(coast=False)
-    held = sum(each.nbytes for each in result.variables.values() if {"time", "contact_time"} & set(each.dims))
-    assert held == model_of(scene).stored_bytes
-
-
-@pytest.mark.parametrize("gear", [PINION, standard_gear(40)])
-def test_even_load_on_a_spur_tooth_stresses_its_root_as_in_plane_strain(gear):
-    """Another route: under the same force on the tip all along the face, the largest tension of the mean over the face
-    is that of plane strain, 15 mm wide, within 2 %."""
-    width, slices, force = 15.0, 5, np.array([-1.0, 0.2, 0.0])
-    middles, widths = even_slices(width, slices)
-    found = root_stress_rows(gear, STEEL, FaceDiscretisation(0.3 * gear.module, 3, width), 1, slices=(middles, widths))
-    plane = root_stress_rows(gear, STEEL, Discretisation("P2", 0.3), 1)
-    tip = plane.rows[:, 0].reshape(*plane.rows.shape[::2], -1, 2)[1, :, -1] @ force[:2]
-    on_slices = found.rows.reshape(*found.rows.shape[:3], slices, -1, 3)[1, ..., -1, :] @ force
-    over_face = on_slices @ widths
-    mean = over_face.mean(axis=0)
-    assert np.nanmax(mean) == pytest.approx(np.nanmax(tip), rel=0.02)
-    assert np.nanargmax(mean) // (len(mean) // 2) == np.nanargmax(tip) // (len(tip) // 2)
-    # Free ends have less, the middle more.
-    at_largest = over_face[:, np.nanargmax(mean)]
-    assert at_largest[[0, -1]].max() < mean[np.nanargmax(mean)] < at_largest[slices // 2]
-
-
-@pytest.mark.parametrize("section_size", [0.3, 0.6])
-def test_every_fillet_point_of_a_wide_gear_has_plane_strain_s_stress(section_size):
-    """Another route: 25 modules wide, even load on the tip, middle of the face: plane strain on a fine section at all
-    points within 1 %, whatever section is swept.
-
-    Without the factors of the fine section they are up to 5 % and 8 % off. A point over the face lies midway between
-    two of the plane route's.
-    """
-    gear, force = standard_gear(20), np.array([-1.0, 0.2, 0.0])
-    width, slices = 25.0 * gear.module, 3
-    middles, widths = even_slices(width, slices)
-    body = FaceDiscretisation(section_size * gear.module, 4, width)
-    found = root_stress_rows(gear, STEEL, body, 0, slices=(middles, widths)).rows[0, slices // 2]
-    middle = found.reshape(2, -1, slices, found.shape[-1] // (3 * slices), 3)[0, :, :, -1] @ force @ widths
-    plane = root_stress_rows(gear, STEEL, Discretisation("P2", 0.06 * gear.module), 0).rows[0]
-    tip = plane.reshape(2, -1, plane.shape[-1] // 2, 2)[0, :, -1] @ force[:2]
-    midway = 0.5 * (tip[:-1:2] + tip[1::2])
-    assert middle == pytest.approx(np.append(midway, tip[-1]), rel=0.01)
-
-
-def test_form_factors_of_the_benchmark_are_those_of_another_program():
-    """Another program: Y_F 1.479/1.490, Y_S 2.047/2.036, Y_beta 0.932 of the FZG gears H501 as GEARpie prints them
-    (REPORT/H501.txt), one unit of the last digit."""
-    pair = gear_pair(load_scene(CITED / "fzg_h501.toml").gears)
-    for name, printed in (("pinion", (1.479, 2.047)), ("wheel", (1.490, 2.036))):
-        assert helical_form_and_stress_correction(pair, name)[:2] == pytest.approx(printed, abs=1e-3)
-    assert helix_angle_factor(pair.overlap_ratio, 15.0) == pytest.approx(0.932, abs=5e-4)
-
-
-def test_critical_section_of_a_helical_gear_is_in_its_normal_section():
-    """Geometry: lengths across the tooth are longer in the transverse section by 1/cos(beta), those along its
-    centreline are not."""
-    gear = gear_pair(load_scene(CITED / "fzg_h501.toml").gears).pinion
-    assert np.tan(fillet_curve(gear.of_module_one).tangent_angle[-1]) * np.cos(gear.helix_angle) == pytest.approx(
-        np.tan(np.radians(30.0)), rel=1e-12
-    )

@@ -1,26 +1,18 @@
 """Stresses of teeth over the face, recovered at stored times."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
-from tests.coarse import COARSE, frictionless, teeth_alone
 from tests.over_face import helical_run
 
 from fenics_gears.contact.face_forces import face_forces
 from fenics_gears.contact.tooth_pair import DRIVE
-from fenics_gears.effects.misalignment import Misalignment
 from fenics_gears.elasticity.ring import rotation
-from fenics_gears.scene.data import Accuracy, Motion, Output
-from fenics_gears.show import stress_animation
-from fenics_gears.show.face_picture import root_tension
 from fenics_gears.show.flank_pressure import STAND_OFF, pressed_tiles
 from fenics_gears.show.run import scene_of
-from fenics_gears.show.stress_grid import save_vtu, surface
-from fenics_gears.show.stress_picture import colour_limit, still
+from fenics_gears.show.stress_grid import save_vtu
+from fenics_gears.show.stress_picture import colour_limit
 from fenics_gears.simulation.run_stresses import RunStresses, standing
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.stored_forces import stored_forces
 
 STEP = 5
@@ -90,26 +82,6 @@ def test_pressure_is_painted_where_the_flanks_touch(mesh):
         assert cKDTree(carries).query(each.corners.reshape(-1, 3))[0].max() < 3.0
 
 
-def test_tension_along_the_face_is_highest_where_the_load_is(mesh):
-    """Bending: of the chart of both gears' roots the largest value is that in the picture, and lies on the half of the
-    face that carries more."""
-    chart = root_tension(mesh)
-    loads = helical_run()["line_load"].sum("slot")[STEP]
-    heavy = float((loads * loads.face_position).sum())
-    for curve, gear in zip(chart.curves, mesh.gears):
-        assert curve.y.max() == gear.principal[..., gear.in_root].max()
-        assert curve.x[curve.y.argmax()] * heavy > 0.0
-
-
-def test_surface_is_closed_but_for_the_cuts(mesh):
-    """Topology: each side of the surface's triangles belongs to two of them, but for those on the first and last
-    sector's cuts."""
-    gear = mesh.gears[0]
-    sides = np.sort(surface(gear.points[:1], gear)[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    _, count = np.unique(sides, axis=0, return_counts=True)
-    assert set(count.tolist()) == {1, 2} and (count == 1).sum() < 0.1 * len(count)
-
-
 def test_file_for_paraview(mesh, tmp_path):
     """Another program: VTK reads wedges of positive volume, that of the sectors, and the stress that the picture
     has."""
@@ -129,61 +101,3 @@ def test_file_for_paraview(mesh, tmp_path):
     expected = sum(area * len(gear.sectors) * np.ptp(gear.points[..., 2]) for area, gear in zip(areas, mesh.gears))
     assert volumes.sum() == pytest.approx(expected, rel=1e-2)
     assert grid["von_mises_stress"].max() == pytest.approx(max(gear.von_mises.max() for gear in mesh.gears))
-
-
-def test_picture_shows_stress(mesh):
-    """What is looked for: three panels, each with more than its ground, and coloured parts."""
-    pytest.importorskip("pyvista")
-    images = [axes.get_images()[0].get_array() for axes in still(mesh, helical_run()).axes if axes.get_images()]
-    assert len(images) == 3
-    for image in images:
-        assert 0.1 < np.mean(image.min(axis=2) < 250)
-        assert np.ptp(image.astype(float), axis=2).max() > 60.0
-
-
-@pytest.mark.nightly
-def test_moving_picture_goes_through_the_cycle(stresses, tmp_path, monkeypatch):
-    """Frames asked for, of one size, which differ and have the colours of stress."""
-    image = pytest.importorskip("PIL.Image")
-    pytest.importorskip("pyvista")
-    monkeypatch.setattr(stress_animation, "FRAMES_PER_CYCLE", 2)
-    monkeypatch.setattr(stress_animation, "SAMPLED", 1)
-    file = tmp_path / "turn.gif"
-    stress_animation.animate(stresses, helical_run(), file, None, lambda done, whole: None)
-    with image.open(file) as moving:
-        assert (moving.n_frames, moving.size) == (2, (960, 540))
-        found = []
-        for number in range(2):
-            moving.seek(number)
-            found.append(np.asarray(moving.convert("RGB"), dtype=int))
-    assert np.abs(found[0] - found[1]).max() > 100
-    assert np.ptp(found[0], axis=2).max() > 60.0
-
-
-@pytest.mark.nightly
-def test_roots_of_a_spur_pair_are_those_of_plane_strain(paper_scene):
-    """Another route: of an aligned pair the tension averaged over the face is that of plane strain; free ends have
-    less, the middle more."""
-    alone = replace(frictionless(teeth_alone(paper_scene)), motion=Motion(200.0, 1, 1))
-    plane = simulate(
-        replace(alone, accuracy=replace(COARSE, element="P2", steps_per_mesh_cycle=5), output=Output(root_stress=True))
-    )
-    coarse = Accuracy(
-        slices=5,
-        layers=3,
-        body_element_size=1.5,
-        flank_element_size=0.3,
-        contact_length=3.0,
-        contact_nodes=27,
-        steps_per_mesh_cycle=5,
-    )
-    over_face = replace(alone, misalignment=Misalignment(), accuracy=coarse)
-    with RunStresses(simulate(over_face), over_face) as found:
-        gears = found.at(3).gears
-    for number, gear in enumerate(gears):
-        tension = gear.principal[..., gear.in_root].max(axis=(0, 2))
-        expected = float(np.nanmax(plane["root_stress_maximum"].values[3, number]))
-        # Simpson's rule over layers of second order.
-        mean = np.array([1.0, 4.0, 2.0, 4.0, 2.0, 4.0, 1.0]) @ tension / 18.0
-        assert mean == pytest.approx(expected, rel=0.04)
-        assert tension[[0, -1]].max() < 0.9 * expected < tension[3]

@@ -59,13 +59,6 @@ def test_single_pair_and_mesh_stiffness_lie_in_the_band(case, quasi_static_scene
     assert adjusted * mesh < stiffness.mean() < theoretical * mesh
 
 
-def test_formula_gives_the_values_known_for_the_papers_pair(paper_scene):
-    """field_data.md: c'th 15.8 and c' 12.3 N/(mm um) for this pair."""
-    theoretical, adjusted = single_stiffness(paper_scene.gears)
-    assert theoretical == pytest.approx(15.8, rel=0.01)
-    assert adjusted == pytest.approx(12.3, rel=0.01)
-
-
 def test_teeth_of_a_helical_pair_are_those_of_virtual_spur_gears(paper_scene):
     """Standard: z_n = z/(cos(beta_b)^2 cos(beta)) in the formula of c'th, with tan(beta_b) = tan(beta) cos(alpha_t); c'
     of the transverse plane has cos(beta)."""

@@ -1,16 +1,14 @@
 """What a process holds that simulates one pair after the other."""
 
 import gc
-import subprocess
-import sys
 import weakref
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from tests.coarse import coarse_scene, quasi_static
 from tests.helical import helical_scene
 from tests.pinned_numbers import in_the_plane, over_the_face
+from tests.programs import python
 
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.corner_contact import CornerContact
@@ -61,7 +59,6 @@ def test_contact_operators_go_with_their_run(paper_scene, kind):
 @pytest.mark.parametrize(("kind", "pairs"), [("plane", 10), ("face", 3)])
 def test_different_pairs_take_no_more_and_more(kind, pairs):
     """What the system counts (proc(5), VmRSS) after the first and after the last of some pairs, no two alike."""
-    call = [sys.executable, "-P", "-m", "tests.benchmarks.long_life", kind, str(pairs)]
-    said = subprocess.run(call, cwd=Path(__file__).parents[2], capture_output=True, text=True, check=True).stdout
+    said = python("-P", "-m", "tests.benchmarks.long_life", kind, pairs).stdout
     held = [1e6 * float(line.split()[1]) for line in said.splitlines()[1:]]
     assert len(held) > 2 and max(held) < held[0] + MOST_MORE

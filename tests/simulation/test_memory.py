@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene
 from tests.helical import helical_scene
-from tests.studies.conftest import DEMO
+from tests.programs import DEMO
 
 from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import user_cache

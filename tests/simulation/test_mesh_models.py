@@ -5,22 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
-from tests.helical import helical_scene
 
-from fenics_gears.contact.stiffness_table import LOADS
 from fenics_gears.effects import OVER_CONTACT_NODES
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
 from fenics_gears.model.model import model_of
-from fenics_gears.runs.condensing import gear_tasks
-from fenics_gears.runs.gear_store import GearStore, cycle_key
-from fenics_gears.runs.run import run_of
-from fenics_gears.runs.runs import in_order_of_sharing
-from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion, Output
+from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.deviations import deviating
 from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
-from fenics_gears.simulation.mesh_springs import table_cycle
 from fenics_gears.simulation.simulate import simulate
 
 MODELS = (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336)
@@ -56,26 +48,6 @@ def test_table_is_the_full_model_at_its_own_load(static):
     assert shares <= 0.08
 
 
-def table_between_loads(scene, torque: float, loads) -> float:
-    """Distance of a table made at the scene's torque from the full model at another one (in parts of it)."""
-    loaded = replace(scene, load=replace(scene.load, wheel_torque=torque * scene.load.wheel_torque))
-
-    def preparation(model, progress, cache):
-        at_own_load = model_of(scene)
-        gears, cycle = table_cycle(at_own_load, gear_compliances(model, progress, cache), loads)
-        return gears, deviating(model, cycle)
-
-    return distance(simulate(by(loaded, STIFFNESS_TABLE), preparation=preparation), simulate(loaded))
-
-
-def test_table_between_its_loads(static):
-    """Known order: linear between loads, its error falls with the second power of their distance, here an eighth."""
-    coarse, fine = np.linspace(0.0, 1.5, 4), np.linspace(0.0, 1.5, 25)
-    errors = [table_between_loads(static, torque, tuple(loads)) for torque, loads in ((0.75, coarse), (0.71875, fine))]
-    assert errors[1] < errors[0] / 32.0
-    assert table_between_loads(static, 0.93, LOADS) < 0.005
-
-
 def test_table_knows_relief_and_backlash(static, paper_scene):
     """Exact as above with removed material, and for a negative load on the coast flanks."""
     text = paper_scene.text + '\n[tip_relief]\ndepth = "31 um"\nstart = "HPSTC"\n\n[coast_flanks]\n'
@@ -87,16 +59,6 @@ def test_table_knows_relief_and_backlash(static, paper_scene):
         full, table = simulate(loaded), simulate(by(loaded, STIFFNESS_TABLE))
         assert distance(table, full) <= 1e-9
         assert set(full.data_vars) - set(table.data_vars) == set(OVER_CONTACT_NODES) & set(full.data_vars)
-
-
-def test_table_without_load(static):
-    """Limit: a pair without load stands as its geometry says, by the table as by the full contact."""
-    idle = replace(static, load=replace(static.load, wheel_torque=0.0))
-    full, table = (
-        simulate(idle).transmission_error.values,
-        simulate(by(idle, STIFFNESS_TABLE)).transmission_error.values,
-    )
-    assert np.abs(table - full).max() <= 1e-9 * np.abs(full).max()
 
 
 def test_table_in_motion(paper_scene):
@@ -182,25 +144,6 @@ def test_iso_deflection(static):
     assert stiffness.mean() == pytest.approx(single * mesh_factor(model.pair.contact_ratio), rel=2e-3)
 
 
-def test_iso_below_full_line_load(static):
-    """From the standard: below 100 N/mm c' falls with the fourth root of the line load; in parts of steel's modulus for
-    others."""
-    assert pair_stiffness(static.gears, 1.0) == pytest.approx(pair_stiffness(static.gears, 500.0) * 0.01**0.25)
-    soft = replace(static.gears, material=replace(static.gears.material, youngs_modulus=103e3))
-    assert pair_stiffness(soft, 500.0) == pytest.approx(0.5 * pair_stiffness(static.gears, 500.0))
-
-
-def test_rigid_teeth_are_those_of_a_scene_without_material(static):
-    """Exact: to the last bit."""
-    rigid, bare = (
-        simulate(by(static, RIGID_TEETH)),
-        simulate(replace(static, gears=replace(static.gears, material=None))),
-    )
-    assert set(rigid.data_vars) == set(bare.data_vars)
-    for name in bare.data_vars:
-        assert np.array_equal(rigid[name], bare[name], equal_nan=True), name
-
-
 def test_friction_of_rigid_teeth(paper_scene):
     """Exact statics: with the pair's force N at arm x2 of the wheel, N rb2 + mu s N x2 = T, s the sense of sliding,
     shares even."""
@@ -218,14 +161,6 @@ def test_friction_of_rigid_teeth(paper_scene):
     expected = 437e3 / (pair.wheel.base_radius + 0.1 * slides * (pair.line_of_action_length - xi))
     assert result.normal_force.values[alone] == pytest.approx(expected[alone], rel=1e-9)
     assert np.abs(result.energy_defect.values).max() <= 1e-10 * max(result.energy.values.max(), 1.0)
-
-
-def test_friction_of_rigid_teeth_vanishes_with_its_coefficient(paper_scene):
-    """Limit: 1e-9 of friction changes the march with inertia by no more than parts of that."""
-    scene = by(coarse_scene(paper_scene), RIGID_TEETH)
-    bare = simulate(frictionless(scene)).transmission_error.values
-    little = simulate(replace(scene, friction=replace(scene.friction, coefficient=1e-9))).transmission_error.values
-    assert np.abs(little - bare).max() <= 1e-8 * np.abs(bare).max()
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -258,19 +193,6 @@ start = "HPSTC"
     assert result.coast_normal_force.values.max() > 0.0
 
 
-def test_a_gear_store_keeps_them_apart(static):
-    """From the task: what changes the operators changes their key; a table belongs to its load."""
-    keys = {cycle_key(model_of(by(static, name))) for name in (None, *MODELS)}
-    assert len(keys) == 4
-    other = replace(static, load=replace(static.load, wheel_torque=1e5))
-    assert cycle_key(model_of(by(static, STIFFNESS_TABLE))) != cycle_key(model_of(by(other, STIFFNESS_TABLE)))
-    assert cycle_key(model_of(static)) == cycle_key(model_of(other))
-    store = GearStore()
-    for name in MODELS:
-        kept = simulate(by(static, name), preparation=store.prepared)
-        assert np.array_equal(kept.transmission_error, simulate(by(static, name)).transmission_error)
-
-
 @pytest.mark.parametrize(
     "name, line, said",
     [
@@ -285,27 +207,3 @@ def test_what_a_model_lacks_is_refused(name, line, said, paper_scene):
     text = paper_scene.text.replace('condensation = "once"', f'model = "{name}"\n{line}')
     with pytest.raises(SceneError, match=said.replace("[", r"\[")):
         scene_from_text(text)
-
-
-def test_a_study_condenses_what_its_models_need(static):
-    """From the task: a sweep over the models of the mesh meshes the gears once, for the full contact and the table
-    alone."""
-    cases = [run_of(model_of(by(static, name))) for name in ("elastic", *MODELS)]
-    tasks = gear_tasks(cases)
-    assert [task.name for task in tasks] == ["pinion", "wheel"]
-    assert gear_tasks(cases[1:2] + cases[3:]) == []
-    assert len(in_order_of_sharing(cases)) == 4
-
-
-def test_a_study_over_the_face_condenses_each_body_once():
-    """From the task: misalignments share plane sections and bodies, which take longest and come first."""
-    scenes = [helical_scene(f'[misalignment]\nin_plane = "{i} um"\n') for i in range(3)]
-    cases = [run_of(model_of(scene)) for scene in scenes]
-    parts = [(task.name, task.part) for task in gear_tasks(cases)]
-    assert parts == [("pinion", "body"), ("wheel", "body"), ("pinion", "section"), ("wheel", "section")]
-    stressed = [run_of(model_of(replace(each, output=Output(root_stress=True)))) for each in scenes]
-    assert [(task.name, task.part) for task in gear_tasks(stressed)] == [
-        ("pinion", "root stress"),
-        ("wheel", "root stress"),
-        *parts,
-    ]

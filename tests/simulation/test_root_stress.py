@@ -8,22 +8,17 @@ import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
 from tests.coarse_sector import PINION, STEEL
 from tests.elasticity.flank_pressure import pressed
-from tests.iso_tooth_root import form_and_stress_correction, nominal_root_stress, standard_gear
+from tests.iso_tooth_root import nominal_root_stress, standard_gear
 
-from fenics_gears import results
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH
 from fenics_gears.effects.coast_flanks import CoastFlanks
-from fenics_gears.elasticity.cache import Cache
-from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES, Discretisation, ElementSizes
-from fenics_gears.elasticity.elements import ELEMENTS
+from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.fillet_points import POINTS, fillet_curve, fillet_rows
-from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery
+from fenics_gears.elasticity.recovery import gear_recovery
 from fenics_gears.elasticity.root_stress import root_stress_rows
-from fenics_gears.elasticity.sector import plane_sector
-from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.involute import arc_length
-from fenics_gears.results.settled import of_settled, settled_steps
+from fenics_gears.results.settled import settled_steps
 from fenics_gears.scene.data import Load, Motion, Output
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.dynamic_factor import quasi_static as without_inertia
@@ -84,26 +79,6 @@ def test_largest_stress_is_that_of_the_points_and_tension_is_on_the_loaded_side(
     assert float(tooth.max()) == float(tooth.where(tooth["fillet_side"] == loaded).max())
 
 
-def test_file_keeps_the_variables(run, tmp_path):
-    """Round trip: NetCDF with labels, units and long names."""
-    results.save(run[1], tmp_path / "run.nc")
-    read = results.load(tmp_path / "run.nc")
-    assert (
-        read["root_stress"].dims == ("contact_time", "gear", "slot", "fillet_point")
-        and read.sizes["fillet_point"] == 2 * POINTS
-    )
-    for name in ("root_stress", "root_stress_maximum", "root_stress_at_30_degrees"):
-        np.testing.assert_array_equal(read[name].values, run[1][name].values)
-        assert read[name].attrs["units"] == "MPa" and read[name].attrs["long_name"]
-
-
-def test_without_the_output_nothing_of_it_is_there(paper_scene):
-    """Rule 9 of the house, for what is no effect: no variables, no attributes."""
-    result = simulate(coarse_scene(paper_scene, cycles=1))
-    assert not [name for name in result.variables if "root" in name or "fillet" in name]
-    assert not [name for name in result.attrs if "stress" in name]
-
-
 def test_dynamic_factors_are_one_where_the_gears_turn_slowly(paper_scene):
     """Limit: at a mesh frequency of 0.2 Hz, a thousandth of the lowest natural frequency, inertia does nothing."""
     slow = replace(coarse_scene(paper_scene, cycles=2), motion=Motion(0.2, 2, 1))
@@ -129,20 +104,6 @@ def test_dynamic_factors_are_ratios_to_the_quasi_static_run(run):
         for run, steps in ((result, counted), (still, slice(None)))
     )
     assert result.attrs[FACTORS[1]] == pytest.approx(largest / largest_still, rel=1e-9)
-
-
-def test_dynamic_factors_are_of_the_flanks_that_carry(paper_scene):
-    """Mirror: driven by the wheel the pair presses with its coast flanks as it does with its drive flanks, the mesh run
-    through backwards in
-    time, which damped vibrations tell from forwards by little. The factors are again ratios to the quasi-static run."""
-    forward = replace(wanted(frictionless(coarse_scene(paper_scene, cycles=8))), coast_flanks=CoastFlanks())
-    backward = replace(forward, load=Load(-forward.load.wheel_torque))
-    driven, driving = simulate(backward), simulate(forward)
-    still = simulate(without_inertia(backward))
-    forces = [float(of_settled(result)["pair_coast_normal_force"].max()) for result in (driven, still)]
-    assert driven.attrs[FACTORS[0]] == pytest.approx(forces[0] / forces[1], rel=1e-9)
-    for name in FACTORS:
-        assert driven.attrs[name] == pytest.approx(driving.attrs[name], rel=0.05)
 
 
 def highest_single_contact(gear) -> float:
@@ -183,63 +144,6 @@ def test_stress_is_near_that_of_the_standards(gear):
     assert stress[POINTS] == pytest.approx(nominal, rel=0.25)
     # The pressed side has the larger stress, since the load's own pressure adds to bending there.
     assert -stress[POINTS + 1 :].min() > stress[:POINTS].max()
-
-
-def test_form_factor_of_the_standard_is_right():
-    """Literature: charts of DIN 3990-3 for the 1.25/0.38 rack, load at the tip: Y_Fa 2.8 for 20 teeth, 2.2 for 100,
-    without profile shift."""
-    for teeth, form in ((20, 2.81), (100, 2.20)):
-        gear = standard_gear(teeth)
-        assert form_and_stress_correction(gear, gear.tip_roll_angle)[0] == pytest.approx(form, abs=0.06)
-
-
-def largest_with_fillet_elements(name: str, size: float) -> float:
-    """Largest stress, MPa, with fillet elements of a size in modules, all else as it is."""
-    default = DEFAULT_SIZES[ELEMENTS[name].order]
-    sizes = ElementSizes(
-        flank=0.06,
-        fillet=size,
-        coast=max(size, default.coast),
-        body=default.body,
-        depth=default.depth,
-        growth=default.growth,
-    )
-    gear = PINION.of_module_one
-    with GearRecovery(
-        gear, STEEL, plane_sector(sector_mesh(gear, sizes), ELEMENTS[name], STEEL.poissons_ratio)
-    ) as recovery:
-        rows = fillet_rows(recovery, fillet_curve(gear))
-        middle = arc_length(gear.base_radius, highest_single_contact(gear))
-        forces = pressed(
-            recovery, lambda arc: np.where(np.abs(arc - middle) < 0.2, 1.0 + np.cos(np.pi * (arc - middle) / 0.2), 0.0)
-        )
-        moved = recovery.recovered({0: forces}).displacement[0].ravel() * STEEL.youngs_modulus
-    return float((rows @ moved)[:POINTS].max())
-
-
-@pytest.mark.parametrize(("name", "within"), [("P2", 0.005), ("P1", 0.04)])
-def test_stress_converges_with_the_fillet_mesh(name, within):
-    """Known order: against second-order elements half as large as their default the error falls with the fillet's
-    elements. Constant stresses of first-order elements are those of a third of an element below the surface, where a
-    fillet of radius rho has lost about 2 h / (3 rho):
-    1.3 % at h = 0.01, rho = 0.5 modules, and as much again by the irregularity of the mesh, which is another one in
-    each version of gmsh."""
-    size = DEFAULT_SIZES[ELEMENTS[name].order].fillet
-    exact = largest_with_fillet_elements("P2", 0.5 * DEFAULT_SIZES[2].fillet)
-    coarse, default = (abs(largest_with_fillet_elements(name, part * size) - exact) for part in (8.0, 1.0))
-    assert default < within * exact
-    assert default < coarse
-
-
-def test_rows_are_kept_and_similar_gears_share_them(tmp_path):
-    """Exact identity: stress goes with line force over module; the cache has one entry for all modules, which gives the
-    same numbers."""
-    cache = Cache(tmp_path)
-    settings = {"reach": 1, "cache": cache}
-    first = root_stress_rows(standard_gear(20, module=2.0), STEEL, Discretisation("P1", 0.1), **settings)
-    again = root_stress_rows(standard_gear(20, module=4.0), STEEL, Discretisation("P1", 0.2), **settings)
-    assert len(list(tmp_path.iterdir())) == 1
-    np.testing.assert_array_equal(first.rows, 2.0 * again.rows)
 
 
 @pytest.mark.parametrize(("edit", "said"), [

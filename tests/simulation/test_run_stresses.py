@@ -8,19 +8,18 @@ import pytest
 from scipy.spatial import cKDTree
 from tests.coarse import coarse_scene, frictionless, quasi_static
 
-from fenics_gears import results
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.flank_forces import sector_of, unmirrored
 from fenics_gears.contact.operator import displacement_jacobian
 from fenics_gears.contact.tooth_pair import COAST
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.errors import ComputationError, SceneError
+from fenics_gears.errors import SceneError
 from fenics_gears.scene.data import Load
-from fenics_gears.show.drawn_scale import automatic_scale, overlap
+from fenics_gears.show.drawn_scale import overlap
 from fenics_gears.show.loaded_contact import loaded_contact
-from fenics_gears.show.stress_grid import in_plane, in_tooth_order, save_vtu, upright
-from fenics_gears.simulation.run_stresses import RunStresses, hub_motion, standing
+from fenics_gears.show.stress_grid import in_plane, upright
+from fenics_gears.simulation.run_stresses import RunStresses, hub_motion
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.stored_forces import stored_forces, stored_index
 
@@ -113,59 +112,6 @@ def test_gears_stand_on_their_centres_and_touch_at_the_most_loaded_contact(of_ru
     assert overlap(mesh, 1.0) < 2e-3
 
 
-def test_a_tooth_pair_later_is_the_same_position(driving):
-    """Periodicity: after one mesh cycle the gears stand as before, one tooth on."""
-    pair = driving[2].model.pair
-    for gear, sense in ((0, 1), (1, -1)):
-        centre, first = standing(pair, gear, 0.0)
-        after = standing(pair, gear, 1.0)[1]
-        np.testing.assert_allclose(after, first + sense * (first[1] - first[0]), atol=1e-12)
-        np.testing.assert_allclose(standing(pair, gear, 0.5)[0], centre)
-
-
-@either_way
-def test_displacements_that_fit_the_picture_are_drawn_apart(of_run, request):
-    """What the scale promises: of the scales 1, 2, 5, ... one at which no tooth is drawn into another by more than 0.02
-    modules."""
-    scene, result, stresses = request.getfixturevalue(of_run)
-    mesh = stresses.at(13)
-    scale = automatic_scale([mesh])
-    assert scale >= 1.0 and overlap(mesh, scale) <= 0.02 * mesh.pair.pinion.module
-
-
-def test_the_file_for_paraview_holds_the_fields(driving, tmp_path):
-    """Round trip through VTK's own reader: points, displacement and von Mises stress."""
-    pyvista = pytest.importorskip("pyvista")
-    mesh = driving[2].at(0)
-    gears = [in_tooth_order(mesh, gear) for gear in (0, 1)]
-    save_vtu(mesh, tmp_path / "gears.vtu")
-    read = pyvista.read(tmp_path / "gears.vtu")
-    assert read.n_cells == sum(len(body.of_sectors(body.section.subcells)) for body in gears)
-    np.testing.assert_allclose(read.points[:, :2], np.vstack([in_plane(body.points) for body in gears]), rtol=1e-6)
-    np.testing.assert_allclose(
-        read.point_data["displacement"][:, :2], np.vstack([in_plane(body.displacement) for body in gears])
-    )
-    np.testing.assert_allclose(
-        read.point_data["von_mises_stress"], np.concatenate([body.von_mises.ravel() for body in gears])
-    )
-
-
-def test_a_result_of_another_scene_is_refused(driving):
-    """The stored contact nodes must be the scene's own."""
-    scene, result, _ = driving
-    other = replace(scene, accuracy=replace(scene.accuracy, contact_nodes=20))
-    with RunStresses(result, other) as stresses, pytest.raises(ComputationError, match="not those of the scene"):
-        stresses.at(0)
-
-
-def test_gears_that_have_gone_through_each_other_are_refused(driving):
-    """Geometry: beyond a pitch there is another tooth where this one would be drawn."""
-    scene, result, _ = driving
-    with RunStresses(result.assign(transmission_error=result["transmission_error"] + 10.0), scene) as stresses:
-        with pytest.raises(SceneError, match="more than the pitch of the wheel's teeth"):
-            stresses.at(0)
-
-
 def test_what_has_no_stress_is_refused(driving, paper_scene):
     """Rigid flanks; the paper's own route, whose flank nodes are others at every step; a time that was not stored."""
     scene, result, _ = driving
@@ -179,11 +125,3 @@ def test_what_has_no_stress_is_refused(driving, paper_scene):
         RunStresses(result, remeshed)
     with pytest.raises(SceneError, match="stored mesh cycles 0 to 1"):
         stored_index(result, 1.5)
-
-
-def test_a_result_from_its_file_gives_the_same(driving, tmp_path):
-    """Round trip: NetCDF keeps every digit."""
-    scene, result, stresses = driving
-    results.save(result, tmp_path / "run.nc")
-    with RunStresses(results.load(tmp_path / "run.nc"), scene) as again:
-        np.testing.assert_allclose(again.at(5).gears[0].stress, stresses.at(5).gears[0].stress, rtol=1e-12, atol=1e-9)

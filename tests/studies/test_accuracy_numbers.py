@@ -9,7 +9,7 @@ import xarray as xr
 
 from fenics_gears.studies.accuracy import measures, whole
 from fenics_gears.studies.accuracy.convergence import largest_part, last_of, observed_order, richardson, together
-from fenics_gears.studies.accuracy.measures import CURVE, JUDGED, PEAK, PRESSURE, SPAN, STIFFNESS
+from fenics_gears.studies.accuracy.measures import CURVE, PEAK, PRESSURE, SPAN, STIFFNESS
 from fenics_gears.studies.accuracy.refinement import Level, Refinement
 from fenics_gears.studies.accuracy.setting import Setting
 
@@ -63,15 +63,6 @@ def test_without_an_order_nothing_is_extrapolated(values):
     assert limit.least_error == pytest.approx(abs(values[-1] - values[-2]))
 
 
-def test_an_order_far_above_the_expected_is_not_trusted():
-    """Authority: a leading power that happens to vanish says nothing of the next level; the safe side is the last
-    difference."""
-    sizes = (0.8, 0.4, 0.2)
-    limit = richardson(sequence(sizes, 6.0), sizes, expected=2.0)
-    assert limit.order == pytest.approx(6.0)
-    assert np.array_equal(limit.value, sequence(sizes, 6.0)[-1]) and limit.least_error > 0.0
-
-
 def test_differences_that_point_anywhere_have_an_order_and_are_not_extrapolated():
     """Authority: errors of size h in directions at right angles; their norms fall with the first power, their sum has
     no one direction."""
@@ -96,23 +87,6 @@ def test_limits_of_several_settings_add_and_so_do_their_uncertainties():
     assert found.value[0] == pytest.approx(5.0)
     assert found.uncertainty / 5.0 == pytest.approx(sum(limit.uncertainty / limit.value[0] for limit in limits))
     assert together(base, [(last_of([base]), base)], SPAN).value[0] == base[0]
-
-
-def test_settings_refined_beside_other_values_change_the_base_by_as_much():
-    """Authority: u = c + a h^2 + b k; the limit of h found beside another k, with curves of other numbers of steps,
-    gives c again."""
-
-    def u(h, k, steps):
-        phases = np.arange(1, steps + 1) / steps
-        return (
-            np.cos(2 * np.pi * phases) + 0.3 * h**2 * np.sin(2 * np.pi * phases) - 0.4 * k * np.sin(4 * np.pi * phases)
-        )
-
-    sizes = (0.4, 0.2, 0.1)
-    of_h = richardson([u(h, 0.8, 40) for h in sizes], sizes, 2.0), u(0.4, 0.8, 40)
-    of_k = richardson([u(0.2, k, 160) for k in sizes], sizes, 1.0), u(0.2, 0.1, 160)
-    found = together(u(0.4, 0.1, 80), [of_h, of_k], CURVE)
-    assert np.allclose(found.value, u(0.0, 0.0, 40), atol=1e-12)
 
 
 def brute_front(points):
@@ -156,12 +130,6 @@ def test_errors_that_cancel_are_no_accuracy():
     assert whole.pareto_front([(1.0, whole.total_error(direct, parts)), (1.5, honest)]) == [0, 1]
 
 
-def test_a_model_is_charged_its_distance_and_a_setting_never_less():
-    """Authority: definition; no setting makes a cheaper model's error smaller."""
-    assert whole.total_error(0.2, {}) == 0.2
-    assert whole.total_error(0.2, {"a": 0.01}) == 0.2
-
-
 def refinement(name, field, values, expected=2.0):
     """A setting of synthetic levels."""
     levels = tuple(Level(str(value), replace(BASE, **{field: value}), float(value)) for value in values)
@@ -180,34 +148,12 @@ def test_the_path_refines_what_limits_it():
     assert found == [(0.16, 20), (0.16, 40), (0.08, 40), (0.08, 80), (0.04, 80), (0.04, 160)]
 
 
-def test_the_path_ends_at_what_is_not_allowed():
-    """Authority: definition; steps beyond 40 do not fit."""
-    found = whole.path(BASE, [FLANK, STEPS], ERRORS, allowed=lambda setting: setting.steps <= 40)
-    assert found[-1] == replace(BASE, flank=0.08, steps=40)
-
-
-def test_the_path_ends_where_errors_are_small_enough():
-    """Authority: by hand; 0.08 + 0.05 is the first sum below 0.14."""
-    assert whole.path(BASE, [FLANK, STEPS], ERRORS, enough=0.14)[-1] == replace(BASE, flank=0.16, steps=40)
-
-
 def test_parts_are_those_of_the_settings_own_levels():
     """Authority: identity; and the largest names what limits."""
     for (i, flank), (j, steps) in itertools.product(enumerate((0.16, 0.08, 0.04)), enumerate((20, 40, 80, 160))):
         parts = whole.parts_of(replace(BASE, flank=flank, steps=steps), [FLANK, STEPS], ERRORS)
         assert parts == {"flank": ERRORS["flank", i], "steps": ERRORS["steps", j]}
         assert ERRORS[largest_part(parts), {"flank": i, "steps": j}[largest_part(parts)]] == max(parts.values())
-
-
-def test_contact_nodes_are_no_closer_than_the_flank_bears_and_windows_share_their_nodes():
-    """Authority: resolution.CLOSEST_NODES of the distance of flank nodes, which P2 has two of an element."""
-    coarse = replace(BASE, flank=0.4)
-    assert coarse.grid.spacing == pytest.approx(0.7 * 0.2)
-    assert replace(coarse, element="P1").grid.spacing == pytest.approx(0.7 * 0.4)
-    narrow, wide = BASE.grid, replace(BASE, length=4.0).grid
-    assert narrow.spacing == pytest.approx(wide.spacing) == pytest.approx(0.04)
-    cells = (wide.length - narrow.length) / (2.0 * narrow.spacing)
-    assert cells == pytest.approx(round(cells))
 
 
 def run(steps, amplitude=1.0, nodes=41, first_pair=0):
@@ -262,13 +208,6 @@ def test_distances_are_relative_and_do_not_see_the_grid():
     assert measures.distance(other, one, CURVE) < 1e-12
 
 
-def test_pressure_of_pairs_that_differ_is_not_the_same():
-    """Authority: identity; pairs are counted through the run, and the same pressure on the next pair is another
-    field."""
-    one, next_pair = measures.answer(run(40), 2.0), measures.answer(run(40, first_pair=1), 2.0)
-    assert measures.distance(next_pair, one, PRESSURE) == pytest.approx(1.0, rel=1e-6)
-
-
 @pytest.mark.parametrize(
     "counts, common", [((40, 80, 160), 40), ((100, 80), 20), ((200, 1280), 40), ((30, 40), 30), ((10, 20), 10)]
 )
@@ -289,26 +228,3 @@ def test_a_kink_between_steps_adds_no_error_to_exact_values():
         return {CURVE: np.abs(np.arange(1, count + 1) / count - 0.51)}
 
     assert measures.distance(exact(20), exact(640), CURVE) < 1e-14
-
-
-def test_every_other_step_is_the_curve_of_half_the_steps():
-    """Identity: the last value has phase 1 in both; what does not divide the steps is refused."""
-    few, many = measures.judged_answer(run(40)), measures.judged_answer(run(80), every=2)
-    assert np.allclose(few[CURVE], many[CURVE], atol=1e-12)
-    with pytest.raises(ValueError, match="take a divisor"):
-        measures.judged_answer(run(40), every=3)
-
-
-def test_no_judging_by_peak_pressure():
-    """Authority: issue 6; the judged error is of the transmission error's curve and height."""
-    assert set(JUDGED) == {CURVE, SPAN}
-    errors = dict.fromkeys(measures.MEASURES, 0.01) | {PEAK: 5.0}
-    assert measures.judged(errors) == 0.01
-
-
-def test_a_measure_that_a_model_lacks_is_not_a_number():
-    """Authority: definition; a stiffness table has no pressure, and is not charged for it."""
-    whole_answer = measures.answer(run(40), 2.0)
-    without = {name: value for name, value in whole_answer.items() if name not in (PRESSURE, PEAK)}
-    assert np.isnan(measures.distance(without, whole_answer, PRESSURE))
-    assert measures.distance(without, whole_answer, SPAN) == 0.0

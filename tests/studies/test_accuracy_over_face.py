@@ -2,24 +2,20 @@
 chosen, without running it."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from tests.helical import wide_pair
 
-from fenics_gears.model.face_resolution import face_discretisation, face_warnings
+from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import model_of
 from fenics_gears.studies.accuracy import report as reports
-from fenics_gears.studies.accuracy import table, trial_runs
 from fenics_gears.studies.accuracy.measures import (
     CURVE,
     DEFECT,
     FACE_LOAD,
     LARGEST_LOAD,
     LINE_LOAD,
-    MEASURES,
-    OVER_FACE,
     SPAN,
     distances,
     judged,
@@ -27,7 +23,6 @@ from fenics_gears.studies.accuracy.measures import (
 from fenics_gears.studies.accuracy.over_face import LAYERS, PLANE, SLICES, in_the_plane
 from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, LENGTH, STEPS, fine, refinements
 from fenics_gears.studies.accuracy.setting import own_setting
-from fenics_gears.studies.accuracy.trial_runs import MESH, SAFETY_OF_SLICES, SAFETY_OF_TWO, Sizes, TrialRuns
 
 LEAD = '[lead_modifications.pinion]\ncrowning = "6 um"\n'
 TILTING = '[bearings]\nstiffness = "1e6 N/mm"\naxial_stiffness = "1e5 N/mm"\nplaces = { wheel = ["-40 mm", "40 mm"] }\n'
@@ -83,30 +78,6 @@ def test_the_plane_rung_is_the_transverse_section_in_plane_strain(scene):
     )
 
 
-def test_errors_of_a_target_are_measured_beside_fewer_slices(scene, monkeypatch):
-    """Exact: with runs that err by the square of the mesh's size and of that of a slice the estimates are those errors
-    times their factors of safety."""
-    mesh_error, slice_error, seen = 1e-3, 0.5, []
-
-    def answer(self, sizes):
-        seen.append(sizes)
-        return {CURVE: np.ones(4), SPAN: np.array([1.0 + mesh_error * sizes.mesh**2 + slice_error / sizes.slices**2])}
-
-    monkeypatch.setattr(trial_runs.TrialRuns, "_answer", answer)
-    monkeypatch.setattr(trial_runs.TrialRuns, "_with_window_long_enough", lambda self, sizes: None)
-    runs = TrialRuns(scene, lambda words: None)
-    assert runs.slices == model_of(scene).face.slices
-    found = runs.errors(Sizes(2.0, 40, 14))
-    assert found[MESH] == pytest.approx(SAFETY_OF_TWO * mesh_error * 4.0, rel=0.05)
-    assert found[trial_runs.SLICES] == pytest.approx(SAFETY_OF_SLICES * slice_error / 14**2, rel=0.05)
-    assert set(seen) == {Sizes(2.0, 40, 14), Sizes(2.0, 40, 7), Sizes(4.0, 40, 7)}
-    setting = runs.setting(Sizes(2.0, 40, 14))
-    # Layers go with the slices, as the defaults have them: as many slices to a layer.
-    own = own_setting(scene)
-    assert setting.slices == 14 and setting.layers == -(-own.layers * 14 // own.slices) and setting.body == 2.0
-    assert not face_warnings(model_of(runs.setting(Sizes(0.5, 40, 90)).of(scene)))
-
-
 def test_errors_over_the_face_are_judged_and_the_plane_is_not_charged_for_them():
     """Definition: the worst of all that a target promises counts; a run in the plane has no line load along the
     face."""
@@ -132,15 +103,3 @@ def test_errors_over_the_face_are_judged_and_the_plane_is_not_charged_for_them()
     assert judged(distances({CURVE: one[CURVE], SPAN: np.array([1.001]), DEFECT: np.zeros(1)}, one)) == pytest.approx(
         0.001
     )
-
-
-def test_tables_list_the_measures_over_the_face():
-    """Interface: columns for what a run over the face is judged by besides, with units; none in the plane."""
-    over_face, plane = (
-        SimpleNamespace(uncertainty=dict.fromkeys(names)) for names in ((*MEASURES, *OVER_FACE), MEASURES)
-    )
-    for made in (table.headings, table.whole_headings):
-        words, units = made(over_face)
-        assert len(words) == len(units) and {units[words.index(name)] for name in OVER_FACE} == {"%"}
-        assert [word for word in words if word not in OVER_FACE] == list(made(plane)[0])
-    assert (table.judged_by(over_face), table.judged_by(plane)) == ("T_E, T_EPP and line loads", "T_E and T_EPP")

@@ -6,18 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.effects.examples import scene_of, text_of, with_needs
+from tests.effects.examples import scene_of, text_of
 
 from fenics_gears.commands.cli import main
 from fenics_gears.effects import EFFECTS
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.runs import runs
-from fenics_gears.runs.gear_store import operators_key
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.effect_costs import measured, table
-from fenics_gears.studies.effect_costs.subsets import ALL, ALONE, BARE, LEFT_OUT, NOTHING, subsets_of
+from fenics_gears.studies.effect_costs.subsets import ALONE, BARE, LEFT_OUT, subsets_of
 
 TEETH = "tooth_elasticity"
 PAPER = (TEETH, "shafts", "bearings", "inertia", "damping", "friction")
@@ -51,12 +50,6 @@ def test_the_papers_scene_is_run_bare_with_each_effect_and_without_each():
     assert found["all - inertia, damping"].note == "damping cannot stand without inertia"
 
 
-def test_a_subset_has_its_sections_and_no_others():
-    """Authority: identity; what is left of the scene is the scene without the other effects."""
-    for subset in subsets(scene_of(*PAPER)).values():
-        assert {each.section for each in EFFECTS if getattr(subset.scene, each.section) is not None} == subset.sections
-
-
 def test_the_scenes_own_rules_decide_what_a_subset_may_be():
     """Authority: the rule of [damping]; damping by stiffness alone damps nothing without a spring, so the first spring
     comes too."""
@@ -73,31 +66,6 @@ def test_a_subset_that_no_neighbour_makes_valid_is_skipped_with_the_rules_reason
     assert {subset.name for subset in run} == {"+ coast_flanks", "all - tooth_elasticity", "all"}
     assert {each.name for each in skipped} == {"rigid flanks, no effect", "bare", "all - coast_flanks"}
     assert all("is negative" in each.reason for each in skipped)
-
-
-def test_no_set_of_effects_is_run_twice():
-    """Authority: identity; the subsets of every pair of effects, and of all effects that may stand together."""
-    for sections in [
-        (),
-        (TEETH,),
-        (TEETH, "shafts"),
-        with_needs("damping"),
-        tuple(each.section for each in EFFECTS if not each.excludes),
-    ]:
-        sets = [subset.sections for subset in subsets_of(scene_of(*sections))[0]]
-        assert len(set(sets)) == len(sets)
-        assert frozenset(sections) in sets
-
-
-def test_the_kinds_of_a_small_scene():
-    """Authority: identity; a scene of one effect besides elastic teeth has no more than four different subsets."""
-    kinds = {subset.sections: subset.kind for subset in subsets_of(scene_of(TEETH, "shafts"))[0]}
-    assert kinds == {
-        frozenset(): NOTHING,
-        frozenset({TEETH}): BARE,
-        frozenset({"shafts"}): LEFT_OUT,
-        frozenset({TEETH, "shafts"}): ALL,
-    }
 
 
 @pytest.fixture(scope="module")
@@ -144,15 +112,6 @@ def test_times_are_medians_of_rounds_and_gears_are_condensed_for_elastic_teeth_o
     assert len(report.ratios) == 3
 
 
-def test_the_report_names_where_it_was_measured(report):
-    """Authority: the task; processor, threads and versions stand in it."""
-    assert (
-        "cores" in report.machine["processor"]
-        and "fenics_gears" in report.machine["versions"]
-        and report.machine["threads"]
-    )
-
-
 def test_all_accuracy_is_that_of_the_whole_scene():
     """Authority: identity; without [accuracy] the steps would follow from each subset's own frequencies."""
     text = re.sub(r"\[accuracy\].*?\n\n", "", text_of(TEETH, "inertia", "shafts"), flags=re.S)
@@ -169,15 +128,6 @@ def test_remeshing_at_every_step_is_refused_with_the_remedy():
     scene = scene_of(TEETH)
     with pytest.raises(SceneError, match='Take "once"'):
         measured.measure(replace(scene, accuracy=replace(scene.accuracy, condensation="every step")))
-
-
-def test_changes_are_against_bare_and_against_all(report):
-    """Authority: identity; an effect more is compared with the bare scene, one less with all."""
-    row, bare = report.row(ALONE, "friction"), report.row(BARE)
-    assert table.change(report, row, "peak_force") == pytest.approx(row.peak_force / bare.peak_force - 1.0)
-    row, full = report.row(LEFT_OUT, "bearings"), report.row(ALL)
-    assert table.change(report, row, "peak_force") == pytest.approx(row.peak_force / full.peak_force - 1.0)
-    assert table.change(report, full, "peak_force") is None
 
 
 def test_csv_holds_every_row_with_units_in_its_names(report, tmp_path):
@@ -225,35 +175,6 @@ def test_a_subset_that_fails_is_a_line_with_its_reason(monkeypatch):
     assert report.row(ALONE, "shafts") is not None
 
 
-def test_remarks_that_differ_in_numbers_only_are_said_once(report):
-    """Authority: identity; a reader is told once of the same thing, and every mark in the table leads to a remark."""
-    rows = tuple(
-        replace(row, remarks=(f"contact is lost in {place} of 20 steps", "undamped")[: place % 2 + 1])
-        for place, row in enumerate(report.rows)
-    )
-    marked = replace(report, rows=rows)
-    assert table.remarks(marked) == [
-        "contact is lost in 0 of 20 steps (numbers of the first row that says so)",
-        "undamped",
-    ]
-    assert [cells[-1] for cells in table.table_rows(marked)][:3] == ["[1]", "[1] [2]", "[1]"]
-    assert [len(table.own_remarks(marked, row)) for row in rows[:2]] == [0, 0 if len(rows[-1].remarks) == 2 else 1]
-
-
-def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
-    """Authority: the exit codes; 130, and no half of a comparison is kept."""
-
-    def interrupted(scene, **options):
-        return simulate(scene, **options).assign_attrs(complete=0)
-
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(runs, "simulate", interrupted)
-    (tmp_path / "small.toml").write_text(text_of(TEETH, "shafts"), encoding="utf-8")
-    assert main(["effects", "small.toml", "--output", "there"]) == 130
-    assert "Interrupted" in capsys.readouterr().err
-    assert not (tmp_path / "there").exists()
-
-
 OVER_FACE = """
 [lead_modifications.pinion]
 crowning = "6 um"
@@ -289,24 +210,3 @@ def test_parts_of_effects_over_the_face_are_left_out_one_at_a_time():
         for name, each in found.items()
         if each.sections == found["all"].sections and name != "all"
     )
-
-
-def test_scenes_over_the_face_share_operators_only_where_these_are_the_same():
-    """Definition: slices, layers, lead modifications and misalignment are in the gaps and compliances; the speed is
-    not."""
-    scene = scene_from_text(text_of(TEETH) + OVER_FACE)
-    key = operators_key(model_of(scene))
-    assert (
-        operators_key(
-            model_of(replace(scene, motion=replace(scene.motion, mesh_frequency=2.0 * scene.motion.mesh_frequency)))
-        )
-        == key
-    )
-    flatter = replace(scene.lead_modifications.pinion, crowning=1e-3)
-    changed = [
-        replace(scene, lead_modifications=replace(scene.lead_modifications, pinion=flatter)),
-        replace(scene, misalignment=replace(scene.misalignment, in_plane=1e-3)),
-        replace(scene, accuracy=replace(scene.accuracy, slices=9)),
-        replace(scene, accuracy=replace(scene.accuracy, layers=9)),
-    ]
-    assert all(operators_key(model_of(each)) != key for each in changed)

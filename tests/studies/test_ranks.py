@@ -1,12 +1,11 @@
 """Studies under mpirun: the same numbers as alone, for any number of ranks. Failing and killed ranks are hard case
 28."""
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
-from tests.studies.conftest import environment, gears, mpirun, write_study
+from tests.programs import gears, python
+from tests.studies.conftest import write_study
 from tests.studies.test_run_study import FOUR, load
 from tests.system.test_failing_ranks import FACE
 
@@ -28,6 +27,7 @@ def test_a_study_of_more_ranks_than_cases_gives_what_it_gives_alone(folder, undr
     assert load("here").drop_vars("wall_time").equals(load("alone").drop_vars("wall_time"))
 
 
+@pytest.mark.nightly
 def test_both_of_two_ranks_compute_and_a_wrong_study_ends_both(folder):
     """Authority: issue 3; rank 0 does not merely hand out: a task ends when one of the other rank's has begun.
     docs/promises.md: a wrong study
@@ -52,19 +52,12 @@ def test_both_of_two_ranks_compute_and_a_wrong_study_ends_both(folder):
     )
     Path("program.py").write_text(program)
     write_study(folder, '[sweep]\nmotion.mesh_frequency = ["1 mm"]\n', "wrong.toml")
-    ended = subprocess.run(
-        [*mpirun(2), sys.executable, "program.py"],
-        cwd=folder,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
+    ended = python("program.py", folder=folder, ranks=2, ends=2, timeout=60)
     computed_by = ended.stdout.split()
     assert len(computed_by) == 4, ended.stderr
     # Rank 0 begins with the last, the worker with the first.
     assert (computed_by[0], computed_by[-1]) == ("1", "0")
-    assert ended.returncode == 2 and ended.stderr.count("is a length") == 1
+    assert ended.stderr.count("is a length") == 1
     assert not Path("results").exists()
 
 
@@ -85,16 +78,7 @@ def test_ranks_of_a_study_condense_each_body_over_the_face_once(folder):
     Path("program.py").write_text(program)
     Path("pair.toml").write_text(FACE, encoding="utf-8")
     write_study(folder, '[sweep]\nmisalignment.in_plane = ["0 um", "10 um", "20 um"]\n')
-    own_cache = {**environment(), "FENICS_GEARS_CACHE": str(folder / "cache")}
-    ended = subprocess.run(
-        [*mpirun(3), sys.executable, "program.py"],
-        cwd=folder,
-        env=own_cache,
-        capture_output=True,
-        text=True,
-        timeout=240,
-    )
-    assert ended.returncode == 0, ended.stderr
+    python("program.py", folder=folder, ranks=3, FENICS_GEARS_CACHE=str(folder / "cache"))
     assert Path("computed").read_text().splitlines() == ["a body"] * 2
 
 

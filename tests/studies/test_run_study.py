@@ -1,12 +1,12 @@
 """Running a study in one process: its files, what is kept, what is computed again, and what fails."""
 
 import signal
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.studies.conftest import command, environment, stamps, write_study
+from tests.programs import command, ended
+from tests.studies.conftest import stamps, write_study
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
@@ -15,11 +15,8 @@ from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import model_of
 from fenics_gears.runs import runs
 from fenics_gears.scene.read import load_scene
-from fenics_gears.simulation import simulate as simulation
 from fenics_gears.simulation.elastic_route import gear_compliances
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies import scenes
-from fenics_gears.studies.combine import combined
 from fenics_gears.studies.study_file import load_study
 from fenics_gears.system.progress import SilentProgress
 
@@ -78,50 +75,6 @@ def test_cases_that_differ_in_relief_are_what_runs_of_their_scenes_give(folder):
         for name in ("transmission_error", "normal_force"):
             assert np.array_equal(row[name].values, alone[name].values)
     assert not np.array_equal(combined["transmission_error"][0], combined["transmission_error"][1])
-
-
-@pytest.mark.usefixtures("undrawn")
-def test_a_case_makes_its_model_once_and_again_where_there_are_too_many_to_hold(folder, monkeypatch):
-    """Count: a model for each case, from reading the study to its run; the results of models made again are the
-    same."""
-    made = []
-
-    def counted(scene):
-        made.append(scene)
-        return model_of(scene)
-
-    for module in (scenes, simulation):
-        monkeypatch.setattr(module, "model_of", counted)
-    study = write_study(folder, TWO)
-    assert main(["study", str(study), "--quiet", "--output", "held"]) == 0
-    assert len(made) == 2
-    monkeypatch.setattr(scenes, "MOST_HELD", 1)
-    assert main(["study", str(study), "--quiet", "--output", "here"]) == 0
-    assert len(made) > 4
-    assert load("here").drop_vars("wall_time").equals(load("held").drop_vars("wall_time"))
-
-
-def test_zip_has_one_dimension_with_the_fields_along_it(folder):
-    """Authority: the definition of zip; the dataset before any case has run."""
-    study = write_study(
-        folder,
-        'combine = "zip"\n[sweep]\nmotion.mesh_frequency = ["100 Hz", "200 Hz"]\nload.wheel_torque = ["100 N m", "0.2'
-        ' kNm"]',
-    )
-    empty = combined(load_study(study), {}, {})
-    assert empty["peak_to_peak_transmission_error"].dims == ("case",)
-    assert list(empty["wheel_torque"].values) == [100.0, 200.0] and empty["wheel_torque"].attrs["units"] == "N m"
-    assert empty["wheel_torque"].dims == ("case",)
-
-
-@pytest.mark.usefixtures("undrawn")
-def test_cases_with_different_steps_have_no_curves_but_their_numbers(folder):
-    """Authority: there is no common time axis."""
-    study = write_study(folder, "[sweep]\naccuracy.steps_per_mesh_cycle = [20, 22]")
-    assert main(["study", str(study), "--quiet", "--output", "here"]) == 0
-    combined = load("here")
-    assert "transmission_error" not in combined and "different time steps" in combined.attrs["curves"]
-    assert np.isfinite(combined["peak_to_peak_transmission_error"]).all()
 
 
 @pytest.mark.usefixtures("undrawn")
@@ -206,25 +159,6 @@ def test_a_failed_case_is_a_record_and_the_others_go_on(folder, capsys, monkeypa
     assert "2 kept, 1 to be computed" in capsys.readouterr().err and stamps("here") == before
 
 
-@pytest.mark.usefixtures("undrawn")
-def test_an_unwritable_cache_changes_nothing(folder, monkeypatch):
-    """Authority: elasticity's promise that a cache never decides whether a run works."""
-    study = write_study(folder, '[sweep]\nfriction = ["present"]')
-    assert main(["study", str(study), "--quiet", "--output", "cached"]) == 0
-    Path("no_folder").write_text("a file")
-    monkeypatch.setenv("FENICS_GEARS_CACHE", str(Path("no_folder/cache").absolute()))
-    assert main(["study", str(study), "--quiet", "--output", "here"]) == 0
-    assert load("here")["transmission_error"].equals(load("cached")["transmission_error"])
-
-
-@pytest.mark.usefixtures("undrawn")
-def test_quiet_says_nothing(folder, capfd):
-    """Authority: the option's own description."""
-    study = write_study(folder, '[sweep]\nfriction = ["absent"]')
-    assert main(["study", str(study), "--quiet"]) == 0
-    assert capfd.readouterr() == ("", "")
-
-
 FIVE = '[sweep]\nmotion.mesh_frequency = { start = "100 Hz", stop = "400 Hz", count = 5 }\n'
 
 
@@ -236,18 +170,18 @@ def stopped_in_the_middle(folder, study, how, ranks=0):
     call = command("study", study, "--output", "here", ranks=ranks)
     at = call.index("fenics_gears")
     call[at : at + 1] = ["tests.studies.stopped_study", how.name, "2" if ranks else "3", "1" if ranks else "0"]
-    return subprocess.run(call, cwd=folder, env=environment(), capture_output=True, text=True, timeout=120)
+    return ended(call, folder, timeout=120)
 
 
 def test_ctrl_c_keeps_what_is_done(folder):
     """Authority: docs/promises.md; exit code 130, what was done is kept, marked incomplete. Alone MPI is never touched:
     this process has no mpi4py."""
     study = write_study(folder, FIVE)
-    ended = stopped_in_the_middle(folder, study, signal.SIGINT)
+    done = stopped_in_the_middle(folder, study, signal.SIGINT)
     assert (
-        ended.returncode == 130
-        and "Interrupted. What was done is kept" in ended.stderr
-        and "Traceback" not in ended.stderr
+        done.returncode == 130
+        and "Interrupted. What was done is kept" in done.stderr
+        and "Traceback" not in done.stderr
     )
     combined = load("here")
     done = len(stamps("here"))

@@ -1,13 +1,10 @@
 """Study files: what they sweep, and the mistakes that are refused."""
 
-import tomllib
-
 import numpy as np
 import pytest
-from tests.studies.conftest import DEMO, write_study
+from tests.studies.conftest import write_study
 
 from fenics_gears.commands.cli import main
-from fenics_gears.inputs.written import as_toml, toml_value
 from fenics_gears.studies.study_file import load_study
 
 FREQUENCIES = 'motion.mesh_frequency = ["100 Hz", "200 Hz"]\n'
@@ -54,12 +51,6 @@ def test_a_range_is_the_list_it_stands_for(folder, written, numbers):
     np.testing.assert_allclose(axis.coordinate(), numbers, rtol=1e-11)
 
 
-def test_a_range_of_whole_numbers_stays_whole(folder):
-    """Authority: the scene's schema, which refuses 20.0 nodes."""
-    study = swept(folder, "accuracy.contact_nodes = { start = 5, stop = 9, step = 2 }")
-    assert [case.scene.accuracy.contact_nodes for case in study.cases] == [5, 7, 9]
-
-
 @pytest.mark.parametrize(
     "spelling",
     [
@@ -71,15 +62,6 @@ def test_a_range_of_whole_numbers_stays_whole(folder):
 def test_dotted_names_may_be_bare_quoted_or_tables(folder, spelling):
     """Authority: TOML, where the first and the last are the same."""
     assert swept(folder, spelling).axes[0].path == ("motion", "mesh_frequency")
-
-
-def test_a_field_called_start_is_no_range(folder):
-    """Authority: docs/promises.md, where tip relief has a field of that name."""
-    study = swept(folder, 'tip_relief.depth = ["10 um"]\ntip_relief.start = ["HPSTC", "29.61 deg"]')
-    assert [case.scene.tip_relief.pinion.start_roll_angle for case in study.cases] == [
-        None,
-        pytest.approx(np.radians(29.61)),
-    ]
 
 
 def test_sections_can_be_absent_present_or_written_out(folder):
@@ -123,21 +105,6 @@ def test_a_case_is_known_by_what_it_says_not_by_how_it_is_written(folder):
     scene.write_text("# another comment\n" + scene.read_text(encoding="utf-8"), encoding="utf-8")
     second = swept(folder, 'motion.mesh_frequency = ["0.2 kHz"]')
     assert first.cases[0].key == second.cases[0].key != first.cases[1].key
-
-
-def test_a_scene_written_again_says_the_same():
-    """Authority: identity, over the demonstration scene and awkward texts."""
-    tree = tomllib.loads(DEMO.read_text(encoding="utf-8"))
-    tree["title"] = 'with "quotes", a \\ and\na line\x7f'
-    assert tomllib.loads(as_toml(tree)) == tree
-
-
-@pytest.mark.parametrize(
-    "value, spelt", [(np.float64(0.1), "0.1"), (np.int64(3), "3"), (np.bool_(True), "true"), (np.str_("a"), '"a"')]
-)
-def test_numpys_values_are_spelt_as_pythons(value, spelt):
-    """Authority: TOML; numpy 2 spells its own np.float64(0.1)."""
-    assert toml_value(value) == spelt
 
 
 WRONG = {

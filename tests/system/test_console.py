@@ -60,23 +60,6 @@ def test_a_full_disk_behind_the_output_is_said(tmp_path, monkeypatch, capsys):
     assert capsys.readouterr().err == said
 
 
-def test_another_failure_of_the_system_is_not_taken_for_the_outputs(monkeypatch, capsys):
-    """It is a fault of the program's, which its traceback helps to find."""
-    monkeypatch.setattr("fenics_gears.commands.cli._command", lambda arguments: os.stat("/nowhere/at/all"))
-    with pytest.raises(FileNotFoundError):
-        main(["check"])
-
-
-def test_words_about_a_computation_do_not_end_it():
-    """On a full disk the log is lost, not the computation; a reader that has gone ends it, as it ends any program."""
-    with console.NeverFull("/dev/full", "w") as full:
-        assert full.write(b"words") == 5
-    read, write = os.pipe()
-    os.close(read)
-    with pytest.raises(BrokenPipeError), console.NeverFull(write, "w") as pipe:
-        pipe.write(b"words")
-
-
 def test_closed_streams_take_everything_and_lend_their_numbers_to_no_file(tmp_path):
     """A library's print to descriptor 1 must not reach a file of results that was opened next."""
     program = (

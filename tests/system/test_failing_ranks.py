@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from tests.programs import DEMO, environment, gears, mpirun
 from tests.studies.conftest import ACCURACY, DEMO, environment, gears, mpirun
 from tests.system.failing_rank import WORDS
 

@@ -7,7 +7,6 @@ import os
 
 import pytest
 
-from fenics_gears.errors import SceneError
 from fenics_gears.system import folders
 
 
@@ -63,10 +62,3 @@ def test_temporary_files_go_where_there_is_room(tmp_path, capsys):
     environment = {"HOME": str(tmp_path), "TMPDIR": "/dev/null"}
     folders.have_folders(environment, aloud=True)
     assert environment["TMPDIR"] in folders.TEMPORARY and "cannot be written into /dev/null" in capsys.readouterr().err
-
-
-def test_where_nothing_can_be_written_it_is_said(temporary, monkeypatch):
-    """An error in words, before numba's."""
-    monkeypatch.setattr(folders.tempfile, "gettempdir", lambda: "/dev/null")
-    with pytest.raises(SceneError, match="Let XDG_CACHE_HOME name a folder that you can write"):
-        folders.have_folders({"HOME": "/dev/null", "TMPDIR": "/tmp"}, aloud=True)

@@ -1,10 +1,7 @@
 """Work that all ranks of a job carry out together. Each stage of the program's own is in test_failing_ranks.py."""
 
-import subprocess
-import sys
-
 import pytest
-from tests.studies.conftest import environment, mpirun
+from tests.programs import python
 
 pytestmark = pytest.mark.ranks
 
@@ -41,13 +38,6 @@ def test_an_error_of_one_rank_is_an_error_of_all(tmp_path):
     work goes on. Where rank 0 waits for it inside
     MPI for ever, MPI's Abort ends both with the error's words and exit code. Both ranks are on this machine."""
     (tmp_path / "program.py").write_text(PROGRAM, encoding="utf-8")
-    done = subprocess.run(
-        [*mpirun(2), sys.executable, "program.py"],
-        cwd=tmp_path,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
+    done = python("program.py", folder=tmp_path, ranks=2, ends=2, timeout=60)
     assert done.stdout.splitlines() == ["[19, 10] 2", "rank 1: no more chalk exit code 2"], done.stderr
-    assert done.returncode == 2 and "rank 1: no more chalk" in done.stderr
+    assert "rank 1: no more chalk" in done.stderr

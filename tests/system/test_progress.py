@@ -50,18 +50,6 @@ def test_no_time_left_is_said_before_enough_is_known():
         assert said and all(0.5 * there <= left <= 2.0 * there + 20.0 for there, left in said), said
 
 
-def test_progress_costs_nothing_to_speak_of():
-    """Count: an update between two lines looks at the clock once and writes nothing."""
-    looks = iter(range(1, 2000))
-    stream = io.StringIO()
-    lines = progress.LineProgress(stream, interval=3000.0, clock=lambda: float(next(looks)))
-    lines.stage("march")
-    before = next(looks)
-    for done in range(1000):
-        lines.update(done, 1000)
-    assert next(looks) - before == 1001 and stream.getvalue() == ""
-
-
 def test_a_bar_stops_where_the_work_stopped():
     """Authority: issue 2; an interrupted run must not look finished."""
     console = pytest.importorskip("rich.console").Console(file=io.StringIO(), force_terminal=True, width=100)

@@ -51,11 +51,3 @@ def test_a_file_that_grows_while_it_is_read_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(user_file, "check_file", lambda path, largest: None)
     with pytest.raises(user_file.Unreadable, match="has more than 0 MB"):
         user_file.content_of(tmp_path / "grows", 10)
-
-
-def test_text_is_as_python_reads_it(tmp_path):
-    """The same as `Path.read_text`: without byte order mark, all lines ended by new lines."""
-    (tmp_path / "text").write_bytes("\ufeffa\r\nb\rc\nµ".encode())
-    assert (
-        user_file.text_of(tmp_path / "text", 100) == (tmp_path / "text").read_text(encoding="utf-8-sig") == "a\nb\nc\nµ"
-    )

@@ -24,14 +24,15 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from tests.corner_contact_reference.calculix import placed, wheel_centre
-from tests.corner_contact_reference.gear_mesh import MeshSizes, gear_mesh
-from tests.corner_contact_reference.reference import paper_pair
+from tests.benchmarks.against_getfem.gear_mesh import MeshSizes, gear_mesh, placed, wheel_centre
 
 from fenics_gears.effects import without
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.geometry.pair import gear_pair
+from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.simulate import simulate
 
+SCENE = Path(__file__).parents[3] / "demos" / "lundvall2004.toml"
 PHASES = (0.2, 0.3, 0.6, 0.7)
 SIZES = MeshSizes(flank=0.12, tip=0.12, fillet=0.4, coarse=2.0, body=4.0)
 # mm: how far ray tracing looks for the other surface; a few elements, less than a tooth.
@@ -41,8 +42,7 @@ GUESS = 6e-4
 
 def by_this_program() -> tuple[np.ndarray, float, float, int]:
     """Rotations of the wheel (phases,), rad; seconds of all, gears condensed anew, and of the march; steps."""
-    scene, _ = paper_pair()
-    scene = without(scene, "friction", "inertia", "damping", "shafts", "bearings")
+    scene = without(load_scene(SCENE), "friction", "inertia", "damping", "shafts", "bearings")
     scene = replace(scene, motion=replace(scene.motion, mesh_cycles=1, recorded_cycles=1))
     for _ in range(2):  # the first run loads what is compiled
         with tempfile.TemporaryDirectory() as empty:
@@ -55,7 +55,8 @@ def by_this_program() -> tuple[np.ndarray, float, float, int]:
 
 def for_getfem() -> dict:
     """What GetFEM is given; arrays as lists."""
-    scene, pair = paper_pair()
+    scene = load_scene(SCENE)
+    pair = gear_pair(scene.gears)
     gears = ((pair.pinion, 1), (pair.wheel, -1))
     meshes = tuple(gear_mesh(gear, SIZES, 0.0, tuple(sense * k for k in (0, 1))) for gear, sense in gears)
     material = scene.gears.material

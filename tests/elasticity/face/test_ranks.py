@@ -1,10 +1,7 @@
 """A gear's body shared out between MPI ranks."""
 
-import subprocess
-import sys
-
 import pytest
-from tests.studies.conftest import environment, mpirun
+from tests.programs import python
 
 pytestmark = pytest.mark.ranks
 
@@ -42,18 +39,10 @@ sys.exit(led(compare))
 """
 
 
-@pytest.mark.parametrize("ranks", [2, pytest.param(3, marks=pytest.mark.nightly)])
+@pytest.mark.nightly
+@pytest.mark.parametrize("ranks", [2, 3])
 def test_ranks_give_what_one_gives(tmp_path, ranks):
     """Who assembles, eliminates and inverts which part changes nothing but round-off; rank 0 alone looks into the cache
     and chooses conjugate gradients."""
     (tmp_path / "program.py").write_text(PROGRAM, encoding="utf-8")
-    run = subprocess.run(
-        [*mpirun(ranks), sys.executable, "program.py"],
-        cwd=tmp_path,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
-    assert run.returncode == 0, run.stderr
-    assert f"{ranks} ranks agree" in run.stdout
+    assert f"{ranks} ranks agree" in python("program.py", folder=tmp_path, ranks=ranks).stdout

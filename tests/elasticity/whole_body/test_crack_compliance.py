@@ -88,7 +88,7 @@ def released(crack: RootCrack, stress) -> float:
     return 2.0 / PLANE_MODULUS * 0.5 * crack.depth * float(weights @ squares)
 
 
-@pytest.mark.parametrize("angle", [45.0, 90.0])
+@pytest.mark.parametrize("angle", [pytest.param(45.0, marks=pytest.mark.nightly), 90.0])
 def test_a_crack_softens_its_tooth_as_its_stress_intensities_say(angle):
     """Authority: above; measured +4 to +9 %: the weight function is that of a half-plane, not of a fillet (+12 % at
     half this depth, whose

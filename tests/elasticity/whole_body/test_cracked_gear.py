@@ -1,8 +1,6 @@
 """A crack is a slit that gives way as fracture mechanics says, and a cracked tooth's sector still fits its
 neighbours."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from tests.coarse_sector import COARSE, PINION, coarse_sector_mesh
@@ -130,9 +128,3 @@ def test_a_tooth_that_is_not_there_is_refused():
     """Teeth are counted from 0."""
     with pytest.raises(SceneError, match="tooth 16: the gear has teeth 0 to 15"):
         cracked_gear_mesh(PINION, COARSE, {16: RootCrack(3.0)})
-
-
-def test_both_flanks_make_no_difference_to_the_mesh():
-    """The drive flanks carry; a sector that is asked to have two working flanks is meshed as the others are."""
-    mesh = cracked_gear_mesh(PINION, replace(COARSE, both_flanks=True), {3: RootCrack(3.0)})
-    assert np.array_equal(mesh.points, cracked_gear_mesh(PINION, COARSE, {3: RootCrack(3.0)}).points)

@@ -42,7 +42,8 @@ def test_the_repositorys_mesh_is_the_papers_pinion_with_its_ninth_tooth_cracked(
 
 
 @pytest.mark.parametrize(
-    "gear, tooth, depth, found", [("pinion", 3, "2.5 mm", 3), ("wheel", 23, "0.1 in", 23), ("wheel", 0, None, -1)]
+    "gear, tooth, depth, found",
+    [("wheel", 23, "0.1 in", 23), pytest.param("wheel", 0, None, -1, marks=pytest.mark.nightly)],
 )
 def test_a_mesh_is_written_for_either_gear(gear, tooth, depth, found, tmp_path, capsys):
     """The file is the gear, read back; the command says how large it is."""
@@ -68,22 +69,6 @@ def test_what_cannot_be_meshed_is_said_and_nothing_written(words, message, tmp_p
     file = tmp_path / "gear.msh"
     assert main([str(SCENE), str(file), *words]) == 2
     assert message in capsys.readouterr().err and not file.exists()
-
-
-@pytest.mark.parametrize(
-    "words, message", [(["--depth", "3 deg"], "'3 deg' is an angle, not a length"), (["--depth", "three"], "'three' ")]
-)
-def test_quantities_of_another_kind_are_refused(words, message, tmp_path, capsys):
-    """The parser's own exit code."""
-    with pytest.raises(SystemExit) as stopped:
-        main([str(SCENE), str(tmp_path / "gear.msh"), *words])
-    assert stopped.value.code == 2 and message in capsys.readouterr().err
-
-
-def test_a_folder_that_is_not_there_is_said(tmp_path, capsys):
-    """gmsh itself would raise something without a word on the folder."""
-    assert main([str(SCENE), str(tmp_path / "nowhere" / "gear.msh"), "--flank-size", "0.8 mm"]) == 2
-    assert "cannot be written: No such file or directory" in capsys.readouterr().err
 
 
 def test_other_endings_and_elements_are_refused(tmp_path, capsys):

@@ -103,6 +103,7 @@ def test_a_solid_gear_meshed_as_a_whole_has_the_compliance_of_a_ring(solid):
         assert bending(solid.rolls_of(tooth), solid.between(tooth + 1, tooth)) == pytest.approx(beside, rel=1e-2)
 
 
+@pytest.mark.nightly
 def test_holes_in_the_web_soften_the_teeth_above_them(solid, tmp_path):
     """Eight holes under sixteen teeth: every second tooth stands beside a hole in the same way, and all are softer than
     on a solid web."""
@@ -117,9 +118,8 @@ def test_holes_in_the_web_soften_the_teeth_above_them(solid, tmp_path):
     assert abs(pierced[0] - pierced[1]) > 5e-3 * pierced.mean()
 
 
-@pytest.mark.parametrize("version, binary", [(2.2, False), (4.1, True)])
-def test_every_format_of_gmsh_is_read(version, binary, solid_file, tmp_path):
+def test_another_format_of_gmsh_is_read(solid_file, tmp_path):
     """Exact: the same body as from format 4.1 in text, but for the digits that are written."""
-    written_as(version, binary, solid_file, tmp_path / "gear.msh")
+    written_as(2.2, True, solid_file, tmp_path / "gear.msh")
     found, expected = (read_body_mesh(path) for path in (tmp_path / "gear.msh", solid_file))
     assert np.array_equal(found.cells, expected.cells) and np.abs(found.points - expected.points).max() < 1e-12

@@ -9,11 +9,10 @@ import numpy as np
 import pandas
 import pytest
 import xarray as xr
-from tests.studies.conftest import DEMO, gears, stamps
+from tests.studies.conftest import DEMO, stamps
 
 from fenics_gears import results
 from fenics_gears.commands.cli import main
-from fenics_gears.effects.bearings import BearingPlaces, Bearings
 from fenics_gears.effects.inertia import Inertia
 from fenics_gears.effects.shafts import Shafts
 from fenics_gears.errors import SceneError
@@ -25,27 +24,13 @@ from fenics_gears.scene.data import Accuracy, Load, Motion
 from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.dynamic_factor import quasi_static
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.axis import AxisError, values_in_words
+
+DEMO = Path(__file__).parents[3] / "demos" / "lundvall2004.toml"
 
 
 def mapped(loads=(), speeds=(), most=1000, **changes):
     """The map of the paper's scene."""
     return load_map(DEMO, replace(load_scene(DEMO), **changes), loads, speeds, most)
-
-
-@pytest.mark.parametrize(
-    "written, values",
-    [
-        ("437 N m", ["437 N m"]),
-        ("100 .. 300 N m in 3", ["100 N m", "200 N m", "300 N m"]),
-        ("100 N m..0.3 kNm by 100 N m", ["100 N m", "200 N m", "300 N m"]),
-        ("10 .. 1000 Hz in 3, logarithmic", ["10 Hz", "100 Hz", "1000 Hz"]),
-        ("-200 .. 200 N m by 200", ["-200 N m", "0 N m", "200 N m"]),
-    ],
-)
-def test_ranges_in_words_are_those_of_studies(written, values):
-    """Arithmetic: both ends included."""
-    assert list(values_in_words(written)) == values
 
 
 @pytest.mark.parametrize(
@@ -66,21 +51,6 @@ def test_a_map_sweeps_the_load_that_the_scene_names(tmp_path, load, loads, other
     assert [scene.motion.mesh_frequency for scene in cases[OVER_SPEED]] == [100.0, 400.0]
     with pytest.raises(SceneError, match="The scene gives its load as"):
         load_map(file, load_scene(file), (other,), (), 10)
-
-
-@pytest.mark.parametrize(
-    "written, message",
-    [
-        ("1 .. 5 Hz", "number of its values"),
-        ("1 .. 5 Hz in 1", "from 2 to"),
-        ("5 .. 5 Hz in 3", "starts where it stops"),
-        ("1 .. 5 Hz by 1 N", "mixes"),
-    ],
-)
-def test_ranges_that_are_none_say_why(written, message):
-    """Authority: the messages of a study's ranges."""
-    with pytest.raises(AxisError, match=message):
-        values_in_words(written)
 
 
 @pytest.mark.parametrize(
@@ -164,21 +134,7 @@ def test_natural_frequencies_are_those_of_two_inertias(paper_scene, paper_pair):
     assert found["excited"][1].tolist() == [1]
 
 
-def test_gears_that_tilt_have_natural_frequencies_too(paper_scene, paper_pair):
-    """Authority: a rigid disc on a shaft with bearings at +-a of the stiffness k in all tilts at sqrt(k a^2/J_t)/2 pi
-    where the mesh is soft."""
-    places = BearingPlaces((-1.0, 1.0), (-200.0, 200.0))
-    scene = replace(paper_scene, damping=None, bearings=Bearings(1e6, places=places), inertia=Inertia(4.9e-3, 24.5))
-    found = frequencies_over_load(scene, np.array([400.0]), xr.DataArray([1e-6], dims="load"), paper_pair)
-    words, frequencies = found["motion"][1].tolist(), found["natural_frequency"][1][0]
-    tilting = model_of(scene).drivetrain
-    place = tilting.coordinates.index("tilt_x1")
-    inertia = tilting.mass[place, place] * tilting.radii[place] ** 2
-    assert frequencies[words.index("pinion tilts")] == pytest.approx(
-        sqrt(1e6 * 1.0**2 / inertia) / (2.0 * pi), rel=1e-3
-    )
-
-
+@pytest.mark.nightly
 def test_a_map_is_what_runs_of_its_scenes_give(folder, capsys):
     """Authority: exact identity with a run of each scene alone; tables read by pandas; a second call computes
     nothing."""
@@ -221,15 +177,3 @@ def test_a_map_is_what_runs_of_its_scenes_give(folder, capsys):
     before = stamps("out/quasi_static") | stamps("out/over_speed")
     assert main([*call, "--quiet"]) == 0
     assert stamps("out/quasi_static") | stamps("out/over_speed") == before
-
-
-@pytest.mark.nightly
-@pytest.mark.ranks
-def test_two_processes_write_the_same_map(folder):
-    """Authority: exact identity; who computes a case changes no digit."""
-    call = ["map", "pair.toml", "--loads", "100 N m", "200 N m", "--quiet", "--output"]
-    assert main([*call, "alone"]) == 0
-    finished = gears(folder, *call, "together", ranks=2)
-    assert finished.returncode == 0, finished.stderr
-    for name in ("map_over_load.csv", "map_over_load_and_mesh_phase.csv"):
-        assert Path("alone", name).read_text() == Path("together", name).read_text()

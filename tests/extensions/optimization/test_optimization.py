@@ -3,14 +3,13 @@
 import csv
 import json
 import signal
-import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.studies.conftest import CHECKOUT, command, environment
+from tests.programs import command, ended, python
 
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import ComputationError, SceneError
@@ -22,16 +21,13 @@ from fenics_gears.extensions.optimization.evaluations import Evaluation, Evaluat
 from fenics_gears.extensions.optimization.expected import expected_work
 from fenics_gears.extensions.optimization.optimize import chosen, optimize
 from fenics_gears.extensions.optimization.search import front
-from fenics_gears.geometry.flank_tolerance import flank_tolerance, helix_tolerance
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.results.files import read
 from fenics_gears.runs import lines as run_lines
 from fenics_gears.runs import runs
-from fenics_gears.runs.record import record_of
 from fenics_gears.runs.team import Alone
 from fenics_gears.scene.read import build_scene, load_scene
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.studies.fields import changed
 from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.progress import SilentProgress
 
@@ -88,6 +84,7 @@ def lines(directory):
     ]
 
 
+@pytest.mark.nightly
 def test_the_search_finds_what_brute_force_finds(folder):
     """Authority: brute force; no relief of a grid of 6 by 6 over both variables is better than the one found by 40
     trials, and it is the least of its designs."""
@@ -173,95 +170,23 @@ def test_the_front_is_that_of_every_pair_compared():
     assert front(tried, ["a", "b"]) == [0, 1, 3, 5]
 
 
-def test_a_flank_class_scatters_within_the_standards_tolerances(folder):
-    """Authority: ISO 1328-1, by the function that is tested against it; Sobol's sequence fills both halves of every
-    range equally."""
-    design = load_design(write(folder, STILL + VARIABLES + GOAL + "[tolerances]\ntolerance_class = 6\nsamples = 64\n"))
-    limits = {each.name: each.limit for each in design.tolerances.scatters}
-    for gear, teeth in (("pinion", 16), ("wheel", 24)):
-        allowed = flank_tolerance(4.5 * teeth, 4.5, 6)
-        assert limits[f"profile_modifications.{gear}.slope"] == pytest.approx(1e3 * allowed.profile_slope)
-        assert limits[f"profile_modifications.{gear}.crowning"] == pytest.approx(1e3 * allowed.profile_form)
-    deviations = samples(design)
-    assert deviations.shape == (64, 4) and np.abs(deviations).max() <= 1.0
-    assert ((deviations > 0.0).sum(axis=0) == 32).all()
-
-
-def test_over_the_face_helix_slopes_scatter_too(folder):
-    """Authority: ISO 1328-1, by the function that is tested against it."""
-    text = (
-        STILL + '[variables]\nlead_modifications.pinion.crowning = ["0 um", "10 um"]\n[set]\nmisalignment.in_plane = "5'
-        ' um"\n[goals]\nface_load_factor = 1\n'
-    )
-    design = load_design(write(folder, text + '[tolerances]\ntolerance_class = 6\nmisalignment.in_plane = "8 um"\n'))
-    limits = {each.name: each.limit for each in design.tolerances.scatters}
-    assert limits["lead_modifications.wheel.helix_slope"] == pytest.approx(1e3 * helix_tolerance(108.0, 15.0, 6).slope)
-    assert limits["misalignment.in_plane"] == 8.0 and design.variables[0].low == 0.0
-
-
-def test_speeds_are_operating_points_of_a_scene_with_inertia(folder):
-    """Authority: runs of each scene alone; the worst of both speeds counts."""
-    text = (
-        'scene = "pair.toml"\n[variables]\ntip_relief.depth = ["10 um", "40 um"]\n[set]\ntip_relief.start = "HPSTC"\n'
-    )
-    text += '[loads]\nmotion.mesh_frequency = ["150 Hz", "400 Hz"]\ncombine = "worst"\n[goals]\nmax_normal_force = 1\n'
-    design = load_design(write(folder, text))
-    with Interruption(SilentProgress()) as interruption:
-        (folder / "runs").mkdir()
-        (evaluation,) = Evaluator(design, folder / "runs", Alone(), interruption).of_designs(
-            [{"tip_relief.depth": 25.0}], np.zeros((1, 0))
-        )
-    alone = []
-    for frequency in ("150 Hz", "400 Hz"):
-        tree = design.scene_tree({"tip_relief.depth": 25.0})
-        alone.append(
-            record_of(
-                simulate(build_scene(changed(tree, ("motion", "mesh_frequency"), frequency))).assign_attrs(
-                    wall_time=0.0
-                )
-            ).numbers["max_normal_force"]
-        )
-    assert alone[0] != alone[1] and evaluation.at_points["max_normal_force"] == pytest.approx(alone, rel=1e-12)
-    assert evaluation.goals["max_normal_force"] == pytest.approx(max(alone), rel=1e-12)
-
-
-def test_a_scatter_stays_within_what_the_field_allows(folder):
-    """Authority: the scene's bounds; a relief cannot be less than none."""
-    text = STILL + VARIABLES + GOAL + '[tolerances]\ntip_relief.pinion.depth = "20 um"\n'
-    design = load_design(write(folder, text))
-    tree = design.scene_tree({"tip_relief.depth": 5.0, "tip_relief.length_on_path": 6.0})
-    depths = [
-        scattered(tree, design.tolerances.scatters, np.array([each]))["tip_relief"]["pinion"]["depth"]
-        for each in (-1.0, 0.5)
-    ]
-    assert depths == ["1e-06 um", "15 um"]
-
-
 @pytest.mark.usefixtures("unwritten")
 def test_a_killed_search_repeats_nothing(folder):
     """Authority: the search that was not stopped. SIGKILL in the middle of a line; then each run is there once, but for
     that line's, and the result is the same."""
     path = write(folder, RIGID + VARIABLES + GOAL + FEW)
     whole = found(path, folder / "whole")
-    killed = subprocess.run(
-        [
-            sys.executable,
-            "-m",
-            "tests.extensions.optimization.stopped_optimization",
-            "6",
-            "optimize",
-            str(path),
-            "--output",
-            str(folder / "killed"),
-            "--quiet",
-        ],
-        env={**environment(), "PYTHONPATH": str(CHECKOUT)},
-        cwd=CHECKOUT,
-        capture_output=True,
-        text=True,
-        timeout=120,
+    call = (
+        "-m",
+        "tests.extensions.optimization.stopped_optimization",
+        6,
+        "optimize",
+        path,
+        "--output",
+        folder / "killed",
+        "--quiet",
     )
-    assert killed.returncode == -signal.SIGKILL, killed.stderr
+    python(*call, ends=-signal.SIGKILL)
     assert len(run_lines.kept(folder / "killed" / "runs")[0]) == 5
     resumed = found(path, folder / "killed")
     assert (resumed.kept, resumed.computed) == (5, whole.computed - 5)
@@ -278,15 +203,7 @@ def test_any_number_of_processes_gives_the_same_result(folder):
     """Authority: exact identity with one process."""
     path = write(folder, RIGID + VARIABLES + GOAL + FEWER)
     alone = found(path, folder / "alone")
-    done = subprocess.run(
-        command("optimize", path, "--output", folder / "two", ranks=2),
-        cwd=folder,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
-    assert done.returncode == 0, done.stderr
+    ended(command("optimize", path, "--output", folder / "two", ranks=2), folder, ends=0)
     designs = read(folder / "two" / "optimization.nc")
     assert designs[ERROR].values.tolist() == [each.goals[ERROR] for each in alone.tried]
     keys = [line["key"] for line in lines(folder / "two")]
@@ -341,6 +258,7 @@ def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):
     assert again.computed == 0 and [each.failure for each in again.tried] == [each.failure for each in outcome.tried]
 
 
+@pytest.mark.nightly
 def test_bounds_are_kept_and_refused_where_nothing_keeps_them(folder):
     """Authority: the constraint itself; the best of what it allows, and an error in words where it allows nothing."""
     text = STILL + VARIABLES + GOAL + FEW + '[constraints]\ntransmission_error_harmonic_2 = {{ at_most = "{} um" }}\n'
@@ -371,38 +289,6 @@ def test_several_goals_give_a_front_and_weights_choose_from_it(folder):
     only = [replace(outcome.tried[0], violation=1.0)]
     with pytest.raises(ComputationError, match="the nearest one breaks the bounds by 1"):
         chosen(outcome.design, outcome.before, only)
-
-
-def test_words_and_single_gears_may_vary(folder):
-    """Authority: the design file; each tried design has one of the words, and the gears have their own depths."""
-    outcome = found(
-        write(
-            folder,
-            STILL + '[variables]\ntip_relief.pinion.depth = ["1 um", "40 um"]\ntip_relief.shape = ["linear",'
-            ' "parabolic"]\n[set]\ntip_relief.start = "HPSTC"\n' + GOAL + FEW,
-        )
-    )
-    assert {each.values["tip_relief.shape"] for each in outcome.tried} == {"linear", "parabolic"}
-    assert "tip_relief" not in outcome.design.before
-    assert outcome.along["tip_relief.shape"][0] == ["linear", "parabolic"]
-
-
-def test_a_cut_line_harms_no_other(tmp_path):
-    """Authority: the promise of runs.lines; what is cut short is no run, and the next line begins below it."""
-    run_lines.append(tmp_path, {"key": "one"})
-    with open(tmp_path / "0.jsonl", "ab") as file:
-        file.write(b'{"key": "two", "numb')
-    run_lines.append(tmp_path, {"key": "three"})
-    found, others = run_lines.kept(tmp_path)
-    assert [*found] == ["one", "three"] and others == 0
-
-
-def test_lines_of_other_numbers_are_not_used(tmp_path, monkeypatch):
-    """Definition of the version: runs with other numbers are no runs of this program; they are counted."""
-    run_lines.append(tmp_path, {"key": "one"})
-    monkeypatch.setattr(run_lines, "NUMBERS_VERSION", run_lines.NUMBERS_VERSION + 1)
-    run_lines.append(tmp_path, {"key": "two"})
-    assert run_lines.kept(tmp_path) == ({"two": {"numbers_version": run_lines.NUMBERS_VERSION, "key": "two"}}, 1)
 
 
 REFUSED = {
@@ -472,12 +358,6 @@ def test_what_no_design_could_have_is_refused_by_name(folder, what):
     with pytest.raises(SceneError) as refusal:
         load_design(write(folder, STILL + text))
     assert words in str(refusal.value) and "Nothing was computed or written" in str(refusal.value)
-
-
-def test_other_files_are_called_by_their_kind(folder):
-    """Authority: the words of `gears study` on the same mistake."""
-    with pytest.raises(SceneError, match="is a scene, not a design file; `gears run"):
-        load_design(folder / "pair.toml")
 
 
 def test_a_missing_optimiser_is_said_before_anything_is_computed(folder, monkeypatch):

@@ -47,12 +47,6 @@ def test_it_is_the_temperature_under_a_moving_band(paper_pair):
     assert found == pytest.approx(exact, rel=0.02)
 
 
-def test_no_sliding_at_the_pitch_point_and_no_load_no_heat(paper_pair):
-    """Definition: at the pitch point flanks roll."""
-    places = [paper_pair.pitch_point, 0.8 * paper_pair.path_end]
-    assert flash_temperature(paper_pair, MATERIALS, places, [400.0, 0.0], 0.1, 1500.0) == pytest.approx(0.0, abs=1e-9)
-
-
 def test_load_share_of_unmodified_teeth(paper_pair):
     """ISO/TS 6336-20: one third at both ends, two thirds beside single contact, one in it."""
     lowest, highest = paper_pair.path_end - paper_pair.base_pitch, paper_pair.path_start + paper_pair.base_pitch

@@ -151,14 +151,6 @@ def test_end_relief_is_at_the_end_that_the_loaded_flank_says(tmp_path, side, end
         assert lead_of(tmp_path, model) == LeadModification(end_relief=EndRelief(0.01, 4.0, end, "parabolic"))
 
 
-def test_alike_reliefs_of_both_ends_need_no_loaded_flank(tmp_path):
-    """Symmetry; one end alone does."""
-    one = with_modification("end_relief_datum_face", *end_relief("datum_face"))
-    assert "does not say which one is" in refused(tmp_path, one)
-    both = with_modification("end_relief_non_datum_face", *end_relief("non_datum_face"), model=one, number=41)
-    assert lead_of(tmp_path, both) == LeadModification(end_relief=EndRelief(0.01, 4.0))
-
-
 def test_helix_slope_has_the_sign_of_the_end(tmp_path):
     """Removed towards the face opposite the datum face, which is said to be assumed; over a shorter evaluation it is
     steeper over the face."""
@@ -174,12 +166,6 @@ def test_helix_slope_has_the_sign_of_the_end(tmp_path):
     scene, found = scene_of(tmp_path, loaded(shorter, "right"))
     assert scene.lead_modifications.pinion.helix_slope == pytest.approx(0.010, rel=1e-11)
     assert "lead_modifications.pinion.helix_slope" in assumed_fields(found)
-
-
-def test_nothing_removed_is_no_modification(tmp_path):
-    """A crowning of zero leaves a spur pair plane."""
-    scene, _ = scene_of(tmp_path, with_modification("helix_crowning", *crowning(0.0, 0.0)))
-    assert scene.lead_modifications is None and not scene.three_dimensional
 
 
 REFUSED = [

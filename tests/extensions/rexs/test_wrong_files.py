@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.extensions.rexs import paper_model as rexs
-from tests.extensions.rexs.test_lookups import changed, refused, scene_of, with_relief
+from tests.extensions.rexs.test_lookups import changed, refused, with_relief
 from tests.extensions.rexs.test_paper_pair import imported
 
 from fenics_gears.errors import SceneError
@@ -280,13 +280,6 @@ def test_damaged_files_end_in_a_scene_or_in_a_sentence(tmp_path_factory, data):
         assert str(error).strip()
 
 
-def test_nothing_but_the_chosen_stage_must_be_whole(paper_scene, tmp_path):
-    """A stage beside the chosen one may lack everything."""
-    model = rexs.with_component(rexs.paper_model(), 31, "cylindrical_gear", ("normal_module", "?", "parsec"))
-    model = rexs.with_component(model, 33, "cylindrical_stage", stage={"stage": 33, "gear_1": 31, "gear_2": 31})
-    assert scene_of(tmp_path, model, stage=4)[0].gears == paper_scene.gears
-
-
 def test_what_does_not_hang_together_is_told_together(tmp_path):
     """A missing module hides neither a wrong shift nor a wrong diameter; shifts that both lack are one mistake."""
     changes = (
@@ -325,13 +318,3 @@ def test_parts_that_a_stage_cannot_have(tmp_path):
         imported(tmp_path, rexs.as_json(changed((P, "normal_module", False, "mm"))))
     with pytest.raises(SceneError, match="poisson_ratio = nan none is not a finite number"):
         imported(tmp_path, rexs.as_xml(changed((MATERIAL, "poisson_ratio", float("nan")))))
-
-
-def test_a_packed_file_that_is_no_archive_is_named(tmp_path):
-    """Its ending says ZIP; what is XML or JSON after all is read by what it holds."""
-    (tmp_path / "pair.rexsz").write_bytes(b"PK, or not")
-    with pytest.raises(SceneError, match="pair.rexsz: is no ZIP archive, as .rexsz files are"):
-        read.read_model(tmp_path / "pair.rexsz")
-    (tmp_path / "pair.rexsz").write_bytes(b"<model")
-    with pytest.raises(SceneError, match="XML"):
-        read.read_model(tmp_path / "pair.rexsz")

@@ -1,7 +1,6 @@
 """What curves, spectra and the drawing of a report are made of."""
 
 import sys
-from dataclasses import replace
 from math import asin, cos, pi, radians, sin
 
 import numpy as np
@@ -14,21 +13,16 @@ from scipy.spatial import cKDTree
 from tests.helical import wide_pair
 from tests.show.synthetic import made_up_run
 
-from fenics_gears.scene.data import Load
 from fenics_gears.show.chart import Chart, Curve
 from fenics_gears.show.orders import spectrum
 from fenics_gears.show.report.curves import spectra
 from fenics_gears.show.report.energy import energy
-from fenics_gears.show.report.geometry import geometry
-from fenics_gears.show.report.interactive import figure
-from fenics_gears.show.report.overview import counted, summary
+from fenics_gears.show.report.overview import summary
 from fenics_gears.show.report.page import Page, Section
-from fenics_gears.show.report.pair_drawing import _on_line, drawings, gear_outline
+from fenics_gears.show.report.pair_drawing import _on_line, gear_outline
 from fenics_gears.show.report.rendering import plotly_library, rendered
-from fenics_gears.show.report.solver import _extent
-from fenics_gears.show.run import Run, conditions
+from fenics_gears.show.run import Run
 from fenics_gears.show.thinning import thinned
-from fenics_gears.show.units import digits
 
 
 @given(st.lists(st.floats(-1e6, 1e6) | st.just(float("nan")), min_size=1, max_size=400), st.sampled_from([10, 40]))
@@ -69,24 +63,6 @@ def test_mesh_orders_have_the_amplitudes_of_the_harmonics(paper_scene, tmp_path)
     assert set(found.origins[found.lines.amplitudes > 1e-9]) == {"mesh"} and "3 whole mesh cycles" in found.record
 
 
-def test_turns_of_the_gears_stand_apart_in_a_hunting_tooth_period(paper_scene, tmp_path):
-    """Authority: 16 and 24 teeth: 48 mesh cycles, in which the pinion turns 3 times and the wheel twice."""
-    phase = np.linspace(0.0, 48.0, 48 * 20 + 1)
-    values = np.cos(2 * pi * phase) + 0.5 * np.cos(2 * pi * phase / 16) + 0.25 * np.cos(2 * pi * phase / 24)
-    found = spectrum(run_of(paper_scene.text, values, phase, tmp_path), values)
-    there = {
-        origin: (round(order * 48), round(size, 9))
-        for origin, order, size in zip(found.origins, *found_lines(found))
-        if size > 1e-9
-    }
-    assert there == {"mesh": (48, 1.0), "turn of the pinion": (3, 0.5), "turn of the wheel": (2, 0.25)}
-
-
-def found_lines(found):
-    """Orders and amplitudes of a spectrum."""
-    return found.lines.orders, found.lines.amplitudes
-
-
 def ramp_of(paper_scene, cycles):
     """A made-up run whose scene falls from 200 to 50 Hz."""
     text = f'{paper_scene.text}\n[speed_ramp]\nend_frequency = "50 Hz"\n'
@@ -101,38 +77,10 @@ def test_a_ramp_points_to_orders_cycle_by_cycle_only_where_they_are_drawn(paper_
         assert ("See the orders cycle by cycle." in section.blocks[0].text) == bool(drawn) == (cycles > 8.0)
 
 
-def test_the_largest_order_is_named_where_the_picture_ends_before_it(paper_scene, tmp_path):
-    """Authority: the made-up curve: its 14th harmonic is larger than the 2nd."""
-    phase = np.linspace(28.0, 30.0, 201)
-    for amplitude, said in ((3e-6, True), (1e-6, False)):
-        values = 2e-6 * np.cos(4 * pi * phase) + amplitude * np.cos(28 * pi * phase)
-        section = spectra(run_of(paper_scene.text, values, phase, tmp_path))
-        assert ("at order 14, beyond the picture" in section.blocks[0].note) == said
-
-
 def tiles_of(dataset, tmp_path):
     """The summary's tiles by their labels."""
     (tiles,) = summary(Run(dataset, tmp_path / "run.nc")).blocks
     return {tile.label: tile for tile in tiles.tiles}
-
-
-def test_a_ramp_is_told_from_its_first_frequency_to_its_last(paper_scene, tmp_path):
-    """Down is not up: 200 to 50 Hz, as the scene says."""
-    tile = tiles_of(ramp_of(paper_scene, 2.0), tmp_path)["Mesh frequency"]
-    assert (tile.value, tile.unit) == ("200 to 50", "Hz")
-
-
-def test_a_scene_without_speed_has_none_on_its_page(paper_scene, tmp_path):
-    """Authority: the scene: without [motion] nothing depends on a speed, and its nominal 1 Hz is no figure of the
-    pair's."""
-    text = paper_scene.text
-    for section in ("motion", "inertia", "damping"):
-        before, _, after = text.partition(f"[{section}]")
-        text = before + after[after.index("\n[") + 1 :]
-    run = Run(made_up_run(scene=text), tmp_path / "run.nc")
-    assert run.scene is not None and not run.scene.motion.speed_given
-    assert "Mesh frequency" not in tiles_of(run.dataset, tmp_path) and "rpm" not in str(summary(run))
-    assert " s," not in {label: value for label, value, _ in _extent(run)}["stored"]
 
 
 def test_the_largest_mesh_force_is_compared_with_the_force_along_the_same_normal(paper_scene, tmp_path):
@@ -145,81 +93,6 @@ def test_the_largest_mesh_force_is_compared_with_the_force_along_the_same_normal
             pair.wheel.base_radius * cos(asin(sin(radians(helix)) * cos(radians(20.0))))
         )
         assert tiles_of(run, tmp_path)["Largest mesh force"].note.startswith("1.000 ×")
-
-
-@pytest.mark.parametrize(
-    "given, words",
-    [("wheel_torque", "437 N m on the wheel"), ("pinion_torque", "291.3 N m on the pinion"), ("power", "22.88 kW")],
-)
-def test_loads_are_titled_as_the_scene_gives_them(paper_scene, given, words):
-    """Arithmetic: 437 N m on 24 teeth are 291.33 on 16, and 22.88 kW at 200 Hz; a title has four digits."""
-    assert conditions(replace(paper_scene, load=Load(437e3, given))).startswith(f"{words}, 200 Hz")
-
-
-def test_the_page_has_the_profile_shift_of_the_drawing_and_that_of_the_thickness(paper_scene, tmp_path):
-    """Authority: ISO 21771: x_E is less than x by the backlash; without thinner teeth there is one shift, with them
-    both stand on the page."""
-
-    def shifts(text):
-        table = geometry(Run(made_up_run(scene=text), tmp_path / "run.nc")).blocks[-1].blocks[0]
-        return {row[0]: row[1:] for row in table.rows if "profile shift" in row[0]}
-
-    assert shifts(paper_scene.text) == {"profile shift x (modules)": ("0.196", "0.125")}
-    thinner = shifts(paper_scene.text.replace('face_width = "15 mm"', 'face_width = "15 mm"\nbacklash = "0.2 mm"'))
-    generating = thinner["generating profile shift x_E, of the tooth thickness (modules)"]
-    assert (
-        thinner["profile shift x (modules)"] == ("0.196", "0.125")
-        and float(generating[0]) < 0.196
-        and float(generating[1]) < 0.125
-    )
-
-
-def test_contact_loss_is_said_of_the_flanks_that_lose_it(paper_scene, tmp_path):
-    """A wheel that drives presses on the coast flanks all the time: what is lost is the contact of the drive flanks."""
-    lost = {
-        "contact_loss_count": 1,
-        "contact_loss_share": 1.0,
-        "contact_loss_opening": 0.2,
-        "contact_loss_longest": 0.15,
-    }
-    tiles = tiles_of(made_up_run(scene=paper_scene.text, **lost), tmp_path)
-    assert (tiles["Contact lost"].value, tiles["Contact lost"].unit) == ("1", "time") and "wheel drives" not in tiles[
-        "Contact lost"
-    ].note
-    assert ", for up to 0.15 s, " in tiles["Contact lost"].note
-    backwards = made_up_run(scene=paper_scene.text.replace('"437 N m"', '"-437 N m"') + "\n[coast_flanks]\n", **lost)
-    backwards["coast_normal_force"] = backwards["normal_force"]
-    assert (
-        "the wheel drives, on the coast flanks"
-        in tiles_of(backwards, tmp_path)["Contact of the drive flanks lost"].note
-    )
-
-
-def test_numbers_of_a_tile_fit_into_it():
-    """A tile has room for eight digits; larger numbers have powers of ten."""
-    assert [digits(value) for value in (0.19084, 4489.2, 60574.0, -330019.0, 6.8278e9, -1.3555e6)] == [
-        "0.1908", "4489", "60,574", "-330,019", "6.83e9", "-1.36e6",
-    ]  # fmt: skip
-    assert [counted(number, "case") for number in (1, 30, 2000)] == ["1 case", "30 cases", "2,000 cases"]
-
-
-def test_large_and_small_values_have_powers_of_ten_on_their_axis():
-    """Their tick labels would else run into the axis' title."""
-    for size, wanted in ((1e-5, "e"), (1.0, "none"), (9e5, "none"), (4e7, "e")):
-        drawn = figure(Chart("", [Curve("", np.arange(2.0), size * np.arange(2.0))], "", ""))
-        assert drawn["layout"]["yaxis"]["exponentformat"] == wanted and drawn["layout"]["yaxis"]["title"]["standoff"]
-
-
-def test_a_curve_of_work_that_stands_alone_is_named(paper_scene, tmp_path):
-    """A plot of one curve has no legend to say what it is."""
-    dataset = made_up_run(scene=paper_scene.text)
-    for name in ("energy", "work_input", "work_output", "work_contact_changes", "energy_defect"):
-        dataset[name] = dataset["normal_force"].assign_attrs(units="N mm")
-    captions = [block.caption for block in energy(Run(dataset, tmp_path / "run.nc")).blocks]
-    assert "Work lost since the first settled step: contact changes, by the time stepping" in captions
-    dataset["work_friction"] = dataset["energy"]
-    captions = [block.caption for block in energy(Run(dataset, tmp_path / "run.nc")).blocks]
-    assert "Work lost since the first settled step" in captions
 
 
 def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp_path):
@@ -249,30 +122,6 @@ def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp
     for name, last in {"work_input": 100.0, "work_output": 96.0}.items():
         dataset[name] = ("time", np.linspace(0.0, 1e3 * last, dataset.sizes["time"]), {"units": "N mm"})
     assert rows()["work of the drive, the pinion's shaft"] == "100 N m"
-
-
-def test_the_teeth_are_drawn_on_the_line_of_action_of_the_flanks_that_carry(paper_scene, paper_pair, tmp_path):
-    """Mirror at the line of centres; coast flanks go from the pinion's tip, which is furthest from T1, to its root."""
-    drive, coast = (
-        {curve.name: curve for curve in drawings(paper_pair, side)[1].curves if curve.beside != "bottom left"}
-        for side in (False, True)
-    )
-    for name in ("line of action", "path of contact"):
-        np.testing.assert_allclose(coast[name].x, -drive[name].x, atol=1e-12)
-    drive, coast = (
-        {words: x for curve in drawings(paper_pair, side)[1].curves for words, x in zip(curve.words, curve.x)}
-        for side in (False, True)
-    )
-    assert set(drive) == {"start of contact", "LPSTC", "pitch point", "HPSTC", "end of contact"}
-    other = {"start of contact": "end of contact", "end of contact": "start of contact"}
-    np.testing.assert_allclose(
-        [coast[other.get(name, name)] for name in drive], [-x for x in drive.values()], atol=1e-12
-    )
-    run = made_up_run(scene=paper_scene.text)
-    assert not Run(run, tmp_path / "run.nc").on_coast_flanks
-    run["coast_normal_force"], run["normal_force"] = run["normal_force"], 0.0 * run["normal_force"]
-    captions = [block.caption for block in geometry(Run(run, tmp_path / "run.nc")).blocks[:-1]]
-    assert captions == ["The pair", "Teeth along the path of contact of the coast flanks, which carry"]
 
 
 @pytest.mark.parametrize("coast", [False, True])

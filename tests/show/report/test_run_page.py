@@ -4,8 +4,6 @@ import base64
 import csv
 import json
 import re
-import subprocess
-import sys
 import tomllib
 from fnmatch import fnmatch
 from pathlib import Path
@@ -18,9 +16,6 @@ from tests.show.report.pages import seen
 from fenics_gears import results
 from fenics_gears.commands.cli import main
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.show.report.effects import effects
-from fenics_gears.show.report.stress import stress
-from fenics_gears.show.run import Run
 from fenics_gears.studies.effect_costs.table import CSV_COLUMNS
 
 CHECKOUT = Path(__file__).parents[3]
@@ -135,20 +130,6 @@ def test_a_scene_without_effects_has_neither_their_curves_nor_their_words(made, 
     assert "does not vary" in page.sections["spectra"]
 
 
-def test_rigid_flanks_have_no_pressure_and_no_stress(made, paper_scene):
-    """Authority: rigid flanks touch at points; the page says so in a line."""
-    rigid = made(
-        scene_text(paper_scene, without=("gears.material", "inertia", "damping", "friction"), more="[coast_flanks]\n"),
-        "rigid",
-    )
-    assert main(["report", str(rigid), "--quiet"]) == 0
-    page = seen(rigid / "report.html")
-    for name in ("pressure", "stress"):
-        assert "There is none: this run's flanks are rigid" in page.sections[name]
-    assert "Smallest distance of the flanks" in captions(page)
-    assert not [each for tag, each in page.tags if tag == "img" and "png" in each["src"][:20]]
-
-
 def test_titles_and_scenes_are_shown_as_they_are_written(run, tmp_path):
     """Authority: HTML: a title is text. Neither a tag nor the end of the page's own scripts can be made of it."""
     nasty = "<script>alert('x')</script> </script><!-- & \"quoted\" `code` %{x} 𝄞"
@@ -181,28 +162,6 @@ def test_a_result_without_meaning_says_so_before_anything(run, tmp_path):
     assert "NO MEANING: the result has no meaning: jammed." in text.partition('id="summary"')[0]
 
 
-def test_a_scene_of_another_version_still_has_its_curves(run, tmp_path):
-    """A result is worth a look whatever its scene's text has become."""
-    page = page_of(results.load(run / "run.nc").assign_attrs(scene="[unheard_of]\n"), tmp_path)
-    assert (
-        any(each.startswith("Transmission error on") for each in captions(page))
-        and "none of this version" in page.sections["geometry"]
-    )
-    assert "none of this version" in page.sections["effects"]
-
-
-def test_a_scene_whose_meshes_are_elsewhere_has_the_rest_of_its_page(run, tmp_path):
-    """A run's file has its scene's text, not the meshes that it names: the page tells what does not need them."""
-    dataset = results.load(run / "run.nc")
-    meshed = dataset.assign_attrs(
-        scene=dataset.attrs["scene"].replace("root_stress = true", "") + '\n[body_meshes]\npinion = "nowhere.msh"\n'
-    )
-    page = page_of(meshed, tmp_path)
-    assert page.faults == [] and list(page.sections) == SECTIONS and "contact ratio" in page.sections["geometry"]
-    assert "cannot be described without" in page.sections["solver"] and "nowhere.msh" in page.sections["solver"]
-    assert "meshed as a whole" in stress(Run(meshed, tmp_path / "run.nc")).blocks[0].text
-
-
 def measured_lines(dataset, error):
     """Lines of effects.csv: the bare scene and the whole one, with a transmission error in mm."""
     whole = "bearings damping friction inertia shafts tooth_elasticity"
@@ -228,28 +187,6 @@ def write_measured(directory, lines):
         writer.writeheader()
         writer.writerows(lines)
     (directory / "effects.png").write_bytes(b"a picture")
-
-
-def test_measured_effects_are_shown_if_they_are_of_this_scene(run, tmp_path):
-    """Authority: the transmission error of the scene with all its effects is the run's own, or the table is of another
-    scene."""
-    dataset = results.load(run / "run.nc")
-    error = dataset.attrs["peak_to_peak_transmission_error"] * dataset.attrs["base_radius_wheel"]
-    write_measured(tmp_path, measured_lines(dataset, error))
-    page = page_of(dataset, tmp_path)
-    assert "What each effect costs and changes" in page.sections["effects"]
-
-    def last_words():
-        return effects(Run(dataset, tmp_path / "run.nc")).blocks[-1].text
-
-    write_measured(tmp_path, measured_lines(dataset, 1.1 * error))
-    assert "was measured on another scene" in last_words()
-    unread = {"transmission_error_peak_to_peak_mm": "soon"}
-    write_measured(tmp_path, [line | unread for line in measured_lines(dataset, error)])
-    assert "no table of this version" in last_words()
-    for text in ("something,else\n1,2\n", "", "\n", ",".join(CSV_COLUMNS) + "\n"):
-        (tmp_path / "effects.csv").write_text(text, encoding="utf-8")
-        assert "no table of this version" in last_words()
 
 
 def test_effects_are_measured_when_asked_for(run, tmp_path, monkeypatch):
@@ -314,34 +251,6 @@ def test_wrong_calls_are_refused_before_anything_is_written(run, tmp_path, capsy
     (tmp_path / "run.nc").write_bytes(b"no NetCDF at all")
     assert "cannot be read as a result" in refusal(capsys, tmp_path)
     assert {file.name for file in tmp_path.iterdir()} == {"run.nc"}
-
-
-def test_the_page_goes_where_it_is_asked_to_and_replaces_an_earlier_one(run, tmp_path, capsys):
-    """A file, a directory that is there or is not yet; an earlier page is replaced as a whole."""
-    (tmp_path / "report.html").write_text("an earlier page", encoding="utf-8")
-    for output, file in (
-        (tmp_path, "report.html"),
-        (tmp_path / "new" / "folder", "new/folder/report.html"),
-        (tmp_path / "my.page.html", "my.page.html"),
-    ):
-        assert main(["report", str(run / "run.nc"), "--no-stress", "--output", str(output)]) == 0
-        assert str(tmp_path / file) in capsys.readouterr().out
-        assert list(seen(tmp_path / file).sections) == SECTIONS
-    assert not list(tmp_path.rglob(".unfinished*"))
-
-
-def test_other_commands_load_neither_plotly_nor_jinja():
-    """They are needed by the report alone."""
-    code = (
-        "import sys, fenics_gears.commands.cli as cli; cli._parser(); print([name for name in ('plotly', 'jinja2') if"
-        " name in sys.modules])"
-    )
-    assert (
-        subprocess.run(
-            [sys.executable, "-c", code], capture_output=True, text=True, cwd=CHECKOUT, check=True
-        ).stdout.strip()
-        == "[]"
-    )
 
 
 def test_an_installed_copy_has_the_template():

@@ -10,9 +10,7 @@ from tests.show.report.pages import seen
 
 from fenics_gears.commands.cli import main
 from fenics_gears.show.cases import Cases
-from fenics_gears.show.report.interactive import figure, height
-from fenics_gears.show.report.study_page import _summary, standing_out
-from fenics_gears.show.study_charts import over_parameter, result_charts
+from fenics_gears.show.study_charts import over_parameter
 from fenics_gears.studies.combine import load_combined, save_study
 
 pytestmark = pytest.mark.usefixtures("without_stills")
@@ -120,25 +118,6 @@ def test_failed_and_missing_cases_are_named(study, tmp_path):
     assert curves[0]["y"][0] is None and curves[1]["y"][2] is None
 
 
-def test_a_study_without_a_result_has_a_page(study, tmp_path):
-    """Interrupted before its first case ended: the page says so."""
-
-    def nothing(dataset):
-        for name in (
-            "peak_to_peak_transmission_error",
-            "mean_transmission_error",
-            "max_normal_force",
-            "wall_time",
-            "newton_iterations",
-            "steps_per_mesh_cycle",
-        ):
-            dataset[name][:] = np.nan
-        dataset["case_file"][:], dataset["warnings"][:] = "", ""
-
-    page = page_of(changed(study, tmp_path, nothing))
-    assert list(page.sections) == SECTIONS and "No case has a result yet" in page.sections["results"]
-
-
 def made_up(**axes):
     """A study's dataset over axes, its results the sum of the axes' places."""
     shape = tuple(map(len, axes.values()))
@@ -158,17 +137,6 @@ def drawn(tmp_path, **axes):
     return over_parameter(cases, *cases.measures["max_normal_force"])
 
 
-def test_a_study_of_one_case_has_no_ranges(tmp_path):
-    """One value is neither a range nor its own median."""
-    tiles = {
-        tile.label: tile
-        for tile in _summary(Cases(made_up(torque=[1.0]), tmp_path / "study.nc", tmp_path / "report.html"))
-        .blocks[0]
-        .tiles
-    }
-    assert (tiles["Largest mesh force"].value, tiles["Largest mesh force"].note) == ("1", "")
-
-
 def test_many_lines_become_a_map_or_a_choice(tmp_path):
     """A legend of dozens cannot be read: two fields of numbers become a map, of more fields some combinations are
     drawn, and it is said."""
@@ -186,38 +154,6 @@ def test_many_lines_become_a_map_or_a_choice(tmp_path):
     assert len(many.curves) == 12 and "12 of 27 combinations" in many.note
 
 
-def test_long_legends_have_room(tmp_path):
-    """Each row of a legend takes room of its own, so that the curves keep theirs."""
-    assert (
-        height(drawn(tmp_path, torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0]))
-        == 340
-        < height(drawn(tmp_path, torque=np.arange(12.0), offset=np.arange(11.0)))
-    )
-
-
-def test_words_are_drawn_over_the_field_with_most_of_them(tmp_path):
-    """Where no field has numbers, that with most values is the axis."""
-    few = drawn(tmp_path, element=["P1", "P2"], friction=["absent", "a < b", "<b>c</b>"])
-    assert [curve.name for curve in few.curves] == ["element P1 N", "element P2 N"]
-    assert list(figure(few)["data"][0]["x"]) == ["absent", "a &lt; b", "&lt;b&gt;c&lt;/b&gt;"]
-
-
-def test_cases_that_stand_out_are_the_extremes(tmp_path):
-    """Authority: the made-up values: least at the first places, largest at the last ones."""
-    cases = Cases(made_up(torque=[1.0, 2.0, 3.0], offset=[4.0, 5.0]), tmp_path / "study.nc", tmp_path / "report.html")
-    assert standing_out(cases)[0] == ["least transmission error"] and standing_out(cases)[5] == [
-        "largest transmission error",
-        "largest mesh force",
-    ]
-
-
-@pytest.mark.parametrize("options", [("--effects",), ("--at", "0.5")])
-def test_options_of_a_run_are_refused(study, capsys, options):
-    """A study has no one time and no one set of effects."""
-    assert main(["report", str(study), *options]) == 2
-    assert "this is a study" in capsys.readouterr().err
-
-
 def test_damaged_and_missing_files_are_said(study, tmp_path, capsys):
     """Authority: the digest at the file's end; nothing is written."""
     content = bytearray((study / "study.nc").read_bytes())
@@ -230,20 +166,3 @@ def test_damaged_and_missing_files_are_said(study, tmp_path, capsys):
     assert main(["report", str(tmp_path)]) == 2
     assert "run the study again" in capsys.readouterr().err
     assert [file.name for file in tmp_path.iterdir()] == ["cases"]
-
-
-def test_a_case_without_meaning_does_not_flatten_the_others(study):
-    """Ten times all others and without meaning: neither in plots nor in the summary's range, and said so; without
-    either it is there."""
-    dataset, file = load_combined(study / "study.nc"), study / "study.nc"
-    name = "peak_to_peak_transmission_error"
-    values, said = dataset[name].values.copy(), dataset["warnings"].values.copy()
-    values.flat[2], said.flat[2] = 86.9, "the result has no meaning: jammed"
-    jammed = dataset.assign({name: dataset[name].copy(data=values), "warnings": dataset["warnings"].copy(data=said)})
-    cases = Cases(jammed, file, file)
-    drawn = result_charts(cases)[name]
-    largest = max(np.nanmax(np.array(curve.y, dtype=float)) for curve in drawn.curves)
-    assert largest < 1e-3 * cases.measures[name][0].max() and "Case 2, whose result has no meaning" in drawn.note
-    (tile,) = [each for each in _summary(cases).blocks[0].tiles if each.label == "Transmission error, peak to peak"]
-    assert "without 1 case of no meaning" in tile.note
-    assert not Cases(dataset.assign({name: jammed[name]}), file, file).far_off(values.ravel()).any()

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.studies.conftest import CHECKOUT, gears
+from tests.programs import CHECKOUT, gears
 
 from fenics_gears import results
 from fenics_gears.elasticity.cache import Cache

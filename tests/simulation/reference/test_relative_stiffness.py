@@ -92,30 +92,11 @@ def balanced(effective, rigid, force, forces):
     return forces, coordinates
 
 
-def test_stiffness_is_symmetric_and_semi_definite(paper_scene, paper_pair):
-    """Exact identity (hard case 5): no energy is negative; without mass on the wheel's shaft one motion, its rotation,
-    costs none."""
-    for case, zero in (("all", 0), ("static", 1)):
-        shafts = drivetrain(scene_of(paper_scene, case), paper_pair)
-        effective = AverageAcceleration(shafts, 5e-5).stiffness
-        stiffness = RelativeStiffness(
-            [gear[0] for gear in elastic_gears(5)], effective, shafts.indices, RADII, True
-        ).stiffness
-        assert np.array_equal(stiffness, stiffness.T)
-        values = np.linalg.eigvalsh(stiffness)
-        assert np.sum(np.abs(values) < 1e-10 * values.max()) == zero
-        assert values.min() > -1e-10 * values.max()
-
-
-@pytest.mark.parametrize("frequency", [0.01, 1e-6])
-def test_long_steps_lose_no_more_digits(frequency, paper_cases, both_routes):
+def test_long_steps_lose_no_more_digits(paper_cases, both_routes):
     """Equilibrium: with the wheel's inertia vanishing its couple is the load's. [22] inverts K_qq + K^i, so that
-    4J/dt^2 may vanish.
-
-    What inertia and damping are left in proportion to the frequency is below 2e-7 of the load at 0.01 Hz.
-    """
-    scene = replace(paper_cases["200 Hz"], motion=Motion(frequency, 2, 1))
+    4J/dt^2 may vanish."""
+    scene = replace(paper_cases["200 Hz"], motion=Motion(1e-6, 2, 1))
     reference = both_routes(scene)[1]
     couple = -reference.reaction_couple.sel(gear="wheel").values
-    assert couple == pytest.approx(np.full_like(couple, scene.load.wheel_torque), rel=1e-9 + 2e-5 * frequency)
+    assert couple == pytest.approx(np.full_like(couple, scene.load.wheel_torque), rel=1e-9)
     assert reference.attrs["steps_by_rung: Newton with line search"] == reference.attrs["steps"]

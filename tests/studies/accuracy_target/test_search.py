@@ -5,7 +5,6 @@ from types import SimpleNamespace
 import pytest
 
 from fenics_gears.studies.accuracy.target import (
-    EXTRAPOLATED,
     RATIO,
     RATIO_OF_SLICES,
     ROUND_STEPS,
@@ -62,32 +61,6 @@ def test_the_cheapest_sizes_are_lagranges(target, powers):
     least = best_mesh**-a * best_steps**b
     # Steps are rounded up; meshes are searched by their ratio.
     assert least * (1.0 - 1e-9) <= runs.cost(found) <= least * RATIO**a * (1.0 + ROUND_STEPS / best_steps) ** b
-
-
-def test_sizes_are_never_coarser_than_those_tried():
-    """By definition: coarser ones would cost less than what was spent on choosing them, and order 2 need not hold
-    there."""
-    assert search(KnownRuns((1e-6, 1e-6)), TRIED, {MESH: 1e-6, STEPS: 1e-6}, 0.01) == TRIED
-
-
-def test_without_steps_that_matter_their_number_stays():
-    """By definition."""
-    runs = KnownRuns((0.01, 0.0), steps_matter=False)
-    chosen = _chosen(runs, MODULE, 0.002)
-    assert (
-        chosen.setting.sizes.steps == FEWEST_STEPS and set(chosen.parts) == {MESH} and chosen.estimated_error <= 0.002
-    )
-    assert chosen.accuracy == (MODULE, chosen.setting.sizes)
-
-
-def test_errors_are_estimated_again_near_sizes_that_are_far_finer():
-    """By construction: the sizes chosen are at most so much finer than those that the last estimate is from."""
-    runs = KnownRuns((0.003, 4000.0))
-    chosen = _chosen(runs, MODULE, 0.002)
-    sizes, last = chosen.setting.sizes, runs.tried[-1]
-    assert len(runs.tried) == 2 and chosen.runs == 6
-    assert last.mesh <= EXTRAPOLATED * sizes.mesh and sizes.steps <= EXTRAPOLATED * last.steps
-    assert sum(runs.errors(sizes).values()) <= 0.002
 
 
 def test_errors_that_do_not_fall_are_refused():
