@@ -1,4 +1,4 @@
-"""Tables for people, as aligned lines; and streams that take any text."""
+"""Tables for people: drawn by rich on a terminal, plain aligned lines elsewhere; and streams that take any text."""
 
 from __future__ import annotations
 
@@ -69,7 +69,11 @@ def print_table(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[
 def _print(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Sequence[str]], left: int) -> None:
     """Print a table whose first columns, `left` of them, begin at the left and the others end at the right."""
     heading, rows = printable(heading), [[printable(cell) for cell in row] for row in rows]
-    widths = [max(map(len, column)) for column in zip(*headings, *rows)]
+    columns = list(zip(*headings, *rows))
+    if on_terminal(sys.stdout):
+        _print_rich(heading, [column[: len(headings)] for column in columns], rows, left)
+        return
+    widths = [max(map(len, column)) for column in columns]
     print(heading)
     for line in (*headings, *rows):
         cells = (
@@ -78,6 +82,24 @@ def _print(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Seque
         )
         print("  " + "  ".join(cells).rstrip())
     print()
+
+
+def _print_rich(heading: str, headings: Sequence[Sequence[str]], rows: Sequence[Sequence[str]], left: int) -> None:
+    from rich.console import Console
+    from rich.padding import Padding
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=None, show_header=any(headings), pad_edge=False, padding=(0, 2, 0, 0))
+    for place, words in enumerate(headings):
+        table.add_column(
+            Text("\n".join(words)), justify="left" if place < left else "right", no_wrap=place == 0, overflow="fold"
+        )
+    for row in rows:
+        table.add_row(*map(Text, row))
+    console = Console(highlight=False)
+    console.print(Text(heading, style="bold"))
+    console.print(Padding(table, (0, 0, 1, 2)))
 
 
 def number_text(value: Any) -> str:

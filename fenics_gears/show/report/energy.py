@@ -7,7 +7,7 @@ import numpy as np
 from fenics_gears.results.energy_variables import transmitted
 from fenics_gears.show.chart import over_time, span
 from fenics_gears.show.panels import DARK, PALETTE
-from fenics_gears.show.report.page import Facts, Section, Words
+from fenics_gears.show.report.page import Facts, Section, sentence
 from fenics_gears.show.run import TOO_FEW, Run
 from fenics_gears.show.units import digits, factor, in_unit
 
@@ -27,11 +27,8 @@ def energy(run: Run) -> Section:
     """The account over the settled cycles as numbers and curves."""
     run = run.settled
     if "energy" not in run.dataset or not run.has_curves:
-        return Section(
-            "energy",
-            HEADING,
-            [Words(TOO_FEW if "energy" in run.dataset else "The result has no energies.", warns=True)],
-        )
+        said = TOO_FEW if "energy" in run.dataset else "The result has no energies."
+        return sentence("energy", HEADING, said, True)
     return Section("energy", HEADING, [Facts(_rows(run), "Over the settled mesh cycles (1 N m = 1 J)"), *_curves(run)])
 
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from fenics_gears.results.contact_variables import largest_normal_force
-from fenics_gears.show.report.page import Section, Tile, Tiles, Words
+from fenics_gears.show.report.page import Section, Tile, Tiles, Words, sentence
 from fenics_gears.show.run import Run, load_in_words
 from fenics_gears.show.units import digits, factor
 
@@ -16,11 +16,8 @@ GEARS = ("pinion", "wheel")
 def summary(run: Run) -> Section:
     """The key numbers as tiles, the others below."""
     if not run.steps:
-        return Section(
-            "summary",
-            "Summary",
-            [Words("No step is stored: the run ended before its recorded mesh cycles began.", warns=True)],
-        )
+        said = "No step is stored: the run ended before its recorded mesh cycles began."
+        return sentence("summary", "Summary", said, True)
     return Section("summary", "Summary", [Tiles([*_tiles(run), *_conditions(run)])])
 
 

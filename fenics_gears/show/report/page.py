@@ -121,6 +121,11 @@ class Section:
     blocks: Sequence[Block]
 
 
+def sentence(name: str, heading: str, text: str, warns: bool = False) -> Section:
+    """A section that has nothing but a sentence."""
+    return Section(name, heading, [Words(text, warns)])
+
+
 @dataclass(frozen=True)
 class Page:
     """A whole report; `subject`: of what ("Run", "Study"); `subtitle`: its conditions; `alarm`: what must be known

@@ -7,7 +7,7 @@ import numpy as np
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.chart import MARKED_LINES, Chart, Curve, over_time, span
 from fenics_gears.show.panels import PALETTE
-from fenics_gears.show.report.page import Section, Words
+from fenics_gears.show.report.page import Section, sentence
 from fenics_gears.show.run import TOO_FEW, Run
 from fenics_gears.show.units import factor, in_unit
 
@@ -17,13 +17,10 @@ HEADING = "Root stress"
 def root_stress(run: Run) -> Section:
     """Curves and numbers of the fillets' stress; a line on how to have it where it is not there."""
     if "root_stress_maximum" not in run.dataset:
-        return Section(
-            "root-stress",
-            HEADING,
-            [Words("It was not recorded; `[output] root_stress = true` in the scene records it.")],
-        )
+        said = "It was not recorded; `[output] root_stress = true` in the scene records it."
+        return sentence("root-stress", HEADING, said)
     if not run.has_curves:
-        return Section("root-stress", HEADING, [Words(TOO_FEW, warns=True)])
+        return sentence("root-stress", HEADING, TOO_FEW, True)
     return Section("root-stress", HEADING, [*_over_time(run), *_along_fillets(run)])
 
 

@@ -10,7 +10,7 @@ import xarray as xr
 from fenics_gears.errors import GearsError
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.chart import Chart
-from fenics_gears.show.report.page import Picture, Section, Words
+from fenics_gears.show.report.page import Picture, Section, sentence
 from fenics_gears.show.run import NO_SCENE, Run
 from fenics_gears.simulation.stored_forces import stored_index
 
@@ -19,43 +19,36 @@ HEADING = "Stress in the gears"
 
 def stress(run: Run) -> Section:
     """The stress picture where the mesh force is largest, or at the time asked for; or why there is none."""
-    if not run.stress:
-        return Section("stress", HEADING, [Words("Left out by the option `--no-stress`.")])
-    if run.scene is None or not run.steps:
-        return Section("stress", HEADING, [Words(NO_SCENE if run.steps else "No step is stored.", warns=True)])
-    if not run.scene.resolves_contact:
-        return Section(
-            "stress", HEADING, [Words("There is none: this run's flanks are rigid or its mesh is one of springs.")]
-        )
-    if run.scene.body_meshes is not None:
-        return Section(
-            "stress",
-            HEADING,
-            [
-                Words(
-                    "There is none: stresses are recovered from gears of equal sectors, and these are meshed as a"
-                    " whole."
-                )
-            ],
-        )
-    if not run.dataset.sizes.get("contact_time"):
-        return Section(
-            "stress",
-            HEADING,
-            [Words("There is none: the run has stored no contact fields (`[output] contact_fields`).")],
-        )
+    if why := _why_not(run):
+        return sentence("stress", HEADING, *why)
     dataset = contact_times(run.dataset)
     index = _most_loaded(dataset) if run.at is None else stored_index(dataset, run.at)
     try:
         content, charts = _drawn(run, index)
     except GearsError as error:
-        return Section("stress", HEADING, [Words(f"It could not be drawn: {error}", warns=True)])
+        return sentence("stress", HEADING, f"It could not be drawn: {error}", True)
     when = "where the force of the mesh is largest" if run.at is None else "as asked for"
     since = float(dataset["mesh_phase"].values[index] - dataset["mesh_phase"].values[0])
     others = "`gears picture RUN --at PHASE` draws other times, `--animate` a turn."
     note = f"{since:.4g} mesh cycles after the first step with contact fields, {when}; {others}"
     shown = "Contact pressure and von Mises stress" if run.is_over_face else "Von Mises stress"
     return Section("stress", HEADING, [Picture(f"{shown} of both gears in mesh", content, note), *charts])
+
+
+def _why_not(run: Run) -> tuple[str, bool] | None:
+    """Why there is no picture, and whether that is a warning; None where there is one."""
+    if not run.stress:
+        return "Left out by the option `--no-stress`.", False
+    if run.scene is None or not run.steps:
+        return NO_SCENE if run.steps else "No step is stored.", True
+    if not run.scene.resolves_contact:
+        return "There is none: this run's flanks are rigid or its mesh is one of springs.", False
+    if run.scene.body_meshes is not None:
+        said = "There is none: stresses are recovered from gears of equal sectors, and these are meshed as a whole."
+        return said, False
+    if not run.dataset.sizes.get("contact_time"):
+        return "There is none: the run has stored no contact fields (`[output] contact_fields`).", False
+    return None
 
 
 def _most_loaded(dataset: xr.Dataset) -> int:
