@@ -8,11 +8,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from fenics_gears.scene.data import Scene
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from fenics_gears.show.run import conditions
 from fenics_gears.studies.effect_costs.measured import EffectReport, Row
 from fenics_gears.studies.effect_costs.subsets import ALL, ALONE, BARE, LEFT_OUT
 from fenics_gears.studies.effect_costs.table import MICRO, MILLI, change, in_percent, own_remarks
+from fenics_gears.studies.machine import in_words
 
 COLOURS = {BARE: DARK, ALONE: PALETTE[2], LEFT_OUT: PALETTE[1], ALL: DARK}
 WORDS = {ALONE: "bare scene and one effect (change from bare)", LEFT_OUT: "all effects but one (change from all)"}
@@ -56,7 +58,7 @@ def effect_costs(report: EffectReport) -> Figure:
         panel.grid(axis="y", visible=False)
         panel.tick_params(axis="y", length=0)
         panel.spines["right"].set_visible(False)
-    _heading(figure, report)
+    _words(figure, report)
     return figure
 
 
@@ -110,16 +112,15 @@ def _whiskers(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
     axes.hlines(places, least, most, color=GREY, linewidth=1.6)
 
 
-def _heading(figure: Figure, report: EffectReport) -> None:
-    title = textwrap.shorten(" ".join(report.scene.title.split()), 80, placeholder=" …")
-    figure.suptitle(
-        f"What the effects cost and change: {title}\n{conditions(report.scene)}",
-        x=0.008,
-        ha="left",
-        fontsize=14,
-        color=DARK,
-        parse_math=False,
-    )
+def measured_heading(figure: Figure, what: str, scene: Scene) -> None:
+    """What was measured of a scene, its title and its conditions, above a figure."""
+    title = textwrap.shorten(" ".join(scene.title.split()), 80, placeholder=" …")
+    words = f"{what}: {title}\n{conditions(scene)}"
+    figure.suptitle(words, x=0.008, ha="left", fontsize=14, color=DARK, parse_math=False)
+
+
+def _words(figure: Figure, report: EffectReport) -> None:
+    measured_heading(figure, "What the effects cost and change", report.scene)
     colours = f"green: {WORDS[ALONE]}; orange: {WORDS[LEFT_OUT]}; dotted line: bare, dashed: all"
     entries = [
         "T$_{EPP}$: transmission error, peak to peak, at the wheel's base circle",
@@ -127,8 +128,10 @@ def _heading(figure: Figure, report: EffectReport) -> None:
     ]
     if any(own_remarks(report, row) for row in report.rows):
         entries.append("* with a remark that the whole scene does not have, see effects.csv")
-    where = report.machine
-    measured = f"{where['processor']}, load {where['load']}; threads: {where['threads']}; {where['versions']}"
     figure.text(
-        0.008, 0.1 / figure.get_figheight(), f"{colours}\n{'; '.join(entries)}\n{measured}", fontsize=9.5, color=DARK
+        0.008,
+        0.1 / figure.get_figheight(),
+        f"{colours}\n{'; '.join(entries)}\n{in_words(report.machine)}",
+        fontsize=9.5,
+        color=DARK,
     )

@@ -10,12 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator
 
+from fenics_gears.show.effect_costs import measured_heading
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
-from fenics_gears.show.run import conditions
 from fenics_gears.studies.accuracy.measures import judged
 from fenics_gears.studies.accuracy.refinement import CONDENSATION
 from fenics_gears.studies.accuracy.report import DEFAULTS, OWN, AccuracyReport, WholeResult
 from fenics_gears.studies.accuracy.table import in_one_sentence, limits_it
+from fenics_gears.studies.machine import in_words
 
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "*", "h", "<")
 LEAST_SHOWN = 1e-6
@@ -30,7 +31,7 @@ def work_precision(report: AccuracyReport) -> Figure:
     whole, alone = figure.subplots(1, 2, gridspec_kw={"width_ratios": (1.35, 1.0)})
     _whole(whole, report)
     _alone(alone, report)
-    _heading(figure, report)
+    _words(figure, report)
     return figure
 
 
@@ -172,16 +173,8 @@ def _percent_over_seconds(axes: Axes) -> None:
     axes.tick_params(axis="x", which="minor", labelsize=9)
 
 
-def _heading(figure: Figure, report: AccuracyReport) -> None:
-    title = textwrap.shorten(" ".join(report.scene.title.split()), 80, placeholder=" …")
-    figure.suptitle(
-        f"What accuracy costs in time: {title}\n{conditions(report.scene)}", x=0.008, ha="left", fontsize=14,
-        color=DARK, parse_math=False,
-    )  # fmt: skip
-    where = report.machine
+def _words(figure: Figure, report: AccuracyReport) -> None:
+    measured_heading(figure, "What accuracy costs in time", report.scene)
     sentence = "\n".join(textwrap.wrap(in_one_sentence(report), 165))
-    measured = (
-        f"{where['processor']}, load {where['load']}; threads: {where['threads']}; {where['versions']}; timed runs:"
-        f" {report.own.times.rounds}"
-    )
+    measured = f"{in_words(report.machine)}; timed runs: {report.own.times.rounds}"
     figure.text(0.008, 0.012, f"{sentence}\n{measured}", fontsize=10, color=DARK, parse_math=False)

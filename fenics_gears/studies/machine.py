@@ -25,6 +25,11 @@ def machine() -> dict[str, str]:
     }
 
 
+def in_words(found: Mapping[str, str]) -> str:
+    """A machine in one sentence."""
+    return f"{found['processor']}, load {found['load']}; threads: {found['threads']}; {found['versions']}"
+
+
 def processor() -> str:
     """The processor's name and how many of it this process may use."""
     name = platform.processor() or platform.machine()
