@@ -13,10 +13,6 @@ from typing import Any
 import numpy as np
 
 from fenics_gears import GearsError, gear_pair, simulate
-from fenics_gears.extensions.optimization import run_lines
-from fenics_gears.extensions.optimization.conditions import trees_of
-from fenics_gears.extensions.optimization.design import Bound, Design, Goal
-from fenics_gears.extensions.optimization.goals import ERROR, OVER_FACE
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.scene.data import Output
 from fenics_gears.studies.combine import record_of
@@ -26,6 +22,11 @@ from fenics_gears.studies.study import Case, scene_key
 from fenics_gears.studies.study_file import scene_of_tree
 from fenics_gears.studies.work import Tick, Ticking, in_order_of_sharing
 from fenics_gears.system.interruption import Interruption
+
+from . import run_lines
+from .conditions import trees_of
+from .design import Bound, Design, Goal
+from .goals import ERROR, OVER_FACE
 
 UNUSABLE = 1e6
 """What the search is told instead of a goal where a design failed; one that breaks bounds is told a thousandth of it

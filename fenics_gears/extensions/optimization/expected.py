@@ -8,12 +8,13 @@ from dataclasses import dataclass
 
 from fenics_gears import GeometryError, SceneError, expected_cost, model_of
 from fenics_gears.command_line import seconds_in_words
-from fenics_gears.extensions.optimization.conditions import FRESH
-from fenics_gears.extensions.optimization.design import Design
 from fenics_gears.studies.gear_store import operators_key
 from fenics_gears.studies.study import Case
 from fenics_gears.studies.study_file import scene_of_tree
 from fenics_gears.studies.work import gear_tasks
+
+from .conditions import FRESH
+from .design import Design
 
 MOST_HOURS = 8.0
 # Of a run beside its march: seconds, and positions whose operators extremes between steps take (measured on the paper's

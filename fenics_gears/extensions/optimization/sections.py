@@ -8,19 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears import load_scene, units
-from fenics_gears.extensions.optimization.design import (
-    MEAN,
-    QUANTILE,
-    WORST,
-    Bound,
-    Goal,
-    Loads,
-    Scatter,
-    Search,
-    Tolerances,
-    Variable,
-)
-from fenics_gears.extensions.optimization.goals import NAMES, unit_and_words
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import line_numbers
 from fenics_gears.inputs.written import as_written
@@ -28,6 +15,9 @@ from fenics_gears.scene.read import parsed
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import AxisError, factor_of, number_in, values_of
 from fenics_gears.studies.study_file import Mistakes, entries
+
+from .design import MEAN, QUANTILE, WORST, Bound, Goal, Loads, Scatter, Search, Tolerances, Variable
+from .goals import NAMES, unit_and_words
 
 KEYS = ("title", "scene", "without", "set", "variables", "loads", "goals", "tolerances", "constraints", "search")
 EXAMPLES = {"variables": 'tip_relief.depth = ["5 um", "60 um"]', "goals": "peak_to_peak_transmission_error = 1"}
