@@ -30,7 +30,13 @@ def scene_attributes(scene: Scene) -> dict[str, str]:
 
 def carried_scene(result: xr.Dataset) -> Scene:
     """The scene that was run; a warning is logged where files that it names are no longer what they were. Raises
-    SceneError where its text is no scene of this version."""
+    SceneError where its text is no scene of this version.
+
+    >>> from fenics_gears import load_scene
+    >>> scene = load_scene("demos/lundvall2004.toml")
+    >>> carried_scene(xr.Dataset(attrs=scene_attributes(scene))) == scene
+    True
+    """
     text = str(result.attrs.get("scene", ""))
     if text.startswith(NO_FILE):
         raise SceneError(text.removeprefix("# ").rstrip())

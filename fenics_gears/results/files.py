@@ -77,7 +77,13 @@ class NeverFull:
 
 def load(path: str | Path) -> xr.Dataset:
     """Read a saved result into memory. Raises ComputationError when the
-    file is no result of this program, or damaged."""
+    file is no result of this program, or damaged.
+
+    >>> load("demos/lundvall2004.toml")  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+        ...
+    fenics_gears.errors.ComputationError: demos/lundvall2004.toml: cannot be read as a result: ...
+    """
     result = read(path)
     if "transmission_error" not in result or "scene" not in result.attrs:
         raise ComputationError(f"{path}: holds no run of this program (no transmission_error, no scene text)")

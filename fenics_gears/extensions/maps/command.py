@@ -77,9 +77,10 @@ def draw_map(options: argparse.Namespace) -> int:
 
 def _run(options: argparse.Namespace, team) -> int:
     """The stages of a map, on rank 0."""
-    from fenics_gears.extensions.maps.load_map import OVER_SPEED, QUASI_STATIC, load_map
     from fenics_gears.studies.run_study import run_with
     from fenics_gears.studies.summary import last_words, summary_rows
+
+    from .load_map import OVER_SPEED, QUASI_STATIC, load_map
 
     scene = checked_model(options.scene).scene
     wanted = load_map(options.scene, scene, options.loads, options.speeds, options.most_runs)
@@ -101,7 +102,7 @@ def _run(options: argparse.Namespace, team) -> int:
             print(words, file=sys.stderr)
         if outcome.interrupted:
             return INTERRUPTED
-    from fenics_gears.extensions.maps.map_results import map_dataset
+    from .map_results import map_dataset
 
     found = map_dataset(wanted, outcomes[QUASI_STATIC], outcomes.get(OVER_SPEED))
     print_files(_written(found, directory, scene), options.quiet)
@@ -112,7 +113,8 @@ def _written(found, directory: Path, scene) -> list[Path]:
     """The files of a map: dataset, tables and pictures."""
     from fenics_gears import save_tables
     from fenics_gears.charts import design, draw_charts
-    from fenics_gears.extensions.maps.charts import map_pictures
+
+    from .charts import map_pictures
 
     supports = [name for name in ("shafts", "bearings") if getattr(scene, name) is not None]
     more = f"{design(scene)}{', elastic ' + ' and '.join(supports) if supports else ''}"

@@ -23,10 +23,11 @@ from fenics_gears import (
     spectrum,
 )
 from fenics_gears.dynamics.frequencies import Vibration, vibrations
-from fenics_gears.extensions.maps.load_map import LoadMap
 from fenics_gears.scene.data import LOAD_WORDS
 from fenics_gears.studies.combine import load_combined
 from fenics_gears.studies.run_study import Outcome
+
+from .load_map import LoadMap
 
 # Half mesh orders tell a motion that repeats only after two mesh cycles.
 ORDERS = np.arange(1, 21) / 2.0

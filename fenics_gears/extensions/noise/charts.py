@@ -7,7 +7,8 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.charts import DARK, GREY, PALETTE, WORDS, Chart, Curve, stems
-from fenics_gears.extensions.noise.figures import SIGNALS
+
+from .figures import SIGNALS
 
 ORDERS_SHOWN, FOLLOWED, DECIBELS = 5.5, 5, 60.0
 # Sidebands with less of their line's energy are round-off.

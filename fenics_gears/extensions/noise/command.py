@@ -73,7 +73,7 @@ def listen(options: argparse.Namespace) -> int:
     check_writable(output.parent, output.name)
     result = loaded_run(file)
     full_scale = _checked(result, options)
-    from fenics_gears.extensions.noise.sound import save_sound, sound
+    from .sound import save_sound, sound
 
     try:
         heard = sound(result, options.curve, options.seconds, full_scale)
@@ -91,7 +91,7 @@ def listen(options: argparse.Namespace) -> int:
 def _checked(result, options: argparse.Namespace) -> float | None:
     """The full scale in the curve's unit; None where none is given. Raises SceneError for a curve that is none, a run
     that is too slow to be heard, and a wrong unit."""
-    from fenics_gears.extensions.noise.sound import LOWEST_HEARD
+    from .sound import LOWEST_HEARD
 
     curves = [name for name in result.data_vars if result[name].dims == ("time",) and result[name].dtype.kind == "f"]
     if options.curve not in curves:
@@ -122,8 +122,9 @@ def _noise(dataset, directory: Path, window: str) -> list[Path]:
     """The files of a run's noise figures."""
     from fenics_gears import save_tables
     from fenics_gears.charts import draw_charts
-    from fenics_gears.extensions.noise.charts import noise_charts
-    from fenics_gears.extensions.noise.figures import noise_figures
+
+    from .charts import noise_charts
+    from .figures import noise_figures
 
     found = noise_figures(dataset, None if window == AUTOMATIC else window)
     picture = {"noise.png": ("Noise figures", noise_charts(found))}

@@ -9,11 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from fenics_gears.charts import GREY, MARKED_LINES, MARKERS, PALETTE, Chart, Curve, draw_charts, harris_map
-from fenics_gears.extensions.optimization.design import QUANTILE, Goal, Variable
-from fenics_gears.extensions.optimization.evaluations import Evaluation
-from fenics_gears.extensions.optimization.optimize import Outcome, score
-from fenics_gears.extensions.optimization.result import harris_dataset
 from fenics_gears.studies.scenes import model_of_tree
+
+from .design import QUANTILE, Goal, Variable
+from .evaluations import Evaluation
+from .optimize import Outcome, score
+from .result import harris_dataset
 
 BEFORE, BEST = "before", "chosen design"
 MOST_TIMES = 3.0

@@ -43,8 +43,8 @@ def optimize(options: argparse.Namespace) -> int:
     """Search, write and draw."""
     if options.processes is not None:
         return under_mpirun(options, ["optimize", str(options.design), *(["--yes"] if options.yes else [])])
-    from fenics_gears.extensions.optimization.optimize import optimize
-    from fenics_gears.extensions.optimization.result import write_result
+    from .optimize import optimize
+    from .result import write_result
 
     try:
         outcome = optimize(options.design, options.output, shown_progress(options.quiet), options.quiet, options.yes)
@@ -54,8 +54,8 @@ def optimize(options: argparse.Namespace) -> int:
     if outcome is None:
         return 0
     files = write_result(outcome)
-    from fenics_gears.extensions.optimization.charts import summary_rows, write_pictures
-    from fenics_gears.extensions.optimization.page import write_page
+    from .charts import summary_rows, write_pictures
+    from .page import write_page
 
     files += [*write_pictures(outcome), write_page(outcome)]
     if not options.quiet:

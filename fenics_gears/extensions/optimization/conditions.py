@@ -7,10 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from fenics_gears.extensions.optimization.design import Design, Scatter
 from fenics_gears.inputs.tree import GEARS, value_at
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import factor_of, number_in
+
+from .design import Design, Scatter
 
 FRESH = 4
 FROM_ZERO = ("profile_modifications", "lead_modifications")

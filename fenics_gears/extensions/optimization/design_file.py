@@ -8,15 +8,16 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears import Scene, SceneError, flank_tolerance, gear_pair, helix_tolerance
-from fenics_gears.extensions.optimization.conditions import FROM_ZERO, samples, scattered, value_of
-from fenics_gears.extensions.optimization.design import Design, Scatter
-from fenics_gears.extensions.optimization.goals import lacking
-from fenics_gears.extensions.optimization.sections import Sections
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.read import name_of, parsed, text_of
 from fenics_gears.studies import fields
 from fenics_gears.studies.scenes import Changes, NoScene, model_of_tree
 from fenics_gears.studies.study_file import entries, left_out
+
+from .conditions import FROM_ZERO, samples, scattered, value_of
+from .design import Design, Scatter
+from .goals import lacking
+from .sections import Sections
 
 
 def load_design(path: str | Path) -> Design:

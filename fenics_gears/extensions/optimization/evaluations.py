@@ -13,9 +13,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from fenics_gears.extensions.optimization.conditions import trees_of
-from fenics_gears.extensions.optimization.design import Bound, Design, Goal
-from fenics_gears.extensions.optimization.goals import ERROR, OVER_FACE
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.runs.lines import Lines, kept
 from fenics_gears.runs.record import record_of
@@ -25,6 +22,10 @@ from fenics_gears.runs.team import Alone, Together
 from fenics_gears.scene.data import Output, Scene
 from fenics_gears.studies.scenes import NoScene, model_of_tree
 from fenics_gears.system.interruption import Interruption
+
+from .conditions import trees_of
+from .design import Bound, Design, Goal
+from .goals import ERROR, OVER_FACE
 
 UNUSABLE = 1e6
 """What the search is told instead of a goal where a design failed; one that breaks bounds is told a thousandth of it

@@ -8,12 +8,13 @@ from dataclasses import dataclass
 
 from fenics_gears import SceneError, expected_cost
 from fenics_gears.command_line import seconds_in_words
-from fenics_gears.extensions.optimization.conditions import FRESH
-from fenics_gears.extensions.optimization.design import Design
 from fenics_gears.runs.condensing import gear_tasks
 from fenics_gears.runs.gear_store import operators_key
 from fenics_gears.runs.run import Run, run_of
 from fenics_gears.studies.scenes import NoScene, model_of_tree
+
+from .conditions import FRESH
+from .design import Design
 
 MOST_HOURS = 8.0
 # Of a run beside its march: seconds, and positions whose operators extremes between steps take (measured on the paper's

@@ -12,12 +12,6 @@ import numpy as np
 
 from fenics_gears import ComputationError
 from fenics_gears.command_line import check_writable
-from fenics_gears.extensions.optimization.conditions import samples
-from fenics_gears.extensions.optimization.design import Design
-from fenics_gears.extensions.optimization.design_file import load_design
-from fenics_gears.extensions.optimization.evaluations import Evaluation, Evaluator
-from fenics_gears.extensions.optimization.expected import TORQUES, VALUES, Work, at_ends, expected_work
-from fenics_gears.extensions.optimization.search import front, optimiser, search
 from fenics_gears.inputs.tree import Tree
 from fenics_gears.runs.folder import sole_writer
 from fenics_gears.runs.team import Alone, Together, ranks
@@ -26,6 +20,13 @@ from fenics_gears.studies.axis import number_in
 from fenics_gears.studies.scenes import model_of_tree
 from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.progress import Progress
+
+from .conditions import samples
+from .design import Design
+from .design_file import load_design
+from .evaluations import Evaluation, Evaluator
+from .expected import TORQUES, VALUES, Work, at_ends, expected_work
+from .search import front, optimiser, search
 
 RESULT, TABLE, BEST = "optimization.nc", "designs.csv", "best.toml"
 NOT_IN_A_HARRIS_MAP = ("inertia", "damping", "motion", "speed_ramp", "torque_ripple")

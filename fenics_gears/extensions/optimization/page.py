@@ -6,7 +6,12 @@ from __future__ import annotations
 from pathlib import Path
 
 from fenics_gears.command_line import write_whole
-from fenics_gears.extensions.optimization.charts import (
+from fenics_gears.show.report.origin import made_by, scene_section
+from fenics_gears.show.report.overview import counted
+from fenics_gears.show.report.page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words
+from fenics_gears.show.report.rendering import rendered
+
+from .charts import (
     BEFORE,
     called,
     front_chart,
@@ -20,13 +25,9 @@ from fenics_gears.extensions.optimization.charts import (
     tolerance_rows,
     variable_chart,
 )
-from fenics_gears.extensions.optimization.charts import BEST as CHOSEN
-from fenics_gears.extensions.optimization.optimize import Outcome
-from fenics_gears.extensions.optimization.result import BEST, TABLE, best_scene
-from fenics_gears.show.report.origin import made_by, scene_section
-from fenics_gears.show.report.overview import counted
-from fenics_gears.show.report.page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words
-from fenics_gears.show.report.rendering import rendered
+from .charts import BEST as CHOSEN
+from .optimize import Outcome
+from .result import BEST, TABLE, best_scene
 
 PAGE = "report.html"
 MOST_ROWS = 50

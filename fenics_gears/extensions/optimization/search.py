@@ -13,8 +13,9 @@ import warnings
 from collections.abc import Callable, Sequence
 
 from fenics_gears import ComputationError
-from fenics_gears.extensions.optimization.design import Design
-from fenics_gears.extensions.optimization.evaluations import Evaluation
+
+from .design import Design
+from .evaluations import Evaluation
 
 Values = dict[str, float | str]
 

@@ -8,19 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears import load_scene, units
-from fenics_gears.extensions.optimization.design import (
-    MEAN,
-    QUANTILE,
-    WORST,
-    Bound,
-    Goal,
-    Loads,
-    Scatter,
-    Search,
-    Tolerances,
-    Variable,
-)
-from fenics_gears.extensions.optimization.goals import NAMES, unit_and_words
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import line_numbers
 from fenics_gears.inputs.written import as_written
@@ -28,6 +15,9 @@ from fenics_gears.scene.read import parsed
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import AxisError, factor_of, number_in, values_of
 from fenics_gears.studies.study_file import Mistakes, entries
+
+from .design import MEAN, QUANTILE, WORST, Bound, Goal, Loads, Scatter, Search, Tolerances, Variable
+from .goals import NAMES, unit_and_words
 
 KEYS = ("title", "scene", "without", "set", "variables", "loads", "goals", "tolerances", "constraints", "search")
 EXAMPLES = {"variables": 'tip_relief.depth = ["5 um", "60 um"]', "goals": "peak_to_peak_transmission_error = 1"}
@@ -64,27 +54,19 @@ class Sections:
         """Raise SceneError where the file has other sections than it may have, or lacks one that it must have."""
         for key, value in self.tree.items():
             if key not in KEYS:
-                self.mistakes.add(
-                    (key,),
-                    as_written(value),
-                    f"is not known in a design file.{did_you_mean(key, KEYS)} Known: {', '.join(KEYS)}.",
-                )
+                known = f"{did_you_mean(key, KEYS)} Known: {', '.join(KEYS)}."
+                self.mistakes.add((key,), as_written(value), f"is not known in a design file.{known}")
             elif key not in ("title", "scene", "without") and not isinstance(value, Mapping):
                 self.mistakes.add((key,), as_written(value), f"is not a section. Write a line [{key}].")
         if not isinstance(self.tree.get("title", ""), str):
             self.mistakes.add(("title",), as_written(self.tree["title"]), "is not a text.")
         if not isinstance(self.tree.get("scene"), str | Mapping):
-            self.mistakes.add(
-                ("scene",),
-                None,
-                'is missing. Allowed: the file of the scene, such as "lundvall2004.toml", or its sections below'
-                " [scene].",
-            )
+            message = 'is missing. Allowed: the file of the scene, such as "lundvall2004.toml", or its sections below'
+            self.mistakes.add(("scene",), None, f"{message} [scene].")
         for key, example in EXAMPLES.items():
             if not self.tree.get(key):
-                self.mistakes.add(
-                    (key,), None, f"is missing. Add the section [{key}] with at least one line, such as {example}."
-                )
+                message = f"is missing. Add the section [{key}] with at least one line, such as {example}."
+                self.mistakes.add((key,), None, message)
         self.mistakes.check()
 
     def scene(self) -> tuple[Mapping[str, Any], Path]:
@@ -99,32 +81,12 @@ class Sections:
         """The fields that vary, with their ranges or words."""
         found = []
         for path, written in entries(self.tree, "variables", self.mistakes):
-            name = ".".join(path)
-            if fields.is_section(path):
-                self.wrong(
-                    "variables",
-                    name,
-                    written,
-                    "is a section. Allowed: one of its fields, with the two ends of its range.",
-                )
-            elif not isinstance(written, list) or len(written) < 2:
-                self.wrong(
-                    "variables",
-                    name,
-                    written,
-                    'is not a range. Allowed: its two ends, such as ["5 um", "60 um"], or for a choice its words.',
-                )
+            if mistake := _not_variable(path, written):
+                self.wrong("variables", ".".join(path), written, mistake)
             elif fields.is_numeric(path):
-                found += self._range(path, name, written)
-            elif all(isinstance(each, str) for each in written) and len({*written}) == len(written):
-                found.append(Variable(path, words=tuple(written)))
+                found += self._range(path, ".".join(path), written)
             else:
-                self.wrong(
-                    "variables",
-                    name,
-                    written,
-                    "takes no numbers between two ends. Allowed: a list of different words to choose from.",
-                )
+                found.append(Variable(path, words=tuple(written)))
         return tuple(found)
 
     def _range(self, path: fields.Path, name: str, written: list) -> list[Variable]:
@@ -180,52 +142,36 @@ class Sections:
             listed = ", ".join(f"{'.'.join(path)} has {len(values)}" for path, values in swept.items())
             self.mistakes.add(("loads",), "", f"needs a value of each field for each operating point: {listed}.")
         combine, weights = self._word("loads", "combine", MEAN, WORST), table.get("weights")
-        if weights is not None and combine == WORST:
-            self.wrong(
-                "loads",
-                "weights",
-                weights,
-                'stands beside combine = "worst", where all operating points count alike. Leave one out.',
-            )
-        sound = (
-            isinstance(weights, list)
-            and len(weights) in lengths
-            and all(is_number(each) and each >= 0 for each in weights)
-            and sum(weights) > 0
-        )
-        if weights is not None and not sound:
-            self.wrong(
-                "loads",
-                "weights",
-                weights,
-                f"is not a list of {max(lengths)} numbers of 0 and above. Allowed: a weight for each operating point.",
-            )
         points = tuple(dict(zip(swept, values)) for values in zip(*swept.values())) or ({},)
-        return Loads(points, tuple(map(float, weights)) if sound else (1.0,) * len(points), combine)
+        if weights is None:
+            return Loads(points, (1.0,) * len(points), combine)
+        if combine == WORST:
+            message = 'stands beside combine = "worst", where all operating points count alike. Leave one out.'
+            self.wrong("loads", "weights", weights, message)
+        numbers = isinstance(weights, list) and all(is_number(each) and each >= 0 for each in weights)
+        if not (numbers and len(weights) in lengths and sum(weights) > 0):
+            message = (
+                f"is not a list of {max(lengths)} numbers of 0 and above. Allowed: a weight for each operating point."
+            )
+            self.wrong("loads", "weights", weights, message)
+            return Loads(points, (1.0,) * len(points), combine)
+        return Loads(points, tuple(map(float, weights)), combine)
 
     def goals(self) -> tuple[Goal, ...]:
         """The numbers that are to be small."""
         found = []
         for name, weight in self.table("goals").items():
             if not (is_number(weight) and weight > 0):
-                self.wrong(
-                    "goals",
-                    name,
-                    weight,
-                    "is not a weight. Allowed: a number above 0; it counts where several goals are weighed up.",
-                )
+                message = "is not a weight. Allowed: a number above 0; it counts where several goals are weighed up."
+                self.wrong("goals", name, weight, message)
             elif self._is_result("goals", name, weight):
                 found.append(Goal(name, *unit_and_words(name), float(weight)))
         return tuple(found)
 
     def _is_result(self, table: str, name: str, value: Any) -> bool:
         if name not in NAMES:
-            self.wrong(
-                table,
-                name,
-                value,
-                f"is no number of a result that can be a goal.{did_you_mean(name, NAMES)} Known: {', '.join(NAMES)}.",
-            )
+            known = f"{did_you_mean(name, NAMES)} Known: {', '.join(NAMES)}."
+            self.wrong(table, name, value, f"is no number of a result that can be a goal.{known}")
         return name in NAMES
 
     def bounds(self) -> tuple[Bound, ...]:
@@ -242,12 +188,8 @@ class Sections:
             )
             if not ends or None in ends.values() or len(ends) != len(written):
                 example = "1.2" if unit == "1" else f'"20 {unit}"'
-                self.wrong(
-                    "constraints",
-                    name,
-                    written,
-                    f"is no bound. Allowed: {{ at_most = {example} }}, and at_least likewise.",
-                )
+                message = f"is no bound. Allowed: {{ at_most = {example} }}, and at_least likewise."
+                self.wrong("constraints", name, written, message)
             else:
                 found.append(Bound(Goal(name, unit, words), **ends))
         return tuple(found)
@@ -261,52 +203,31 @@ class Sections:
                 continue
             numbers, unit = self._numbers("tolerances", path, [written])
             if numbers and not numbers[0] > 0.0:
-                self.wrong(
-                    "tolerances",
-                    ".".join(path),
-                    written,
-                    "is not above zero. Allowed: the limit of the scatter on either side.",
-                )
+                message = "is not above zero. Allowed: the limit of the scatter on either side."
+                self.wrong("tolerances", ".".join(path), written, message)
             elif numbers:
                 found.append(Scatter(path, numbers[0], unit, *fields.allowed_at(path)[1:]))
         tolerance_class = self._whole("tolerances", "tolerance_class", None)
         if table and not found and tolerance_class is None:
-            self.mistakes.add(
-                ("tolerances",),
-                "",
-                "has nothing that scatters. Add tolerance_class, or a field with its limit, such as tip_relief.depth ="
-                ' "4 um".',
-            )
+            message = "has nothing that scatters. Add tolerance_class, or a field with its limit, such as"
+            self.mistakes.add(("tolerances",), "", f'{message} tip_relief.depth = "4 um".')
         number, quantile = self._whole("tolerances", "samples", 32), table.get("quantile", 0.9)
         if number & (number - 1):
-            self.wrong(
-                "tolerances",
-                "samples",
-                number,
-                "is no power of two, as Sobol's sequence needs. Allowed: 8, 16, 32, 64, ...",
-            )
+            message = "is no power of two, as Sobol's sequence needs. Allowed: 8, 16, 32, 64, ..."
+            self.wrong("tolerances", "samples", number, message)
         if not (is_number(quantile) and 0.5 <= quantile < 1.0):
-            self.wrong(
-                "tolerances",
-                "quantile",
-                quantile,
-                "is not allowed. Allowed: a number from 0.5 to below 1, such as 0.9.",
-            )
-        return (
-            Tolerances(
-                tuple(found), number if table else 1, quantile, self._word("tolerances", "judged", MEAN, QUANTILE)
-            ),
-            tolerance_class,
-        )
+            message = "is not allowed. Allowed: a number from 0.5 to below 1, such as 0.9."
+            self.wrong("tolerances", "quantile", quantile, message)
+        judged = self._word("tolerances", "judged", MEAN, QUANTILE)
+        return Tolerances(tuple(found), number if table else 1, quantile, judged), tolerance_class
 
     def search(self) -> Search:
         """How long is searched, and from which seed."""
         defaults = {"evaluations": 200, "population": 8, "seed": 1}
         for key, value in self.table("search").items():
             if key not in defaults:
-                self.wrong(
-                    "search", key, value, f"is not known.{did_you_mean(key, defaults)} Known: {', '.join(defaults)}."
-                )
+                known = f"{did_you_mean(key, defaults)} Known: {', '.join(defaults)}."
+                self.wrong("search", key, value, f"is not known.{known}")
         return Search(*(self._whole("search", name, default) for name, default in defaults.items()))
 
     def _word(self, table: str, name: str, *words: str) -> str:
@@ -323,6 +244,18 @@ class Sections:
         return default
 
 
+def _not_variable(path: fields.Path, written: Any) -> str:
+    """Why a field does not vary as it is written; empty where it does, but for the ends of a range."""
+    if fields.is_section(path):
+        return "is a section. Allowed: one of its fields, with the two ends of its range."
+    if not isinstance(written, list) or len(written) < 2:
+        return 'is not a range. Allowed: its two ends, such as ["5 um", "60 um"], or for a choice its words.'
+    words = all(isinstance(each, str) for each in written) and len({*written}) == len(written)
+    if not (words or fields.is_numeric(path)):
+        return "takes no numbers between two ends. Allowed: a list of different words to choose from."
+    return ""
+
+
 def is_number(value: Any) -> bool:
     """Whether a value is a finite number without unit."""
     return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
@@ -332,11 +265,9 @@ def _in_unit(value: Any, unit: str) -> float | None:
     """A bound in the unit of a result; None where it is of another kind."""
     if unit == "1":
         return value if is_number(value) else None
+    if not isinstance(value, str):
+        return None
     try:
-        return (
-            units.of_kind(value, units.quantity(f"1 {unit}")[1])[0] / factor_of(unit)
-            if isinstance(value, str)
-            else None
-        )
+        return units.of_kind(value, units.quantity(f"1 {unit}")[1])[0] / factor_of(unit)
     except units.QuantityError:
         return None

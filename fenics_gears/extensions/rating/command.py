@@ -35,7 +35,7 @@ _NUMBERS = {
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    from fenics_gears.extensions.rating.finish import Finish
+    from .finish import Finish
 
     defaults = {each.name: each.default for each in fields(Finish)}
     command = commands.add_parser(
@@ -60,7 +60,8 @@ def _option(name: str) -> str:
 def rate(options: argparse.Namespace) -> int:
     """Print and write the table."""
     from fenics_gears import carried_scene
-    from fenics_gears.extensions.rating import rating
+
+    from . import rating
 
     file = run_file(options.run)
     output = options.output or file.parent / FILE
@@ -81,7 +82,7 @@ def rate(options: argparse.Namespace) -> int:
 
 def _finish(options: argparse.Namespace, scene):
     """Material, finish and oil of the options. Raises SceneError for values out of range."""
-    from fenics_gears.extensions.rating.finish import Finish
+    from .finish import Finish
 
     given = {}
     if scene.flank_errors is not None and scene.flank_errors.tolerance_class is not None:

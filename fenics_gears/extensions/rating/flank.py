@@ -6,9 +6,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import cos, pi, sin, sqrt, tan
 
-from fenics_gears.extensions.rating.finish import Finish
-from fenics_gears.extensions.rating.load_factors import LoadFactors, contact_ratio_factor
-from fenics_gears.extensions.rating.operation import Operation
+from .finish import Finish
+from .load_factors import LoadFactors, contact_ratio_factor
+from .operation import Operation
 
 
 @dataclass(frozen=True)

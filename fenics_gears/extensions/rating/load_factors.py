@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from math import cos, hypot, pi, sin, sqrt
 
 from fenics_gears import flank_tolerance, helix_tolerance
-from fenics_gears.extensions.rating.finish import Finish
-from fenics_gears.extensions.rating.operation import Operation
+
+from .finish import Finish
+from .operation import Operation
 
 
 @dataclass(frozen=True)

@@ -10,12 +10,13 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears import GearPair, Scene, SceneError, gear_pair, lumped_gears, of_settled
-from fenics_gears.extensions.rating.finish import Finish
-from fenics_gears.extensions.rating.flank import flank_stress
-from fenics_gears.extensions.rating.flash_temperature import flash_temperature, standard_share, transverse_line_force
-from fenics_gears.extensions.rating.load_factors import load_factors, mesh_misalignment
-from fenics_gears.extensions.rating.operation import Operation, solid_reduced_mass
-from fenics_gears.extensions.rating.root import root_stresses
+
+from .finish import Finish
+from .flank import flank_stress
+from .flash_temperature import flash_temperature, standard_share, transverse_line_force
+from .load_factors import load_factors, mesh_misalignment
+from .operation import Operation, solid_reduced_mass
+from .root import root_stresses
 
 KILOGRAM = 1e3
 # Points along the path of contact at which the standard's flash temperature is taken.

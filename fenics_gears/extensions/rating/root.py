@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 from math import acos, cos, degrees, pi, sin, sqrt, tan
 
 from fenics_gears import Gear, base_helix_angle, involute_function
-from fenics_gears.extensions.rating.finish import Finish
-from fenics_gears.extensions.rating.load_factors import LoadFactors
-from fenics_gears.extensions.rating.operation import Operation
+
+from .finish import Finish
+from .load_factors import LoadFactors
+from .operation import Operation
 
 # Of the standard's test gear: sigma_FE = 2 sigma_Flim.
 STRESS_CORRECTION_OF_TEST_GEAR = 2.0

@@ -10,19 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
-from fenics_gears.extensions.rexs.model import Component
-from fenics_gears.extensions.rexs.stage import GearParts, Stage
-from fenics_gears.extensions.rexs.values import (
-    COUNT,
-    MODULES,
-    NUMBER,
-    SPEED,
-    Value,
-    ValueProblem,
-    place,
-    together,
-    value_of,
-)
+from .model import Component
+from .stage import GearParts, Stage
+from .values import COUNT, MODULES, NUMBER, SPEED, Value, ValueProblem, place, together, value_of
 
 Found = TypeVar("Found")
 Place = tuple[Component, str, str]

@@ -35,7 +35,7 @@ def import_rexs(options: argparse.Namespace) -> int:
     """Write the scene, once it is found right, and say what was assumed and left out."""
     output = options.output or Path((options.file.stem.removesuffix(".rexs") or "scene") + ".toml")
     _check_output(output)
-    from fenics_gears.extensions.rexs.imported import Choice, imported_scene
+    from .imported import Choice, imported_scene
 
     choice = Choice(options.stage, options.load_case, options.wheel_torque, options.pinion_speed)
     imported = imported_scene(options.file, choice)

@@ -4,30 +4,12 @@ from __future__ import annotations
 
 from math import cos, isclose, sqrt
 
-from fenics_gears.extensions.rexs.attributes import (
-    NO_PLACE,
-    NO_PLACE_OF_RELIEFS,
-    Place,
-    Reading,
-    given,
-    missing,
-    positive,
-)
-from fenics_gears.extensions.rexs.gears import ROUNDED, Sections, transverse_angle
-from fenics_gears.extensions.rexs.lead import LEAD_TYPES
-from fenics_gears.extensions.rexs.model import Component
-from fenics_gears.extensions.rexs.stage import GearParts, Stage
-from fenics_gears.extensions.rexs.values import (
-    SAME,
-    Value,
-    ValueProblem,
-    computed,
-    in_words,
-    place,
-    together,
-    value_of,
-    word_of,
-)
+from .attributes import NO_PLACE, NO_PLACE_OF_RELIEFS, Place, Reading, given, missing, positive
+from .gears import ROUNDED, Sections, transverse_angle
+from .lead import LEAD_TYPES
+from .model import Component
+from .stage import GearParts, Stage
+from .values import SAME, Value, ValueProblem, computed, in_words, place, together, value_of, word_of
 
 POWERS = {"linear": 1, "parabolic": 2}
 TIP, ROOT = "tip_relief", "root_relief"

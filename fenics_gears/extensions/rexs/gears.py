@@ -7,9 +7,10 @@ from functools import partial
 from math import acos, atan, cos, isclose, tan
 
 from fenics_gears import RACKS
-from fenics_gears.extensions.rexs.attributes import Reading, every, first, given, needed
-from fenics_gears.extensions.rexs.stage import GearParts, Stage
-from fenics_gears.extensions.rexs.values import Value, ValueProblem, agreed, bare, computed, place, together
+
+from .attributes import Reading, every, first, given, needed
+from .stage import GearParts, Stage
+from .values import Value, ValueProblem, agreed, bare, computed, place, together
 
 # By the section of a scene ("gears.pinion"), its fields; None for what was not found, which is among the reading's
 # problems.

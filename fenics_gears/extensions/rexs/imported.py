@@ -7,16 +7,17 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fenics_gears import SceneError, units
-from fenics_gears.extensions.rexs.attributes import Reading, first
-from fenics_gears.extensions.rexs.flanks import note_what_is_left_out, relief_sections, tolerance_class
-from fenics_gears.extensions.rexs.gears import Sections, gear_sections
-from fenics_gears.extensions.rexs.lead import lead_sections
-from fenics_gears.extensions.rexs.loads import loaded_model, pinion_speed, wheel_torque
-from fenics_gears.extensions.rexs.model import Model
-from fenics_gears.extensions.rexs.read import read_model
-from fenics_gears.extensions.rexs.scene_text import scene_text
-from fenics_gears.extensions.rexs.stage import Stage, chosen_stage
-from fenics_gears.extensions.rexs.values import Value, ValueProblem
+
+from .attributes import Reading, first
+from .flanks import note_what_is_left_out, relief_sections, tolerance_class
+from .gears import Sections, gear_sections
+from .lead import lead_sections
+from .loads import loaded_model, pinion_speed, wheel_torque
+from .model import Model
+from .read import read_model
+from .scene_text import scene_text
+from .stage import Stage, chosen_stage
+from .values import Value, ValueProblem
 
 # Options that stand in for what the file says, with an example each.
 TORQUE, SPEED = ("--wheel-torque", "437 N m"), ("--pinion-speed", "750 rpm")

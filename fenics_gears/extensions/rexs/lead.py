@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from math import isclose
 
-from fenics_gears.extensions.rexs.attributes import Reading, missing, needed, positive
-from fenics_gears.extensions.rexs.model import Component
-from fenics_gears.extensions.rexs.stage import GearParts, Stage
-from fenics_gears.extensions.rexs.values import SAME, Value, ValueProblem, computed, place, value_of, word_of
+from .attributes import Reading, missing, needed, positive
+from .model import Component
+from .stage import GearParts, Stage
+from .values import SAME, Value, ValueProblem, computed, place, value_of, word_of
 
 CROWNING, SLOPE, DATUM, OPPOSITE = "helix_crowning", "helix_slope", "end_relief_datum_face", "end_relief_non_datum_face"
 LEAD_TYPES = (CROWNING, SLOPE, DATUM, OPPOSITE)

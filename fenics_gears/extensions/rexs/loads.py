@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from fenics_gears.extensions.rexs.attributes import every, first
-from fenics_gears.extensions.rexs.model import Component, Model
-from fenics_gears.extensions.rexs.stage import GearParts, Stage
-from fenics_gears.extensions.rexs.values import Value, ValueProblem, computed, together, value_of, word_of
+from .attributes import every, first
+from .model import Component, Model
+from .stage import GearParts, Stage
+from .values import Value, ValueProblem, computed, together, value_of, word_of
 
 RPM = 0.10471975511965977  # rad/s
 ASSUMED_SPEED = 100.0

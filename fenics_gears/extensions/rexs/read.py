@@ -13,7 +13,8 @@ from typing import Any
 from xml.etree import ElementTree
 
 from fenics_gears import SceneError, user_file
-from fenics_gears.extensions.rexs.model import Model, ModelError, checked_model
+
+from .model import Model, ModelError, checked_model
 
 # Bytes: models of whole gearboxes have some hundred kilobytes, with results some megabytes.
 LARGEST = 200 * user_file.MEGABYTE

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from fenics_gears import toml_value
-from fenics_gears.extensions.rexs.model import Model
-from fenics_gears.extensions.rexs.stage import Stage
-from fenics_gears.extensions.rexs.values import Value
+
+from .model import Model
+from .stage import Stage
+from .values import Value
 
 # Where the comments begin.
 COLUMN = 44

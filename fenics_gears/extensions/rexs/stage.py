@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fenics_gears.extensions.rexs.model import Component, Model, Relation
-from fenics_gears.extensions.rexs.values import COUNT, ValueProblem, value_of, word_of
+from .model import Component, Model, Relation
+from .values import COUNT, ValueProblem, value_of, word_of
 
 CYLINDRICAL, EXTERNAL, INTERNAL = "cylindrical_stage", "cylindrical_gear", "ring_gear"
 RACK_TOOL = "rack_shaped_tool"

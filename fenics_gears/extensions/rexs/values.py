@@ -12,7 +12,8 @@ from math import isclose
 import numpy as np
 
 from fenics_gears import units
-from fenics_gears.extensions.rexs.model import Attribute, Component
+
+from .model import Attribute, Component
 
 # REXS's own spellings, as scenes write them. A frequency of REXS counts turns: where a speed is asked for, and only
 # there, "1 / min" is one.
