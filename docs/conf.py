@@ -12,7 +12,14 @@ project_copyright = "the fenics_gears authors"
 root_doc = "docs/index"
 extensions = ["myst_parser", "sphinx.ext.mathjax"]
 
-include_patterns = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "demos/*/README.md"]
+include_patterns = [
+    "README.md",
+    "CONTRIBUTING.md",
+    "CHANGELOG.md",
+    "docs/*.md",
+    "docs/evidence/*.md",
+    "demos/*/README.md",
+]
 # Folders that need not be searched for pages.
 exclude_patterns = [
     ".git",

@@ -1,9 +1,10 @@
-"""What accuracy of the paper's scene costs, into docs/accuracy.md and docs/performance.md: `python -m
+"""What accuracy of the paper's scene costs, into docs/evidence/accuracy.md and docs/evidence/performance.md: `python -m
 tests.benchmarks.accuracy_of_paper`.
 
 Runs what `gears accuracy` runs on demos/lundvall2004.toml quasi-static and at 200 Hz, with friction and without; writes
 each one's tables between its two markers, its picture to docs/pictures/ and all its numbers beside it as CSV; then, of
-all four together, a picture and a table into docs/performance.md, and the orders of all four into docs/accuracy.md.
+all four together, a picture and a table into docs/evidence/performance.md, and the orders of all four into
+docs/evidence/accuracy.md.
 Times are this machine's; errors must not change. Names of scenes as arguments run those alone.
 """
 
@@ -27,8 +28,8 @@ from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import LineProgress, Progress
 
 ROOT = Path(__file__).parents[2]
-SCENE, PAGE, PICTURES = ROOT / "demos" / "lundvall2004.toml", ROOT / "docs" / "accuracy.md", ROOT / "docs" / "pictures"
-OVERVIEW = ROOT / "docs" / "performance.md"
+SCENE, PICTURES, EVIDENCE = ROOT / "demos" / "lundvall2004.toml", ROOT / "docs" / "pictures", ROOT / "docs" / "evidence"
+PAGE, OVERVIEW = EVIDENCE / "accuracy.md", EVIDENCE / "performance.md"
 
 
 def scenes() -> dict[str, Scene]:
@@ -63,9 +64,9 @@ def section(name: str, report: AccuracyReport) -> str:
         for remark in (*table.remarks(report), *(f"not run: {what}: {why}" for what, why in report.failures))
     ]
     return "\n".join([
-        f"**{table.in_one_sentence(report)}**", "", f"![](pictures/accuracy_{name}.png)", "",
+        f"**{table.in_one_sentence(report)}**", "", f"![](../pictures/accuracy_{name}.png)", "",
         f"Combinations of settings, and cheaper models; \\* on the Pareto front. All numbers: "
-        f"[accuracy_{name}.csv](pictures/accuracy_{name}.csv).",
+        f"[accuracy_{name}.csv](../pictures/accuracy_{name}.csv).",
         "",
         *(line.replace(" *|", " \\*|") for line in whole), "",
         f"Each setting alone, the others at {report.fine.words}:", "", *own, "", *remarks, "", measured,
@@ -94,7 +95,7 @@ def main() -> None:
     parser.add_argument(
         "--write-again",
         action="store_true",
-        help="all pictures, and the table of docs/performance.md, from what is saved, without measuring",
+        help="all pictures, and the table of docs/evidence/performance.md, from what is saved, without measuring",
     )
     parser.add_argument(
         "--times-again",
@@ -140,8 +141,8 @@ def timed_again(report: AccuracyReport, rounds: int, progress: Progress) -> Accu
 
 
 def write_overview() -> None:
-    """All scenes together, from what is saved of them, into docs/performance.md; the orders of all into
-    docs/accuracy.md."""
+    """All scenes together, from what is saved of them, into docs/evidence/performance.md; the orders of all into
+    docs/evidence/accuracy.md."""
     from fenics_gears.show.plots import save_figure
 
     found = {name: overview(PICTURES / f"accuracy_{name}.csv") for name in TITLES}

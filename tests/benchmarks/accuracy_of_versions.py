@@ -4,7 +4,7 @@ tests.benchmarks.accuracy_of_versions OTHER_CHECKOUT [SCENE ...]`.
 Runs SETTINGS of the paper's scene (scenes as in `accuracy_of_paper`) in this checkout and in another one, in turns and
 without the cache, and compares both with this version's reference. Errors are those of T_E (L2 at common steps, mean
 removed) and of T_EPP. Writes the picture docs/pictures/accuracy_versions.png, the numbers beside it, and the section of
-docs/accuracy.md.
+docs/evidence/accuracy.md.
 """
 
 from __future__ import annotations
@@ -236,14 +236,14 @@ def section(found: list[Point], floors: dict[str, float], where: dict[str, str],
             costs = "|".join(cost(found, name, version, target) if target >= floor else "unknown" for target in TARGETS)
             lines.append(f"|{TITLES[name]}|{version}|{costs}|{percent(floor)}|")
     return "\n".join([
-        "![Error against time before and now](pictures/accuracy_versions.png)", "", *lines, "",
+        "![Error against time before and now](../pictures/accuracy_versions.png)", "", *lines, "",
         f"{len(ELEMENTS) * len(STEP_COUNTS)} settings: {', '.join(f'{each:g}' for each in ELEMENTS)} flank elements "
         f"in a half-width, "
         f"{', '.join(map(str, STEP_COUNTS))} steps. Errors are distances from the reference, the larger of T_E and "
         f"T_EPP; before: revision {revision}. "
         f"Times are medians of {found[0].rounds} in turns. {where['processor']}, load {where['load']}; "
         f"{where['versions']}. "
-        "All numbers: [accuracy_versions.csv](pictures/accuracy_versions.csv).",
+        "All numbers: [accuracy_versions.csv](../pictures/accuracy_versions.csv).",
     ])  # fmt: skip
 
 

@@ -88,7 +88,7 @@ def overview(file: Path) -> Overview:
 
 
 def table_lines(found: dict[str, Overview]) -> list[str]:
-    """The table of docs/performance.md."""
+    """The table of docs/evidence/performance.md."""
     headings = [
         "scene",
         *(f"{100 * target:g} % costs" for target in TARGETS),
@@ -213,7 +213,7 @@ def overview_section(found: dict[str, Overview]) -> str:
     machine = next(iter(found.values())).machine
     loads = ", ".join(each.machine["load"] for each in found.values())
     return "\n".join([
-        "![What accuracy of the paper's scene costs in time](pictures/accuracy.png)", "", *table_lines(found), "",
+        "![What accuracy of the paper's scene costs in time](../pictures/accuracy.png)", "", *table_lines(found), "",
         "Errors are [total errors](accuracy.md#how-errors-are-measured), the larger of those of T_E and of T_EPP. "
         "Times are medians of "
         f"{min(each.timed for each in found.values())} runs. {machine['processor']}, load {loads}; threads: "

@@ -1,4 +1,4 @@
-"""What the effects of the paper's scene cost and change, into docs/performance.md: `python -m
+"""What the effects of the paper's scene cost and change, into docs/evidence/performance.md: `python -m
 tests.benchmarks.effects_of_paper`.
 
 Runs `gears effects` on demos/lundvall2004.toml, writes its table between two markers of that page and its picture to
@@ -19,7 +19,7 @@ from fenics_gears.system.progress import LineProgress
 ROOT = Path(__file__).parents[2]
 SCENE, PAGE, PICTURE = (
     ROOT / "demos" / "lundvall2004.toml",
-    ROOT / "docs" / "performance.md",
+    ROOT / "docs" / "evidence" / "performance.md",
     ROOT / "docs" / "pictures" / "effects.png",
 )
 BEGIN, END = "<!-- effects of the paper's scene: begin -->", "<!-- effects of the paper's scene: end -->"

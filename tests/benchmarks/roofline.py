@@ -1,7 +1,7 @@
 """What the arithmetic and the memory traffic of a step of the march would take at the processor's best, beside what
 each part takes.
 
-    python -m tests.benchmarks.roofline [SCENE]   # the paper's scene unless given; writes docs/performance.md's table
+    python -m tests.benchmarks.roofline [SCENE]   # the paper's unless given; for docs/evidence/performance.md
 
 Parts are timed one by one, each over all steps of the run in one call of compiled code, with what the march itself
 found; CPU time, best of the rounds. Operations are counted from the sizes that these steps have; traffic is the entries

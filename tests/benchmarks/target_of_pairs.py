@@ -1,5 +1,5 @@
 """`[accuracy] target` on eight pairs and ten at random: true errors and times beside the cheapest settings that reach
-the target, written into docs/accuracy.md.
+the target, written into docs/evidence/accuracy.md.
 
     python -m tests.benchmarks.target_of_pairs [--only NAME]
 
@@ -156,7 +156,7 @@ def rows_of(name: str, scene: Scene, not_reached: list[str]) -> tuple[list[Row],
 
 
 def page(rows: list[Row], references: dict[str, Reference], not_reached: list[str]) -> str:
-    """The section of docs/accuracy.md."""
+    """The section of docs/evidence/accuracy.md."""
     lines = [f"|{'|'.join(HEADINGS)}|", "|" + "---|" * len(HEADINGS), *(f"|{'|'.join(row.cells)}|" for row in rows)]
     uncertain = "; ".join(f"{name}: {100.0 * each.uncertainty:.2g} %" for name, each in references.items())
     where, within = machine(), sum(row.true <= row.target for row in rows)
@@ -200,7 +200,7 @@ def main() -> None:
         rows += found
         if options.only is None:
             write_section(
-                ROOT / "docs/accuracy.md",
+                ROOT / "docs/evidence/accuracy.md",
                 "<!-- target: begin -->",
                 "<!-- target: end -->",
                 page(rows, references, not_reached),

@@ -1,4 +1,4 @@
-"""How time and memory grow, into docs/growth.md: `python -m tests.benchmarks.growth [axis ...]`.
+"""How time and memory grow, into docs/evidence/growth.md: `python -m tests.benchmarks.growth [axis ...]`.
 
 Runs the points of all axes (`axes.py`, over the face `face_axes.py`), each in a process of its own on one thread;
 writes tables and exponents between the page's markers, pictures and all numbers to docs/pictures/growth.png and
@@ -27,7 +27,7 @@ from fenics_gears.show.plots import save_figure
 from fenics_gears.studies.machine import machine
 
 ROOT = Path(__file__).parents[3]
-PAGE, PICTURES = ROOT / "docs" / "growth.md", ROOT / "docs" / "pictures"
+PAGE, PICTURES = ROOT / "docs" / "evidence" / "growth.md", ROOT / "docs" / "pictures"
 # What grows, by the name of its files.
 GROUPS = {
     "growth": (AXES, PLANE_PAIR),

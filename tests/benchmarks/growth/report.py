@@ -57,7 +57,7 @@ def known(axis: Axis, points: Points, name: str) -> tuple[list[float], list[floa
 
 def section(found: Mapping[str, Points], machine: Mapping[str, str], name: str = "growth") -> str:
     """Both tables of every axis, the picture of a name and what it was measured on."""
-    parts = [f"![](pictures/{name}.png)", "", f"All numbers: [{name}.csv](pictures/{name}.csv)."]
+    parts = [f"![](../pictures/{name}.png)", "", f"All numbers: [{name}.csv](../pictures/{name}.csv)."]
     for axis in those_of(found):
         points = found[axis.name]
         parts += [
