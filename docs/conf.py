@@ -5,12 +5,17 @@ The source is the whole checkout, so that links between pages, to pictures and t
 forge.
 """
 
+import inspect
+import sys
 from pathlib import Path
+
+# The page of the Python interface is made from the checkout's own docstrings.
+sys.path.insert(0, str(Path(__file__).parents[1]))
 
 project = "fenics_gears"
 project_copyright = "the fenics_gears authors"
 root_doc = "docs/index"
-extensions = ["myst_parser", "sphinx.ext.mathjax"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax"]
 
 include_patterns = [
     "README.md",
@@ -37,6 +42,11 @@ myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 4
 # A link or an anchor that leads nowhere is a warning, and a warning ends the build (docs/build).
 nitpicky = True
+# Types in signatures are shown, not linked: the documentation of xarray and numpy is elsewhere.
+nitpick_ignore_regex = [("py:.*", ".*")]
+# Reading docstrings needs no finite elements and starts no MPI.
+autodoc_mock_imports = ["basix", "dolfinx", "gmsh", "mpi4py", "petsc4py", "pyvista", "ufl", "vtk"]
+default_role = "code"
 # Pages whose middle is written by a measurement may begin it a level down.
 suppress_warnings = ["myst.header"]
 
@@ -87,6 +97,20 @@ def copy_mathjax(app, failure):
             shutil.copy(source, target / part)
 
 
+def parameters(app, what, name, thing, options, lines):
+    """Lines "name: meaning" of a docstring are a list of parameters; what follows a line without a gap belongs to it."""
+    known = inspect.signature(thing).parameters if inspect.isfunction(thing) else ()
+    inside = False
+    for place, line in enumerate(lines):
+        if line.partition(":")[0] in known:
+            lines[place], inside = f":param {line}", True
+        elif inside and line:
+            lines[place] = f"    {line.strip()}"
+        else:
+            inside = False
+
+
 def setup(app):
     """Called by Sphinx."""
+    app.connect("autodoc-process-docstring", parameters)
     app.connect("build-finished", copy_mathjax)

@@ -47,8 +47,9 @@ def helix_tolerance(reference_diameter: float, face_width: float, tolerance_clas
     """Tolerances of a gear (diameter d and face width b in mm) in a class A from 1 to 11; d from 5 mm to 15 m, b from 4
     mm to 1.2 m.
 
-    >>> round(1e3 * helix_tolerance(100.0, 25.0, 5).slope, 3), round(1e3 * helix_tolerance(100.0, 25.0, 5).form, 3)  #
-    um (6.25, 6.95)
+    >>> tolerance = helix_tolerance(100.0, 25.0, 5)
+    >>> round(1e3 * tolerance.slope, 3), round(1e3 * tolerance.form, 3)  # um
+    (6.25, 6.95)
     """
     d, b, step = reference_diameter, face_width, MICROMETRE * sqrt(2.0) ** (tolerance_class - 5)
     return HelixTolerance(
@@ -62,8 +63,8 @@ def flank_tolerance(reference_diameter: float, module: float, tolerance_class: i
 
     Class 5 of a gear of 100 mm and module 4 mm, and two classes on:
 
-    >>> round(1e3 * flank_tolerance(100.0, 4.0, 5).single_pitch, 3), round(1e3 * flank_tolerance(100.0, 4.0,
-    7).single_pitch, 3)  # um (6.7, 13.4)
+    >>> [round(1e3 * flank_tolerance(100.0, 4.0, each).single_pitch, 3) for each in (5, 7)]  # um
+    [6.7, 13.4]
     """
     d, m, step = reference_diameter, module, MICROMETRE * sqrt(2.0) ** (tolerance_class - 5)
     return FlankTolerance(

@@ -44,29 +44,27 @@ def simulate(
     of the scene that was run are in `result.attrs`.
 
     With `[accuracy] target` settings are chosen first, by trial runs. The result then has the attributes `target`,
-    `estimated_error`, and
-    `estimated_error: ...` by setting, all in parts of 1, `time_choose` (s), `target_runs`, `target_remarks`; the scene
-        that it carries has the
-    settings in place of the target, so that it repeats the run.
+    `estimated_error`, and `estimated_error: ...` by setting, all in parts of 1, `time_choose` (s), `target_runs`,
+    `target_remarks`. The scene that it carries has the settings in place of the target, so that it repeats the run.
 
     scene: from `load_scene` or `build_scene`, as it is or changed by `dataclasses.replace`.
     progress: is told the stages and how far they are (`system.progress`); nothing is shown unless given.
     cache: where condensed gears are kept (`elasticity.cache.Cache`); that of the user unless given.
-    preparation, comm, journal: for programs that make many runs or share one over MPI; see
-        `simulation.simulate.simulate`.
+    preparation: what many runs share (`simulation.simulate.simulate`).
+    job: the MPI processes that share the run (`system.job`).
+    journal: where steps are written while the run goes on (`results.journal`).
 
     Raises GeometryError before any computation where the gears are impossible; ComputationError where the run does not
-    fit into the memory that it
-    may take, or a stage fails: steps that were computed before are then in its attribute `partial`; TargetNotReached
-        where no settings keep the target.
-    Ctrl-C during the march returns the steps computed so far, with the attribute `complete` 0.
+    fit into the memory that it may take, or a stage fails: steps that were computed before are then in its attribute
+    `partial`; TargetNotReached where no settings keep the target. Ctrl-C during the march returns the steps computed so
+    far, with the attribute `complete` 0.
 
     >>> from fenics_gears import load_scene, simulate
     >>> result = simulate(load_scene("demos/lundvall2004.toml"))
     >>> result.transmission_error.dims, result.transmission_error.attrs["units"]
     (('time',), 'rad')
-    >>> print(f'{result.transmission_error.max().item() * result.attrs["base_radius_wheel"]:.2f} mm along the line of
-    action at most')
+    >>> length = result.transmission_error * result.attrs["base_radius_wheel"]
+    >>> print(f"{length.max().item():.2f} mm along the line of action at most")
     0.16 mm along the line of action at most
     """
     arguments = {
