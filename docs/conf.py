@@ -98,7 +98,7 @@ def copy_mathjax(app, failure):
 
 
 def parameters(app, what, name, thing, options, lines):
-    """Lines "name: meaning" of a docstring are a list of parameters; what follows a line without a gap belongs to it."""
+    """Lines "name: meaning" of a docstring are a list of parameters; what follows without a gap belongs to them."""
     known = inspect.signature(thing).parameters if inspect.isfunction(thing) else ()
     inside = False
     for place, line in enumerate(lines):

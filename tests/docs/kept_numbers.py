@@ -77,7 +77,7 @@ def accuracy() -> str:
         default = next(line for line in own if line["name"] == "the program's defaults")
         cells = (cheapest(own, 0.01), cheapest(own, 0.001), percent(default["total_error"]), default["limited_by"])
         lines.append([title, *cells, percent(own[-1]["judged_error"])])
-    headings = ["scene", "1 % costs", "0.1 % costs", "error of the defaults", "its largest part", "reference uncertain by"]
+    headings = ["scene", "1 % costs", "0.1 % costs", "defaults err by", "its largest part", "reference uncertain by"]
     return "\n".join(table(headings, lines))
 
 
@@ -98,9 +98,7 @@ def target() -> str:
     """How many targets were reached, and what choosing took."""
     found = rows("target_of_pairs")
     reached = sum(float(line["true, %"]) <= float(line["target, %"]) for line in found)
-    choosing, ratios = (
-        [float(line[name]) for line in found if line[name]] for name in ("choosing, in runs", "ratio")
-    )
+    choosing, ratios = ([float(line[name]) for line in found if line[name]] for name in ("choosing, in runs", "ratio"))
     lines = [
         ["pairs and targets", str(len(found))],
         ["targets reached", str(reached)],
