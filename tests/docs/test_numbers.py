@@ -10,7 +10,9 @@ from tests.benchmarks.third_dimension.table import read_rows
 from tests.docs.blocks import ROOT
 from tests.docs.kept_numbers import SCENES, rows
 
+from fenics_gears import build_scene
 from fenics_gears.commands import cli
+from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.rim import too_stiff
 from fenics_gears.simulation.simulate import simulate
 
@@ -89,6 +91,18 @@ def test_how_near_hertz_and_the_standards_are():
     ]
     least, largest = told("docs/third_dimension.md", "misaligned by 5 to 40 µm | N to N % above")
     assert (round(min(above)), round(max(above))) == (least, largest)
+
+
+def test_how_much_contact_undercut_takes():
+    """Authority: ISO 21771's contact ratio of whole involutes; the program's path of contact with undercut."""
+    with_it, without = told("docs/evidence/geometry.md", "has a contact ratio of N in place of N.")
+    gear = {"profile_shift": 0, "bore_diameter": "16 mm"}
+    gears = {"module": "4 mm", "pressure_angle": "20 deg", "face_width": "20 mm", "backlash": "0.1 mm"}
+    gears |= {"pinion": gear | {"teeth": 13}, "wheel": gear | {"teeth": 25}}
+    pair = gear_pair(build_scene({"gears": gears, "load": {"wheel_torque": "100 N m"}}).gears)
+    tips = sum(np.sqrt(each.tip_radius**2 - each.base_radius**2) for each in (pair.pinion, pair.wheel))
+    assert (tips - pair.line_of_action_length) / pair.base_pitch == pytest.approx(without, abs=5e-4)
+    assert pair.contact_ratio == pytest.approx(with_it, abs=5e-4)
 
 
 def test_how_thin_a_rim_may_be(paper_pair):
