@@ -97,20 +97,47 @@ def copy_mathjax(app, failure):
             shutil.copy(source, target / part)
 
 
-def parameters(app, what, name, thing, options, lines):
-    """Lines "name: meaning" of a docstring are a list of parameters; what follows without a gap belongs to them."""
-    known = inspect.signature(thing).parameters if inspect.isfunction(thing) else ()
-    inside = False
+def list_names(app, page, source):
+    """Each public name gets its place on the page of the Python interface; modules stand last, with what they have."""
+    import fenics_gears
+
+    if page != "docs/api":
+        return
+    lines = []
+    things = {name: getattr(fenics_gears, name) for name in fenics_gears.__all__}
+    for name, thing in sorted(things.items(), key=lambda each: inspect.ismodule(each[1])):
+        if inspect.ismodule(thing):
+            lines += ["", f"{name}", "." * len(name), "", f".. automodule:: {thing.__name__}", "   :members:"]
+            continue
+        kind = "class" if inspect.isclass(thing) else "function" if inspect.isroutine(thing) else "data"
+        lines += ["", f".. auto{kind}:: fenics_gears.{name}", *(["   :members:"] if kind == "class" else [])]
+    source[0] += "\n".join(["", "```{eval-rst}", *lines, "```", ""])
+
+
+def as_lists(app, what, name, thing, options, lines):
+    """Lines "name: meaning" of a docstring are a list of parameters; what follows without a gap belongs to them. Other
+    lines of a paragraph begin where its first one does."""
+    if what == "data" and inspect.getdoc(thing) == inspect.getdoc(type(thing)):
+        lines.clear()  # says what a number or a dictionary is
+    try:
+        known = set(inspect.signature(thing).parameters)
+    except (TypeError, ValueError):
+        known = set()
+    inside, before = False, ""
     for place, line in enumerate(lines):
-        if line.partition(":")[0] in known:
+        names, colon, _ = line.partition(": ")
+        deeper = len(line) - len(line.lstrip()) > len(before) - len(before.lstrip())
+        if colon and {each.strip() for each in names.split(",")} <= known:
             lines[place], inside = f":param {line}", True
         elif inside and line:
             lines[place] = f"    {line.strip()}"
-        else:
-            inside = False
+        elif line and before and deeper and not before.lstrip().startswith(("*", ">>>", "...")) and before[-1] != ":":
+            lines[place] = before[: len(before) - len(before.lstrip())] + line.lstrip()
+        inside, before = inside and bool(line), lines[place]
 
 
 def setup(app):
     """Called by Sphinx."""
-    app.connect("autodoc-process-docstring", parameters)
+    app.connect("source-read", list_names)
+    app.connect("autodoc-process-docstring", as_lists)
     app.connect("build-finished", copy_mathjax)
