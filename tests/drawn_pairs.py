@@ -1,7 +1,7 @@
 """Pairs that books print in full, as scenes that say what their drawings say, with every figure that the book gives
 beside it.
 
-``python -m tests.drawn_pairs`` prints the tables of docs/drawing.md.
+``python -m tests.drawn_pairs`` prints the tables of docs/evidence/geometry.md.
 """
 
 from __future__ import annotations

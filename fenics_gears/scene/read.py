@@ -27,6 +27,11 @@ def load_scene(path: str | os.PathLike) -> data.Scene:
     """Read and validate a scene file; its name is the file's name without the ending.
 
     Raises SceneError, naming every mistake at once, where the file cannot be read or is wrong.
+
+    >>> from fenics_gears import load_scene
+    >>> scene = load_scene("demos/lundvall2004.toml")
+    >>> scene.gears.wheel.teeth, scene.load.wheel_torque  # N mm
+    (24, 437000.0)
     """
     path = Path(path)
     return scene_from_text(text_of(path, "scene"), name_of(path), source=str(path), directory=path.parent)
@@ -84,6 +89,14 @@ def build_scene(sections: Mapping[str, Any], name: str = "scene", *, directory: 
     directory: the folder from which files are looked for that the sections name.
 
     Raises SceneError, naming every mistake at once.
+
+    >>> from fenics_gears import build_scene
+    >>> gear = {"profile_shift": 0, "bore_diameter": "20 mm"}
+    >>> gears = {"module": "3 mm", "pressure_angle": "20 deg", "face_width": "25 mm", "backlash": "0.1 mm"}
+    >>> gears |= {"pinion": gear | {"teeth": 20}, "wheel": gear | {"teeth": 40}}
+    >>> scene = build_scene({"gears": gears, "load": {"wheel_torque": "100 N m"}})
+    >>> scene.gears.centre_distance, scene.load.wheel_torque  # mm, N mm
+    (90.0, 100000.0)
     """
     try:
         text = as_toml(sections)

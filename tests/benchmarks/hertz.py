@@ -1,4 +1,5 @@
-"""Flanks pressed together at the pitch point against Hertz, into docs/accuracy.md: `python -m tests.benchmarks.hertz`.
+"""Flanks pressed together at the pitch point against Hertz, into docs/evidence/accuracy.md: `python -m
+tests.benchmarks.hertz`.
 
 The paper's pair under a quarter of its load, where the contact is small beside the tooth. Errors against the exact
 solution, and their orders from one setting to the next; nothing is extrapolated.
@@ -18,7 +19,7 @@ from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.warm_up import compile_kernels
 
 ROOT = Path(__file__).parents[2]
-SCENE, PAGE = ROOT / "demos" / "lundvall2004.toml", ROOT / "docs" / "accuracy.md"
+SCENE, PAGE = ROOT / "demos" / "lundvall2004.toml", ROOT / "docs" / "evidence" / "accuracy.md"
 LOAD = 0.25
 # In a half-width of the larger load.
 FLANK_ELEMENTS, CONTACT_NODES = (1, 2, 4, 8), (2, 4, 8, 16)

@@ -1,5 +1,5 @@
 """How tooth and rim give way on a rigid bore, and on a thin web, against a solid body; `python -m
-tests.benchmarks.rigid_bore` writes the table of docs/drawing.md."""
+tests.benchmarks.rigid_bore` writes the table of docs/evidence/geometry.md."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from fenics_gears.geometry.gear import Gear, transverse_gear
 from fenics_gears.geometry.gear_data import GearData, Web
 from fenics_gears.model.rim import too_stiff
 
-PAGE = Path(__file__).parents[2] / "docs" / "drawing.md"
+PAGE = Path(__file__).parents[2] / "docs" / "evidence" / "geometry.md"
 TEETH, RIMS = (20, 40, 80), (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)
 PRESSURE_ANGLE = radians(20.0)
 # Bore and hub of the solid body and of the web, of the root diameter; width of the web, of the face.

@@ -13,6 +13,7 @@ PAGES = sorted(
     [
         *(ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")),
         *(ROOT / "docs").glob("*.md"),
+        *(ROOT / "docs" / "evidence").glob("*.md"),
         *(ROOT / "demos").glob("*/README.md"),
     ]
 )

@@ -28,6 +28,24 @@ def test_files_that_a_page_names_are_there(page):
     assert {name for name in named if not (ROOT / name).exists()} == TO_BE_WRITTEN.get(name_of(page), set())
 
 
+# Pages to look something up in, and pages for those who change the program.
+REFERENCE = ("scene", "result", "commands", "effects", "rexs", "api", "promises", "hard_cases")
+FOR_AUTHORS = ("reading_the_code", "adding_an_effect", "adding_an_extension")
+GUIDE = [page for page in (ROOT / "docs").glob("*.md") if page.stem not in REFERENCE + FOR_AUTHORS]
+
+
+def test_the_guide_is_short():
+    """Authority: CONTRIBUTING.md; who uses the program can read all that is written for users."""
+    pages = [ROOT / "README.md", *GUIDE]
+    assert sum(len(page.read_text(encoding="utf-8").split()) for page in pages) <= 20_000
+
+
+@pytest.mark.parametrize("page", [pytest.param(page, id=name_of(page)) for page in PAGES if page.stem != "CHANGELOG"])
+def test_a_page_tells_no_history(page):
+    """Authority: CONTRIBUTING.md; what a commit changed belongs into CHANGELOG.md."""
+    assert not re.findall(r"\b(?:commit|revision) [0-9a-f]{7}", page.read_text(encoding="utf-8"))
+
+
 def test_the_tour_names_files_of_every_folder():
     """Authority: the checkout; each folder of the package has its place on the page."""
     named = set(in_text(ROOT / "docs" / "reading_the_code.md"))

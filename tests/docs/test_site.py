@@ -1,12 +1,17 @@
 """The site that `docs/build` makes: strict, whole, and self-contained."""
 
+import inspect
+import os
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 from tests.docs.blocks import PAGES, ROOT, name_of
+
+import fenics_gears
 
 MATHJAX = Path("/usr/share/javascript/mathjax")
 pytestmark = [
@@ -17,7 +22,8 @@ pytestmark = [
 
 def built(checkout, site):
     """docs/build of a checkout into a folder."""
-    return subprocess.run([checkout / "docs" / "build", site], capture_output=True, text=True)
+    own = os.environ | {"FENICS_GEARS_PYTHON": sys.executable}
+    return subprocess.run([checkout / "docs" / "build", site], capture_output=True, text=True, env=own)
 
 
 @pytest.fixture(scope="module")
@@ -34,6 +40,18 @@ def test_every_page_is_in_the_site(site):
     missing = [name_of(page) for page in PAGES if not (site / Path(name_of(page)).with_suffix(".html")).exists()]
     assert not missing
     assert (site / re.search(r"url=([\w./]+)", (site / "index.html").read_text())[1]).exists()
+
+
+def test_the_python_interface_is_described(site):
+    """Authority: `fenics_gears.__all__`; a place to link to for each name, and an example of each function."""
+    page = (site / "docs" / "api.html").read_text(encoding="utf-8")
+    things = {name: getattr(fenics_gears, name) for name in fenics_gears.__all__}
+    places = [
+        f"module-{thing.__name__}" if inspect.ismodule(thing) else f"fenics_gears.{name}"
+        for name, thing in things.items()
+    ]
+    assert not [place for place in places if f'id="{place}"' not in page]
+    assert page.count('class="doctest ') >= sum(map(inspect.isfunction, things.values()))
 
 
 def test_pictures_are_there(site):

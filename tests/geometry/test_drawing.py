@@ -51,7 +51,7 @@ def test_every_figure_of_a_published_pair_follows_from_its_drawing(title, figure
 @pytest.mark.parametrize("title", PAIRS)
 def test_the_page_shows_these_figures(title):
     """Authority: identity, of the page with what ``python -m tests.drawn_pairs`` prints."""
-    page = (ROOT / "docs" / "drawing.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "evidence" / "geometry.md").read_text(encoding="utf-8")
     assert "\n".join(table(PAIRS[title])) in page
 
 

@@ -1,5 +1,5 @@
 """The width of a gear that counts where its mate is narrower: limits, symmetry and scale; its figures against three
-dimensions are in docs/third_dimension.md."""
+dimensions are in docs/evidence/third_dimension.md."""
 
 from dataclasses import replace
 from math import exp

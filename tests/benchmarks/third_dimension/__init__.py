@@ -1,2 +1,2 @@
-"""What must hold of gears resolved over the face, into docs/third_dimension.md: `python -m
+"""What must hold of gears resolved over the face, into docs/evidence/third_dimension.md: `python -m
 tests.benchmarks.third_dimension [NAMES]`."""

@@ -1,4 +1,4 @@
-"""Measure and write the sections of docs/third_dimension.md: all of them, or those that are named; `--draw`: from the
+"""Measure and write the sections of docs/evidence/third_dimension.md: all, or those that are named; `--draw`: from the
 numbers kept."""
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tests.benchmarks.marked_section import write_section
 
-PAGE = Path(__file__).parents[3] / "docs" / "third_dimension.md"
+PAGE = Path(__file__).parents[3] / "docs" / "evidence" / "third_dimension.md"
 NAMES = (
     "plane_limits",
     "face_widths",

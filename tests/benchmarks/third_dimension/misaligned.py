@@ -144,5 +144,5 @@ def section() -> str:
     stiffness = (f"foundation of {1e-3 * c:.1f} N/(mm µm)" for c in (1e3 * rows[0]["stiffness"], tilting))
     headings = ["misalignment, µm", "K_Hβ, one pair", "mean of the mesh cycle", *stiffness, "ISO 6336-1, method C"]
     return "\n".join(
-        [f"![Line load of a misaligned pair](pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)]
+        [f"![Line load of a misaligned pair](../pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)]
     )

@@ -104,7 +104,7 @@ def section() -> str:
     headings = ["overlap ratio", "mean T_E, µm", "T_EPP, µm", "of the spur pair's, %"]
     return "\n".join(
         [
-            f"![Transmission error over the overlap ratio](pictures/third_dimension/{NAME}.png)",
+            f"![Transmission error over the overlap ratio](../pictures/third_dimension/{NAME}.png)",
             "",
             *table(headings, lines),
         ]

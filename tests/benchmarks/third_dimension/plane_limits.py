@@ -102,7 +102,7 @@ def section() -> str:
     ]
     return "\n".join(
         [
-            f"![Mean transmission error over the face width](pictures/third_dimension/{NAME}.png)",
+            f"![Mean transmission error over the face width](../pictures/third_dimension/{NAME}.png)",
             "",
             *table(headings, lines),
         ]

@@ -142,5 +142,5 @@ def section() -> str:
         lines.append([name, f"{values.min():.3f}", f"{values.max():.3f}", f"{100.0 * np.ptp(values):.1f}", mean])
     headings = ["", "smallest over the mean", "largest", "span, %", "mean, N/(mm µm)"]
     return "\n".join(
-        [f"![Mesh stiffness over the mesh phase](pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)]
+        [f"![Mesh stiffness over the mesh phase](../pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)]
     )

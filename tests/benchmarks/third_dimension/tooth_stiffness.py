@@ -88,5 +88,5 @@ def section() -> str:
         "c' by ISO",
     ]  # fmt: skip
     return "\n".join(
-        [f"![Mesh stiffness over the helix angle](pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)]
+        [f"![Mesh stiffness over the helix angle](../pictures/third_dimension/{NAME}.png)", "", *table(headings, lines)]
     )
