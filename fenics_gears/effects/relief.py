@@ -26,6 +26,12 @@ AT_KINK = ResultVariable(
 )
 
 
+# Each alone says where a relief starts.
+STARTS = ("start", "length_on_path", "length_on_flank")
+# And how it grows.
+GROWTH = ("shape", "exponent")
+
+
 def start_field(word: str, word_meaning: str) -> Any:
     """The field that says where a relief starts: ``word``, a roll angle or a diameter."""
     return either(
@@ -54,6 +60,8 @@ class Relief(Section):
     """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; fields that are left out are those of ``[tip_relief]``, and
     the defaults hold
     if that section leaves them out too."""
+
+    alternatives = (STARTS, GROWTH)
 
     depth: float | None = quantity(
         "1e-6 um to 100 mm",
@@ -111,12 +119,6 @@ class RootReliefOfGear(Relief):
     start: float | Measured | str | None = start_field("LPSTC", "lowest point of single tooth contact")
 
 
-# Each alone says where a relief starts.
-STARTS = ("start", "length_on_path", "length_on_flank")
-# And how it grows.
-GROWTH = ("shape", "exponent")
-
-
 @dataclass(frozen=True)
 class Reliefs:
     """Relief of pinion and wheel, each by itself; None for a gear without. One without start or length begins at the
@@ -149,26 +151,12 @@ def write(usual: str, reliefs: Any) -> dict[str, Any]:
 
 
 def rules(section: str, word: str, tree: Tree) -> Iterator[Problem]:
-    """A relief has a depth and one start, which means the same for all gears that it is given for."""
+    """A relief has a depth and a start, which means the same for all gears that it is given for."""
     both = table(tree, section)
     if both is None:
         return
     own = {gear: table(both, gear) for gear in GEARS if table(both, gear) is not None}
     yield from _incomplete(both, own, section, word)
-    for path, given in with_gears(tree, section).items():
-        named = [name for name in STARTS if name in given]
-        for name in named[1:]:
-            yield Problem(
-                (*path, name),
-                as_written(given[name]),
-                f"stands beside {named[0]}, and each says where the relief starts. Leave one out.",
-            )
-        if {"shape", "exponent"} <= set(given):
-            yield Problem(
-                (*path, "exponent"),
-                as_written(given["exponent"]),
-                "stands beside shape, and both say how the relief grows. Leave one out.",
-            )
     takers = [
         gear for gear in GEARS if "depth" in given_for(both, gear) and not {*STARTS}.intersection(own.get(gear, {}))
     ]

@@ -249,12 +249,12 @@ def _inertia_rows(model: Model) -> Rows:
                 )
             )
         along.append(lumped.moment_of_inertia / getattr(model.pair, name).base_radius ** 2)
-    load = model.scene.inertia.shaft_end if model.scene.shafts is not None else model.scene.inertia.load
-    if load is not None:
+    inertia = model.scene.inertia
+    if model.scene.shafts is not None or inertia.load is not None:
         rows.append(
             (
                 "load moment of inertia",
-                1e3 * load,
+                1e3 * inertia.shaft_end,
                 "kg mm^2, " + ("far end of the output shaft" if model.scene.shafts is not None else "with the wheel"),
             )
         )

@@ -70,7 +70,7 @@ def test_the_short_form_is_both_gears_own_to_the_last_bit(paper_scene, paper_pai
     rayleigh = Rayleigh(damping.stiffness_proportional, damping.mass_proportional)
     each = replace(
         paper_scene,
-        inertia=Inertia(pinion=gear, wheel=gear, load=inertia.moment_of_inertia),
+        inertia=Inertia(pinion=gear, wheel=gear, load=LoadInertia(inertia.moment_of_inertia)),
         shafts=Shafts(input=Shaft(shafts.torsional_stiffness), output=Shaft(shafts.torsional_stiffness)),
         damping=Damping(pinion=rayleigh, wheel=rayleigh),
     )
@@ -124,7 +124,7 @@ def test_a_damped_mode_decays_by_its_ratio(torsional, paper_pair):
 def test_a_load_beside_which_the_wheel_is_nothing_is_refused(torsional, paper_pair):
     """Round-off: the sum of both moments of inertia would lose the wheel's, and the mass matrix be singular; up to the
     limit all frequencies are right."""
-    heavy = replace(torsional, inertia=replace(UNEQUAL, load=0.9e10 * J2))
+    heavy = replace(torsional, inertia=replace(UNEQUAL, load=LoadInertia(0.9e10 * J2)))
     stiffness = np.array(
         [
             [
@@ -138,7 +138,7 @@ def test_a_load_beside_which_the_wheel_is_nothing_is_refused(torsional, paper_pa
     held = np.sqrt(np.sort(np.linalg.eigvals(stiffness / np.array([[J1], [J2]])))) / (2.0 * pi)
     assert natural_frequencies(drivetrain(heavy, paper_pair), MESH)[1:] == pytest.approx(held, rel=1e-5)
     with pytest.raises(SceneError, match="inertia.load: .* times the wheel's; allowed are up to 1e"):
-        drivetrain(replace(torsional, inertia=replace(UNEQUAL, load=1.1e10 * J2)), paper_pair)
+        drivetrain(replace(torsional, inertia=replace(UNEQUAL, load=LoadInertia(1.1e10 * J2))), paper_pair)
 
 
 DENSITY = """

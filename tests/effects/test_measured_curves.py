@@ -181,7 +181,7 @@ def test_a_class_draws_no_profiles_beside_curves(paper_pair, tmp_path):
     text = curve((1,), places_of(paper_pair, 0, "roll_length (mm)"), lambda tooth, at: 0.0)
     (tmp_path / "curves.csv").write_text(text, encoding="utf-8")
     pinion, wheel = flank_deviations(
-        located(FlankErrors(GearErrors(profile_curves="curves.csv"), tolerance_class=6), tmp_path), paper_pair
+        located(FlankErrors(pinion=GearErrors(profile_curves="curves.csv"), tolerance_class=6), tmp_path), paper_pair
     )
     assert not pinion.slope.any() and not pinion.curves.any() and pinion.index.any() and wheel.slope.any()
 

@@ -116,7 +116,9 @@ def test_a_start_means_one_place(paper_scene, section, word):
         ),
     ):
         relief(depth + diameter)
-    with pytest.raises(SceneError, match="stands beside start, and each says where the relief starts"):
+    with pytest.raises(
+        SceneError, match="stands beside start; allowed is one of start, length_on_path, length_on_flank"
+    ):
         relief(f'{depth}start = "{word}"\nlength_on_path = "3 mm"')
     with pytest.raises(SceneError, match=f'{section}.start\n *is missing. Allowed: such as "{word}".*length_on_flank'):
         relief(depth)
