@@ -97,7 +97,7 @@ class Relief(Section):
     @property
     def start_roll_angle(self) -> float | None:
         """Roll angle (rad) of the start, where the scene has one."""
-        return None if isinstance(self.start, Measured) else self.start
+        return self.start if isinstance(self.start, (int, float)) else None
 
     @property
     def start_diameter(self) -> float | None:

@@ -90,8 +90,8 @@ def read(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> tu
             values[name], found = read(inner, written, place)
             problems += found
         else:
-            name, listed = ".".join(place), ", ".join(names_in(inner))
-            message = f"is not a section. Write a line [{name}], and below it its fields: {listed}."
+            listed = ", ".join(names_in(inner))
+            message = f"is not a section. Write a line [{'.'.join(place)}], and below it its fields: {listed}."
             problems.append(Problem(place, as_written(written), message))
     problems += _beside_another(section, tree, path)
     problems += (

@@ -101,6 +101,15 @@ def test_a_relief_longer_than_the_flank_is_refused(paper_pair, field, words):
 
 
 @pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
+def test_a_gears_own_growth_goes_before_that_of_both(paper_scene, section, word):
+    """Authority: docs/scene.md; fields that a gear's own section leaves out are those of both, and shape and exponent
+    say the same."""
+    text = f'[{section}]\ndepth = "20 um"\nstart = "{word}"\nexponent = 1.5\n[{section}.wheel]\nshape = "parabolic"\n'
+    found = getattr(scene_from_text(f"{paper_scene.text}\n{text}"), section)
+    assert (found.pinion.power, found.wheel.power) == (1.5, 2)
+
+
+@pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
 def test_a_start_means_one_place(paper_scene, section, word):
     """Definition of the scene's fields: a diameter belongs to one gear, unless the gears are alike; lengths and roll
     angles to both; one of them."""
