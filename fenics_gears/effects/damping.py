@@ -46,6 +46,8 @@ class Rayleigh(Section):
 class Damping(Rayleigh):
     """``[damping]``: either Rayleigh damping, for both gears or for each, or damping ratios of the modes."""
 
+    alternatives = (MODAL,)
+
     stiffness_proportional: float | None = _stiffness_proportional(
         "each gear has its own, or the damping is given by ratios"
     )
@@ -87,7 +89,7 @@ def damping_acts(tree: Tree) -> Iterator[Problem]:
         return
     modal, rayleigh = ([name for name in names if name in damping] for names in (MODAL, (*RAYLEIGH, *GEARS)))
     if modal:
-        for name in [*rayleigh, *modal[1:]]:
+        for name in rayleigh:
             message = f"stands beside {modal[0]}; allowed is one of the two. Leave one out."
             yield Problem(("damping", name), as_written(damping[name]) or "", message)
         ratios = damping.get("ratios")

@@ -113,8 +113,8 @@ class Effect:
         return tree_of(data) if self.write is None else self.write(data)
 
 
-def own_or_shared(own: Section | None, shared: Section | None, name: str) -> Any:
+def own_or_shared(own: Section | None, shared: Section, name: str) -> Any:
     """A field of one gear: what its own section has, else what the section of both gears has; None where neither
     does."""
-    value = getattr(own, name, None)
-    return getattr(shared, name, None) if value is None else value
+    value = None if own is None else getattr(own, name)
+    return getattr(shared, name) if value is None else value

@@ -59,7 +59,7 @@ class MeasuredCurves:
     curves: tuple[MeasuredCurve, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class GearErrors(Section):
     """``[flank_errors.pinion]`` and ``[flank_errors.wheel]``: deviations of each tooth, as lists or as a table in a
     file."""
@@ -157,7 +157,7 @@ class GearErrors(Section):
         return self.anchor == MEAN
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class FlankErrors(Section):
     """``[flank_errors]``: deviations that are not given are random values within a tolerance class."""
 

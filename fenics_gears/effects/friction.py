@@ -22,6 +22,8 @@ class Friction(Section):
     """``[friction]``: one coefficient on all flanks, given, or computed once from the mean load and the speed of the
     scene."""
 
+    alternatives = (("coefficient", "formula"),)
+
     coefficient: float | None = number(
         0.1,
         meaning="coefficient of friction on all flanks",
@@ -56,17 +58,11 @@ class Friction(Section):
 
 
 def coefficient_or_formula(tree: Tree) -> Iterator[Problem]:
-    """One of the two; a formula has what it needs, a speed among it."""
+    """There is one of the two, and a formula has what it needs, a speed among it."""
     friction = table(tree, "friction")
     if friction is None:
         return
     formula = friction.get("formula")
-    if "coefficient" in friction and formula is not None:
-        yield Problem(
-            ("friction", "formula"),
-            as_written(formula),
-            "stands beside coefficient. Allowed is one of the two. Leave one out.",
-        )
     if "coefficient" not in friction and formula is None:
         allowed = allowed_in(Friction, "coefficient").description
         yield Problem(

@@ -26,6 +26,12 @@ AT_KINK = ResultVariable(
 )
 
 
+# Each alone says where a relief starts.
+STARTS = ("start", "length_on_path", "length_on_flank")
+# And how it grows.
+GROWTH = ("shape", "exponent")
+
+
 def start_field(word: str, word_meaning: str) -> Any:
     """The field that says where a relief starts: ``word``, a roll angle or a diameter."""
     return either(
@@ -54,6 +60,8 @@ class Relief(Section):
     """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; fields that are left out are those of ``[tip_relief]``, and
     the defaults hold
     if that section leaves them out too."""
+
+    alternatives = (STARTS, GROWTH)
 
     depth: float | None = quantity(
         "1e-6 um to 100 mm",
@@ -89,7 +97,7 @@ class Relief(Section):
     @property
     def start_roll_angle(self) -> float | None:
         """Roll angle (rad) of the start, where the scene has one."""
-        return None if isinstance(self.start, Measured) else self.start
+        return self.start if isinstance(self.start, (int, float)) else None
 
     @property
     def start_diameter(self) -> float | None:
@@ -109,12 +117,6 @@ class RootReliefOfGear(Relief):
     if that section leaves them out too."""
 
     start: float | Measured | str | None = start_field("LPSTC", "lowest point of single tooth contact")
-
-
-# Each alone says where a relief starts.
-STARTS = ("start", "length_on_path", "length_on_flank")
-# And how it grows.
-GROWTH = ("shape", "exponent")
 
 
 @dataclass(frozen=True)
@@ -149,26 +151,12 @@ def write(usual: str, reliefs: Any) -> dict[str, Any]:
 
 
 def rules(section: str, word: str, tree: Tree) -> Iterator[Problem]:
-    """A relief has a depth and one start, which means the same for all gears that it is given for."""
+    """A relief has a depth and a start, which means the same for all gears that it is given for."""
     both = table(tree, section)
     if both is None:
         return
     own = {gear: table(both, gear) for gear in GEARS if table(both, gear) is not None}
     yield from _incomplete(both, own, section, word)
-    for path, given in with_gears(tree, section).items():
-        named = [name for name in STARTS if name in given]
-        for name in named[1:]:
-            yield Problem(
-                (*path, name),
-                as_written(given[name]),
-                f"stands beside {named[0]}, and each says where the relief starts. Leave one out.",
-            )
-        if {"shape", "exponent"} <= set(given):
-            yield Problem(
-                (*path, "exponent"),
-                as_written(given["exponent"]),
-                "stands beside shape, and both say how the relief grows. Leave one out.",
-            )
     takers = [
         gear for gear in GEARS if "depth" in given_for(both, gear) and not {*STARTS}.intersection(own.get(gear, {}))
     ]

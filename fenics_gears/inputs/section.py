@@ -20,10 +20,12 @@ from fenics_gears.inputs.written import as_written
 class Section:
     """A section of a scene. Its subclasses are frozen dataclasses; a field that is of one is a section within it.
 
-    ``empty``: what is wrong with a section that says nothing, empty where nothing is.
+    ``empty``: what is wrong with a section that says nothing, empty where nothing is. ``alternatives``: groups of
+    fields of which at most one is given.
     """
 
     empty: ClassVar[str] = ""
+    alternatives: ClassVar[tuple[tuple[str, ...], ...]] = ()
 
 
 def allowed_in(section: type[Section], name: str) -> Allowed | None:
@@ -88,15 +90,25 @@ def read(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> tu
             values[name], found = read(inner, written, place)
             problems += found
         else:
-            name, listed = ".".join(place), ", ".join(names_in(inner))
-            message = f"is not a section. Write a line [{name}], and below it its fields: {listed}."
+            listed = ", ".join(names_in(inner))
+            message = f"is not a section. Write a line [{'.'.join(place)}], and below it its fields: {listed}."
             problems.append(Problem(place, as_written(written), message))
+    problems += _beside_another(section, tree, path)
     problems += (
         Problem((*path, name), as_written(written), "", unknown=True)
         for name, written in tree.items()
         if name not in names_in(section)
     )
     return (None if problems else section(**values)), problems
+
+
+def _beside_another(section: type[Section], tree: Mapping[str, Any], path: Path) -> Iterator[Problem]:
+    for group in section.alternatives:
+        first, *others = [name for name in group if name in tree] or ("",)
+        allowed = f"one of {'the two' if len(group) == 2 else ', '.join(group)}"
+        for name in others:
+            message = f"stands beside {first}; allowed is {allowed}. Leave one out."
+            yield Problem((*path, name), as_written(tree[name]), message)
 
 
 def given(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> Iterator[tuple[Path, Allowed, Any]]:

@@ -3,27 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import inf, lcm
 
-import numpy as np
-
-from fenics_gears.dynamics.frequencies import PERIOD_ERROR
-from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia, resolved_frequency
-from fenics_gears.effects import EFFECTS, Effect, common_period, result_variables
+from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia
+from fenics_gears.effects import EFFECTS, Effect, result_variables
 from fenics_gears.effects.flank_errors_sections import MEAN
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.flank_deviations import v_roll_angle
-from fenics_gears.geometry.sliding import sliding_speed
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.cost import SECTOR_UNKNOWNS, expected_cost
 from fenics_gears.model.model import Model, model_of
+from fenics_gears.model.motion_rows import Rows, frequency_rows, inertia_rows, period_rows, speed_rows
 from fenics_gears.model.plane_strain import NOTABLE as NOTABLE_STIFFNESS
 from fenics_gears.model.plane_strain import too_stiff
 from fenics_gears.scene.data import ISO_6336, Scene
-
-Rows = list[tuple[str, object, str]]
-
-MILLIMETRE = 1e-3  # m
 
 
 @dataclass(frozen=True)
@@ -71,8 +63,8 @@ def describe(scene: Scene) -> list[tuple[str, Rows]]:
         ("Accuracy", _accuracy_rows(model)),
     ]
     if model.drivetrain.mass is not None:
-        sections.append(("Inertia", _inertia_rows(model)))
-        sections.append(("Natural frequencies with one tooth pair in mesh (about)", _frequency_rows(model)))
+        sections.append(("Inertia", inertia_rows(model)))
+        sections.append(("Natural frequencies with one tooth pair in mesh (about)", frequency_rows(model)))
     sections.append(("Expected cost (about, alone on an idle machine)", _cost_rows(model)))
     if model.warnings:
         sections.append(("Warnings", [("", warning, "") for warning in model.warnings]))
@@ -116,7 +108,7 @@ def _model_rows(model: Model) -> Rows:
                 )
             ]
         ),
-        *(_speed_rows(model) if model.scene.motion.speed_given else []),
+        *(speed_rows(model) if model.scene.motion.speed_given else []),
     ]
 
 
@@ -203,71 +195,6 @@ def _amounts(data, names: tuple[str, ...]) -> list[tuple[str, float]]:
     return [(name.replace("_", " "), getattr(data, name)) for name in names if data is not None and getattr(data, name)]
 
 
-def _speed_rows(model: Model) -> Rows:
-    """Nominal speeds of the gears, the pitch circles and the flanks' sliding, at the highest mesh frequency of the
-    run."""
-    pair, highest = model.pair, model.scene.mesh_frequencies[1]
-    turns = highest / pair.pinion.teeth
-    ends = np.array([pair.path_start, pair.path_end])
-    sliding = np.abs(sliding_speed(pair, ends, highest)) * MILLIMETRE
-    pitch = 2.0 * np.pi * turns * pair.centre_distance * pair.rotation_ratio / (1.0 + pair.rotation_ratio) * MILLIMETRE
-    when = "" if model.scene.speed_ramp is None else ", at the ramp's highest speed"
-    return [
-        (
-            "nominal speeds",
-            f"{60.0 * turns:.5g} rpm pinion, {60.0 * turns * pair.rotation_ratio:.5g} rpm wheel",
-            when.lstrip(", "),
-        ),
-        ("pitch line velocity", float(pitch), "m/s" + when),
-        (
-            "sliding speed",
-            f"{sliding[0]:.4g} m/s at the start of contact, {sliding[1]:.4g} m/s at its end",
-            when.lstrip(", "),
-        ),
-    ]
-
-
-def _inertia_rows(model: Model) -> Rows:
-    """Mass and moment of inertia of each gear, of the far end of the output shaft, and what both gears are along the
-    line of action."""
-    from fenics_gears.model.drivetrain import lumped_gears
-
-    rows: Rows = []
-    along = []
-    for name, lumped in lumped_gears(model.scene, model.pair).items():
-        given = model.scene.inertia.of(name)
-        kinds = (("mass", "kg"), ("moment_of_inertia", "kg mm^2"))
-        for field, unit in kinds:
-            origin = "" if getattr(given, field) is not None else ", of its body by the density"
-            rows.append((f"{name} {field.replace('_', ' ')}", 1e3 * getattr(lumped, field), unit + origin))
-        if model.scene.bearings is not None and model.scene.bearings.places_of(name) is not None:
-            rows.append(
-                (
-                    f"{name} tilting moment of inertia",
-                    1e3 * lumped.tilting_inertia,
-                    "kg mm^2, about a diameter" + ("" if given.tilting_moment_of_inertia else ": J/2 + m b^2/12"),
-                )
-            )
-        along.append(lumped.moment_of_inertia / getattr(model.pair, name).base_radius ** 2)
-    load = model.scene.inertia.shaft_end if model.scene.shafts is not None else model.scene.inertia.load
-    if load is not None:
-        rows.append(
-            (
-                "load moment of inertia",
-                1e3 * load,
-                "kg mm^2, " + ("far end of the output shaft" if model.scene.shafts is not None else "with the wheel"),
-            )
-        )
-    rows.append(
-        (
-            "reduced mass J1 J2/(J1 rb2^2 + J2 rb1^2)",
-            1e3 * along[0] * along[1] / sum(along),
-            "kg, of both gears along the line of action",
-        )
-    )
-    return rows
-
-
 def _method(model: Model) -> str:
     if model.drivetrain.mass is None:
         return "quasi-static"
@@ -313,7 +240,7 @@ def _accuracy_rows(model: Model) -> Rows:
         ("steps per mesh cycle", f"{resolution.steps_per_mesh_cycle}{origin(asked.steps_per_mesh_cycle)}", ""),
         ("time step" if model.scene.speed_ramp is None else "time step, the longest", model.time_step, "s"),
         ("steps", f"{model.steps}, {_contact_fields(model)}", ""),
-        *_period_rows(model),
+        *period_rows(model),
     ]
 
 
@@ -326,49 +253,6 @@ def _contact_fields(model: Model) -> str:
         if model.contact_steps
         else "curves are stored for all, contact fields for none"
     )
-
-
-def _period_rows(model: Model) -> Rows:
-    """Mesh cycles of the common period: after it all that differs between cycles repeats."""
-    period, gears = common_period(model.scene), model.scene.gears
-    if period == inf:
-        return [("mesh cycles of the common period", "none", "(no two mesh cycles are alike)")]
-    whole = period > 1 and period == lcm(gears.pinion.teeth, gears.wheel.teeth)
-    return [
-        (
-            "mesh cycles of the common period",
-            period,
-            "after which every tooth has met every other"
-            if whole
-            else "(all mesh cycles are alike)"
-            if period == 1
-            else "",
-        )
-    ]
-
-
-def _frequency_rows(model: Model) -> Rows:
-    """Each natural frequency with the steps that a period has, and the limits of what a step resolves and samples."""
-    rows: Rows = []
-    for number, vibration in enumerate(model.vibrations, 1):
-        steps, unmoved = (
-            vibration.steps_per_period(model.time_step),
-            "" if vibration.excited else ", not excited by the mesh",
-        )
-        motion = vibration.motion and f", {vibration.motion}"
-        damped = f", damping ratio {vibration.damping_ratio:.2g}" if vibration.damping_ratio > 0.0 else ", undamped"
-        rows.append(
-            (f"mode {number}", vibration.frequency, f"Hz: {steps:.3g} steps per period{damped}{motion}{unmoved}")
-        )
-    rows.append(
-        (
-            "highest frequency that is resolved",
-            resolved_frequency(model.time_step),
-            f"Hz: by the time step, periods exact within {PERIOD_ERROR:.0%}",
-        )
-    )
-    rows.append(("highest frequency that is sampled", 0.5 / model.time_step, "Hz: two steps per period"))
-    return rows
 
 
 # Bytes; fewer are always kept.

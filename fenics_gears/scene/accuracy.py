@@ -55,7 +55,10 @@ class Accuracy(Section):
             "size of the largest elements in tooth and rim; the elements of fillets, coast flank and bore are scaled"
             " with it"
         ),
-        otherwise="a fixed fraction of the module for each order of element",
+        otherwise=(
+            "a fixed fraction of the module for each order of element, in three-dimensional scenes"
+            f" {defaults.SECTION_SIZE:g} modules"
+        ),
     )
     contact_length: float | None = quantity(
         "1e-6 mm to 10 m",

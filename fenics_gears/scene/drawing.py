@@ -9,14 +9,14 @@ k shortens the tips, so that their clearance stays the rack's when a is less tha
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from itertools import chain
 from math import cos, tan
 from typing import Any
 
 from fenics_gears.effects.tooth_elasticity import material_of
-from fenics_gears.geometry import tooth_thickness
-from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear, transverse_gear
+from fenics_gears.geometry.gear import DECIMALS_IN_MODULES
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse, tip_radius_with_room
 from fenics_gears.geometry.gear_data import RACKS, GearData, GearPairData, Web
 from fenics_gears.geometry.materials import MATERIALS
@@ -24,16 +24,18 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, LOADS, table, wheel_torque
 from fenics_gears.scene import unusual
 from fenics_gears.scene.data import Derived, Load, Motion
-from fenics_gears.scene.gear_schema import MEASURES, Gears
 from fenics_gears.scene.gear_schema import Gear as GearText
+from fenics_gears.scene.gear_schema import Gears
 from fenics_gears.scene.schema import LoadText
+from fenics_gears.scene.thickness import (
+    asked_measures,
+    check_measure,
+    gear_of,
+    measure_of,
+    rack_gear,
+    shift_of_thickness,
+)
 
-# Largest difference, in modules, of the profile shift of a thickness from that of the drawing: more is another number
-# of spanned teeth or another gear.
-LARGEST_ALLOWANCE = 0.5
-# Largest profile shift that a thickness alone may stand for: one spanned tooth more or less is a shift of pi/(2
-# tan(alpha_n)), 4.3 at 20 deg.
-LARGEST_SHIFT = 2.0
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
 NOTABLE_OVERLAP = 0.01
 
@@ -125,78 +127,28 @@ def load_data(load: LoadText, gears: Gears, motion: Motion) -> tuple[Load, list[
 def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Derived]]:
     """Centre distance, mm, both gears (without bore, face width and material), and what was derived. Raises
     GeometryError for an impossible figure."""
-    found: list[Derived] = []
     drawn = pair.pinion, pair.wheel
-    cut = [_cut(pair, gear, name, found) for gear, name in zip(drawn, GEARS)]
+    cut, of_thickness = zip(*(shift_of_thickness(pair, gear, name) for gear, name in zip(drawn, GEARS)))
     shifts = [gear.profile_shift if gear.profile_shift is not None else own for gear, own in zip(drawn, cut)]
-    distance = _centre_distance(pair, shifts, cut, found)
-    if pair.backlash is not None and _measure(pair.pinion) is None:
-        cut = _thinned(pair, cut, distance, found)
-    shortening = _tip_shortening(pair, drawn, shifts, distance, found)
-    gears = tuple(_gear_data(pair, *each, shortening, found) for each in zip(drawn, GEARS, shifts, cut))
-    found += [figure for each in zip(drawn, GEARS, cut) for figure in _asked_measures(pair, *each)]
-    return distance, gears, found
-
-
-def _gear(pair: Gears, gear: GearData) -> Gear:
-    return transverse_gear(gear, pair.module, pair.pressure_angle, pair.helix_angle or 0.0)
-
-
-def _rack_gear(pair: Gears, teeth: int, shift: float, root_diameter: float = 0.0) -> Gear:
-    """A gear of which only rack, teeth and profile shift are known, and perhaps the root."""
-    return _gear(pair, GearData(teeth, shift, 0.0, root_diameter, 0.0, 0.0))
+    distance, of_distance = _centre_distance(pair, shifts, cut)
+    cut, of_backlash = _thinned(pair, cut, distance)
+    shortening, of_tips = _tip_shortening(pair, drawn, shifts, distance)
+    gears, of_gears = zip(*(_gear_data(pair, *each, shortening) for each in zip(drawn, GEARS, shifts, cut)))
+    asked = (asked_measures(pair, *each) for each in zip(drawn, GEARS, cut))
+    return distance, gears, [*chain(*of_thickness, of_distance, of_backlash, of_tips, *of_gears, *asked)]
 
 
 def _rack_pair(pair: Gears, shifts: list[float], distance: float) -> GearPair:
-    pinion, wheel = (_rack_gear(pair, gear.teeth, shift) for gear, shift in zip((pair.pinion, pair.wheel), shifts))
+    pinion, wheel = (rack_gear(pair, gear.teeth, shift) for gear, shift in zip((pair.pinion, pair.wheel), shifts))
     return GearPair(pinion, wheel, distance, 1.0)
 
 
-def _measure(drawn: GearText) -> str | None:
-    """The field that gives the gear's thickness; None where `profile_shift` does."""
-    return next((name for name in MEASURES if getattr(drawn, name) is not None), None)
-
-
-def _cut(pair: Gears, drawn: GearText, name: str, found: list[Derived]) -> float:
-    """The profile shift of the gear's thickness."""
-    gear, measure = _rack_gear(pair, drawn.teeth, 0.0), _measure(drawn)
-    if measure is None:
-        return drawn.profile_shift
-    beside = MEASURES[measure]
-    written = f"gears.{name}.{measure} = {getattr(drawn, measure):.6g} mm" + (
-        f" with {beside} {getattr(drawn, beside):g}" if beside else ""
-    )
-    if measure == "tooth_thickness":
-        shift = tooth_thickness.shift_of_normal_thickness(gear, drawn.tooth_thickness)
-    elif measure == "base_tangent_length":
-        shift = tooth_thickness.shift_of_base_tangent_length(gear, drawn.base_tangent_length, drawn.spanned_teeth)
-    else:
-        shift = tooth_thickness.shift_of_dimension_over_balls(gear, drawn.dimension_over_balls, drawn.ball_diameter)
-    if shift is None:
-        refuse(name, f"{written}: the centres of the balls would lie within the base circle: check both, and the teeth")
-    nominal, allowed = (0.0, LARGEST_SHIFT) if drawn.profile_shift is None else (drawn.profile_shift, LARGEST_ALLOWANCE)
-    if abs(shift - nominal) > allowed:
-        than = f"profile_shift = {nominal:g}" if nominal else "none"
-        refuse(
-            name,
-            f"{written} is that of a profile shift of {shift:.4g}; allowed are {allowed:g} modules more or less than"
-            f" {than}: check both, and gears.module",
-        )
-    words = "profile shift" if drawn.profile_shift is None else "profile shift of its tooth thickness"
-    if drawn.profile_shift is None:
-        odd = unusual.of_profile_shift(name, shift)
-    else:
-        odd = unusual.of_allowance(pair, name, shift - nominal, pair.centre_distance or 0.0)
-    found.append(Derived(f"{name} {words}", shift, "modules", f"of its {measure.replace('_', ' ')}", odd))
-    return shift
-
-
-def _centre_distance(pair: Gears, shifts: list[float], cut: list[float], found: list[Derived]) -> float:
+def _centre_distance(pair: Gears, shifts: Sequence[float], cut: Sequence[float]) -> tuple[float, list[Derived]]:
     """As given, or that of the profile shifts without backlash, or of both measured thicknesses with the given
     backlash."""
     if pair.centre_distance is not None:
-        return float(pair.centre_distance)
-    opened = pair.backlash is not None and _measure(pair.pinion) is not None
+        return float(pair.centre_distance), []
+    opened = pair.backlash is not None and measure_of(pair.pinion) is not None
     rack_pair = _rack_pair(pair, cut if opened else shifts, 1.0)
     distance, words = (
         rack_pair.centre_distance_without_backlash,
@@ -215,16 +167,17 @@ def _centre_distance(pair: Gears, shifts: list[float], cut: list[float], found: 
             if missing(distance) > 0.0
             else distance
         )
-    found.append(Derived("centre distance", distance, "mm", words))
-    return distance
+    return distance, [Derived("centre distance", distance, "mm", words)]
 
 
-def _thinned(pair: Gears, cut: list[float], distance: float, found: list[Derived]) -> list[float]:
+def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequence[float], list[Derived]]:
     """Profile shifts of both thicknesses, each lowered by the same amount, so that the pair has its backlash."""
+    if pair.backlash is None or measure_of(pair.pinion) is not None:
+        return cut, []
     rack_pair = _rack_pair(pair, cut, distance)
     pinion = rack_pair.pinion
     if distance <= pinion.base_radius + rack_pair.wheel.base_radius:
-        return cut
+        return cut, []
     missing = pair.backlash - rack_pair.circumferential_backlash
     if missing < -ROUNDING:
         refuse(
@@ -250,31 +203,30 @@ def _thinned(pair: Gears, cut: list[float], distance: float, found: list[Derived
             " would overlap at this centre distance"
         )
     odd = (unusual.of_thinning(pair, overlap, distance, nominal, thinner), "")
-    found += [
+    return lowered, [
         Derived(f"{name} profile shift of its tooth thickness", shift, "modules", words, remark)
         for name, shift, remark in zip(GEARS, lowered, odd)
     ]
-    return lowered
 
 
 def _tip_shortening(
-    pair: Gears, drawn: Iterable[GearText], shifts: list[float], distance: float, found: list[Derived]
-) -> float:
+    pair: Gears, drawn: Iterable[GearText], shifts: Sequence[float], distance: float
+) -> tuple[float, list[Derived]]:
     """-k: as given, or what keeps the rack's tip clearance; never negative."""
     if pair.tip_shortening is not None:
-        return pair.tip_shortening
+        return pair.tip_shortening, []
     if all(gear.tip_diameter is not None for gear in drawn):
-        return 0.0
+        return 0.0, []
     reference = 0.5 * pair.module * sum(gear.teeth for gear in drawn) / cos(pair.helix_angle or 0.0)
     shortening = max(0.0, round(sum(shifts) - (distance - reference) / pair.module, DECIMALS_IN_MODULES))
     formula = "k m_n = a - a_d - (x1 + x2) m_n, not above 0"
-    found.append(Derived("tip shortening -k", shortening, "modules", formula, unusual.of_shortening(shortening)))
-    return shortening
+    return shortening, [Derived("tip shortening -k", shortening, "modules", formula, unusual.of_shortening(shortening))]
 
 
 def _gear_data(
-    pair: Gears, drawn: GearText, name: str, shift: float, cut: float, shortening: float, found: list[Derived]
-) -> GearData:
+    pair: Gears, drawn: GearText, name: str, shift: float, cut: float, shortening: float
+) -> tuple[GearData, list[Derived]]:
+    found = []
     reference = pair.module * drawn.teeth / cos(pair.helix_angle or 0.0)
     standard = RACKS[
         next(
@@ -297,7 +249,7 @@ def _gear_data(
     beyond, angle = _protuberance(pair, drawn)
     if radius is None:
         radius = min(
-            standard[2], tip_radius_with_room(replace(_rack_gear(pair, drawn.teeth, cut, root), protuberance=beyond))
+            standard[2], tip_radius_with_room(replace(rack_gear(pair, drawn.teeth, cut, root), protuberance=beyond))
         )
         why = (
             f"what has room on the rack's tip, less than the usual {standard[2]:g}"
@@ -311,8 +263,8 @@ def _gear_data(
         tip_chamfer=float(drawn.tip_chamfer or 0.0), protuberance=beyond, protuberance_angle=angle,
         nominal_profile_shift=None if shift == cut else float(shift),
     )  # fmt: skip
-    _check_measure(drawn, name, _gear(pair, data))
-    return data
+    check_measure(drawn, name, gear_of(pair, data))
+    return data, found
 
 
 def _of_rack(pair: Gears, drawn: GearText, figure: str) -> float | None:
@@ -333,55 +285,3 @@ def _protuberance(pair: Gears, own: GearText) -> tuple[float, float]:
     )
     beyond = (amount or 0.0) - (stock or 0.0)
     return beyond, (0.5 * float(pair.pressure_angle) if angle is None else angle) if beyond else 0.0
-
-
-def _check_measure(drawn: GearText, name: str, gear: Gear) -> None:
-    """Caliper and balls touch the involute, and balls stand out of the tip circle and clear of the root."""
-    lowest, measure = gear.form_radius, _measure(drawn)
-    if measure == "base_tangent_length":
-        touched, better = (
-            tooth_thickness.tangent_contact_radius(gear, drawn.base_tangent_length),
-            tooth_thickness.spanned_teeth(gear),
-        )
-    elif measure == "dimension_over_balls":
-        touched, better = (
-            tooth_thickness.ball_contact_radius(gear, drawn.ball_diameter),
-            f"about {tooth_thickness.ball_diameter(gear):.4g} mm",
-        )
-        centre, radius = tooth_thickness.ball_centre(gear, drawn.ball_diameter), 0.5 * drawn.ball_diameter
-        if centre + radius < gear.tip_radius:
-            refuse(
-                name,
-                f"gears.{name}.ball_diameter = {drawn.ball_diameter:g} mm: the balls lie within the tip circle of"
-                f" {2.0 * gear.tip_radius:.6g} mm: take {better}",
-            )
-    else:
-        return
-    if not lowest - ROUNDING <= touched <= gear.tip_form_radius + ROUNDING:
-        refuse(
-            name,
-            f"gears.{name}.{measure} = {getattr(drawn, measure):.6g} mm would be measured at diameter"
-            f" {2.0 * touched:.6g} mm, off the involute, which goes from {2.0 * lowest:.6g} to"
-            f" {2.0 * gear.tip_form_radius:.6g} mm: measure with gears.{name}.{MEASURES[measure]} {better}",
-        )
-
-
-def _asked_measures(pair: Gears, drawn: GearText, name: str, cut: float) -> Iterator[Derived]:
-    """What a caliper reads over the teeth, and over the balls, that a drawing names without the measure."""
-    gear = _rack_gear(pair, drawn.teeth, cut)
-    if drawn.spanned_teeth is not None and drawn.base_tangent_length is None:
-        length = tooth_thickness.base_tangent_length(gear, drawn.spanned_teeth)
-        yield Derived(
-            f"{name} base tangent length over {drawn.spanned_teeth} teeth",
-            length,
-            "mm",
-            "W_k = m_n cos(alpha_n) [pi (k - 1/2) + z inv(alpha_t) + 2 x tan(alpha_n)]",
-        )
-    if drawn.ball_diameter is not None and drawn.dimension_over_balls is None:
-        dimension = tooth_thickness.dimension_over_balls(gear, drawn.ball_diameter)
-        yield Derived(
-            f"{name} dimension over balls of {drawn.ball_diameter:g} mm",
-            dimension,
-            "mm",
-            "M_d by inv(alpha_K) = D_M/(d_b cos(beta_b)) + psi_b - pi/z",
-        )

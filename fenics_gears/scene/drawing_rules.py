@@ -13,7 +13,7 @@ from fenics_gears.scene.schema import LoadText
 
 
 def _thickness_is_given_once(tree: Tree) -> Iterator[Problem]:
-    """Each gear has a profile shift or a measure of its thickness, and no more than one measure."""
+    """Each gear has a profile shift or a measure of its thickness, and what is measured with it."""
     gears = table(tree, "gears") or {}
     for gear in GEARS:
         own = table(gears, gear)
@@ -26,12 +26,6 @@ def _thickness_is_given_once(tree: Tree) -> Iterator[Problem]:
                 ("gears", gear, "profile_shift"),
                 None,
                 f"is missing. Allowed: {allowed}; or one of {', '.join(MEASURES)}.",
-            )
-        for name in measures[1:]:
-            yield Problem(
-                ("gears", gear, name),
-                as_written(own[name]),
-                f"stands beside {measures[0]}; allowed is one measure of the tooth thickness. Leave one out.",
             )
         for name in measures:
             beside = MEASURES[name]
@@ -115,7 +109,7 @@ def _of_rack(gears: Tree, gear: str, figure: str) -> tuple[tuple[str, ...], floa
 
 
 def _load_is_given_once(tree: Tree) -> Iterator[Problem]:
-    """One of torque on the wheel, torque on the pinion and power; a power has a steady speed."""
+    """There is a torque or a power, and a power has a steady speed."""
     load, motion = table(tree, "load"), tree.get("motion", {})
     if load is None:
         return
@@ -125,12 +119,6 @@ def _load_is_given_once(tree: Tree) -> Iterator[Problem]:
             ("load", "wheel_torque"),
             None,
             f"is missing. Allowed: {allowed_in(LoadText, 'wheel_torque').description}; or pinion_torque or power.",
-        )
-    for name in given[1:]:
-        yield Problem(
-            ("load", name),
-            as_written(load[name]),
-            f"stands beside {given[0]}; allowed is one of {', '.join(LOADS)}. Leave one out.",
         )
     if "power" not in given:
         return

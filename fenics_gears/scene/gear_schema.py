@@ -93,6 +93,8 @@ class Gear(Section):
     `dimension_over_balls`). With both, the measured thickness holds, and root circle with it, since one rack cuts both;
     tip circle and centre distance go by `profile_shift`."""
 
+    alternatives = (tuple(MEASURES),)
+
     teeth: int = whole_number(5, 1000, 16, meaning="number of teeth")
     profile_shift: float | None = number(
         0.196,

@@ -21,9 +21,7 @@ from fenics_gears.inputs.tree import (
     LARGEST_ERROR,
     Tree,
     given_for,
-    load_in,
     material_sections,
-    over_the_face,
     quantity_at,
     quantity_in,
     table,
@@ -31,16 +29,13 @@ from fenics_gears.inputs.tree import (
     value_at,
 )
 from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.accuracy import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy
+from fenics_gears.scene.accuracy_rules import ACCURACY_RULES
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
 from fenics_gears.scene.drawing_rules import DRAWING_RULES
 from fenics_gears.scene.face_rules import faces_are_resolved_by_elastic_contact, fields_of_faces_have_a_face
 from fenics_gears.scene.gear_schema import Gears
 from fenics_gears.scene.schema import MotionText, SceneText
 
-# In modules: the dense compliance of a flank of such elements has gigabytes.
-FINEST_ELEMENT, FINEST_BODY = 1e-3, 1e-2
-EVERY_STEP = "every step"
 TEETH = "tooth_elasticity"
 
 
@@ -85,15 +80,8 @@ def _both_gears_have_a_width(tree: Tree) -> Iterator[Problem]:
 NEED_A_SPEED = ("inertia", *(effect.section for effect in effects.EFFECTS if "inertia" in effect.needs))
 
 
-def _one_speed(tree: Tree) -> Iterator[Problem]:
+def _a_speed_where_time_matters(tree: Tree) -> Iterator[Problem]:
     motion = table(tree, "motion") or {}
-    given = [name for name in ("mesh_frequency", "pinion_speed") if name in motion]
-    if len(given) == 2:
-        yield Problem(
-            ("motion", "pinion_speed"),
-            as_written(motion["pinion_speed"]),
-            "stands beside mesh_frequency; allowed is one of the two. Leave one out.",
-        )
     needing = next((section for section in NEED_A_SPEED if section in tree), None)
     if needing is None or not isinstance(tree.get("motion", {}), Mapping):
         return
@@ -122,13 +110,11 @@ def _one_speed(tree: Tree) -> Iterator[Problem]:
         yield Problem(("motion", "mesh_cycles"), None, message)
 
 
-def _one_length_of_the_run(tree: Tree) -> Iterator[Problem]:
+def _settling_is_of_vibrations(tree: Tree) -> Iterator[Problem]:
     motion = table(tree, "motion") or {}
     if "settling_time" not in motion:
         return
     place, written = ("motion", "settling_time"), as_written(motion["settling_time"])
-    if "mesh_cycles" in motion:
-        yield Problem(place, written, "stands beside mesh_cycles; allowed is one of the two. Leave one out.")
     if "inertia" not in tree:
         yield Problem(
             place,
@@ -195,165 +181,16 @@ def _errors_are_small(tree: Tree) -> Iterator[Problem]:
             yield Problem(path, as_written(written), f"{message} Allowed: up to {largest:g} mm.")
 
 
-def _resolution_fits_the_teeth(tree: Tree) -> Iterator[Problem]:
-    module = _module(tree)
-    if module is None:
-        return
-    accuracy = table(tree, "accuracy") or {}
-    for name, modules in (("flank_element_size", 1.0), ("body_element_size", 10.0), ("contact_length", 3.0)):
-        size = quantity_in(accuracy.get(name))
-        if size is not None and size > modules * module:
-            yield Problem(
-                ("accuracy", name),
-                as_written(accuracy[name]),
-                f"is too large for a module of {module:g} mm. Allowed: up to {modules * module:g} mm.",
-            )
-    for name, modules in (("flank_element_size", FINEST_ELEMENT), ("body_element_size", FINEST_BODY)):
-        size, finest = quantity_in(accuracy.get(name)), modules * module
-        if size is not None and 0 < size < finest:
-            message = (
-                f"is too small for a module of {module:g} mm: no memory holds such a mesh. Allowed: from {finest:g} mm."
-            )
-            yield Problem(("accuracy", name), as_written(accuracy[name]), message)
-
-
-def _body_is_no_finer_than_the_flank(tree: Tree) -> Iterator[Problem]:
-    accuracy = table(tree, "accuracy") or {}
-    body, flank = (quantity_in(accuracy.get(name)) for name in ("body_element_size", "flank_element_size"))
-    if body is not None and flank is not None and 0 < body < flank:
-        message = (
-            f"is smaller than flank_element_size = {as_written(accuracy['flank_element_size'])}. Allowed: from that"
-            " size on."
-        )
-        yield Problem(("accuracy", "body_element_size"), as_written(accuracy["body_element_size"]), message)
-
-
-def _remeshing_has_its_own_nodes(tree: Tree) -> Iterator[Problem]:
-    accuracy = table(tree, "accuracy") or {}
-    if accuracy.get("condensation") != EVERY_STEP:
-        return
-    for name in ("interpolation", "elastic_teeth"):
-        if name in accuracy:
-            message = (
-                f'has no meaning beside condensation = "{EVERY_STEP}", where flank nodes meet and the whole gear is'
-                " meshed. Leave one of the two out."
-            )
-            yield Problem(("accuracy", name), as_written(accuracy[name]), message)
-
-
-def _remeshed_gears_have_one_width(tree: Tree) -> Iterator[Problem]:
-    """What stands out beyond the mate helps to carry, by a law for flanks that are condensed once."""
-    asked = value_at(tree, "accuracy", "condensation")
-    common = quantity_at(tree, "gears", "face_width")
-    widths = {quantity_at(tree, "gears", gear, "face_width") or common for gear in GEARS}
-    offsets = {quantity_at(tree, "gears", gear, "axial_offset") or 0.0 for gear in GEARS}
-    if asked == EVERY_STEP and not over_the_face(tree) and (len(widths) > 1 or len(offsets) > 1):
-        remedy = 'Give both gears the width that they have in common, or take condensation = "once".'
-        message = f"is for gears of one face width without axial_offset. {remedy}"
-        yield Problem(("accuracy", "condensation"), as_written(asked), message)
-
-
-def _cheaper_models_have_what_they_need(tree: Tree) -> Iterator[Problem]:
-    accuracy = table(tree, "accuracy") or {}
-    chosen = accuracy.get("model")
-    if chosen not in (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336):
-        return
-
-    def problem(message: str) -> Problem:
-        return Problem(("accuracy", "model"), as_written(chosen), message)
-
-    if chosen != RIGID_TEETH and not material_sections(tree):
-        yield problem("needs the section [gears.material], which is missing. Add it, or leave accuracy.model out.")
-    if accuracy.get("condensation") == EVERY_STEP:
-        yield problem(f'cannot stand beside condensation = "{EVERY_STEP}". Leave one of the two out.')
-    if value_at(tree, "output", "root_stress") is True:
-        yield problem('has no stresses for output.root_stress. Allowed beside it: "elastic". Leave one of the two out.')
-    lacking = {RIGID_TEETH: ("corner_contact",), ISO_6336: ("corner_contact",), STIFFNESS_TABLE: ()}[chosen]
-    for section in lacking:
-        if section in tree:
-            yield problem(f"cannot stand beside [{section}], which it knows nothing of. Leave one of the two out.")
-
-
-_NOT_BESIDE_A_TARGET = {
-    "model": "cannot stand beside accuracy.target, which is for the full contact of elastic teeth",
-    "condensation": "cannot stand beside accuracy.target, which condenses once",
-    "elastic_teeth": "cannot stand beside accuracy.target, which keeps all teeth elastic",
-    "interpolation": "cannot stand beside accuracy.target, which averages",
-}
-
-
-def _a_target_chooses_alone(tree: Tree) -> Iterator[Problem]:
-    accuracy, gears = table(tree, "accuracy") or {}, table(tree, "gears") or {}
-    if "target" not in accuracy:
-        return
-    for name in accuracy:
-        if name in names_in(Accuracy) and name != "target":
-            message = f"{_NOT_BESIDE_A_TARGET.get(name, 'is chosen by accuracy.target')}. Leave one of the two out."
-            yield Problem(("accuracy", name), as_written(accuracy[name]), message)
-
-    def problem(message: str) -> Problem:
-        return Problem(("accuracy", "target"), as_written(accuracy["target"]), message)
-
-    if gears and not material_sections(tree):
-        yield problem("needs teeth that give way. Add [gears.material], or leave the target out.")
-    load = load_in(tree)
-    if load is not None and load[1] == 0.0:
-        yield problem(
-            f"has no meaning without a load: nothing gives way then. Give {'.'.join(load[0])}, or leave the target out."
-        )
-    if "body_meshes" in tree:
-        yield problem("cannot refine the meshes of [body_meshes]. Leave one of the two out.")
-
-
-def _root_stress_has_its_teeth(tree: Tree) -> Iterator[Problem]:
-    if value_at(tree, "output", "root_stress") is not True:
-        return
-    if table(tree, "gears") is not None and not material_sections(tree):
-        yield Problem(
-            ("output", "root_stress"),
-            "true",
-            "needs teeth that give way. Add [gears.material], or leave root_stress out.",
-        )
-    accuracy = table(tree, "accuracy") or {}
-    if accuracy.get("model", ELASTIC) != ELASTIC:
-        yield Problem(
-            ("output", "root_stress"),
-            "true",
-            f'needs teeth of finite elements. Take accuracy.model = "{ELASTIC}", or leave root_stress out.',
-        )
-    if accuracy.get("condensation") == EVERY_STEP:
-        yield Problem(
-            ("output", "root_stress"),
-            "true",
-            f'cannot stand beside condensation = "{EVERY_STEP}". Take "once", or leave root_stress out.',
-        )
-
-
 _RULES = (
     _effects_fit_together,
     _both_gears_have_a_width,
-    _one_speed,
-    _one_length_of_the_run,
+    _a_speed_where_time_matters,
+    _settling_is_of_vibrations,
     _recorded_cycles_are_run,
     _contact_fields_are_of_cycles_that_run,
     _errors_are_small,
-    _resolution_fits_the_teeth,
-    _body_is_no_finer_than_the_flank,
-    _remeshing_has_its_own_nodes,
-    _remeshed_gears_have_one_width,
-    _root_stress_has_its_teeth,
-    _cheaper_models_have_what_they_need,
-    _a_target_chooses_alone,
+    *ACCURACY_RULES,
     faces_are_resolved_by_elastic_contact,
     fields_of_faces_have_a_face,
     *DRAWING_RULES,
 )
-
-
-def _module(tree: Tree) -> float | None:
-    """The module in mm; None where it is missing or wrong by itself."""
-    module = quantity_at(tree, "gears", "module")
-    if module is None:
-        return None
-    allowed = allowed_in(Gears, "module")
-    return module if allowed.lowest <= module <= allowed.highest else None

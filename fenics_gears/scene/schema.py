@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, make_dataclass
 from fenics_gears.effects import top_level
 from fenics_gears.inputs.fields import quantity, text, whole_number
 from fenics_gears.inputs.section import Section, names_in, section_within
+from fenics_gears.inputs.tree import LOADS
 from fenics_gears.scene.accuracy import Accuracy
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
 from fenics_gears.scene.gear_schema import Gears
@@ -23,6 +24,8 @@ from fenics_gears.scene.output import Output
 class LoadText(Section):
     """``[load]``: the mean torque on the end of the output shaft, by exactly one of these fields; the gears pass it on
     without losses."""
+
+    alternatives = (LOADS,)
 
     wheel_torque: float | None = quantity(
         "-1e12 N m to 1e12 N m",
@@ -55,6 +58,8 @@ WHOLE_PERIOD = {HUNTING_TOOTH_PERIOD: 0}
 class MotionText(Section):
     """``[motion]``: the speed, given as mesh frequency or as pinion speed, and the length of the run. A scene without
     ``[inertia]`` needs none of it."""
+
+    alternatives = (("mesh_frequency", "pinion_speed"), ("mesh_cycles", "settling_time"))
 
     mesh_frequency: float | None = quantity(
         "1e-6 Hz to 1e6 Hz",

@@ -112,7 +112,7 @@ def test_helix_deviations_are_material_over_the_gears_own_face(helical, name, sh
     errors = [GearErrors(), GearErrors()]
     errors[gear] = GearErrors(**{name: tuple(values)})
     position = helical.position(step)
-    found = flank_gaps(FlankErrors(*errors), pair, STEPS, helical.face)(step, position)
+    found = flank_gaps(FlankErrors(pinion=errors[0], wheel=errors[1]), pair, STEPS, helical.face)(step, position)
     met = set()
     for place, nodes in zip([each.place for each in position.operator.pairs], node_slices(position.operator.pairs)):
         tooth = (2 - place.index) % teeth
@@ -139,7 +139,7 @@ def test_waves_run_along_the_lines_of_contact(helical, gear):
     errors = [GearErrors(), GearErrors()]
     errors[gear] = GearErrors(waviness=Waviness(amplitude, waves, 0.2))
     position = OnTheLine(helical.position(step))
-    found = flank_gaps(FlankErrors(*errors), pair, STEPS, helical.face)(step, position)
+    found = flank_gaps(FlankErrors(pinion=errors[0], wheel=errors[1]), pair, STEPS, helical.face)(step, position)
     for index in {each.place.index for each in position.pairs}:
         own = [place for place, each in enumerate(position.pairs) if each.place.index == index]
         line = [

@@ -84,6 +84,15 @@ def test_a_relief_longer_than_the_flank_is_refused(paper_pair, field, words):
 
 
 @pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
+def test_a_gears_own_growth_goes_before_that_of_both(paper_scene, section, word):
+    """Authority: docs/scene.md; fields that a gear's own section leaves out are those of both, and shape and exponent
+    say the same."""
+    text = f'[{section}]\ndepth = "20 um"\nstart = "{word}"\nexponent = 1.5\n[{section}.wheel]\nshape = "parabolic"\n'
+    found = getattr(scene_from_text(f"{paper_scene.text}\n{text}"), section)
+    assert (found.pinion.power, found.wheel.power) == (1.5, 2)
+
+
+@pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
 def test_a_start_means_one_place(paper_scene, section, word):
     """Definition of the scene's fields: a diameter belongs to one gear, unless the gears are alike; lengths and roll
     angles to both; one of them."""
@@ -99,7 +108,9 @@ def test_a_start_means_one_place(paper_scene, section, word):
         ),
     ):
         relief(depth + diameter)
-    with pytest.raises(SceneError, match="stands beside start, and each says where the relief starts"):
+    with pytest.raises(
+        SceneError, match="stands beside start; allowed is one of start, length_on_path, length_on_flank"
+    ):
         relief(f'{depth}start = "{word}"\nlength_on_path = "3 mm"')
     with pytest.raises(SceneError, match=f'{section}.start\n *is missing. Allowed: such as "{word}".*length_on_flank'):
         relief(depth)

@@ -18,8 +18,8 @@ from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.validity import WINDOW_REACHED
 from fenics_gears.runs.runs import Ticking
 from fenics_gears.scene.accuracy import MOST_CONTACT_NODES
+from fenics_gears.scene.accuracy_rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.data import Output, Scene
-from fenics_gears.scene.rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.studies.accuracy.convergence import SAFETY_OF_SLICES, SAFETY_OF_TWO, error_of_two
 from fenics_gears.studies.accuracy.measures import Answer, judged_answer
 from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings

@@ -1,0 +1,123 @@
+"""The tooth thickness of a gear as a drawing has it: by profile shift, or measured by caliper, span or balls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from fenics_gears.geometry import tooth_thickness
+from fenics_gears.geometry.gear import Gear, transverse_gear
+from fenics_gears.geometry.gear_checks import ROUNDING, refuse
+from fenics_gears.geometry.gear_data import GearData
+from fenics_gears.scene import unusual
+from fenics_gears.scene.data import Derived
+from fenics_gears.scene.gear_schema import MEASURES, Gears
+from fenics_gears.scene.gear_schema import Gear as GearText
+
+# Largest difference, in modules, of the profile shift of a thickness from that of the drawing: more is another number
+# of spanned teeth or another gear.
+LARGEST_ALLOWANCE = 0.5
+# Largest profile shift that a thickness alone may stand for: one spanned tooth more or less is a shift of pi/(2
+# tan(alpha_n)), 4.3 at 20 deg.
+LARGEST_SHIFT = 2.0
+# In place of what a drawing leaves out, where it does not count.
+UNKNOWN = 0.0
+
+
+def gear_of(pair: Gears, gear: GearData) -> Gear:
+    """A gear in the section of rotation."""
+    return transverse_gear(gear, pair.module, pair.pressure_angle, pair.helix_angle or 0.0)
+
+
+def rack_gear(pair: Gears, teeth: int, shift: float, root_diameter: float = UNKNOWN) -> Gear:
+    """A gear of which only rack, teeth and profile shift are known, and perhaps the root."""
+    return gear_of(pair, GearData(teeth, shift, UNKNOWN, root_diameter, UNKNOWN, UNKNOWN))
+
+
+def measure_of(drawn: GearText) -> str | None:
+    """The field that gives the gear's thickness; None where `profile_shift` does."""
+    return next((name for name in MEASURES if getattr(drawn, name) is not None), None)
+
+
+def shift_of_thickness(pair: Gears, drawn: GearText, name: str) -> tuple[float, list[Derived]]:
+    """The profile shift of the gear's thickness, and what was derived."""
+    gear, measure = rack_gear(pair, drawn.teeth, 0.0), measure_of(drawn)
+    if measure is None:
+        return drawn.profile_shift, []
+    beside = MEASURES[measure]
+    written = f"gears.{name}.{measure} = {getattr(drawn, measure):.6g} mm" + (
+        f" with {beside} {getattr(drawn, beside):g}" if beside else ""
+    )
+    if measure == "tooth_thickness":
+        shift = tooth_thickness.shift_of_normal_thickness(gear, drawn.tooth_thickness)
+    elif measure == "base_tangent_length":
+        shift = tooth_thickness.shift_of_base_tangent_length(gear, drawn.base_tangent_length, drawn.spanned_teeth)
+    else:
+        shift = tooth_thickness.shift_of_dimension_over_balls(gear, drawn.dimension_over_balls, drawn.ball_diameter)
+    if shift is None:
+        refuse(name, f"{written}: the centres of the balls would lie within the base circle: check both, and the teeth")
+    nominal, allowed = (0.0, LARGEST_SHIFT) if drawn.profile_shift is None else (drawn.profile_shift, LARGEST_ALLOWANCE)
+    if abs(shift - nominal) > allowed:
+        than = f"profile_shift = {nominal:g}" if nominal else "none"
+        refuse(
+            name,
+            f"{written} is that of a profile shift of {shift:.4g}; allowed are {allowed:g} modules more or less than"
+            f" {than}: check both, and gears.module",
+        )
+    words = "profile shift" if drawn.profile_shift is None else "profile shift of its tooth thickness"
+    if drawn.profile_shift is None:
+        odd = unusual.of_profile_shift(name, shift)
+    else:
+        odd = unusual.of_allowance(pair, name, shift - nominal, pair.centre_distance or 0.0)
+    return shift, [Derived(f"{name} {words}", shift, "modules", f"of its {measure.replace('_', ' ')}", odd)]
+
+
+def check_measure(drawn: GearText, name: str, gear: Gear) -> None:
+    """Caliper and balls touch the involute, and balls stand out of the tip circle and clear of the root."""
+    lowest, measure = gear.form_radius, measure_of(drawn)
+    if measure == "base_tangent_length":
+        touched, better = (
+            tooth_thickness.tangent_contact_radius(gear, drawn.base_tangent_length),
+            tooth_thickness.spanned_teeth(gear),
+        )
+    elif measure == "dimension_over_balls":
+        touched, better = (
+            tooth_thickness.ball_contact_radius(gear, drawn.ball_diameter),
+            f"about {tooth_thickness.ball_diameter(gear):.4g} mm",
+        )
+        centre, radius = tooth_thickness.ball_centre(gear, drawn.ball_diameter), 0.5 * drawn.ball_diameter
+        if centre + radius < gear.tip_radius:
+            refuse(
+                name,
+                f"gears.{name}.ball_diameter = {drawn.ball_diameter:g} mm: the balls lie within the tip circle of"
+                f" {2.0 * gear.tip_radius:.6g} mm: take {better}",
+            )
+    else:
+        return
+    if not lowest - ROUNDING <= touched <= gear.tip_form_radius + ROUNDING:
+        refuse(
+            name,
+            f"gears.{name}.{measure} = {getattr(drawn, measure):.6g} mm would be measured at diameter"
+            f" {2.0 * touched:.6g} mm, off the involute, which goes from {2.0 * lowest:.6g} to"
+            f" {2.0 * gear.tip_form_radius:.6g} mm: measure with gears.{name}.{MEASURES[measure]} {better}",
+        )
+
+
+def asked_measures(pair: Gears, drawn: GearText, name: str, cut: float) -> Iterator[Derived]:
+    """What a caliper reads over the teeth, and over the balls, that a drawing names without the measure."""
+    gear = rack_gear(pair, drawn.teeth, cut)
+    if drawn.spanned_teeth is not None and drawn.base_tangent_length is None:
+        length = tooth_thickness.base_tangent_length(gear, drawn.spanned_teeth)
+        yield Derived(
+            f"{name} base tangent length over {drawn.spanned_teeth} teeth",
+            length,
+            "mm",
+            "W_k = m_n cos(alpha_n) [pi (k - 1/2) + z inv(alpha_t) + 2 x tan(alpha_n)]",
+        )
+    if drawn.ball_diameter is not None and drawn.dimension_over_balls is None:
+        dimension = tooth_thickness.dimension_over_balls(gear, drawn.ball_diameter)
+        yield Derived(
+            f"{name} dimension over balls of {drawn.ball_diameter:g} mm",
+            dimension,
+            "mm",
+            "M_d by inv(alpha_K) = D_M/(d_b cos(beta_b)) + psi_b - pi/z",
+        )
