@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fenics_gears.contact.face_cycle import face_places
+from fenics_gears.contact.places import face_places
 from fenics_gears.contact.window import flank_ends, node_offsets
 from fenics_gears.elasticity.face.cost import expected_memory, expected_size, is_iterative
 from fenics_gears.model.face_resolution import face_discretisation

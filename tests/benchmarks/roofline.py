@@ -20,22 +20,13 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import (
-    COMPLIANCE,
-    GAP,
-    JACOBIAN,
-    PREVIOUS_COMPLIANCE,
-    PREVIOUS_JACOBIAN,
-    RIGID_SLIP,
-    matrix_at,
-    vector_at,
-)
 from fenics_gears.contact.laws import OPEN, STICK
-from fenics_gears.contact.newton import measure, relative_displacement, solve_sets
-from fenics_gears.dynamics.compiled_march import slip_at_start, solve_steps
+from fenics_gears.contact.mixed_form import Equations, Iterate, relative_displacement, solve_sets
+from fenics_gears.contact.newton import measure
+from fenics_gears.dynamics.compiled_march import Course, slip_at_start, solve_steps
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.dynamics.steps import Steps
+from fenics_gears.dynamics.steps import Steps, forces_at, nodes_at, operator_at
 from fenics_gears.model.model import model_of
 from fenics_gears.results.energy_variables import energy_of_teeth
 from fenics_gears.results.mesh_curves import stiffness_curves
@@ -49,62 +40,53 @@ ROUNDS = 9
 
 
 @njit(cache=True)
-def _systems(table, starts, kinds, stiffness, loads, friction, slips, status, forces):
-    """The linear system of the final sets of every step, set up and solved."""
-    for s in range(1, len(table)):
-        n, m, k = starts[s + 1] - starts[s], kinds * (starts[s + 1] - starts[s]), len(stiffness)
-        found, coordinates = np.zeros(m), np.zeros(k)
-        solve_sets(
-            stiffness, loads[s], matrix_at(table[s, COMPLIANCE], m, m), matrix_at(table[s, JACOBIAN], m, k),
-            vector_at(table[s, GAP], n),
-            slips[starts[s] : starts[s] + (n if kinds == 2 else 0)], friction, status[starts[s] : starts[s + 1]], found,
-            coordinates,
-        )  # fmt: skip
+def _equations(steps, s, motion, loads, slips):
+    """The equations of a step and its solution."""
+    contact, nodes, forces = operator_at(steps, s), nodes_at(steps, s), forces_at(steps, s)
+    slip = slips[nodes] if steps.kinds == 2 else slips[:0]
+    equations = Equations(
+        motion.stiffness, loads[s], contact.compliance, contact.jacobian, contact.gap, slip, motion.friction,
+        motion.free_motion,
+    )  # fmt: skip
+    found = Iterate(steps.status[nodes], steps.forces[forces], steps.states[s, 0], steps.displacement[forces])
+    return equations, found
 
 
 @njit(cache=True)
-def _displacements(table, starts, kinds, forces, positions):
+def _systems(steps, motion, loads, slips):
+    """The linear system of the final sets of every step, set up and solved."""
+    for s in range(1, len(steps.rows)):
+        equations, found = _equations(steps, s, motion, loads, slips)
+        nothing = np.zeros(len(found.forces))
+        solve_sets(equations, Iterate(found.status, nothing, np.zeros(len(found.coordinates)), nothing))
+
+
+@njit(cache=True)
+def _displacements(steps, motion, loads, slips):
     total = 0.0
-    for s in range(1, len(table)):
-        m, k = kinds * (starts[s + 1] - starts[s]), positions.shape[1]
-        found, now = np.empty(m), slice(kinds * starts[s], kinds * starts[s + 1])
-        relative_displacement(
-            found,
-            0,
-            m,
-            matrix_at(table[s, COMPLIANCE], m, m),
-            matrix_at(table[s, JACOBIAN], m, k),
-            forces[now],
-            positions[s],
-        )
-        total += found[0]
+    for s in range(1, len(steps.rows)):
+        equations, found = _equations(steps, s, motion, loads, slips)
+        moved = Iterate(found.status, found.forces, found.coordinates, np.empty(len(found.forces)))
+        relative_displacement(equations, moved, 0, len(found.forces))
+        total += moved.displacement[0]
     return total
 
 
 @njit(cache=True)
-def _slips(table, starts, forces, positions, slips):
-    for s in range(1, len(table)):
-        n, k = starts[s + 1] - starts[s], positions.shape[1]
-        before = forces[2 * starts[s - 1] : 2 * starts[s]]
-        slips[starts[s] : starts[s + 1]] = slip_at_start(
-            vector_at(table[s, RIGID_SLIP], n), matrix_at(table[s, PREVIOUS_JACOBIAN], n, k),
-            matrix_at(table[s, PREVIOUS_COMPLIANCE], len(before), n),
-            positions[s - 1], before,
-        )  # fmt: skip
+def _slips(steps, slips):
+    for s in range(1, len(steps.rows)):
+        contact, before = operator_at(steps, s), steps.forces[forces_at(steps, s - 1)]
+        slips[nodes_at(steps, s)] = slip_at_start(
+            contact.rigid_slip, contact.previous_jacobian, contact.previous_columns, steps.states[s - 1, 0], before
+        )
 
 
 @njit(cache=True)
-def _measures(table, starts, kinds, stiffness, loads, friction, slips, status, forces, displacement, positions):
+def _measures(steps, motion, loads, slips):
     residual = np.empty(5)
-    for s in range(1, len(table)):
-        n, m, k = starts[s + 1] - starts[s], kinds * (starts[s + 1] - starts[s]), len(stiffness)
-        now = slice(kinds * starts[s], kinds * starts[s + 1])
-        measure(
-            residual, stiffness, loads[s], matrix_at(table[s, COMPLIANCE], m, m), matrix_at(table[s, JACOBIAN], m, k),
-            vector_at(table[s, GAP], n),
-            slips[starts[s] : starts[s] + (n if kinds == 2 else 0)], friction, status[starts[s] : starts[s + 1]],
-            forces[now], positions[s], displacement[now],
-        )  # fmt: skip
+    for s in range(1, len(steps.rows)):
+        equations, found = _equations(steps, s, motion, loads, slips)
+        measure(residual, equations, found)
 
 
 def seconds(call) -> float:
@@ -135,12 +117,8 @@ def main() -> None:
     for block in blocks[1:]:
         steps = steps.followed_by(block)
     count, k, kinds = len(steps), len(marcher.drivetrain.coordinates), steps.kinds
-    positions, loads = steps.states[:, 0].copy(), np.tile(marcher.drivetrain.load, (count, 1))
-    slips, effective, friction = (
-        np.zeros(len(steps.status)),
-        np.ascontiguousarray(marcher.dynamic.stiffness),
-        marcher.friction,
-    )
+    loads, slips = np.tile(marcher.drivetrain.load, (count, 1)), np.zeros(len(steps.status))
+    effective = marcher._motion._replace(stiffness=np.ascontiguousarray(marcher.dynamic.stiffness))
     of_step = np.repeat(np.arange(count), np.diff(steps.starts))
     n = np.diff(steps.starts).astype(float)
     closed = np.bincount(of_step[steps.status != OPEN], minlength=count).astype(float)
@@ -148,18 +126,12 @@ def main() -> None:
     m, loaded, iterations = kinds * n, kinds * closed, np.maximum(steps.iterations, 1)
     size = closed + stick + k
     # Name, seconds, operations and entries of compliance of a step, arrays over the steps.
-    table, starts = steps.table, steps.starts
     rows = []
     if kinds == 2:
         rows.append(
-            (
-                "slip before the step",
-                seconds(lambda: _slips(table, starts, steps.forces, positions, slips)),
-                2 * n * (loaded + k),
-                n * loaded,
-            )
+            ("slip before the step", seconds(lambda: _slips(steps.in_memory, slips)), 2 * n * (loaded + k), n * loaded)
         )
-    arguments = table, starts, kinds, effective, loads, friction, slips, steps.status, steps.forces
+    arguments = steps.in_memory, effective, loads, slips
     per_iteration = [
         (
             "Newton's matrix and its solution",
@@ -167,18 +139,8 @@ def main() -> None:
             2 * size**2 + 4 * size * closed * (kinds - 1) + 2 / 3 * size**3 + 2 * size**2,
             kinds * closed * size,
         ),
-        (
-            "displacements",
-            seconds(lambda: _displacements(table, starts, kinds, steps.forces, positions)),
-            2 * m * (k + loaded),
-            m * loaded,
-        ),
-        (
-            "residuals",
-            seconds(lambda: _measures(*arguments, steps.displacement, positions)),
-            6 * k * k + 4 * k * loaded + 8 * n,
-            0 * n,
-        ),
+        ("displacements", seconds(lambda: _displacements(*arguments)), 2 * m * (k + loaded), m * loaded),
+        ("residuals", seconds(lambda: _measures(*arguments)), 6 * k * k + 4 * k * loaded + 8 * n, 0 * n),
     ]
     rows += [
         (name, spent * float(iterations.mean()), operations * iterations, entries * iterations)
@@ -186,7 +148,7 @@ def main() -> None:
     ]
     solved = steps.between(0, count)
     durations = np.full(count, model.time_step)
-    march = seconds(lambda: solve_steps(solved, 1, count, marcher._motion, durations, loads))
+    march = seconds(lambda: solve_steps(solved, 1, count, marcher._motion, Course(durations, loads)))
     rows += [
         (
             "contact work",

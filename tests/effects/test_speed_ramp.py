@@ -12,7 +12,8 @@ from tests.coarse import COARSE, frictionless
 from tests.frozen_gears import GRID, frozen_marcher
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.clock import SteadyClock
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.march import Marcher
@@ -188,7 +189,7 @@ def test_mean_mesh_force_while_rolling_is_the_momentum_balance(paper_scene, pape
     the change of the wheel's own velocity over the time passed; rigid shafts, no friction."""
     scene = replace(paper_scene, friction=None, damping=None, shafts=None, bearings=None)
     shafts, clock = drivetrain(scene, paper_pair), RampClock(100.0, 140.0, 0, 6 * 50, 50)
-    cycle = MeshCycle(stand_in_flanks, GRID, 50, shafts.indices, tangential=False)
+    cycle = Cycle(elastic_mesh(stand_in_flanks, GRID), 50, shafts.indices, tangential=False)
     marcher = Marcher(
         cycle, EquationsOfMotion(shafts, clock.duration(0, 1), clock=clock, loads=(inertia_forces(clock, shafts, 24),))
     )
@@ -237,7 +238,7 @@ def test_the_energy_account_closes_over_divided_steps(paper_scene, paper_pair, s
     """Exact identity: where every step is divided, into parts of unequal length under loads that vary, the account
     closes as well."""
     shafts = drivetrain(paper_scene, paper_pair)
-    cycle = MeshCycle(stand_in_flanks, GRID, 50, shafts.indices, tangential=True)
+    cycle = Cycle(elastic_mesh(stand_in_flanks, GRID), 50, shafts.indices, tangential=True)
     clock = RampClock(100.0, 400.0, 0, 2 * 50, 50)
     ripple = varying_load(TorqueRipple((Harmonic(30.0, 50e3),)), shafts, 2.0 * np.pi / (24 * 50))
     loads = (inertia_forces(clock, shafts, 24), ripple)

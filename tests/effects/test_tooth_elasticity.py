@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fenics_gears.contact.rigid_cycle import SAME_GAP
+from fenics_gears.contact.rigid_mesh import SAME_GAP
 from fenics_gears.effects import result_variables, without
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.errors import SceneError

@@ -14,7 +14,6 @@ from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion, Output
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.deviations import deviating
 from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
 from fenics_gears.simulation.mesh_springs import table_cycle
 from fenics_gears.simulation.simulate import simulate
@@ -61,8 +60,7 @@ def table_between_loads(scene, torque: float, loads) -> float:
 
     def preparation(model, progress, cache):
         at_own_load = model_of(scene)
-        gears, cycle = table_cycle(at_own_load, gear_compliances(model, progress, cache), loads)
-        return gears, deviating(model, cycle)
+        return table_cycle(at_own_load, gear_compliances(model, progress, cache), loads)
 
     return distance(simulate(by(loaded, STIFFNESS_TABLE), preparation=preparation), simulate(loaded))
 

@@ -83,7 +83,9 @@ class FacePoint(Point):
             return cycle
 
         cycle = self._stage(
-            "operators", operators, lambda cycle: array_bytes(cycle._positions, cycle._pairs, cycle._pairing._bodies)
+            "operators",
+            operators,
+            lambda cycle: array_bytes(cycle._built, cycle._pairs, cycle.mesh.response.__self__._bodies),
         )
         march = self._stage(
             "solving",

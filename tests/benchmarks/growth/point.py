@@ -150,7 +150,7 @@ class Point:
 
 def _bytes_of_cycle(cycle) -> int:
     """Of all that a mesh cycle keeps: positions, tooth pairs, and the flanks' compliances as it goes through them."""
-    return array_bytes(cycle._positions, cycle._pairs, cycle._pairing._blocks)
+    return array_bytes(cycle._built, cycle._pairs, cycle.mesh.response.__self__._blocks)
 
 
 def warmed_up() -> None:
