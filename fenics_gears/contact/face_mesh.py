@@ -13,9 +13,9 @@ from fenics_gears.contact.mesh import ELASTIC_FLANKS, Mesh, flank_nodes
 from fenics_gears.contact.mesh_cycle import Cycle, Opening, PerPosition, Position
 from fenics_gears.contact.operator import per_node
 from fenics_gears.contact.places import face_places
-from fenics_gears.contact.tooth_pair import DRIVE, Flanks, PairNodes, Place, flank_points, interpolations
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, flank_points, interpolations
 from fenics_gears.contact.touching import Touching, touching_at
-from fenics_gears.contact.window import ContactGrid, coast_roll_angles
+from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
 # Gap (k,), mm along the line of action, between flanks at heights z (k,), mm, and positions (k,), mm from T1.
@@ -36,7 +36,7 @@ def face_mesh(
             return None
         rolls = flank_points(pair, nodes.place, nodes.offsets)[0]
         coarse = interpolations(pairing.sections, grid, nodes.place, nodes.offsets, rolls)
-        return FacePair(**(vars(nodes) | {"gap": face.cosine * nodes.gap}), coarse=coarse)
+        return FacePair(**vars(nodes), coarse=coarse)
 
     def nodes(phase: float) -> tuple[PairNodes, ...]:
         found, alike = [], {}
@@ -61,19 +61,22 @@ def opening_over_face(cycle: Cycle, drive: OverFace, coast: OverFace | None = No
     gap between the coast flanks."""
     pair, face = cycle.pair, cycle.face
 
+    def roll(place: Place, phase: float) -> float:
+        """Roll angle (rad) of the theoretical contact on the pinion, also where a tip's edge touches."""
+        if place.line is None:
+            return place.contact_rolls[0]
+        xi = pair.path_start + (phase + place.index) * pair.base_pitch + face.shifts[place.slice]
+        return (contact_roll_angles if place.flank == DRIVE else coast_roll_angles)(pair, xi)[0]
+
     def opening(position: Position) -> np.ndarray:
-        places = [pairs.place for pairs in position.operator.pairs]
+        places, phase = [pairs.place for pairs in position.operator.pairs], position.index / cycle.steps
+        flanks, heights = (np.array([getattr(place, name) for place in places]) for name in ("flank", "height"))
+        along = pair.pinion.base_radius * np.array([roll(place, phase) for place in places])
         found = np.zeros(len(places))
-        for flank, over_face in enumerate((drive, coast)):
-            own = np.array([number for number, place in enumerate(places) if place.flank == flank], dtype=int)
-            if over_face is None or not len(own):
-                continue
-            index, slices = np.array([(places[number].index, places[number].slice) for number in own]).T
-            # Of the theoretical contact, also where a tip's edge touches.
-            along = pair.path_start + (position.index / cycle.steps + index) * pair.base_pitch + face.shifts[slices]
-            if flank != DRIVE:
-                along = pair.pinion.base_radius * np.array([coast_roll_angles(pair, each)[0] for each in along])
-            found[own] = over_face(face.positions[slices], along)
+        for flank, over_face in ((DRIVE, drive), (COAST, coast)):
+            if over_face is not None:
+                own = flanks == flank
+                found[own] = over_face(heights[own], along[own])
         return per_node(position.operator.pairs, found)
 
     return PerPosition(opening)

@@ -19,7 +19,7 @@ import numpy as np
 from fenics_gears.contact.addresses import row_of
 from fenics_gears.contact.mesh import Mesh, Nodes
 from fenics_gears.contact.node_before import nodes_before
-from fenics_gears.contact.operator import ContactOperator, Passage, contact_operator
+from fenics_gears.contact.operator import ContactOperator, Passage, contact_operator, over_nodes
 from fenics_gears.contact.step_solver import StepProblem, StepSolution
 from fenics_gears.contact.tooth_pair import PairNodes, Place
 
@@ -111,8 +111,8 @@ Deviation = Callable[[float, Position], np.ndarray]
 
 @dataclass(frozen=True)
 class Gaps:
-    """What gaps are made of: the `profile`, gaps (n,), mm, that the flanks themselves leave at a position, those of the
-    nodes where None; `openings` and `deviations` are added."""
+    """What gaps are made of, mm along the line of action: the `profile` (n,) that the flanks themselves leave at a
+    position, that of the nodes where None; `openings` and `deviations` are added."""
 
     profile: Callable[[Position], np.ndarray] | None = None
     openings: tuple[Opening, ...] = ()
@@ -232,10 +232,11 @@ class Cycle:
         """The position with the profile of these gaps and all that opens it in every mesh cycle."""
         if self.gaps.profile is None and not self.gaps.openings:
             return position
-        gap = position.operator.gap if self.gaps.profile is None else self.gaps.profile(position)
+        profile = self.gaps.profile
+        gap = over_nodes(position.operator.pairs, "gap") if profile is None else profile(position)
         for opening in self.gaps.openings:
-            gap = gap + self._along_normal * opening(position)
-        return position.with_gap(gap)
+            gap = gap + opening(position)
+        return position.with_gap(self._along_normal * gap)
 
     def _deviating(self, step: float, position: Position) -> Position:
         if not self.gaps.deviations:

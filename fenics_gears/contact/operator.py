@@ -213,7 +213,7 @@ def contact_operator(
         normal_lever_arms=arms,
         compliance=response.compliance,
         jacobian=displacement_jacobian(pairs, radii, arms, frictional, lines, face).take(coordinates, axis=1),
-        gap=over_nodes(pairs, "gap"),
+        gap=over_nodes(pairs, "gap") * (1.0 if face is None else face.cosine),
         rigid_slip=slip,
         previous_compliance=before,
         previous_jacobian=earlier,

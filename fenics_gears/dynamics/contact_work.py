@@ -55,8 +55,11 @@ class Shared(NamedTuple):
 @njit(cache=True)
 def _works(steps):
     works = np.zeros((3, max(len(steps.rows) - 1, 0)))
+    if not len(steps.rows):
+        return works
+    now = _end(steps, 0)
     for s in range(1, len(steps.rows)):
-        then, now = _end(steps, s - 1), _end(steps, s)
+        then, now = now, _end(steps, s)
         shared = _shared(now.contact.node_before, len(then.contact.gap), steps.kinds)
         works[0, s - 1] = _by_shape(then, now, shared.rows)
         _normal_work(works[:, s - 1], then, now, shared)

@@ -126,8 +126,7 @@ def test_positions_and_gaps_in_slices(hand):
             position - sign * pair.slope * nodes.place.height
         )
         if nodes.place.flank == COAST and 0.0 in np.round(nodes.offsets, 12):
-            touching = pair.cosine * pair.backlash
-            assert nodes.gap[np.abs(nodes.offsets).argmin()] == pytest.approx(touching, rel=2e-2)
+            assert nodes.gap[np.abs(nodes.offsets).argmin()] == pytest.approx(pair.backlash, rel=2e-2)
     for found in places.values():
         np.testing.assert_allclose(found, found[0], rtol=1e-12)
     assert len({flank for flank, _ in places}) == 2

@@ -33,7 +33,7 @@ def model(scene):
 
 @pytest.fixture(scope="module")
 def flanks(model):
-    return prepared(model, SilentProgress(), None)[1].flanks
+    return prepared(model, SilentProgress(), None)[1].mesh.response.__self__.flanks
 
 
 def pressed(operator, force):
