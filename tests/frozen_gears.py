@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
@@ -31,7 +32,7 @@ class Frozen:
                 previous_compliance=operator.compliance[n:].copy(),
                 previous_jacobian=operator.jacobian[n:].copy(),
             )
-        self._position = replace(position, operator=operator, carried_from=np.arange(operator.nodes))
+        self._position = replace(position, operator=operator, node_before=np.arange(operator.nodes))
         self.steps, self.solve, self.pair, self.traits = (
             cycle.steps,
             cycle.solve,
@@ -47,6 +48,6 @@ class Frozen:
 def frozen_marcher(scene, pair, flanks, step, phase_step=60):
     """A marcher with time step `step` (s) at one position of 100 in the mesh cycle, and its drivetrain."""
     shafts = drivetrain(scene, pair)
-    cycle = MeshCycle(flanks, GRID, 100, shafts.indices, tangential=scene.friction is not None)
+    cycle = Cycle(elastic_mesh(flanks, GRID), 100, shafts.indices, tangential=scene.friction is not None)
     friction = 0.0 if scene.friction is None else scene.friction.coefficient
     return Marcher(Frozen(cycle, phase_step), EquationsOfMotion(shafts, step, friction)), shafts

@@ -13,7 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.contact.pressure import without_oscillation
 from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
@@ -90,9 +91,8 @@ class HertzContact:
         of action."""
         cells = 2 * int(np.ceil(0.5 * WINDOW * self.half_width(self.line_load) / spacing))
         flanks = Flanks(self.pair, compliances, (None, None))
-        cycle = MeshCycle(
-            flanks,
-            ContactGrid(cells * spacing, cells + 1),
+        cycle = Cycle(
+            elastic_mesh(flanks, ContactGrid(cells * spacing, cells + 1)),
             1,
             [CENTRE_COORDINATES.index("rotation_2")],
             tangential=False,

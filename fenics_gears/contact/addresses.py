@@ -1,27 +1,40 @@
-"""Where arrays lie in memory, so that one call of compiled code goes through the contact operators of many steps
-without copying them."""
+"""Where the arrays of contact operators lie in memory, so that one call of compiled code goes through many steps
+without copying them.
+
+Numbers of a row are addresses: whoever has one holds the arrays (`Position.in_memory`) as long as it is used.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numba import carray, njit, types
 from numba.extending import intrinsic
 
-# What `Position.in_memory` holds of a contact operator.
-(
-    NODES,
-    COMPLIANCE,
-    JACOBIAN,
-    GAP,
-    ON_DRIVE_FLANKS,
-    NODE_PAIR,
-    CARRIED,
-    RIGID_SLIP,
-    PREVIOUS_JACOBIAN,
-    PREVIOUS_COMPLIANCE,
-) = range(10)
+
+class Arrays(NamedTuple):
+    """Those of a contact operator (n nodes, m = n or with friction 2 n, k coordinates) in compiled code, named as
+    there: `on_drive_flanks` (n,), `node_pair` (n,), `node_before` (n,) as of a Position.
+
+    `rigid_slip` (n,), `previous_jacobian` (n, k) and `previous_columns` (m before, n), the previous compliance by
+    columns, have no rows without friction.
+    """
+
+    compliance: np.ndarray
+    jacobian: np.ndarray
+    gap: np.ndarray
+    on_drive_flanks: np.ndarray
+    node_pair: np.ndarray
+    node_before: np.ndarray
+    rigid_slip: np.ndarray
+    previous_jacobian: np.ndarray
+    previous_columns: np.ndarray
+
+
+# A row: how many contact nodes there are, and the address of each array, 0 where it is not there.
+ROW = np.dtype([(name, np.int64) for name in ("nodes", *Arrays._fields)])
 
 
 def _pointer_to(kind):
@@ -38,34 +51,26 @@ def _pointer_to(kind):
 _to_number, _to_integer, _to_flag = (_pointer_to(kind) for kind in (types.float64, types.int64, types.boolean))
 
 
-@njit(cache=True, inline="always")
-def matrix_at(address, rows, columns):
-    """The matrix (rows, columns) of floats at an address."""
-    return carray(_to_number(address), (rows, columns))
+@njit(cache=True)
+def arrays_of(row, kinds, coordinates, nodes_before):
+    """The arrays of a row; `kinds`: forces of a contact node; `nodes_before`: how many there were a step before."""
+    n, k = row.nodes, coordinates
+    slides = 0 if row.rigid_slip == 0 else n
+    return Arrays(
+        carray(_to_number(row.compliance), (kinds * n, kinds * n)),
+        carray(_to_number(row.jacobian), (kinds * n, k)),
+        carray(_to_number(row.gap), n),
+        carray(_to_flag(row.on_drive_flanks), n),
+        carray(_to_integer(row.node_pair), n),
+        carray(_to_integer(row.node_before), n),
+        carray(_to_number(row.rigid_slip), slides),
+        carray(_to_number(row.previous_jacobian), (slides, k)),
+        carray(_to_number(row.previous_columns), (kinds * nodes_before, slides)),
+    )
 
 
-@njit(cache=True, inline="always")
-def vector_at(address, size):
-    """The vector (size,) of floats at an address."""
-    return carray(_to_number(address), size)
-
-
-@njit(cache=True, inline="always")
-def integers_at(address, size):
-    """The integers (size,) at an address."""
-    return carray(_to_integer(address), size)
-
-
-@njit(cache=True, inline="always")
-def flags_at(address, size):
-    """The flags (size,) at an address."""
-    return carray(_to_flag(address), size)
-
-
-def addresses(arrays: Sequence[np.ndarray | None]) -> tuple[np.ndarray, list[np.ndarray]]:
-    """Address of each array, 0 for None; and the arrays, which lie in one piece there and have to be held as long as
-    the addresses are used."""
+def row_of(nodes: int, arrays: Sequence[np.ndarray | None]) -> tuple[np.ndarray, list[np.ndarray]]:
+    """The row (1,) of arrays in the order of `Arrays`; and those arrays, each in one piece."""
     held = [np.empty(0) if array is None else np.ascontiguousarray(array) for array in arrays]
-    return np.array(
-        [0 if array is None else kept.ctypes.data for array, kept in zip(arrays, held)], dtype=np.int64
-    ), held
+    found = [0 if array is None else own.ctypes.data for array, own in zip(arrays, held)]
+    return np.array([(nodes, *found)], dtype=ROW), held

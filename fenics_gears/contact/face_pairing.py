@@ -16,23 +16,25 @@ import numpy as np
 
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.face import Face
-from fenics_gears.contact.face_product import Seen, Views, add_between_seen, at_contact_nodes, seen_by
+from fenics_gears.contact.face_product import Groups, OnGear, Side, face_product
 from fenics_gears.contact.interpolation import FlankInterpolation
-from fenics_gears.contact.operator import CompliancePairing, node_slices
+from fenics_gears.contact.operator import Passage, Response, count_of, node_slices, turned
+from fenics_gears.contact.pairing import CompliancePairing
 from fenics_gears.contact.rank import of_full_rank
 from fenics_gears.contact.tooth_pair import Flanks, Place, ToothPair
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.elasticity.slice_averages import on_slices, slice_averages
 from fenics_gears.errors import ComputationError
 
+GEARS = (0, 1)
 # Over the slice's own width, by which all is divided in the end.
 UNIT_WIDTH = 1.0
 
 
 @dataclass(frozen=True)
 class FacePair(ToothPair):
-    """Contact nodes of a tooth pair in one slice, that see the fine flanks by `interpolation` and the body's by
-    `coarse`."""
+    """Contact nodes of a tooth pair in one slice, whose interpolation is that of the fine flanks, `coarse` that of the
+    body's."""
 
     coarse: tuple[FlankInterpolation, FlankInterpolation]
 
@@ -56,88 +58,76 @@ class FacePairing:
             for body, middle in zip(bodies, face.middles)
         )
 
-    def compliance(
-        self, pairs: Sequence[FacePair], previous: Sequence[FacePair] | None, turned: tuple[float, float]
-    ) -> tuple[np.ndarray, np.ndarray | None, int]:
-        """C (m, m) and E (n, m before), mm/N, as of `CompliancePairing.compliance`; and the dependent rows, which have
-        a thin layer each (`contact.rank`)."""
-        kinds, seen = 1 if previous is None else 2, seen_by([pair.coarse for pair in pairs])
-        now = [self._views(gear, pairs, seen, kinds == 2) for gear in range(2)]
-        compliance, earlier = self._seen_compliance(now, seen, now, seen, symmetric=True), None
+    def response(self, passage: Passage) -> Response:
+        """How the contact nodes of a passage yield; dependent rows have a thin layer each (`contact.rank`)."""
+        pairs: Sequence[FacePair] = passage.pairs
+        previous: Sequence[FacePair] | None = passage.previous
+        angles = turned(self.sections.pair, passage.advance)
+        now = self._side(pairs, previous is not None)
+        compliance, earlier = self._of_bodies(now, now), None
         if previous is not None:
-            seen_before = seen_by([pair.coarse for pair in previous])
-            before = [self._views(gear, previous, seen_before, True) for gear in range(2)]
-            earlier_tangents = [self._views(gear, pairs, seen, True, turned[gear]) for gear in range(2)]
+            # The tangents as they stood before.
+            tangents = Side(
+                now.groups, tuple(self._on_gear(gear, pairs, now.groups, True, angles[gear]) for gear in GEARS)
+            )
             # Reciprocal, so that it lies in memory by columns, as the march reads it.
-            earlier = self._seen_compliance(before, seen_before, earlier_tangents, seen)
-        dependent = self._add_fine(compliance, earlier, pairs, previous, turned)
-        rows = kinds * _count(pairs)
-        return (
-            compliance.reshape(rows, rows),
-            None if previous is None else earlier.reshape(2 * _count(previous), _count(pairs)).T,
+            earlier = self._of_bodies(self._side(previous, True), tangents)
+        dependent = self._add_fine(compliance, earlier, pairs, previous, angles)
+        kinds, nodes, _ = now.shape
+        return Response(
+            compliance.reshape(kinds * nodes, kinds * nodes),
+            None if previous is None else earlier.reshape(2 * count_of(previous), nodes).T,
             dependent,
         )
 
-    def _seen_compliance(
-        self, rows: list[Views], seen: Seen, columns: list[Views], seen_by_columns: Seen, symmetric: bool = False
-    ) -> np.ndarray:
-        """Between contact nodes (d, n, e, m), mm/N: of the bodies, less what their plane sections give in each
-        slice."""
-        kinds, others = rows[0].axes.shape[1], columns[0].axes.shape[1]
-        sizes = (groups.seen[-1].stop if groups.seen else 0 for groups in (seen, seen_by_columns))
-        between = np.zeros((kinds, next(sizes), others, next(sizes)))
-        for (blocks, sections), own, other in zip(self._bodies, rows, columns):
+    def _of_bodies(self, rows: Side, columns: Side) -> np.ndarray:
+        for (blocks, sections), own, other in zip(self._bodies, rows.gears, columns.gears):
             _check_known(min(len(blocks), len(sections)) // 2, own.teeth, other.teeth)
-            add_between_seen(blocks, sections, self._shares, own, other, symmetric, between)
-        return at_contact_nodes(between, seen, seen_by_columns, symmetric)
+        return face_product(self._bodies, self._shares, rows, columns)
 
-    def _views(
-        self, gear: int, pairs: Sequence[FacePair], seen: Seen, tangential: bool, turned: float | None = None
-    ) -> Views:
-        """How the pairs' nodes see one gear's body: along normal and tangent, or with `turned` (rad) along the tangent
-        as it stood before."""
+    def _side(self, pairs: Sequence[FacePair], tangential: bool) -> Side:
+        groups = Groups.of([pair.coarse for pair in pairs])
+        return Side(groups, tuple(self._on_gear(gear, pairs, groups, tangential) for gear in GEARS))
+
+    def _on_gear(
+        self, gear: int, pairs: Sequence[FacePair], groups: Groups, tangential: bool, turned: float | None = None
+    ) -> OnGear:
+        """The pairs' nodes on one gear: along normal and tangent, or with `turned` (rad) along the tangent as it stood
+        before."""
         places = [pair.place for pair in pairs]
         teeth, flanks, slices = (
             np.array([(place.ahead(gear), place.flank, place.slice) for place in places], dtype=np.int64)
             .reshape(-1, 3)
             .T.copy()
         )
-        first, nodes = seen.firsts[gear], self._nodes[gear]
+        first, nodes = groups.first[gear], self._nodes[gear]
         plane = _plane_directions(gear, places, tangential, turned)
         axes = np.concatenate([plane, np.zeros((*plane.shape[:2], 1))], axis=2)
         if turned is None:
             axes[:, 0] *= self.face.cosine
             axes[:, 0, 2] = [self.face.axial_share(gear, place.turn) for place in places]
         dofs = 3 * (nodes * (flanks * self.face.slices + slices) + first)
-        return Views(
-            teeth, slices, seen.widths[gear], seen.places[gear], dofs, 2 * (nodes * flanks + first), axes, plane
-        )
+        plane_dofs = 2 * (nodes * flanks + first)
+        return OnGear(teeth, slices, groups.widths[gear], groups.places[gear], dofs, plane_dofs, axes, plane)
 
     def _add_fine(self, compliance, earlier, pairs, previous, turned) -> int:
         """Add the compliance of the fine sections in each slice; returns the dependent rows."""
         now, before = _of_slices(pairs, self.face.slices), _of_slices(previous or (), self.face.slices)
-        known, dependent = None, 0
+        fine, dependent = None, 0
         for (nodes, own), (nodes_before, own_before), share in zip(now, before, self._shares):
-            if known is None or self.face.slope != 0.0:
-                known = self._fine_section(own, own_before if previous is not None else None, turned)
-            more, more_before, rows = known
-            compliance[:, nodes[:, None], :, nodes] += share * more.transpose(1, 3, 0, 2)
-            if previous is not None:
-                earlier[:, nodes_before[:, None], :, nodes] += share * more_before.transpose(3, 1, 2, 0)
+            if fine is None or self.face.slope != 0.0:
+                # mm per N/mm: between the slice's nodes, and by those before.
+                section, by_earlier = self._fine.compliance(own, own_before if previous is not None else None, turned)
+                fine, rows = of_full_rank(section)
+                kinds, count = len(compliance), len(nodes)
             dependent += rows
+            compliance[:, nodes[:, None], :, nodes] += share * fine.reshape(kinds, count, kinds, count).transpose(
+                1, 3, 0, 2
+            )
+            if previous is not None:
+                more = by_earlier.reshape(1, count, 2, -1).transpose(3, 1, 2, 0)
+                earlier[:, nodes_before[:, None], :, nodes] += share * more
         return dependent
-
-    def _fine_section(self, pairs, previous, turned) -> tuple[np.ndarray, np.ndarray | None, int]:
-        """Of one slice, mm per N/mm: between its nodes (d, n, d, n), by those before (1, n, 2, before), and its
-        dependent rows."""
-        count, kinds = _count(pairs), 1 if previous is None else 2
-        fine, before = self._fine.compliance(pairs, previous, turned)
-        fine, dependent = of_full_rank(fine)
-        return (
-            fine.reshape(kinds, count, kinds, count),
-            None if before is None else before.reshape(1, count, 2, -1),
-            dependent,
-        )
 
 
 def _check_known(offsets: int, responding: np.ndarray, loaded: np.ndarray) -> None:
@@ -179,7 +169,3 @@ def _of_slices(pairs: Sequence[FacePair], slices: int) -> list[tuple[np.ndarray,
         numbers.append(np.arange(nodes.start, nodes.stop))
         own.append(pair)
     return [(np.concatenate(numbers) if numbers else np.empty(0, dtype=int), own) for numbers, own in found]
-
-
-def _count(pairs: Sequence[ToothPair]) -> int:
-    return sum(len(pair.offsets) for pair in pairs)

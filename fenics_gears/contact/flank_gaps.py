@@ -15,7 +15,7 @@ import numpy as np
 
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.interpolation import node_average, quadrature_offsets
-from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.mesh_cycle import PerPosition, Position
 from fenics_gears.contact.operator import node_slices
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, ToothPair
 from fenics_gears.errors import SceneError
@@ -57,14 +57,14 @@ class FlankGaps:
             _amounts(own, gear.angular_pitch, sense) for own, gear, sense in zip(deviations, gears, SENSES)
         )
         self._teeth = tuple(gear.teeth for gear in gears)
-        self._kept: dict[int, list[_Nodes]] = {}
+        self._nodes = PerPosition(self._nodes_of)
 
     def __call__(self, step: float, position: Position) -> np.ndarray:
         """The additional gaps (n,), mm, positive when they open."""
-        cycle, index = divmod(step, self._steps)
+        cycle = step // self._steps
         gap = np.empty(position.operator.nodes)
         first, second = self._amounts
-        for each in self._nodes(index, position):
+        for each in self._nodes(position):
             # Tooth 0 is the one that reaches the start of contact at the beginning of cycle 0.
             one, two = (int(cycle - tooth) % teeth for tooth, teeth in zip(each.teeth, self._teeth))
             shapes_1, shapes_2 = each.shapes
@@ -74,11 +74,9 @@ class FlankGaps:
                     gap[each.nodes] -= excess(tooth)
         return gap
 
-    def _nodes(self, index: float, position: Position) -> list[_Nodes]:
-        if index in self._kept:
-            return self._kept[index]
+    def _nodes_of(self, position: Position) -> list[_Nodes]:
         pairs = position.operator.pairs
-        found = [
+        return [
             _Nodes(
                 nodes,
                 pair.place.teeth,
@@ -87,9 +85,6 @@ class FlankGaps:
             )
             for nodes, pair in zip(node_slices(pairs), pairs)
         ]
-        if index == int(index):
-            self._kept[index] = found
-        return found
 
     def _shapes(self, gear: int, pair: PairNodes) -> np.ndarray:
         """The gap (n, m) that a unit of each deviation makes: index, and on drive flanks slope, form, both of the helix

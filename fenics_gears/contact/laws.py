@@ -31,20 +31,20 @@ class Tolerance:
 
 
 @njit(cache=True)
-def opens(normal, u_n, gap, r_n):
-    """Whether a node is open by the projection of its normal force."""
-    return normal + r_n * (u_n - gap) <= 0.0
+def pressing(normal, u_n, gap, r_n):
+    """The normal force that is projected [24]; a node is open where it is not positive."""
+    return normal + r_n * (u_n - gap)
 
 
 @njit(cache=True)
-def next_status(status, normal, tangential, u_n, gap, slip, r_n, r_t, friction, through_stick):
-    """The status that the projections give a node; with `through_stick` a reversal of slip stops at stick first."""
-    if opens(normal, u_n, gap, r_n):
+def next_status(status, normal, pressed, frictional, trial, friction, through_stick):
+    """The status that the projections give a node whose normal force is `normal`, projected `pressed`, and whose
+    tangential one `trial`; with `through_stick` a reversal of slip stops at stick first."""
+    if pressed <= 0.0:
         return OPEN
-    if r_t == 0.0:
+    if not frictional:
         return SLIP_FORWARD
-    trial, limit = tangential + r_t * slip, friction * max(normal, 0.0)
-    if abs(trial) <= limit:
+    if abs(trial) <= friction * max(normal, 0.0):
         return STICK
     wanted = SLIP_FORWARD if trial > 0.0 else SLIP_BACKWARD
     if through_stick and status != OPEN and status != STICK and status != wanted:

@@ -12,16 +12,20 @@ import numpy as np
 from numba import njit
 
 from fenics_gears.contact.laws import NO_FORCE, OPEN
-from fenics_gears.contact.newton import solved
+from fenics_gears.contact.mixed_form import solved
 
 
 @njit(cache=True)
-def mesh_stiffness(compliance, jacobian, gap, on_drive_flanks, node_pair, status, forces, coordinates):
+def mesh_stiffness(contact, status, forces, coordinates):
     """Secant and tangent stiffness, N/mm, of the drive or coast flanks, whichever carry more, and how many tooth pairs
     carry there.
 
-    Arrays as of ContactOperator and StepSolution, of elastic flanks; all zero where nothing touches.
+    `contact`: the `addresses.Arrays` of elastic flanks; others as of StepSolution. All zero where nothing touches.
     """
+    # Taken out of the record once: in a loop that would cost more than the numbers.
+    jacobian, gap, on_drive_flanks, node_pair = (
+        contact.jacobian, contact.gap, contact.on_drive_flanks, contact.node_pair,
+    )  # fmt: skip
     n, drive, whole = len(gap), 0.0, 0.0
     for node in range(n):
         whole += forces[node]
@@ -41,7 +45,7 @@ def mesh_stiffness(compliance, jacobian, gap, on_drive_flanks, node_pair, status
             overlap[node] = -gap[node]
             for c in range(len(coordinates)):
                 overlap[node] += jacobian[node, c] * coordinates[c]
-    return np.array([force / _highest(overlap, node_pair), _tangent(compliance, closed), pairs])
+    return np.array([force / _highest(overlap, node_pair), _tangent(contact.compliance, closed), pairs])
 
 
 @njit(cache=True)

@@ -12,13 +12,13 @@ import numpy as np
 
 from fenics_gears.contact.interpolation import hat_integrals
 from fenics_gears.contact.operator import (
-    ContactOperator,
+    Response,
+    count_of,
     displacement_jacobian,
     earlier_tangential_jacobian,
     lines_of,
     node_slices,
     over_nodes,
-    slip_of_rigid_flanks,
     turned,
 )
 from fenics_gears.contact.tooth_pair import PairNodes, Place, Removal, facing_points
@@ -101,7 +101,7 @@ def loaded_teeth(pairs: tuple[NodePairs, ...], gear: int, order: int) -> tuple[L
 def by_direction(stiffness: np.ndarray, pairs: tuple[NodePairs, ...], gear: int) -> np.ndarray:
     """A gear's stiffness over x, y of its loaded teeth's nodes and the centre, put in the order of `pairs`: normals,
     tangents, centre."""
-    count = len(over_nodes(pairs, "offsets"))
+    count = count_of(pairs)
     nodes = np.arange(count)
     if gear == 1:
         # Teeth come by rising angle, on the wheel in the opposite order of the pairs.
@@ -146,37 +146,17 @@ class NodeResponse:
     compliance: tuple[np.ndarray, np.ndarray]
 
 
-def node_to_node_operator(
-    pair: GearPair,
-    now: NodeResponse,
-    *,
-    coordinates: list[int],
-    before: NodeResponse | None = None,
-    advance: float = 0.0,
-) -> ContactOperator:
-    """The contact equations of a position; with `before`, the position one step earlier, those of friction too.
-
-    `coordinates`: which of CENTRE_COORDINATES are unknowns; `advance`: rotation of the pinion (rad) during the step.
-    """
-    radii, tangential = (pair.pinion.base_radius, pair.wheel.base_radius), before is not None
-    arms, nodes = height_lever_arms(now.pairs, radii), len(over_nodes(now.pairs, "gap"))
-    kept = 2 * nodes if tangential else nodes
-    slip = previous_compliance = previous_jacobian = None
-    if tangential:
-        slip = slip_of_rigid_flanks(lines_of(now.pairs, radii), turned(pair, advance))
-        previous_compliance, previous_jacobian = _last_displacement(radii, now.pairs, before, turned(pair, advance))
-        previous_jacobian = np.ascontiguousarray(previous_jacobian[:, coordinates])
-    return ContactOperator(
-        pairs=now.pairs,
-        base_radii=radii,
-        normal_lever_arms=arms,
-        compliance=np.ascontiguousarray((now.compliance[0] + now.compliance[1])[:kept, :kept]),
-        jacobian=np.ascontiguousarray(displacement_jacobian(now.pairs, radii, arms, tangential)[:, coordinates]),
-        gap=over_nodes(now.pairs, "gap"),
-        rigid_slip=slip,
-        previous_compliance=previous_compliance,
-        previous_jacobian=previous_jacobian,
-    )
+def node_to_node_response(
+    pair: GearPair, now: NodeResponse, before: NodeResponse | None = None, advance: float = 0.0
+) -> Response:
+    """How the nodes of a position yield; with `before`, the position one step earlier, under friction too. `advance`:
+    rotation of the pinion (rad) during the step."""
+    radii, rows = (pair.pinion.base_radius, pair.wheel.base_radius), count_of(now.pairs) * (1 if before is None else 2)
+    compliance = np.ascontiguousarray((now.compliance[0] + now.compliance[1])[:rows, :rows])
+    elastic = jacobian = None
+    if before is not None:
+        elastic, jacobian = _last_displacement(radii, now.pairs, before, turned(pair, advance))
+    return Response(compliance, elastic, 0, height_lever_arms(now.pairs, radii), jacobian)
 
 
 # Columns of CENTRE_COORDINATES that move the pinion and the wheel.
@@ -193,7 +173,7 @@ def _last_displacement(
         are linear
     in the roll angle [A.2]; beyond them the gear moves rigidly [A.4].
     """
-    last = len(over_nodes(before.pairs, "offsets"))
+    last = count_of(before.pairs)
     tangential_last = displacement_jacobian(before.pairs, radii, height_lever_arms(before.pairs, radii), True)[last:]
     outside = earlier_tangential_jacobian(lines_of(pairs, radii), radii, angles)
     elastic, jacobian = np.zeros((len(outside), 2 * last)), np.zeros_like(outside)
@@ -209,7 +189,7 @@ def _pairwise(pairs, previous, gear: int) -> tuple[np.ndarray, np.ndarray]:
     """Weights (n, nodes before) of [A.2] between the nodes of the same tooth pair, and whether they reach a node
     (n,)."""
     earlier = {pair.place.index: (columns, pair) for columns, pair in zip(node_slices(previous), previous)}
-    weights = np.zeros((len(over_nodes(pairs, "offsets")), len(over_nodes(previous, "offsets"))))
+    weights = np.zeros((count_of(pairs), count_of(previous)))
     reached = np.zeros(len(weights), dtype=bool)
     for rows, pair in zip(node_slices(pairs), pairs):
         if pair.place.index in earlier:

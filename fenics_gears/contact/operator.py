@@ -12,13 +12,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
 from math import cos, sin
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from fenics_gears.contact.compliance_product import compliance_product, directions
-from fenics_gears.contact.rank import of_full_rank
-from fenics_gears.contact.tooth_pair import DRIVE, Flanks, PairNodes, Place, ToothPair
+from fenics_gears.contact.tooth_pair import DRIVE, PairNodes
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
@@ -32,6 +30,7 @@ CENTRE_COORDINATES = ("centre_x1", "centre_y1", "rotation_1", "centre_x2", "cent
 # Six more of gears that also move along their axes and tilt; tilts are carried as arc lengths, rb theta.
 FACE_COORDINATES = ("axial_1", "tilt_x1", "tilt_y1", "axial_2", "tilt_x2", "tilt_y2")
 COORDINATES = CENTRE_COORDINATES + FACE_COORDINATES
+NO_NODES_BEFORE = np.empty(0, dtype=np.int64)
 
 
 @dataclass(frozen=True)
@@ -83,6 +82,11 @@ def node_slices(pairs: Sequence[PairNodes]) -> list[slice]:
     """Where each pair's contact nodes stand among those of all pairs, one pair after the other."""
     ends = list(accumulate((len(pair.offsets) for pair in pairs), initial=0))
     return [slice(start, end) for start, end in zip(ends[:-1], ends[1:])]
+
+
+def count_of(pairs: Sequence[PairNodes]) -> int:
+    """Number of the pairs' contact nodes."""
+    return sum(len(pair.offsets) for pair in pairs)
 
 
 def over_nodes(pairs: Sequence[PairNodes], name: str) -> np.ndarray:
@@ -161,153 +165,59 @@ def displacement_jacobian(
     return on_face(rows, lines, face, base_radii)
 
 
-# A flank of a gear, by its tooth's place and its side; contact nodes as `compliance_product` takes them, and none of
-# them.
-_Flank = tuple[int, int]
-_Nodes = tuple[int, np.ndarray, np.ndarray, np.ndarray]
-NO_NODES: _Nodes = (0, np.empty((0, 1)), np.empty(0, dtype=np.int64), np.eye(2))
+class Passage(NamedTuple):
+    """Contact nodes on their way from one position to the next: the `pairs` now and the `previous` ones, None without
+    friction; the node before of each node now (`node_before`, as of a Position); the place of both in the mesh cycle,
+    in steps; and by how much (rad) the pinion turns (`advance`)."""
+
+    pairs: tuple[PairNodes, ...]
+    previous: tuple[PairNodes, ...] | None = None
+    node_before: np.ndarray = NO_NODES_BEFORE
+    index: float = 0
+    index_before: float = -1
+    advance: float = 0.0
 
 
-class CompliancePairing:
-    """Compliance between the contact nodes of tooth pairs, from the flank compliances of both gears."""
+class Response(NamedTuple):
+    """How contact nodes yield: `compliance`, `previous_compliance` (None without friction) and `dependent_rows` of a
+    ContactOperator; `normal_lever_arms` and `previous_jacobian`, over all coordinates, where they are not those of
+    flanks that slide along the line of action."""
 
-    def __init__(self, flanks: Flanks, kept: tuple[dict, dict] | None = None, width: float | None = None):
-        """`kept`: where blocks of either gear are kept; pairings of the same bodies may share it. `width` (mm): over
-        which a force spreads, the
-        common face width unless given."""
-        self._width, self._gears = width or flanks.pair.face_width, flanks.compliance
-        self._blocks = ({}, {}) if kept is None else kept
-
-    def _block(self, gear: int, responding: _Flank, loaded: _Flank) -> np.ndarray:
-        body, blocks, teeth, sides = (
-            self._gears[gear],
-            self._blocks[gear],
-            (responding[0], loaded[0]),
-            (responding[1], loaded[1]),
-        )
-        key = body.key(*teeth), sides
-        if key not in blocks:
-            blocks[key] = np.ascontiguousarray(body.between(*teeth, sides))
-        return blocks[key]
-
-    def compliance(
-        self,
-        pairs: Sequence[ToothPair],
-        previous: Sequence[ToothPair] | None = None,
-        turned: tuple[float, float] = (0.0, 0.0),
-    ) -> tuple[np.ndarray, np.ndarray | None]:
-        """Sum over both gears of `N A N^T`, mm/N: C (m, m) between the nodes of `pairs`, and E (n, m before) by forces
-        on those of `previous`.
-
-        With `previous`, the pairs a step before, there are tangential rows, and E is the displacement along the tangent
-        that the material points had while the gears stood `turned` (rad, of either one) before. E is None without.
-        """
-        tangential = previous is not None
-        kinds, nodes, nodes_before = 2 if tangential else 1, _count(pairs), _count(previous or ())
-        compliance, earlier = np.zeros((kinds, nodes, kinds, nodes)), np.zeros((1, nodes, 2, nodes_before))
-        for gear in range(2):
-            now, before = (_nodes_of(each, gear, tangential) for each in (pairs, previous or ()))
-            loads = _matched(now, before)
-            for pair, (flank, own) in zip(pairs, now):
-                row, near, first, axes = own
-                if tangential:
-                    axes = np.concatenate([axes, _earlier_tangent(pair.place, gear, turned)])
-                own = row, near, first, axes / self._width
-                for other, loaded, loaded_before in loads:
-                    # The other half follows by symmetry.
-                    loaded = loaded if loaded[0] <= row else NO_NODES
-                    if len(loaded[2]) or len(loaded_before[2]):
-                        compliance_product(
-                            self._block(gear, flank, other), own, loaded, compliance, loaded_before, earlier
-                        )
-        rows = kinds * nodes
-        return compliance.reshape(rows, rows), earlier.reshape(nodes, 2 * nodes_before) if tangential else None
-
-
-def _count(pairs: Sequence[PairNodes]) -> int:
-    return sum(len(pair.offsets) for pair in pairs)
-
-
-def _nodes_of(pairs: Sequence[ToothPair], gear: int, tangential: bool) -> list[tuple[_Flank, _Nodes]]:
-    """The flank of each pair, its contact nodes, and the directions of forces on them: e_x, and e_y where friction asks
-    for it."""
-    found, start = [], 0
-    for pair in pairs:
-        view, place = pair.interpolation[gear], pair.place
-        axes = directions(place.contact_rolls[gear], tangential)
-        found.append(((place.ahead(gear), place.flank), (start, view.near, view.first, axes)))
-        start += len(view.near)
-    return found
-
-
-def _matched(
-    now: list[tuple[_Flank, _Nodes]], before: list[tuple[_Flank, _Nodes]]
-) -> list[tuple[_Flank, _Nodes, _Nodes]]:
-    """Contact nodes now and a step before that are on the same flank, and those that have none beside them."""
-    left, found = list(before), []
-    for flank, nodes in now:
-        same = next((place for place, (other, _) in enumerate(left) if other == flank), None)
-        found.append((flank, nodes, NO_NODES if same is None else left.pop(same)[1]))
-    return found + [(flank, NO_NODES, nodes) for flank, nodes in left]
-
-
-def _earlier_tangent(place: Place, gear: int, turned: tuple[float, float]) -> np.ndarray:
-    """e_y (1, 2) at the material point as it stood `turned` (rad, of either gear) before: that tooth's frame then."""
-    return directions(place.contact_rolls[gear] - place.turn * turned[gear], True)[1:]
+    compliance: np.ndarray
+    previous_compliance: np.ndarray | None = None
+    dependent_rows: int = 0
+    normal_lever_arms: tuple[np.ndarray, np.ndarray] | None = None
+    previous_jacobian: np.ndarray | None = None
 
 
 def contact_operator(
-    flanks: Flanks,
-    pairing: CompliancePairing,
-    pairs: tuple[ToothPair, ...],
-    *,
-    coordinates: list[int],
-    previous: tuple[ToothPair, ...] | None = None,
-    advance: float = 0.0,
+    gears: GearPair, passage: Passage, coordinates: list[int], response: Response, face: Face | None = None
 ) -> ContactOperator:
-    """Assemble the contact equations of `pairs`; with `previous`, the pairs one step before, those of friction too.
+    """The contact equations of nodes whose normal forces act along their pair's line; those of friction too where the
+    passage has previous nodes.
 
-    `coordinates`: which of CENTRE_COORDINATES are unknowns; `advance`: rotation of the pinion (rad) during the step.
+    `coordinates`: which of COORDINATES are unknowns.
     """
-    compliance, before = pairing.compliance(pairs, previous, turned(flanks.pair, advance))
-    compliance, dependent = of_full_rank(compliance)
-    return operator_on_lines(flanks.pair, pairs, coordinates, compliance, before, advance, dependent)
-
-
-def operator_on_lines(
-    gears: GearPair,
-    pairs: tuple[PairNodes, ...],
-    coordinates: list[int],
-    compliance: np.ndarray,
-    previous_compliance: np.ndarray | None,
-    advance: float,
-    dependent_rows: int = 0,
-    face: Face | None = None,
-) -> ContactOperator:
-    """The contact equations of nodes whose normal forces act along their pair's line; `previous_compliance` None
-    without friction.
-
-    Arguments as of `contact_operator`, arrays as of ContactOperator.
-    """
-    radii, frictional = (gears.pinion.base_radius, gears.wheel.base_radius), previous_compliance is not None
-    lines = lines_of(pairs, radii)
+    pairs, frictional = passage.pairs, passage.previous is not None
+    radii = gears.pinion.base_radius, gears.wheel.base_radius
+    lines, angles = lines_of(pairs, radii), turned(gears, passage.advance)
+    arms, slip, before, earlier = response.normal_lever_arms or lines.lever_arms, None, None, response.previous_jacobian
+    if frictional:
+        slip, before = slip_of_rigid_flanks(lines, angles), np.asfortranarray(response.previous_compliance)
+        if earlier is None:
+            earlier = earlier_tangential_jacobian(lines, radii, angles, face)
+        earlier = earlier.take(coordinates, axis=1)
     return ContactOperator(
         pairs=pairs,
         base_radii=radii,
-        normal_lever_arms=lines.lever_arms,
-        compliance=compliance,
-        jacobian=displacement_jacobian(pairs, radii, lines.lever_arms, frictional, lines, face).take(
-            coordinates, axis=1
-        ),
-        gap=over_nodes(pairs, "gap"),
-        rigid_slip=slip_of_rigid_flanks(lines, turned(gears, advance)) if frictional else None,
-        previous_compliance=np.asfortranarray(previous_compliance) if frictional else None,
-        previous_jacobian=earlier_tangential_jacobian(lines, radii, turned(gears, advance), face).take(
-            coordinates, axis=1
-        )
-        if frictional
-        else None,
-        dependent_rows=dependent_rows,
+        normal_lever_arms=arms,
+        compliance=response.compliance,
+        jacobian=displacement_jacobian(pairs, radii, arms, frictional, lines, face).take(coordinates, axis=1),
+        gap=over_nodes(pairs, "gap") * (1.0 if face is None else face.cosine),
+        rigid_slip=slip,
+        previous_compliance=before,
+        previous_jacobian=earlier,
+        dependent_rows=response.dependent_rows,
         face=face,
     )
 

@@ -4,7 +4,6 @@ solution."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,18 +19,6 @@ NO_DIRECTION, TOO_MANY = "no search direction", "the merit function stays too la
 SMALL = 1e-3
 
 
-@dataclass(frozen=True)
-class RemeshedPosition(Position):
-    """A position with its `index` in the mesh cycle and a function that gives the stiffness of either gear, N/mm.
-
-    `stiffness()`: (2n + 3, 2n + 3) over the contact nodes' normals and tangents and the centre (dx, dy, phi), in the
-    gear's own frame.
-    """
-
-    index: int
-    stiffness: Callable[[], tuple[np.ndarray, np.ndarray]]
-
-
 class PublishedSolver:
     """Newton with line search [B] on [24], [25] and [C.1]; what it cannot solve goes to `solve_step`, on the same
     equations.
@@ -39,12 +26,13 @@ class PublishedSolver:
     The equations are reduced to the relative displacement once for each position and effective stiffness.
     """
 
-    def __init__(self, coordinates: list[int]):
-        self._coordinates = coordinates
+    def __init__(self, coordinates: list[int], stiffness: Callable[[int], tuple[np.ndarray, np.ndarray]]):
+        """`stiffness(index)`: of either gear at a position, as of `RemeshedGears`."""
+        self._coordinates, self._stiffness = coordinates, stiffness
         self._reduced: dict[tuple[int, bytes], RelativeStiffness] = {}
 
     def __call__(
-        self, position: RemeshedPosition, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+        self, position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None
     ) -> StepSolution:
         """Solve a step from the last one's solution. Raises ContactNotConverged with the history of every attempt."""
         reduced = self.reduced(position, problem)
@@ -66,12 +54,12 @@ class PublishedSolver:
         coordinates = reduced.coordinates(problem.load, final.displacement)
         return StepSolution(forces, coordinates, final.displacement, sets, len(tried) - 1, PUBLISHED)
 
-    def reduced(self, position: RemeshedPosition, problem: StepProblem) -> RelativeStiffness:
+    def reduced(self, position: Position, problem: StepProblem) -> RelativeStiffness:
         """The equilibrium equations [C.1] of a position and an effective stiffness."""
         key = (position.index, problem.stiffness.tobytes())
         if key not in self._reduced:
             self._reduced[key] = RelativeStiffness(
-                position.stiffness(),
+                self._stiffness(position.index),
                 problem.stiffness,
                 self._coordinates,
                 position.operator.base_radii,
@@ -91,11 +79,11 @@ def _start(
         closed = np.flatnonzero(status != OPEN)
         displacement[closed], forces[closed] = problem.gap[closed], problem.tolerance.force
         return displacement, forces
-    carried, before = position.carried_from, len(last.status)
-    known = np.flatnonzero(carried >= 0)
+    node_before, before = position.node_before, len(last.status)
+    known = np.flatnonzero(node_before >= 0)
     for block in range(m // n):
-        displacement[block * n + known] = last.displacement[block * before + carried[known]]
-        forces[block * n + known] = last.forces[block * before + carried[known]]
+        displacement[block * n + known] = last.displacement[block * before + node_before[known]]
+        forces[block * n + known] = last.forces[block * before + node_before[known]]
     return displacement, forces
 
 

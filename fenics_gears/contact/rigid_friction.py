@@ -8,21 +8,16 @@ does not change its sign.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from fenics_gears.contact.operator import ContactOperator, lines_of
-from fenics_gears.contact.rigid_cycle import RigidCycle, pairs_that_touch
+from fenics_gears.contact.rigid_mesh import RigidSolver, pairs_that_touch
 from fenics_gears.contact.step_solver import StepProblem
 from fenics_gears.geometry.sliding import sliding_per_rotation
 
 
-class RigidFrictionCycle(RigidCycle):
-    """Contact nodes on rigid flanks, with friction; arguments as of RigidCycle."""
-
-    traits = replace(RigidCycle.traits, prescribes_friction=True)
-    frictional = True
+class RigidFriction(RigidSolver):
+    """Solves a step between rigid flanks with friction."""
 
     def _candidates(self, leaders: list[int]) -> list[list[int]]:
         return [[], *([leader] for leader in leaders)]

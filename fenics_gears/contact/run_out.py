@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.mesh_cycle import PerPosition, Position
 from fenics_gears.contact.operator import normals
 from fenics_gears.geometry.pair import GearPair
 
@@ -32,7 +32,8 @@ class RunOut:
             for offset, sense, gear in ((eccentricity.pinion, 1.0, pair.pinion), (eccentricity.wheel, -1.0, pair.wheel))
             if offset is not None
         ]
-        self._normals: dict[int, np.ndarray] = {}
+        # Direction (n, 2) of each node's line of action in space, from pinion to wheel.
+        self._normals = PerPosition(lambda position: normals(position.operator.pairs))
 
     def __call__(self, step: float, position: Position) -> np.ndarray:
         """The additional gaps (n,), mm, positive when they open."""
@@ -41,17 +42,8 @@ class RunOut:
             x, y = displacement(offset, sense, 2.0 * pi * step / (self._steps * teeth))
             # What brings the pinion nearer along the normal closes, what takes the wheel away opens.
             along, across = along - sense * x, across - sense * y
-        normal_x, normal_y = self._normals_at(step % self._steps, position).T
+        normal_x, normal_y = self._normals(position).T
         return normal_x * along + normal_y * across
-
-    def _normals_at(self, index: float, position: Position) -> np.ndarray:
-        """Direction (n, 2) of each node's line of action in space, from pinion to wheel."""
-        if index in self._normals:
-            return self._normals[index]
-        found = normals(position.operator.pairs)
-        if index == int(index):
-            self._normals[index] = found
-        return found
 
 
 def displacement(offset: Offset, sense: float, turned: float) -> tuple[float, float]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from fenics_gears.contact.existence import explained
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, Tolerance
+from fenics_gears.contact.mixed_form import Equations, Iterate
 from fenics_gears.contact.newton import (
     ALL_AT_ONCE,
     CONVERGED,
@@ -18,6 +19,7 @@ from fenics_gears.contact.newton import (
     RESIDUAL_NAMES,
     SINGULAR,
     THROUGH_STICK,
+    Method,
     measure,
     newton,
 )
@@ -36,7 +38,7 @@ HOMOTOPY_STEPS = 8
 
 @dataclass(frozen=True)
 class StepProblem:
-    """The mixed form at one position and time: arrays as in `contact.newton.newton`.
+    """The mixed form at one position and time: arrays as of `mixed_form.Equations`.
 
     `slip_before` is empty without friction; `free_motion` (k,): how the load moves the drivetrain where that alone
     cannot hold it, else empty; `free_words`: the same for an error's message, "the wheel turns freely under ...".
@@ -58,11 +60,13 @@ class StepProblem:
     ) -> np.ndarray:
         """By how much (5,) a solution with these sets violates the laws and equilibrium, as `newton.measure` has it."""
         row = np.zeros(len(RESIDUAL_NAMES))
-        measure(
-            row, self.stiffness, self.load, self.compliance, self.jacobian, self.gap, self.slip_before, self.friction,
-            status, forces, coordinates, displacement,
-        )  # fmt: skip
+        measure(row, self.equations, Iterate(status, forces, coordinates, displacement))
         return row
+
+    @property
+    def equations(self) -> Equations:
+        """For compiled code."""
+        return Equations(*(getattr(self, name) for name in Equations._fields))
 
 
 @dataclass(frozen=True)
@@ -142,13 +146,12 @@ def run_newton(
     """Newton from `status`; returns ((outcome, iterations, forces, coordinates, u, sets), (history, all sets))."""
     history = np.zeros((max_iterations, 5))
     sets = np.full((max_iterations, len(problem.gap)), -1, dtype=np.int8)
-    current = status.copy()
+    current, equations = status.copy(), problem.equations
+    if friction is not None:
+        equations = equations._replace(friction=friction)
+    method = Method(r_scale, rule, problem.tolerance.length, problem.tolerance.force)
     try:
-        result = newton(
-            problem.stiffness, problem.load, problem.compliance, problem.jacobian, problem.gap, problem.slip_before,
-            problem.friction if friction is None else friction, current,
-            problem.free_motion, r_scale, rule, problem.tolerance.length, problem.tolerance.force, history, sets,
-        )  # fmt: skip
+        result = newton(equations, current, method, history, sets)
     except np.linalg.LinAlgError:
         done = int(np.sum(np.any(sets >= 0, axis=1)))
         zeros = np.zeros(len(problem.compliance))

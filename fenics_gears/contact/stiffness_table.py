@@ -15,7 +15,7 @@ import numpy as np
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import ContactOperator
-from fenics_gears.contact.spring_cycle import PairSprings
+from fenics_gears.contact.spring_mesh import PairSprings
 from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from fenics_gears.contact.mesh_cycle import pair_places
+from fenics_gears.contact.places import pair_places
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Place
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import Reach

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.mesh_cycle import PerPosition, Position
 from fenics_gears.contact.operator import COORDINATES, displacement_jacobian
 from fenics_gears.contact.run_out import RunOut
 from fenics_gears.geometry.pair import GearPair
@@ -42,11 +42,11 @@ class WobblingRunOut(RunOut):
             for offset, sense, gear, number in gears
             if offset is not None and offset.wobble
         ]
-        self._tilts: dict[int, np.ndarray] = {}
+        self._rows = PerPosition(_rows)
 
     def __call__(self, step: float, position: Position) -> np.ndarray:
         """The additional gaps (n,), mm, positive when they open."""
-        gap, rows = super().__call__(step, position), self._rows(step % self._steps, position)
+        gap, rows = super().__call__(step, position), self._rows(position)
         for size, phase, sense, teeth, columns in self._wobbles:
             angle = sense * (2.0 * pi * step / (self._steps * teeth) + phase)
             # The axis leans by (cos, sin) of the angle in x and y towards the right end: it is tilted about (-sin,
@@ -54,15 +54,11 @@ class WobblingRunOut(RunOut):
             gap = gap - size * (rows[:, columns[1]] * cos(angle) - rows[:, columns[0]] * sin(angle))
         return gap
 
-    def _rows(self, index: float, position: Position) -> np.ndarray:
-        """How each node's flanks approach along the line of action by each coordinate (n, 13)."""
-        if index in self._tilts:
-            return self._tilts[index]
-        operator = position.operator
-        along_normal = displacement_jacobian(
-            operator.pairs, operator.base_radii, operator.normal_lever_arms, False, face=operator.face
-        )
-        found = along_normal / operator.face.cosine
-        if index == int(index):
-            self._tilts[index] = found
-        return found
+
+def _rows(position: Position) -> np.ndarray:
+    """How each node's flanks approach along the line of action by each coordinate (n, 13)."""
+    operator = position.operator
+    along_normal = displacement_jacobian(
+        operator.pairs, operator.base_radii, operator.normal_lever_arms, False, face=operator.face
+    )
+    return along_normal / operator.face.cosine

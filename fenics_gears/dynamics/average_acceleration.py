@@ -13,7 +13,7 @@ Without mass and damping this is the static equation at the end of the step: qua
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
@@ -21,8 +21,7 @@ from numba import njit
 from fenics_gears.dynamics.drivetrain import Drivetrain
 
 
-@dataclass(frozen=True)
-class State:
+class State(NamedTuple):
     """Centre coordinates (k,), mm, their velocities, mm/s, and accelerations, mm/s^2."""
 
     position: np.ndarray
@@ -41,24 +40,40 @@ class AverageAcceleration:
             return
         mass = drivetrain.mass
         damping = drivetrain.damping if drivetrain.damping is not None else np.zeros_like(mass)
-        # What position, velocity and acceleration at the start of the step add to the load.
-        self._history = np.array([4.0 / (step * step) * mass + 2.0 / step * damping, 4.0 / step * mass + damping, mass])
+        self._history = history(step, mass, damping)
         self.stiffness = drivetrain.stiffness + self._history[0]
 
     def load(self, state: State, outer: np.ndarray) -> np.ndarray:
         """Right-hand side (k,), N, of the step that starts from `state`, under the forces `outer` (k,), N."""
         if not self.inert:
             return outer
-        return with_history(outer, self._history, np.array([state.position, state.velocity, state.acceleration]))
+        return with_history(outer, self._history, np.array(state))
 
     def advance(self, state: State, position: np.ndarray) -> State:
         """The state at the end of the step, from its position (k,), mm."""
         if not self.inert:
             return State(position, state.velocity, state.acceleration)
-        change = 2.0 / self.step * (position - state.position)
-        return State(
-            position, change - state.velocity, 2.0 / self.step * (change - 2.0 * state.velocity) - state.acceleration
-        )
+        return State(*advanced(self.step, np.array(state), position))
+
+
+@njit(cache=True)
+def history(step, mass, damping):
+    """What position, velocity and acceleration at the start of a step add to its load: matrices (3, k, k); the first is
+    also what inertia and damping add to the stiffness."""
+    found = np.empty((3, *mass.shape))
+    found[0] = 4.0 / (step * step) * mass + 2.0 / step * damping
+    found[1] = 4.0 / step * mass + damping
+    found[2] = mass
+    return found
+
+
+@njit(cache=True)
+def advanced(step, before, position):
+    """Position, velocity and acceleration (3, k) at the end of a step from those `before` and the position (k,)."""
+    change, after = 2.0 / step * (position - before[0]), np.empty_like(before)
+    after[0], after[1] = position, change - before[1]
+    after[2] = 2.0 / step * (change - 2.0 * before[1]) - before[2]
+    return after
 
 
 @njit(cache=True)

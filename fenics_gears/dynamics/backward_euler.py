@@ -16,6 +16,7 @@ Wanner, Solving Ordinary Differential Equations II, 1996, section IV.3: L-stable
 from __future__ import annotations
 
 import numpy as np
+from numba import njit
 
 from fenics_gears.dynamics.average_acceleration import State, with_history
 from fenics_gears.dynamics.drivetrain import Drivetrain
@@ -30,15 +31,30 @@ class BackwardEuler:
         self.step = step
         mass = drivetrain.mass
         damping = drivetrain.damping if drivetrain.damping is not None else np.zeros_like(mass)
-        # What position, velocity and acceleration at the start of the step add to the load.
-        self._history = np.array([mass / (step * step) + damping / step, mass / step, np.zeros_like(mass)])
+        self._history = history(step, mass, damping)
         self.stiffness = drivetrain.stiffness + self._history[0]
 
     def load(self, state: State, outer: np.ndarray) -> np.ndarray:
         """Right-hand side (k,), N, of the step that starts from `state`, under the forces `outer` (k,), N."""
-        return with_history(outer, self._history, np.array([state.position, state.velocity, state.acceleration]))
+        return with_history(outer, self._history, np.array(state))
 
     def advance(self, state: State, position: np.ndarray) -> State:
         """The state at the end of the step, from its position (k,), mm."""
-        velocity = (position - state.position) / self.step
-        return State(position, velocity, (velocity - state.velocity) / self.step)
+        return State(*advanced(self.step, np.array(state), position))
+
+
+@njit(cache=True)
+def history(step, mass, damping):
+    """As `average_acceleration.history`."""
+    found = np.zeros((3, *mass.shape))
+    found[0], found[1] = mass / (step * step) + damping / step, mass / step
+    return found
+
+
+@njit(cache=True)
+def advanced(step, before, position):
+    """As `average_acceleration.advanced`."""
+    after = np.empty_like(before)
+    after[0], after[1] = position, (position - before[0]) / step
+    after[2] = (after[1] - before[1]) / step
+    return after

@@ -6,39 +6,31 @@ A step that Newton does not solve at once is left to the plain march, which has 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import (
-    CARRIED,
-    COMPLIANCE,
-    GAP,
-    JACOBIAN,
-    PREVIOUS_COMPLIANCE,
-    PREVIOUS_JACOBIAN,
-    RIGID_SLIP,
-    integers_at,
-    matrix_at,
-    vector_at,
-)
+from fenics_gears.contact.addresses import arrays_of
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, newton
+from fenics_gears.contact.mixed_form import Equations
+from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton
+from fenics_gears.dynamics.average_acceleration import advanced as advanced_by_average
+from fenics_gears.dynamics.average_acceleration import history as average_history
 from fenics_gears.dynamics.average_acceleration import with_history
+from fenics_gears.dynamics.backward_euler import advanced as advanced_backward
+from fenics_gears.dynamics.backward_euler import history as backward_history
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.steps import Steps
 
 STATIC, AVERAGE_ACCELERATION, BACKWARD_EULER = range(3)
 # Sets of a mesh cycle before, where there are none.
 NO_SETS = np.empty(0, dtype=np.int8)
-POSITION, VELOCITY, ACCELERATION = range(3)
 
 
-@dataclass(frozen=True)
-class Motion:
+class Motion(NamedTuple):
     """What of the equations of motion is the same at every step: the `method` in time, matrices (k, k) of the
-    drivetrain, friction, tolerance.
+    drivetrain, friction, tolerance of length (mm) and force (N).
 
     `free_motion` (k,): how a load moves the drivetrain where only contact holds it, else empty.
     """
@@ -49,43 +41,36 @@ class Motion:
     damping: np.ndarray
     free_motion: np.ndarray
     friction: float
-    tolerance: Tolerance
+    length_tolerance: float
+    force_tolerance: float
 
     @classmethod
     def of(cls, drivetrain: Drivetrain, method: int, friction: float, tolerance: Tolerance) -> Motion:
         """The motion of a drivetrain by a method of time stepping, with its matrices as compiled code takes them."""
         nothing = np.zeros_like(drivetrain.stiffness)
-        mass, damping = (
+        stiffness, mass, damping = (
             nothing if matrix is None else np.ascontiguousarray(matrix)
-            for matrix in (drivetrain.mass, drivetrain.damping)
+            for matrix in (drivetrain.stiffness, drivetrain.mass, drivetrain.damping)
         )
         free = drivetrain.free_motion if method == STATIC else np.empty(0)
-        return cls(method, np.ascontiguousarray(drivetrain.stiffness), mass, damping, free, friction, tolerance)
+        return cls(method, stiffness, mass, damping, free, float(friction), tolerance.length, tolerance.force)
 
 
-def solve_steps(
-    steps: Steps,
-    first: int,
-    end: int,
-    motion: Motion,
-    durations: np.ndarray,
-    loads: np.ndarray,
-    cycle_before: np.ndarray = NO_SETS,
-) -> int:
+class Course(NamedTuple):
+    """What differs from step to step: how long they last (`durations` (s,), s), `loads` (s, k), N, and the sets (N,) as
+    `begin` takes them of a mesh cycle before, or none."""
+
+    durations: np.ndarray
+    loads: np.ndarray
+    cycle_before: np.ndarray = NO_SETS
+
+
+def solve_steps(steps: Steps, first: int, end: int, motion: Motion, course: Course) -> int:
     """Solve the steps from place `first` on, each from the one before it, to before `end`; returns the first place that
-    is not solved.
-
-    `durations` (s,), s, and `loads` (s, k), N, of all steps; `cycle_before` (N,): sets as `begin` takes them, also of
-    all steps, or none.
-    """
+    is not solved. The course is that of all steps."""
     done = np.full(1, first)
-    m = motion
     try:
-        _solve_steps(
-            done, end, steps.table, steps.starts, steps.kinds, m.method, m.stiffness, m.mass, m.damping, m.free_motion,
-            m.friction, m.tolerance.length, m.tolerance.force, durations, loads, cycle_before,
-            steps.states, steps.forces, steps.displacement, steps.status, steps.iterations,
-        )  # fmt: skip
+        _solve_steps(done, end, steps.in_memory, motion, course)
     except np.linalg.LinAlgError:
         # Sets that leave the system singular: the step after the last one done.
         pass
@@ -93,60 +78,60 @@ def solve_steps(
 
 
 @njit(cache=True)
-def _solve_steps(
-    done, end, table, starts, kinds, method, stiffness, mass, damping, free_motion, friction, length_tolerance,
-    force_tolerance,
-    durations, loads, cycle_before, states, forces, displacement, status, iterations,
-):  # fmt: skip
-    effective, history, duration = stiffness, np.zeros((3, len(stiffness), len(stiffness))), -1.0
+def _solve_steps(done, end, steps, motion, course):
+    starts, kinds, states, status = steps.starts, steps.kinds, steps.states, steps.status
+    effective, k, duration = motion.stiffness, len(motion.stiffness), -1.0
+    history = np.zeros((3, k, k))
+    method = Method(1.0, ALL_AT_ONCE, motion.length_tolerance, motion.force_tolerance)
     for s in range(done[0], end):
-        if durations[s] != duration and method != STATIC:
-            duration = durations[s]
-            effective = _matrices_of_step(method, duration, stiffness, mass, damping, history)
-        load = loads[s] if method == STATIC else with_history(loads[s], history, states[s - 1])
-        now = slice(kinds * starts[s], kinds * starts[s + 1])
-        nodes, last_nodes = status[starts[s] : starts[s + 1]], status[starts[s - 1] : starts[s]]
-        n, k = len(nodes), len(load)
-        begin(
-            nodes,
-            last_nodes,
-            integers_at(table[s, CARRIED], n),
-            cycle_before[starts[s] : starts[s + 1]],
-            cycle_before[starts[s - 1] : starts[s]],
-        )
+        if course.durations[s] != duration and motion.method != STATIC:
+            duration = course.durations[s]
+            history = _history(motion, duration)
+            effective = motion.stiffness + history[0]
+        outer = course.loads[s]
+        load = outer if motion.method == STATIC else with_history(outer, history, states[s - 1])
+        now, before = slice(starts[s], starts[s + 1]), slice(starts[s - 1], starts[s])
+        contact = arrays_of(steps.rows[s], kinds, k, starts[s] - starts[s - 1])
+        nodes, n = status[now], starts[s + 1] - starts[s]
+        begin(nodes, status[before], contact.node_before, course.cycle_before[now], course.cycle_before[before])
         slip_before = np.empty(0)
-        if table[s, RIGID_SLIP] != 0:
-            before = forces[kinds * starts[s - 1] : kinds * starts[s]]
+        if len(contact.rigid_slip):
+            forces_before = steps.forces[kinds * starts[s - 1] : kinds * starts[s]]
             slip_before = slip_at_start(
-                vector_at(table[s, RIGID_SLIP], n), matrix_at(table[s, PREVIOUS_JACOBIAN], n, k),
-                matrix_at(table[s, PREVIOUS_COMPLIANCE], len(before), n), states[s - 1, POSITION], before,
+                contact.rigid_slip, contact.previous_jacobian, contact.previous_columns, states[s - 1, 0],
+                forces_before,
             )  # fmt: skip
-        residuals, sets = np.empty((MOST_ITERATIONS, 5)), np.empty((MOST_ITERATIONS, n), dtype=np.int8)
-        outcome, count, found, coordinates, moved = newton(
-            effective, load, matrix_at(table[s, COMPLIANCE], kinds * n, kinds * n),
-            matrix_at(table[s, JACOBIAN], kinds * n, k),
-            vector_at(table[s, GAP], n), slip_before, friction, nodes, _turned(free_motion, loads[s]),
-            1.0, ALL_AT_ONCE, length_tolerance, force_tolerance, residuals, sets,
+        equations = Equations(
+            effective, load, contact.compliance, contact.jacobian, contact.gap, slip_before, motion.friction,
+            _turned(motion.free_motion, outer),
         )  # fmt: skip
+        residuals, sets = np.empty((MOST_ITERATIONS, 5)), np.empty((MOST_ITERATIONS, n), dtype=np.int8)
+        outcome, count, found, coordinates, moved = newton(equations, nodes, method, residuals, sets)
         if outcome != CONVERGED:
             return
-        forces[now], displacement[now], iterations[s] = found, moved, count
-        _advance(method, duration, states[s - 1], states[s], coordinates)
+        both = slice(kinds * starts[s], kinds * starts[s + 1])
+        steps.forces[both], steps.displacement[both], steps.iterations[s] = found, moved, count
+        states[s] = _advanced(motion.method, duration, states[s - 1], coordinates)
         done[0] = s + 1
 
 
 @njit(cache=True)
-def _matrices_of_step(method, duration, stiffness, mass, damping, history):
-    """The effective stiffness of a step; and, in place, what position, velocity and acceleration at its start add to
-    the load."""
+def _history(motion, duration):
+    if motion.method == AVERAGE_ACCELERATION:
+        return average_history(duration, motion.mass, motion.damping)
+    return backward_history(duration, motion.mass, motion.damping)
+
+
+@njit(cache=True)
+def _advanced(method, duration, before, coordinates):
+    """The state (3, k) at the end of a step, from its position (k,)."""
     if method == AVERAGE_ACCELERATION:
-        history[POSITION] = 4.0 / (duration * duration) * mass + 2.0 / duration * damping
-        history[VELOCITY] = 4.0 / duration * mass + damping
-        history[ACCELERATION] = mass
-    else:
-        history[POSITION] = mass / (duration * duration) + damping / duration
-        history[VELOCITY] = mass / duration
-    return stiffness + history[POSITION]
+        return advanced_by_average(duration, before, coordinates)
+    if method == BACKWARD_EULER:
+        return advanced_backward(duration, before, coordinates)
+    after = before.copy()
+    after[0] = coordinates
+    return after
 
 
 @njit(cache=True)
@@ -193,20 +178,3 @@ def _turned(free_motion, load):
     for c in range(len(free_motion)):
         work += free_motion[c] * load[c]
     return -free_motion if work < 0.0 else free_motion
-
-
-@njit(cache=True)
-def _advance(method, duration, before, after, coordinates):
-    """The state (3, k) at the end of a step, from its position (k,), as `AverageAcceleration.advance` and
-    `BackwardEuler.advance` have it."""
-    for c in range(len(coordinates)):
-        change = coordinates[c] - before[POSITION, c]
-        velocity, acceleration = before[VELOCITY, c], before[ACCELERATION, c]
-        if method == AVERAGE_ACCELERATION:
-            change *= 2.0 / duration
-            acceleration = 2.0 / duration * (change - 2.0 * velocity) - acceleration
-            velocity = change - velocity
-        elif method == BACKWARD_EULER:
-            acceleration = (change / duration - velocity) / duration
-            velocity = change / duration
-        after[POSITION, c], after[VELOCITY, c], after[ACCELERATION, c] = coordinates[c], velocity, acceleration

@@ -24,6 +24,7 @@ from fenics_gears.dynamics.compiled_march import (
     BACKWARD_EULER,
     NO_SETS,
     STATIC,
+    Course,
     Motion,
     solve_steps,
 )
@@ -211,10 +212,11 @@ class Marcher(Stepper):
         positions = [last.position, *(self.cycle.position(step) for step in numbers)]
         steps = Steps.to_solve([last.step, *numbers], positions, len(self.drivetrain.coordinates), NEWTON)
         steps.put(0, last)
-        durations = np.zeros(len(steps))
+        durations, cycle_before = np.zeros(len(steps)), NO_SETS
         if self._motion.method != STATIC:
             durations[1:] = [self.clock.duration(step - 1, step) for step in numbers]
-        cycle_before = self._cycle_before(steps) if self.cycle.face is not None else NO_SETS
+        if self.cycle.face is not None:
+            cycle_before = self._cycle_before(steps)
         loads = (
             np.array([self.load(step) for step in (numbers[0], *numbers)])
             if self.loads
@@ -224,7 +226,7 @@ class Marcher(Stepper):
         try:
             while done < len(steps):
                 begun, end = time.perf_counter(), min(done + self._at_once, len(steps))
-                solved = solve_steps(steps, done, end, self._motion, durations, loads, cycle_before)
+                solved = solve_steps(steps, done, end, self._motion, Course(durations, loads, cycle_before))
                 seconds = time.perf_counter() - begun
                 if solved == end:
                     # Ctrl-C is heard between two calls.

@@ -192,9 +192,7 @@ class Stepper:
                 operator.rigid_slip, operator.previous_jacobian, columns, last.state.position, last.solution.forces
             )
         status = np.empty(operator.nodes, dtype=np.int8)
-        begin(
-            status, last.solution.status, position.carried_from, self.cycle_before(step), self.cycle_before(last.step)
-        )
+        begin(status, last.solution.status, position.node_before, self.cycle_before(step), self.cycle_before(last.step))
         solution = self._solve(scheme, last.state, position, slip_before, status, step, last.solution)
         return Record(step, scheme.advance(last.state, solution.coordinates), position, solution)
 

@@ -6,11 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import GAP, NODES, ON_DRIVE_FLANKS, PREVIOUS_COMPLIANCE, flags_at, vector_at
+from fenics_gears.contact.addresses import ROW, arrays_of
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import ContactOperator
@@ -36,6 +37,19 @@ class Record:
     parts: tuple[Record, ...] = ()
 
 
+class InMemory(NamedTuple):
+    """Arrays of consecutive steps (s,), named as of `Steps`; `rows` (s,) of their contact operators."""
+
+    rows: np.ndarray
+    starts: np.ndarray
+    kinds: int
+    states: np.ndarray
+    forces: np.ndarray
+    displacement: np.ndarray
+    status: np.ndarray
+    iterations: np.ndarray
+
+
 @dataclass
 class Steps:
     """Steps (s,) of a march: their `numbers`, `positions` and the `methods` that solved them; n contact nodes at each,
@@ -59,7 +73,7 @@ class Steps:
     @classmethod
     def to_solve(cls, numbers: Sequence[float], positions: list[Position], coordinates: int, method: str) -> Steps:
         """Room for the solutions at these positions."""
-        count, nodes = len(positions), sum(int(position.in_memory[0][NODES]) for position in positions)
+        count, nodes = len(positions), sum(position.operator.nodes for position in positions)
         forces = nodes * (1 if not count or positions[0].operator.rigid_slip is None else 2)
         return cls(
             np.array(numbers, dtype=float), positions, np.zeros((count, 3, coordinates)), np.zeros(forces),
@@ -85,7 +99,7 @@ class Steps:
             self.positions[place] = record.position
             self.__dict__.pop("table", None)
         self.methods[place] = solution.method
-        self.states[place] = state.position, state.velocity, state.acceleration
+        self.states[place] = state
         self.forces[forces], self.displacement[forces], self.status[nodes] = (
             solution.forces,
             solution.displacement,
@@ -184,52 +198,75 @@ class Steps:
     @cached_property
     def starts(self) -> np.ndarray:
         """Where the contact nodes of each step begin, and where they end (s + 1,)."""
-        return np.concatenate(([0], np.cumsum(self.table[:, NODES])))
+        return np.concatenate(([0], np.cumsum(self.table["nodes"])))
 
     @cached_property
     def table(self) -> np.ndarray:
-        """What compiled code needs of each step's contact operator (s, 10), by the names of `contact.addresses`: sizes
-        and addresses."""
+        """The row of each step's contact operator (s,), as of `contact.addresses`; the positions hold what it points
+        to."""
         rows = [position.in_memory[0] for position in self.positions]
-        return (
-            np.concatenate(rows).reshape(len(rows), -1)
-            if rows
-            else np.empty((0, PREVIOUS_COMPLIANCE + 1), dtype=np.int64)
-        )
+        return np.concatenate(rows) if rows else np.empty(0, dtype=ROW)
+
+    @property
+    def in_memory(self) -> InMemory:
+        """For compiled code, which may write into its arrays; to be used as long as these steps are held."""
+        return InMemory(
+            self.table, self.starts, self.kinds, self.states, self.forces, self.displacement, self.status,
+            self.iterations,
+        )  # fmt: skip
 
     def _slices(self, place: int) -> tuple[slice, slice]:
         first, end = int(self.starts[place]), int(self.starts[place + 1])
         return slice(first, end), slice(self.kinds * first, self.kinds * end)
 
 
+@njit(cache=True)
+def operator_at(steps, s):
+    """The arrays of the contact operator at a step of those `in_memory`."""
+    before = steps.starts[s] - steps.starts[s - 1] if s else 0
+    return arrays_of(steps.rows[s], steps.kinds, steps.states.shape[2], before)
+
+
+@njit(cache=True)
+def nodes_at(steps, s):
+    """Where the contact nodes of a step of those `in_memory` stand among all."""
+    return slice(steps.starts[s], steps.starts[s + 1])
+
+
+@njit(cache=True)
+def forces_at(steps, s):
+    """Where the forces of a step of those `in_memory` stand among all."""
+    return slice(steps.kinds * steps.starts[s], steps.kinds * steps.starts[s + 1])
+
+
 def smallest_openings(steps: Steps) -> np.ndarray:
     """Distance (s, 2), mm, of the drive and of the coast flanks at the contact node nearest to contact; infinite where
     there is no such node."""
-    return _openings(steps.table, steps.starts, steps.kinds, steps.displacement)
+    return _openings(steps.in_memory)
 
 
 def drive_flanks_touch(steps: Steps) -> np.ndarray:
     """Whether any node on the drive flanks is closed (s,)."""
-    return _touching(steps.table, steps.starts, steps.status)
+    return _touching(steps.in_memory)
 
 
 @njit(cache=True)
-def _openings(table, starts, kinds, displacement):
-    found = np.full((len(table), 2), np.inf)
-    for s in range(len(table)):
-        first, n = starts[s], starts[s + 1] - starts[s]
-        gap, drive = vector_at(table[s, GAP], n), flags_at(table[s, ON_DRIVE_FLANKS], n)
-        for node in range(n):
+def _openings(steps):
+    found = np.full((len(steps.rows), 2), np.inf)
+    for s in range(len(steps.rows)):
+        contact, displacement = operator_at(steps, s), steps.displacement[forces_at(steps, s)]
+        gap, drive = contact.gap, contact.on_drive_flanks
+        for node in range(len(gap)):
             side = DRIVE if drive[node] else COAST
-            found[s, side] = min(found[s, side], gap[node] - displacement[kinds * first + node])
+            found[s, side] = min(found[s, side], gap[node] - displacement[node])
     return found
 
 
 @njit(cache=True)
-def _touching(table, starts, status):
-    found = np.zeros(len(table), dtype=np.bool_)
-    for s in range(len(table)):
-        drive = flags_at(table[s, ON_DRIVE_FLANKS], starts[s + 1] - starts[s])
+def _touching(steps):
+    found = np.zeros(len(steps.rows), dtype=np.bool_)
+    for s in range(len(steps.rows)):
+        drive, status = operator_at(steps, s).on_drive_flanks, steps.status[nodes_at(steps, s)]
         for node in range(len(drive)):
-            found[s] |= drive[node] and status[starts[s] + node] != OPEN
+            found[s] |= drive[node] and status[node] != OPEN
     return found

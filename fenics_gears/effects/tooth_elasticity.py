@@ -1,5 +1,5 @@
 """``[gears.material]``: teeth and gear bodies that give way (``elasticity``); without it the flanks are rigid
-(``contact.rigid_cycle``)."""
+(``contact.rigid_mesh``)."""
 
 from __future__ import annotations
 

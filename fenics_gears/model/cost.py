@@ -12,7 +12,7 @@ from math import lcm
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import pair_places
+from fenics_gears.contact.places import pair_places
 from fenics_gears.effects import body_meshes, effects_on
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.model.model import Model

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fenics_gears.contact.face_cycle import face_places
+from fenics_gears.contact.places import face_places
 from fenics_gears.contact.window import flank_ends, node_offsets
 from fenics_gears.elasticity.face.cost import expected_memory, expected_size, is_iterative
 from fenics_gears.model.cost import CONDENSING_PROGRAM, ON_FLANKS, ExpectedCost, root_stress_cost

@@ -96,7 +96,7 @@ class Model:
         (`slots`)."""
         resolution = self.resolution
         if self.face is not None:
-            from fenics_gears.contact.face_cycle import touching_on_face
+            from fenics_gears.contact.face_mesh import touching_on_face
 
             return touching_on_face(
                 self.pair,

@@ -98,7 +98,7 @@ def pair_variables(scene: Scene, nodes: SideBySide) -> Values:
 def _rigid_pairs(scene: Scene, nodes: SideBySide) -> Values:
     """Forces of pairs of rigid flanks; not a number where several pairs touch together, for their shares are not
     determined."""
-    from fenics_gears.contact.rigid_cycle import pairs_that_touch
+    from fenics_gears.contact.rigid_mesh import pairs_that_touch
 
     sides = {"pair_normal_force": DRIVE} | (
         {"pair_coast_normal_force": COAST} if scene.coast_flanks is not None else {}

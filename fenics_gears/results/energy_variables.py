@@ -10,13 +10,12 @@ import numpy as np
 import xarray as xr
 from numba import njit
 
-from fenics_gears.contact.addresses import COMPLIANCE, matrix_at
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.drivetrain import ON_BEARINGS, Drivetrain
 from fenics_gears.dynamics.energy_account import account, mean_load, quadratic
 from fenics_gears.dynamics.stepping import VaryingLoad
-from fenics_gears.dynamics.steps import Steps
+from fenics_gears.dynamics.steps import Steps, forces_at, operator_at
 from fenics_gears.scene.data import Scene
 
 
@@ -39,15 +38,14 @@ def energy_variables(scene: Scene, drivetrain: Drivetrain, steps: Steps) -> dict
 
 def energy_of_teeth(steps: Steps) -> np.ndarray:
     """Half of p C p at each step (s,), N mm."""
-    return _energy_of_teeth(steps.table, steps.starts, steps.kinds, steps.forces)
+    return _energy_of_teeth(steps.in_memory)
 
 
 @njit(cache=True)
-def _energy_of_teeth(table, starts, kinds, forces):
-    energies = np.zeros(len(table))
-    for s in range(len(table)):
-        m = kinds * (starts[s + 1] - starts[s])
-        compliance, loads = matrix_at(table[s, COMPLIANCE], m, m), forces[kinds * starts[s] : kinds * starts[s + 1]]
+def _energy_of_teeth(steps):
+    energies = np.zeros(len(steps.rows))
+    for s in range(len(steps.rows)):
+        compliance, loads = operator_at(steps, s).compliance, steps.forces[forces_at(steps, s)]
         loaded = np.flatnonzero(loads)
         for i in loaded:
             for j in loaded:

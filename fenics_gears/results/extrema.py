@@ -1,12 +1,9 @@
-"""Extrema of a run's curves, located between its steps.
+"""Extrema of a run's curves, located between its steps: of a quasi-static run at positions that are solved where
+`results.crests` asks for them.
 
-Of a quasi-static run positions between the steps are solved where the largest value can lie: between two steps the
-curve is taken to stay below the straight lines through the steps on either side, as it does at smooth crests and at
-corners where a tooth pair enters or leaves contact. Lines through solved positions replace these, until no crossing
-lies above the largest value found. With inertia curves are smooth: the extremum is that of the cubic through four
-steps, which is of fourth order. The march's own velocities give no more: between two steps average acceleration means a
-parabola. Where steps are too long for any vibration, the motion follows the static one: positions are solved as without
-inertia.
+With inertia curves are smooth, and the extremum is that of cubics. The march's own velocities give no more: between two
+steps average acceleration means a parabola. Where steps are too long for any vibration, the motion follows the static
+one: positions are solved as without inertia.
 """
 
 from __future__ import annotations
@@ -26,24 +23,17 @@ from fenics_gears.dynamics.steps import Record
 from fenics_gears.effects import common_period
 from fenics_gears.model.model import Model
 from fenics_gears.results.attributes import CUBICS, SOLVED, STEPS
+from fenics_gears.results.crests import highest, largest_of_cubics
 from fenics_gears.results.key_numbers import largest_force_over_time
 from fenics_gears.results.numbers import SAME
 
-# Positions solved for an extremum at most, and up to which part of the curve's span it is sought.
-MOST_SOLVED, SOUGHT = 20, 1e-4
+# Up to which part of the curve's span an extremum is sought.
+SOUGHT = 1e-4
 # Over a face, whose positions cost a hundred times as much and whose slices leave a peak-to-peak value some 2 %
 # uncertain.
 SOUGHT_OVER_FACE = 3e-4
 # A position solved again is that of the march if it is as near as this part of what is sought.
 SAME_POSITION = 0.1
-# How far down from the largest value a curve is followed, in parts of what is sought. What falls within less than this
-# part of a step jumps.
-NEAR, WIDTH_OF_JUMP = 50.0, 1e-3
-# A curve has not jumped where it falls in the next step by at least this part of the fall before. A crest is smooth
-# where the lower of the parabolas from either side is above the steps by at least this part of the higher one.
-LIKE = 0.5
-# A position is sought no nearer to a step than this part of the distance to the next.
-NEAREST = 0.02
 
 
 @dataclass(frozen=True)
@@ -188,98 +178,3 @@ def _largest_force_of_a_pair(record: Record) -> float:
             pair_of_node
         ]
     return float(np.bincount(pair_of_node, record.solution.forces[: operator.nodes], minlength=1).max())
-
-
-def highest(
-    steps: np.ndarray, values: np.ndarray, value: Callable[[float], float], sought: float
-) -> tuple[float, float]:
-    """Place and largest value of a curve given at `steps` (s,) by `values` (s,), and anywhere between them by `value`,
-    which may be not a number.
-
-    Between the first two and the last two steps nothing is sought. Ends where no crossing of lines is higher by
-    `sought` and on either side of the largest value the curve falls by NEAR times that in small parts, so that lines
-    are those beside the crest; or after MOST_SOLVED.
-    """
-    for _ in range(MOST_SOLVED):
-        bounds, places = _bounds(steps, values)
-        interval = int(bounds.argmax()) + 1 if len(bounds) else 0
-        if not len(bounds) or bounds[interval - 1] <= values.max() + sought:
-            interval = _steep_neighbour(steps, values, NEAR * sought)
-            if not interval:
-                break
-            place = 0.5 * (steps[interval] + steps[interval + 1])
-        else:
-            place = places[interval - 1]
-        found = value(place)
-        if np.isnan(found):
-            break
-        steps, values = np.insert(steps, interval + 1, place), np.insert(values, interval + 1, found)
-    return float(steps[values.argmax()]), float(values.max())
-
-
-def _steep_neighbour(steps: np.ndarray, values: np.ndarray, near: float) -> int:
-    """The steeper of the intervals in which a curve falls below the largest value by more than `near` on either side
-    within a step of it; 0 where
-    neither falls by so much in itself, over more than a jump's width, or both are at an end."""
-    top, found = int(values.argmax()), {}
-    for side in (-1, 1):
-        end = top
-        while (
-            0 < end + side < len(values) - 1
-            and values[end + side] >= values[top] - near
-            and abs(steps[end + side] - steps[top]) < 1.0
-        ):
-            end += side
-        interval = min(end, end + side)
-        if 0 < interval < len(values) - 2 and steps[interval + 1] - steps[interval] > WIDTH_OF_JUMP:
-            found[interval] = float(values[end] - values[end + side])
-    interval = max(found, key=found.__getitem__, default=0)
-    return interval if interval and found[interval] > near else 0
-
-
-def _bounds(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """How high a curve may be (s - 3,) between points x, y (s,), each interval but the outer ones; and the place that
-    is to be solved there.
-
-    That is the crossing of the lines from either side. Where one rises into the interval and the other lies far below
-    its end, the curve may
-    have jumped down anywhere: then half-way.
-    """
-    slope, h = np.diff(y) / np.diff(x), np.diff(x)[1:-1]
-    left, right, a, b = slope[:-2], slope[2:], y[1:-2], y[2:-1]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        crossing = np.clip((b - right * h - a) / (left - right) / h, NEAREST, 1.0 - NEAREST)
-    meets = (left > right) & (b - right * h > a) & (a + left * h > b)
-    height = np.where(meets, a + left * crossing * h, np.maximum(a, b))
-    fell = (a >= b) & (left > 0.0) & (b - right * h < a - LIKE * (a - b))
-    rose = (b > a) & (right < 0.0) & (a + left * h < b - LIKE * (b - a))
-    height = np.where(fell, a + left * h, np.where(rose, b - right * h, height))
-    return height, x[1:-2] + np.where(fell | rose, 0.5, np.where(meets, crossing, 0.5)) * h
-
-
-def largest_of_cubics(steps: np.ndarray, values: np.ndarray) -> tuple[float, float]:
-    """Place and largest value of the cubics through each four consecutive `values` (s,) at equal distances, between the
-    middle two.
-
-    Only where the parabolas through three of them, either way, have crests alike: where the curve has a corner it is
-    not a cubic.
-    """
-    if len(values) < 4:
-        return float(steps[values.argmax()]), float(values.max())
-    y0, y1, y2, y3 = values[:-3], values[1:-2], values[2:-1], values[3:]
-    top = np.maximum(y1, y2)
-    first, second, third = 0.5 * (y2 - y0), y0 - 2.0 * y1 + y2, y3 - 3.0 * (y2 - y1) - y0
-    other = second + third
-    with np.errstate(divide="ignore", invalid="ignore"):
-        # Crests of both parabolas above the middle two values; their curvatures are `second` and `other`.
-        crests = [y1 - first**2 / (2.0 * second), y2 - (0.5 * (y3 - y1)) ** 2 / (2.0 * other)]
-        slope = first - third / 6.0
-        # Stationary point of y1 + slope t + second t^2/2 + third t^3/6, in the form without cancellation.
-        t = -2.0 * slope / (second - np.sqrt(second**2 - 2.0 * slope * third))
-        cubic = y1 + t * (slope + t * (0.5 * second + t * third / 6.0))
-    low, high = np.minimum(*crests) - top, np.maximum(*crests) - top
-    smooth = (second < 0.0) & (other < 0.0) & (t > 0.0) & (t < 1.0) & (low >= LIKE * high)
-    cubic = np.where(smooth, cubic, top)
-    place = int(cubic.argmax())
-    at = float(t[place]) if smooth[place] else float(y2[place] > y1[place])
-    return float(steps[1 + place]) + at, float(cubic[place])

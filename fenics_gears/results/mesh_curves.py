@@ -7,21 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import (
-    COMPLIANCE,
-    GAP,
-    JACOBIAN,
-    NODE_PAIR,
-    ON_DRIVE_FLANKS,
-    flags_at,
-    integers_at,
-    matrix_at,
-    vector_at,
-)
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_stiffness import mesh_stiffness
 from fenics_gears.contact.pressure import read_off
-from fenics_gears.dynamics.steps import Steps
+from fenics_gears.dynamics.steps import Steps, forces_at, nodes_at, operator_at
 from fenics_gears.results.beside_edges import EDGE, KINK, NOTHING, EdgesAndKinks
 from fenics_gears.results.side_by_side import SideBySide
 
@@ -30,24 +19,16 @@ Curves = dict[str, np.ndarray]
 
 def stiffness_curves(steps: Steps) -> Curves:
     """Secant and tangent stiffness of the mesh, and how many pairs carry, at consecutive steps of an elastic mesh."""
-    secant, tangent, pairs = _stiffness(
-        steps.table, steps.starts, steps.kinds, steps.states[:, 0].copy(), steps.forces, steps.status
-    )
+    secant, tangent, pairs = _stiffness(steps.in_memory)
     return {"mesh_stiffness": secant, "mesh_stiffness_tangent": tangent, "loaded_pairs": pairs}
 
 
 @njit(cache=True)
-def _stiffness(table, starts, kinds, positions, forces, status):
-    found, k = np.zeros((3, len(table))), positions.shape[1]
-    for s in range(len(table)):
-        row, n = table[s], starts[s + 1] - starts[s]
-        m = kinds * n
-        found[:, s] = mesh_stiffness(
-            matrix_at(row[COMPLIANCE], m, m), matrix_at(row[JACOBIAN], m, k), vector_at(row[GAP], n),
-            flags_at(row[ON_DRIVE_FLANKS], n),
-            integers_at(row[NODE_PAIR], n), status[starts[s] : starts[s + 1]],
-            forces[kinds * starts[s] : kinds * starts[s + 1]], positions[s],
-        )  # fmt: skip
+def _stiffness(steps):
+    found = np.zeros((3, len(steps.rows)))
+    for s in range(len(steps.rows)):
+        forces, status = steps.forces[forces_at(steps, s)], steps.status[nodes_at(steps, s)]
+        found[:, s] = mesh_stiffness(operator_at(steps, s), status, forces, steps.states[s, 0])
     return found
 
 

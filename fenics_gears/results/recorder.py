@@ -24,7 +24,7 @@ from fenics_gears.results.contact_variables import mesh_variables, node_variable
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.results.kept import InMemory, Kept
 from fenics_gears.results.mesh_curves import pressure_curves, stiffness_curves
-from fenics_gears.results.side_by_side import SideBySide, known_layouts
+from fenics_gears.results.side_by_side import KnownLayouts, SideBySide
 
 if TYPE_CHECKING:
     from fenics_gears.results.journal import Place, Recorded
@@ -74,7 +74,8 @@ class Recorder:
         self._waiting: list[Steps] = []
         self._last: Steps | None = None
         self._worked: dict[str, float] = {}
-        self._layouts, self._singular = known_layouts(cycle), EdgesAndKinks(model)
+        self._layouts, self._singular = cycle.beside(KnownLayouts), EdgesAndKinks(model)
+        self._layouts.forget_beyond(cycle.steps)
 
     def _room_for(self, journal: Place | None) -> InMemory:
         room = self.stored, self.model.steps + 1, self.model.contact_steps

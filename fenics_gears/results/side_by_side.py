@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.laws import OPEN
-from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.mesh import Nodes
+from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.contact.operator import (
     CENTRE_COORDINATES,
     COORDINATES,
@@ -39,8 +39,7 @@ class Layout:
     """
 
     def __init__(self, operator: ContactOperator, cycle: Cycle, tangential: bool):
-        # Held, so that no other tuple can have its address.
-        self.pairs = pairs = operator.pairs
+        pairs = operator.pairs
         counts = [len(pair.offsets) for pair in pairs]
         self.index = per_node(pairs, np.array([pair.place.index for pair in pairs], dtype=int))
         self.node = np.concatenate([np.arange(count) for count in counts] or [np.empty(0, dtype=int)])
@@ -120,6 +119,9 @@ def _reaction_rows(operator: ContactOperator, tangential: bool) -> np.ndarray:
     return -rows[: len(units)] * units[:, None]
 
 
+MOST_TIMES_JOINED = 8
+
+
 class Layouts:
     """The layouts of consecutive positions side by side (N,), joined once for each block of the mesh cycle."""
 
@@ -139,44 +141,35 @@ class Layouts:
         return self._joined[name]
 
 
+# What the contact nodes of a position are known by.
+_Key = tuple[Nodes | None, float]
+
+
 class KnownLayouts:
-    """Layouts of the positions of a cycle, made when they are first met."""
+    """Layouts of the positions of a cycle, made when they are first met; runs on the same operators, such as those of a
+    study, have them in common (`Cycle.beside`)."""
 
     def __init__(self):
-        self._layouts: dict[int, Layout] = {}
-        self._joined: dict[tuple[int, ...], Layouts] = {}
+        self._layouts: dict[_Key, Layout] = {}
+        self._joined: dict[tuple[_Key, ...], Layouts] = {}
 
     def joined(self, cycle: Cycle, steps: Steps) -> Layouts:
         """The layouts of some steps of that cycle."""
-        key = tuple([id(position.operator.pairs) for position in steps.positions])
+        key = tuple([(position.nodes, position.index) for position in steps.positions])
         if key not in self._joined:
-            self._joined[key] = Layouts(
-                [self._layout(cycle, position.operator, steps.kinds) for position in steps.positions], steps.kinds
-            )
+            layouts = [self._layout(cycle, *each, steps.kinds) for each in zip(key, steps.positions)]
+            self._joined[key] = Layouts(layouts, steps.kinds)
         return self._joined[key]
 
-    def _layout(self, cycle: Cycle, operator: ContactOperator, kinds: int) -> Layout:
-        found = self._layouts.get(id(operator.pairs))
-        if found is None:
-            found = self._layouts[id(operator.pairs)] = Layout(operator, cycle, kinds == 2)
-        return found
+    def _layout(self, cycle: Cycle, key: _Key, position: Position, kinds: int) -> Layout:
+        if key not in self._layouts:
+            self._layouts[key] = Layout(position.operator, cycle, kinds == 2)
+        return self._layouts[key]
 
     def forget_beyond(self, positions: int) -> None:
         """Forget all where more are known than so many, as where steps were divided at positions of their own."""
         if len(self._layouts) > positions or sum(map(len, self._joined)) > MOST_TIMES_JOINED * positions:
             self.__init__()
-
-
-# Runs of one cycle, such as those of a study, have its layouts in common. They do not hold the cycle, and go with it.
-_OF_CYCLES: WeakKeyDictionary[Cycle, KnownLayouts] = WeakKeyDictionary()
-MOST_TIMES_JOINED = 8
-
-
-def known_layouts(cycle: Cycle) -> KnownLayouts:
-    """What the runs of a cycle so far know of its layouts."""
-    known = _OF_CYCLES.setdefault(cycle.base, KnownLayouts())
-    known.forget_beyond(cycle.steps)
-    return known
 
 
 class SideBySide:

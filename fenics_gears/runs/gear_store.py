@@ -140,9 +140,9 @@ def differs_in_gaps_alone(model: Model) -> bool:
 
 def relieved(cycle: Cycle, model: Model) -> Cycle:
     """A mesh cycle with the model's reliefs, on the operators of one without."""
-    from fenics_gears.contact.relieved_cycle import RelievedCycle
+    from fenics_gears.contact import relief_gaps
 
-    return RelievedCycle(cycle, model.removal)
+    return relief_gaps.relieved(cycle, model.removal)
 
 
 def operators_key(model: Model) -> tuple:

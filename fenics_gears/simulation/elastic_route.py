@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle
+from collections.abc import Callable
+
+from fenics_gears.contact.mesh import Mesh, elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle, Gaps, Opening
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.effects import from_effects
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model.model import Model
-from fenics_gears.simulation.deviations import deviating
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
@@ -51,15 +53,22 @@ def gear_compliance(model: Model, name: str, reach: Reach, cache: Cache | None) 
 
 def mesh_cycle(model: Model, compliances: Compliances) -> Cycle:
     """The contact operators of one mesh cycle, for the centre coordinates and the friction that the scene has."""
-    cycle = _cycle_of(compliances)(
-        flanks_of(model, compliances),
-        model.resolution.contact_grid,
-        model.resolution.steps_per_mesh_cycle,
-        model.drivetrain.indices,
-        tangential=model.scene.friction is not None,
-        corner=model.corner,
+    flanks, grid = flanks_of(model, compliances), model.resolution.contact_grid
+    if all(each.alike for each in compliances):
+        return cycle_of(model, elastic_mesh(flanks, grid, model.corner))
+    from fenics_gears.contact.whole_body_mesh import whole_body_mesh
+
+    return cycle_of(model, whole_body_mesh(flanks, grid, model.resolution.steps_per_mesh_cycle, model.corner))
+
+
+def cycle_of(model: Model, mesh: Mesh, over_face: Callable[[Cycle], Opening] | None = None) -> Cycle:
+    """The contact equations of a mesh over the steps of the model, with what its effects add to the gaps from step to
+    step; `over_face`: what opens the flanks along a face."""
+    cycle = Cycle(
+        mesh, model.resolution.steps_per_mesh_cycle, model.drivetrain.indices, model.scene.friction is not None
     )
-    return deviating(model, cycle)
+    openings = () if over_face is None else (over_face(cycle),)
+    return cycle.with_gaps(Gaps(None, openings, tuple(from_effects(model.scene, "gaps", model))))
 
 
 def flanks_of(model: Model, compliances: Compliances) -> Flanks:
@@ -76,12 +85,3 @@ def flanks_of(model: Model, compliances: Compliances) -> Flanks:
         for body, gear, material, width in zip(compliances, gears, materials, pair.effective_face_widths)
     )
     return Flanks(pair, (pinion, wheel), model.removal)
-
-
-def _cycle_of(compliances: Compliances):
-    """One mesh cycle for all where all teeth are alike."""
-    if all(each.alike for each in compliances):
-        return MeshCycle
-    from fenics_gears.contact.whole_body_cycle import WholeBodyCycle
-
-    return WholeBodyCycle

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fenics_gears.contact.face_cycle import FaceCycle
+from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.elasticity.cache import Cache
@@ -11,8 +11,7 @@ from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.model.face_cost import by_gradients
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
-from fenics_gears.simulation.deviations import deviating
-from fenics_gears.simulation.elastic_route import Compliances, gear_compliances
+from fenics_gears.simulation.elastic_route import Compliances, cycle_of, gear_compliances
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
@@ -50,16 +49,7 @@ def gear_body(model: Model, name: str, reach: Reach, cache: Cache | None, job: J
 
 def face_cycle(model: Model, sections: Compliances, bodies: Bodies) -> Cycle:
     """The contact operators of one mesh cycle over the face."""
-    cycle = FaceCycle(
-        Flanks(model.pair, sections, model.removal),
-        bodies,
-        model.face,
-        model.face_opening,
-        model.resolution.contact_grid,
-        model.resolution.steps_per_mesh_cycle,
-        model.drivetrain.indices,
-        tangential=model.scene.friction is not None,
-        corner=model.corner,
-        coast_opening=model.coast_face_opening,
+    mesh = face_mesh(
+        Flanks(model.pair, sections, model.removal), bodies, model.face, model.resolution.contact_grid, model.corner
     )
-    return deviating(model, cycle)
+    return cycle_of(model, mesh, lambda cycle: opening_over_face(cycle, model.face_opening, model.coast_face_opening))

@@ -8,17 +8,17 @@ from time import perf_counter
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import CENTRE_COORDINATES
-from fenics_gears.contact.spring_cycle import PairSprings, SpringCycle, Springs
+from fenics_gears.contact.spring_mesh import PairSprings, Springs, spring_mesh
 from fenics_gears.contact.stiffness_table import LOADS, stiffness_table
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, coast_place, drive_place, facing_points
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
 from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.model.model import Model
-from fenics_gears.simulation.deviations import deviating
-from fenics_gears.simulation.elastic_route import Compliances, flanks_of, gear_compliances
+from fenics_gears.simulation.elastic_route import Compliances, cycle_of, flanks_of, gear_compliances
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
@@ -35,30 +35,26 @@ def table_route(
     compliances = gear_compliances(model, progress, cache)
     progress.stage("tabulate the mesh stiffness")
     compliances, cycle = table_cycle(model, compliances)
-    return compliances, deviating(model, cycle)
+    return compliances, cycle
 
 
 def iso_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[tuple, Cycle]:
     """No compliance, and the springs of ISO 6336-1."""
-    return (), deviating(model, iso_cycle(model))
+    return (), iso_cycle(model)
 
 
-def table_cycle(
-    model: Model, compliances: Compliances, loads: tuple[float, ...] = LOADS
-) -> tuple[Compliances, SpringCycle]:
+def table_cycle(model: Model, compliances: Compliances, loads: tuple[float, ...] = LOADS) -> tuple[Compliances, Cycle]:
     """The mesh cycle of a stiffness table of the full contact; the compliances' `time_condense` has what the table
     took.
 
     `loads`: in parts of the force that the scene transmits.
     """
     begun, resolution = perf_counter(), model.resolution
-    full = MeshCycle(
-        flanks_of(model, compliances),
-        resolution.contact_grid,
+    full = Cycle(
+        elastic_mesh(flanks_of(model, compliances), resolution.contact_grid, model.corner),
         min(resolution.steps_per_mesh_cycle, MOST_PHASES),
         [CENTRE_COORDINATES.index("rotation_2")],
         tangential=False,
-        corner=model.corner,
     )
     force = abs(model.scene.load.wheel_torque) / model.pair.wheel.base_radius
     force = force or DEFLECTION_WITHOUT_LOAD * model.scene.gears.module * mesh_stiffness(model.scene)
@@ -69,7 +65,7 @@ def table_cycle(
     return (first, second), _cycle(model, table.springs, len(loads) - 1)
 
 
-def iso_cycle(model: Model) -> SpringCycle:
+def iso_cycle(model: Model) -> Cycle:
     """The mesh cycle of pairs as stiff as ISO 6336-1 has them, on the theoretical path of contact: two levels, by how
     many pairs are on it.
 
@@ -93,12 +89,8 @@ def iso_cycle(model: Model) -> SpringCycle:
     return _cycle(model, springs, 1)
 
 
-def _cycle(model: Model, springs: Springs, levels: int) -> SpringCycle:
-    scene = model.scene
-    return SpringCycle(
-        model.pair, springs, levels, model.resolution.steps_per_mesh_cycle, model.drivetrain.indices,
-        tangential=scene.friction is not None, coast_flanks=scene.coast_flanks is not None,
-    )  # fmt: skip
+def _cycle(model: Model, springs: Springs, levels: int) -> Cycle:
+    return cycle_of(model, spring_mesh(model.pair, springs, levels, model.scene.coast_flanks is not None))
 
 
 def _gaps_on_path(model: Model, flank: int, phase: float) -> dict[int, float]:

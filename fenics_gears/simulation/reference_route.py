@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.node_to_node import loaded_teeth
-from fenics_gears.contact.remeshed_cycle import RemeshedCycle, paired_nodes
+from fenics_gears.contact.remeshed_mesh import paired_nodes, remeshed_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.remeshing import RemeshedStiffness, remeshed_stiffness
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
-from fenics_gears.simulation.deviations import deviating
+from fenics_gears.simulation.elastic_route import cycle_of
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
@@ -48,13 +48,12 @@ def reference_route(
                 report=progress.update,
             )
         )
-    cycle = RemeshedCycle(
+    mesh = remeshed_mesh(
         model.pair,
         nodes,
         list(zip(*(gear.positions for gear in gears))),
         resolution.contact_grid,
         order,
         model.drivetrain.indices,
-        tangential=model.scene.friction is not None,
     )
-    return tuple(gears), deviating(model, cycle)
+    return tuple(gears), cycle_of(model, mesh)

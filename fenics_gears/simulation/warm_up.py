@@ -18,7 +18,7 @@ from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import ContactOperator
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, solve_step
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place
-from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, Motion, solve_steps
+from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, Course, Motion, solve_steps
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.steps import Steps, drive_flanks_touch, smallest_openings
@@ -47,7 +47,9 @@ def compile_kernels(tangential: bool) -> float:
     operator = ContactOperator((pair,), (1.0, 1.0), (node, node), np.eye(unknowns), row, node, *earlier)
     steps = Steps.to_solve(range(2), [Position(operator, np.zeros(1, dtype=int))] * 2, 1, NEWTON)
     drivetrain = Drivetrain(("rotation_2",), np.ones(1), np.eye(1), np.ones(1), np.eye(1), None)
-    solve_steps(steps, 1, 2, Motion.of(drivetrain, AVERAGE_ACCELERATION, 0.1, tolerance), np.ones(2), np.ones((2, 1)))
+    solve_steps(
+        steps, 1, 2, Motion.of(drivetrain, AVERAGE_ACCELERATION, 0.1, tolerance), Course(np.ones(2), np.ones((2, 1)))
+    )
     for evaluated in (contact_work, stiffness_curves, energy_of_teeth, smallest_openings, drive_flanks_touch):
         evaluated(steps)
     return time.perf_counter() - begun

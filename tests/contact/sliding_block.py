@@ -7,7 +7,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import CycleTraits, Position
+from fenics_gears.contact.mesh import MeshTraits
+from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution, solve_step
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.drivetrain import Drivetrain
@@ -20,7 +21,7 @@ class SlidingBlock:
     """The contact of a step problem at any time; a whole step slides by its `slip_before`. `solved`: length of every
     step tried."""
 
-    traits = CycleTraits(divisible=True)
+    traits = MeshTraits(divisible=True)
     face = None
 
     def __init__(self, problem: StepProblem):

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from tests.helical import helical_scene, on_stand_in_bodies
 
-from fenics_gears.contact.face_cycle import FaceCycle
+from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
 from fenics_gears.contact.face_pairing import FacePair, FacePairing
-from fenics_gears.contact.operator import displacement_jacobian
+from fenics_gears.contact.mesh_cycle import Cycle, Gaps
+from fenics_gears.contact.operator import Passage, displacement_jacobian
 from fenics_gears.contact.tooth_pair import (
     COAST,
     DRIVE,
@@ -34,17 +35,9 @@ def coasting(hand="right", more=""):
     model = model_of(helical_scene(BOTH + more, hand=hand, offset=2.0))
     sections, bodies = on_stand_in_bodies(model)
     flanks, own = Flanks(model.pair, sections), model.drivetrain.indices
-    return model, FaceCycle(
-        flanks,
-        bodies,
-        model.face,
-        model.face_opening,
-        ContactGrid(2.0, 13),
-        16,
-        own,
-        False,
-        coast_opening=model.coast_face_opening,
-    )
+    cycle = Cycle(face_mesh(flanks, bodies, model.face, ContactGrid(2.0, 13)), 16, own, False)
+    opening = opening_over_face(cycle, model.face_opening, model.coast_face_opening)
+    return model, cycle.with_gaps(Gaps(openings=(opening,)))
 
 
 def coast_helicoid(pair, angle, height, position):
@@ -159,7 +152,7 @@ def test_coast_flanks_are_the_drive_flanks_turned_over(real):
                   pair.pitch_point - 1.0 + index * pair.base_pitch * 0.4 + 0.2 * number)
             for index, number in groups
         ]  # fmt: skip
-        return pairing.compliance(found, found, (0.0, 0.0))[0]
+        return pairing.response(Passage(found, found)).compliance
 
     drive, coast = compliance(DRIVE), compliance(COAST)
     assert np.abs(drive).max() > 0.0

@@ -8,7 +8,9 @@ from scipy.optimize import brentq
 from tests.contact.outlines import centres, distance, placed, rotation_to_touch
 
 from fenics_gears.contact.corner import corner_contact, corner_pair, corner_place
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.operator import Passage, contact_operator
 from fenics_gears.contact.tooth_pair import coast_place, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid
 
@@ -84,9 +86,10 @@ def test_rigid_motions_change_the_gap_as_the_outlines_say(tip, radius, stand_in_
     """Brute force: central differences of the least distance between both outlines by all six motions of the
     centres."""
     corner, place = corner_contact(paper_pair, radius), beyond(paper_pair, tip, 0.9)
-    cycle = MeshCycle(stand_in_flanks, GRID, STEPS, ALL, tangential=False, corner=corner)
+    cycle = Cycle(elastic_mesh(stand_in_flanks, GRID, corner), STEPS, ALL, tangential=False)
     pairs = (corner_pair(stand_in_flanks, GRID, corner, place),)
-    row = cycle._position(0, pairs, None, 0.0, None).operator.jacobian[0]
+    passage = Passage(pairs)
+    row = contact_operator(paper_pair, passage, ALL, cycle.mesh.response(passage)).jacobian[0]
     radii, step, expected = (paper_pair.pinion.base_radius, paper_pair.wheel.base_radius), 1e-3, np.empty(6)
     for column in range(6):
         gear, axis = divmod(column, 3)
@@ -136,7 +139,7 @@ def test_nothing_jumps_where_the_edge_leaves_the_path(tip, radius, stand_in_flan
 
 @pytest.fixture(scope="module")
 def cycle(stand_in_flanks, paper_pair):
-    return MeshCycle(stand_in_flanks, GRID, STEPS, ALL, tangential=True, corner=corner_contact(paper_pair, 0.1))
+    return Cycle(elastic_mesh(stand_in_flanks, GRID, corner_contact(paper_pair, 0.1)), STEPS, ALL, tangential=True)
 
 
 def corner_steps(cycle):

@@ -8,8 +8,9 @@ import pytest
 from tests.stand_in import stand_in_body
 
 from fenics_gears.contact.face import Face, even_slices
-from fenics_gears.contact.face_cycle import FaceCycle
+from fenics_gears.contact.face_mesh import face_mesh
 from fenics_gears.contact.flank_gaps import flank_gaps
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import node_slices
 from fenics_gears.contact.run_out import RunOut
 from fenics_gears.contact.window import ContactGrid
@@ -27,16 +28,7 @@ def cycle_of(flanks, helix):
     pair = replace(flanks.pair, helix=helix, axial_offsets=(1.0, -2.0), own_face_widths=(18.0, 20.0))
     face = Face(*even_slices(pair.face_width, SLICES), pair.slope, pair.gear_middles)
     bodies = tuple(stand_in_body(gear, width) for gear, width in zip((pair.pinion, pair.wheel), pair.face_widths))
-    return FaceCycle(
-        replace(flanks, pair=pair),
-        bodies,
-        face,
-        lambda heights, positions: np.zeros(len(heights)),
-        ContactGrid(2.0, 8),
-        STEPS,
-        [5],
-        False,
-    )
+    return Cycle(face_mesh(replace(flanks, pair=pair), bodies, face, ContactGrid(2.0, 8)), STEPS, [5], False)
 
 
 @pytest.fixture(scope="module")
@@ -126,7 +118,7 @@ class OnTheLine:
     """Of a position what flank errors look at: a node on the line of action in each slice of each pair."""
 
     def __init__(self, position):
-        self.operator = self
+        self.operator, self.index = self, position.index
         self.pairs = [SimpleNamespace(place=each.place, offsets=np.zeros(1)) for each in position.operator.pairs]
         self.nodes = len(self.pairs)
 

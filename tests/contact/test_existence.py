@@ -10,7 +10,7 @@ from tests.contact.problems import all_open, random_problem
 from fenics_gears.contact.errors import SelfLocking
 from fenics_gears.contact.existence import locked_nodes, working
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
-from fenics_gears.contact.newton import solve_sets
+from fenics_gears.contact.mixed_form import Iterate, solve_sets
 from fenics_gears.contact.step_solver import StepProblem, solve_step
 from fenics_gears.contact.uniqueness import is_only_solution
 
@@ -22,10 +22,8 @@ def solutions(problem, sigma):
     for closed in itertools.product((False, True), repeat=n):
         forces, coordinates = np.zeros(2 * n), np.zeros(len(problem.load))
         try:
-            solve_sets(
-                problem.stiffness, problem.load, problem.compliance, problem.jacobian, problem.gap, problem.slip_before,
-                problem.friction, np.where(closed, slips, OPEN).astype(np.int8), forces, coordinates,
-            )  # fmt: skip
+            sets = np.where(closed, slips, OPEN).astype(np.int8)
+            solve_sets(problem.equations, Iterate(sets, forces, coordinates, np.zeros(2 * n)))
         except np.linalg.LinAlgError:
             continue
         openings = problem.gap - (problem.jacobian @ coordinates - problem.compliance @ forces)[:n]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fenics_gears.contact.face_product import Views, add_between_seen, at_contact_nodes, seen_by
+from fenics_gears.contact.face_product import Groups, OnGear, Side, face_product
 from fenics_gears.contact.interpolation import FlankInterpolation
 
 NODES, SLICES, OFFSETS = 6, 3, 2
@@ -23,13 +23,13 @@ def groups(random):
     return [tuple(FlankInterpolation(random.random((3, 2)), first, NODES) for first in each) for each in firsts]
 
 
-def views_of(gear, seen, axes, plane_axes):
-    first = seen.firsts[gear]
-    return Views(
+def on_gear(gear, groups, axes, plane_axes):
+    first = groups.first[gear]
+    return OnGear(
         TEETH,
         IN_SLICES,
-        seen.widths[gear],
-        seen.places[gear],
+        groups.widths[gear],
+        groups.places[gear],
         3 * (NODES * IN_SLICES + first),
         2 * first,
         axes,
@@ -45,9 +45,9 @@ def test_products_are_those_of_whole_matrices(kinds, whole):
     random = np.random.default_rng(5)
     rows = groups(random)
     columns = rows if whole else groups(random)
-    seen, of_columns = seen_by(rows), seen_by(columns)
+    own, other = Groups.of(rows), Groups.of(columns)
     shares = random.random(SLICES)
-    between = np.zeros((kinds, seen.seen[-1].stop, kinds, of_columns.seen[-1].stop))
+    bodies, sides = [], ([], [])
     expected = np.zeros((kinds, 12, kinds, 12))
     for gear in range(2):
         blocks, sections = symmetric(random, 3 * NODES * SLICES), symmetric(random, 2 * NODES)
@@ -55,15 +55,9 @@ def test_products_are_those_of_whole_matrices(kinds, whole):
             random.standard_normal((len(TEETH), kinds, 3)),
             random.standard_normal((len(TEETH), kinds, 2)),
         )
-        add_between_seen(
-            blocks,
-            sections,
-            shares,
-            views_of(gear, seen, axes, plane_axes),
-            views_of(gear, of_columns, axes, plane_axes),
-            whole,
-            between,
-        )
+        bodies.append((blocks, sections))
+        for side, groups_of_side in zip(sides, (own, other)):
+            side.append(on_gear(gear, groups_of_side, axes, plane_axes))
         for p, q in np.ndindex(len(TEETH), len(TEETH)):
             number = OFFSETS + TEETH[p] - TEETH[q]
             block = blocks[number].reshape(SLICES, NODES, 3, SLICES, NODES, 3)[IN_SLICES[p], :, :, IN_SLICES[q]]
@@ -82,6 +76,7 @@ def test_products_are_those_of_whole_matrices(kinds, whole):
                 )
                 seen_there -= shares[IN_SLICES[p]] * plane
             expected[:, 3 * p : 3 * p + 3, :, 3 * q : 3 * q + 3] += seen_there
-    np.testing.assert_allclose(
-        at_contact_nodes(between, seen, of_columns, whole), expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max()
-    )
+    first = Side(own, tuple(sides[0]))
+    second = first if whole else Side(other, tuple(sides[1]))
+    found = face_product(bodies, shares, first, second)
+    np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max())

@@ -5,8 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from fenics_gears.contact.addresses import Arrays
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.mesh_stiffness import mesh_stiffness
 from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.window import ContactGrid
@@ -27,17 +29,19 @@ def statics(operator, load):
 
 def stiffness(operator, solution):
     """Secant and tangent stiffness of a solution, and pairs that carry."""
-    secant, tangent, pairs = mesh_stiffness(
+    nothing, none = np.empty(0), np.empty((0, 0))
+    contact = Arrays(
         operator.compliance, operator.jacobian, operator.gap, operator.on_drive_flanks, operator.node_pair,
-        solution.status, solution.forces, solution.coordinates,
+        operator.node_pair, nothing, none, none,
     )  # fmt: skip
+    secant, tangent, pairs = mesh_stiffness(contact, solution.status, solution.forces, solution.coordinates)
     return SimpleNamespace(secant=secant, tangent=tangent, pairs=pairs)
 
 
 @pytest.fixture(scope="module")
 def cycle(stand_in_flanks):
     """Frictionless contact of elastic stand-in teeth, of which only the wheel turns."""
-    return MeshCycle(stand_in_flanks, ContactGrid(1.5, 31), 20, [ROTATION_OF_THE_WHEEL], tangential=False)
+    return Cycle(elastic_mesh(stand_in_flanks, ContactGrid(1.5, 31)), 20, [ROTATION_OF_THE_WHEEL], tangential=False)
 
 
 @pytest.mark.parametrize("step", [0, 6, 11, 17])

@@ -11,7 +11,7 @@ from tests.contact.laws_of_contact import law_residual, project
 from tests.contact.problems import all_open, random_problem
 
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
-from fenics_gears.contact.newton import solve_sets
+from fenics_gears.contact.mixed_form import Iterate, solve_sets
 from fenics_gears.contact.step_solver import StepProblem, solve_step
 
 
@@ -36,10 +36,7 @@ def test_frictional_step_against_enumeration_of_all_sets():
         for sets in itertools.product((OPEN, SLIP_FORWARD, SLIP_BACKWARD, STICK), repeat=4):
             status = np.array(sets, dtype=np.int8)
             forces, q = np.zeros(8), np.zeros(3)
-            solve_sets(
-                problem.stiffness, problem.load, problem.compliance, problem.jacobian, problem.gap,
-                problem.slip_before, problem.friction, status, forces, q,
-            )  # fmt: skip
+            solve_sets(problem.equations, Iterate(status, forces, q, np.zeros(8)))
             u = problem.jacobian @ q - problem.compliance @ forces
             residual = law_residual(forces, u, problem.gap, problem.slip_before, problem.friction)
             slip = u[4:] + problem.slip_before

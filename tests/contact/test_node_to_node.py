@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from fenics_gears.contact.node_to_node import NodeResponse, node_pairs, node_to_node_operator, roll_interpolation
-from fenics_gears.contact.operator import CENTRE_COORDINATES
+from fenics_gears.contact.node_to_node import NodeResponse, node_pairs, node_to_node_response, roll_interpolation
+from fenics_gears.contact.operator import CENTRE_COORDINATES, Passage, contact_operator
 from fenics_gears.contact.tooth_pair import drive_place
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.ring import rotation
@@ -81,13 +81,10 @@ def last_displacement(pair, spacing_cells, steps=40):
     now, before = (pairs_at(pair, phase, grid) for phase in (0.5, 0.5 - 1.0 / steps))
     nodes = [sum(len(p.offsets) for p in pairs) for pairs in (now, before)]
     soft = [tuple(np.zeros((2 * n, 2 * n)) for _ in range(2)) for n in nodes]
-    operator = node_to_node_operator(
-        pair,
-        NodeResponse(now, soft[0]),
-        coordinates=list(range(len(CENTRE_COORDINATES))),
-        before=NodeResponse(before, soft[1]),
-        advance=pair.pinion.angular_pitch / steps,
-    )
+    advance, was = pair.pinion.angular_pitch / steps, NodeResponse(before, soft[1])
+    response = node_to_node_response(pair, NodeResponse(now, soft[0]), was, advance)
+    passage = Passage(now, before, advance=advance)
+    operator = contact_operator(pair, passage, list(range(len(CENTRE_COORDINATES))), response)
     return operator, now, before
 
 

@@ -7,8 +7,10 @@ import pytest
 
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.corner import corner_contact
-from fenics_gears.contact.mesh_cycle import MeshCycle, pair_places
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import over_nodes
+from fenics_gears.contact.places import pair_places
 from fenics_gears.contact.touching import touching
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.geometry.sliding import sliding_per_rotation
@@ -20,7 +22,7 @@ ALL = list(range(7))
 
 @pytest.fixture(scope="module")
 def cycle(stand_in_flanks):
-    return MeshCycle(stand_in_flanks, GRID, STEPS, ALL, tangential=True)
+    return Cycle(elastic_mesh(stand_in_flanks, GRID), STEPS, ALL, tangential=True)
 
 
 @pytest.mark.parametrize("step", range(0, STEPS, 3))
@@ -36,7 +38,7 @@ def test_compliance_equals_the_dense_product(cycle):
     operator = cycle.position(1).operator
     n = operator.nodes
     expected = np.zeros((2 * n, 2 * n))
-    for gear, compliance in enumerate(cycle.flanks.compliance):
+    for gear, compliance in enumerate(cycle.bodies):
         rows = []
         for pair in operator.pairs:
             axes = directions(pair.place.contact_rolls[gear], True)
@@ -45,7 +47,7 @@ def test_compliance_equals_the_dense_product(cycle):
         for a, pair_a in enumerate(operator.pairs):
             for b, pair_b in enumerate(operator.pairs):
                 ahead = (pair_a.place.index - pair_b.place.index) * (1 if gear == 0 else -1)
-                block = compliance.block(ahead) / cycle.flanks.pair.face_width
+                block = compliance.block(ahead) / cycle.pair.face_width
                 for d in range(2):
                     for e in range(2):
                         first = d * n + np.searchsorted(operator.node_pair, a)
@@ -75,7 +77,7 @@ def test_without_motion_between_steps_the_earlier_displacement_is_the_present_on
     first order."""
     differences = []
     for steps in (2000, 4000):
-        fine = MeshCycle(stand_in_flanks, GRID, steps, ALL, tangential=True)
+        fine = Cycle(elastic_mesh(stand_in_flanks, GRID), steps, ALL, tangential=True)
         operator = fine.position(3 * steps // 5).operator
         n = operator.nodes
         before = fine.position(3 * steps // 5 - 1).operator
@@ -94,7 +96,7 @@ def test_without_motion_between_steps_the_earlier_displacement_is_the_present_on
 
 def test_normal_rows_are_the_same_with_and_without_friction(stand_in_flanks, cycle):
     """Exact: friction adds rows, it does not change those of the normals."""
-    plain = MeshCycle(stand_in_flanks, GRID, STEPS, ALL, tangential=False).position(4).operator
+    plain = Cycle(elastic_mesh(stand_in_flanks, GRID), STEPS, ALL, tangential=False).position(4).operator
     full = cycle.position(4).operator
     n = plain.nodes
     assert full.compliance[:n, :n] == pytest.approx(plain.compliance, rel=1e-13)

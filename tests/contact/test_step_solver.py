@@ -19,7 +19,8 @@ from tests.contact.sliding_block import block_at_rest
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium, SelfLocking
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.newton import CONVERGED
 from fenics_gears.contact.step_solver import HALVED, NEWTON_AND_FALLBACKS, StepProblem, _methods, cold_start, solve_step
 from fenics_gears.contact.tresca import frozen_friction
@@ -153,7 +154,7 @@ def jammed(scene, pair, flanks, absent, nodes, steps):
     """A static march of two mesh cycles with a friction coefficient of 5, which jams the teeth on approach."""
     scene = replace(scene, inertia=None, damping=None, **dict.fromkeys(absent))
     shafts = drivetrain(scene, pair)
-    cycle = MeshCycle(flanks, ContactGrid(2.0, nodes), steps, shafts.indices, tangential=True)
+    cycle = Cycle(elastic_mesh(flanks, ContactGrid(2.0, nodes)), steps, shafts.indices, tangential=True)
     return Marcher(cycle, EquationsOfMotion(shafts, 1e-3, 5.0)).run(2 * steps, 2 * steps + 1)
 
 
@@ -188,7 +189,7 @@ def test_gears_that_lock_say_so(paper_scene, paper_pair, stand_in_flanks):
     assert len(failure.value.partial.records) == failure.value.step
 
 
-class Refusing(MeshCycle):
+class Refusing(Cycle):
     """A cycle that has no solution in steps longer than `longest` (in steps)."""
 
     longest = 0.5
@@ -212,7 +213,8 @@ class Refusing(MeshCycle):
 
 def cycle_of(kind, scene, pair, flanks, steps):
     shafts = drivetrain(scene, pair)
-    return kind(flanks, ContactGrid(2.0, 9), steps, shafts.indices, tangential=scene.friction is not None), shafts
+    mesh = elastic_mesh(flanks, ContactGrid(2.0, 9))
+    return kind(mesh, steps, shafts.indices, tangential=scene.friction is not None), shafts
 
 
 @pytest.mark.parametrize("changes", [{}, {"inertia": None, "damping": None}], ids=["dynamic", "quasi-static"])
@@ -223,7 +225,7 @@ def test_divided_steps_are_those_of_a_finer_march(longest, parts, changes, paper
     scene, steps = replace(paper_scene, **changes), 10
     coarse, shafts = cycle_of(Refusing, scene, paper_pair, stand_in_flanks, steps)
     coarse.longest = longest
-    fine, _ = cycle_of(MeshCycle, scene, paper_pair, stand_in_flanks, parts * steps)
+    fine, _ = cycle_of(Cycle, scene, paper_pair, stand_in_flanks, parts * steps)
     divided = Marcher(coarse, EquationsOfMotion(shafts, 1e-3 / steps, 0.1))
     whole = Marcher(fine, EquationsOfMotion(shafts, 1e-3 / steps / parts, 0.1))
     start = whole.start()

@@ -9,7 +9,8 @@ import numpy as np
 
 from fenics_gears.contact.corner import CornerContact
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import ContactOperator
 from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks
@@ -34,7 +35,7 @@ def teeth_alone(scene: Scene, accuracy: Accuracy = Accuracy()) -> Scene:
     )  # fmt: skip
 
 
-def elastic_cycle(scene: Scene, corner: CornerContact | None, steps: int, cache: Cache | None = None) -> MeshCycle:
+def elastic_cycle(scene: Scene, corner: CornerContact | None, steps: int, cache: Cache | None = None) -> Cycle:
     """Contact operators of a scene's teeth alone on finite elements, the wheel's rotation the only unknown."""
     model = model_of(scene)
     grid, resolution = model.resolution.contact_grid, model.resolution
@@ -48,9 +49,9 @@ def elastic_cycle(scene: Scene, corner: CornerContact | None, steps: int, cache:
     return rigid_hub_cycle(Flanks(model.pair, compliances), grid, steps, corner)
 
 
-def rigid_hub_cycle(flanks: Flanks, grid: ContactGrid, steps: int, corner: CornerContact | None) -> MeshCycle:
+def rigid_hub_cycle(flanks: Flanks, grid: ContactGrid, steps: int, corner: CornerContact | None) -> Cycle:
     """The same on any flanks."""
-    return MeshCycle(flanks, grid, steps, [WHEEL_ROTATION], tangential=False, corner=corner)
+    return Cycle(elastic_mesh(flanks, grid, corner), steps, [WHEEL_ROTATION], tangential=False)
 
 
 def solved(operator: ContactOperator, force: float) -> StepSolution:
@@ -70,7 +71,7 @@ def solved(operator: ContactOperator, force: float) -> StepSolution:
     return solve_step(problem, cold_start(operator.gap, operator.node_pair))
 
 
-def transmission_error(cycle: MeshCycle, pair: GearPair, couple: float, phase: float) -> tuple[float, float]:
+def transmission_error(cycle: Cycle, pair: GearPair, couple: float, phase: float) -> tuple[float, float]:
     """Transmission error (rad, of the wheel) at a phase (mesh cycles), and the pinion's couple over the wheel's."""
     operator = cycle.position(round(phase * cycle.steps)).operator
     solution = solved(operator, couple / pair.wheel.base_radius)

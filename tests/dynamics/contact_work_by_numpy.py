@@ -28,7 +28,7 @@ class _Nodes:
     """
 
     def __init__(self, last: Record, record: Record):
-        carried = record.position.carried_from
+        carried = record.position.node_before
         self._now, self._before = len(carried), last.position.operator.nodes
         # Where two nodes come from one, as beside a moving edge, one of them is that node and the other is new.
         successor = np.full(self._before + 1, -1)

@@ -8,7 +8,8 @@ import pytest
 from tests.stand_in import stand_in_body
 
 from fenics_gears.contact.face import Face, even_slices
-from fenics_gears.contact.face_cycle import FaceCycle
+from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
+from fenics_gears.contact.mesh_cycle import Cycle, Gaps
 from fenics_gears.contact.operator import COORDINATES, displacement_jacobian
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher
@@ -39,9 +40,9 @@ class Mesh:
         def openings(heights, positions):
             return opening * heights / self.pair.face_width
 
-        self.cycle = FaceCycle(
-            flanks, bodies, face, openings, ContactGrid(3.0, 12), STEPS, self.shafts.indices, friction
-        )
+        mesh = face_mesh(flanks, bodies, face, ContactGrid(3.0, 12))
+        cycle = Cycle(mesh, STEPS, self.shafts.indices, friction)
+        self.cycle = cycle.with_gaps(Gaps(openings=(opening_over_face(cycle, openings),)))
 
     def marched(self, plain=False, cycles=1, marcher=Marcher):
         """One mesh cycle, or more."""

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from tests.frozen_gears import GRID, frozen_marcher
 
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
@@ -59,7 +60,7 @@ def test_ctrl_c_keeps_what_was_done(paper_scene, paper_pair, stand_in_flanks):
     """A march that is interrupted returns its records so far, marked."""
     scene = frictionless(paper_scene)
     shafts = drivetrain(scene, paper_pair)
-    cycle = MeshCycle(stand_in_flanks, GRID, 50, shafts.indices, tangential=False)
+    cycle = Cycle(elastic_mesh(stand_in_flanks, GRID), 50, shafts.indices, tangential=False)
 
     def interrupt(done, total):
         raise KeyboardInterrupt
@@ -73,6 +74,6 @@ def test_only_the_last_steps_are_kept(paper_scene, paper_pair, stand_in_flanks):
     """Two recorded cycles of a long run: the last steps, both ends included, not the whole history."""
     scene = frictionless(paper_scene)
     shafts = drivetrain(scene, paper_pair)
-    cycle = MeshCycle(stand_in_flanks, GRID, 20, shafts.indices, tangential=False)
+    cycle = Cycle(elastic_mesh(stand_in_flanks, GRID), 20, shafts.indices, tangential=False)
     march = Marcher(cycle, EquationsOfMotion(shafts, 1e-4)).run(100, 41)
     assert [record.step for record in march.records] == list(range(60, 101))

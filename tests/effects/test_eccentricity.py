@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene
 
-from fenics_gears.contact.mesh_cycle import pair_places
+from fenics_gears.contact.places import pair_places
 from fenics_gears.contact.run_out import RunOut
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 from fenics_gears.contact.window import ContactGrid
@@ -73,7 +73,7 @@ class _Pair:
 class _Position:
     def __init__(self, pair, index, steps):
         places = pair_places(pair, ContactGrid(1.5, 20), index / steps, coast_flanks=True)
-        self.operator = _Operator([_Pair(place) for place in places])
+        self.operator, self.index = _Operator([_Pair(place) for place in places]), index
 
 
 @pytest.mark.parametrize("gear", [0, 1])

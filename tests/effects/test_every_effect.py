@@ -27,9 +27,9 @@ METHODS = {
     "inertia": {"fenics_gears.dynamics.frequencies", "fenics_gears.dynamics.guidance"},
     "friction": {"fenics_gears.contact.uniqueness"},
     "corner_contact": {"fenics_gears.contact.corner", "fenics_gears.geometry.tip_edge"},
-    "body_meshes": {"fenics_gears.elasticity.whole_body.condensed", "fenics_gears.contact.whole_body_cycle"},
-    "lead_modifications": {"fenics_gears.geometry.face", "fenics_gears.contact.face_cycle"},
-    "misalignment": {"fenics_gears.geometry.face", "fenics_gears.contact.face_cycle"},
+    "body_meshes": {"fenics_gears.elasticity.whole_body.condensed", "fenics_gears.contact.whole_body_mesh"},
+    "lead_modifications": {"fenics_gears.geometry.face", "fenics_gears.contact.face_mesh"},
+    "misalignment": {"fenics_gears.geometry.face", "fenics_gears.contact.face_mesh"},
     TEETH: {"fenics_gears.elasticity.gear_compliance"},
 }
 # What only some cases of them load: teeth that lean, the start of a fast mesh, the stepping of unsampled vibrations,
@@ -172,7 +172,7 @@ def test_a_bare_scene_loads_no_varying_gaps_no_second_solver_no_other_model_and_
         for name in loaded[TEETH]
         if name.startswith("fenics_gears.") and re.search("spring|stiffness_table|iso_6336", name)
     ]
-    assert not {"fenics_gears.contact.deviating_cycle", *METHODS["corner_contact"]} & loaded[TEETH]
+    assert not METHODS["corner_contact"] & loaded[TEETH]
     assert not {"dolfinx", "gmsh", "petsc4py", "fenics_gears.elasticity.ring"} & loaded["nothing"]
     # Otherwise nothing could be said of what was not loaded.
-    assert "fenics_gears.contact.newton" in loaded[TEETH] and "fenics_gears.contact.rigid_cycle" in loaded["nothing"]
+    assert "fenics_gears.contact.newton" in loaded[TEETH] and "fenics_gears.contact.rigid_mesh" in loaded["nothing"]

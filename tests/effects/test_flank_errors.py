@@ -9,10 +9,10 @@ from tests.coarse import frictionless, quasi_static
 from tests.effects.hats import hat_mean
 from tests.stand_in import stand_in_compliance
 
-from fenics_gears.contact.deviating_cycle import DeviatingCycle
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.flank_gaps import flank_gaps
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle, Gaps
 from fenics_gears.contact.tooth_pair import COAST, Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher
@@ -40,7 +40,7 @@ def both_flanks(paper_pair):
     """A mesh cycle of drive and coast flanks without finite elements."""
     gears = paper_pair.pinion, paper_pair.wheel
     flanks = Flanks(paper_pair, tuple(stand_in_compliance(gear, coast_flank=True) for gear in gears))
-    return MeshCycle(flanks, ContactGrid(1.5, 20), STEPS, [5], tangential=False)
+    return Cycle(elastic_mesh(flanks, ContactGrid(1.5, 20)), STEPS, [5], tangential=False)
 
 
 def length(result, pair):
@@ -186,9 +186,9 @@ def test_the_loaded_pair_answers_with_maxwells_reciprocity(paper_scene, paper_pa
 
     def solved(load, deviation):
         shafts = drivetrain(replace(scene, load=Load(load)), paper_pair)
-        plain = MeshCycle(stand_in_flanks, ContactGrid(1.5, 20), steps, shafts.indices, tangential=False)
+        plain = Cycle(elastic_mesh(stand_in_flanks, ContactGrid(1.5, 20)), steps, shafts.indices, tangential=False)
         gaps = flank_gaps(moved(name, deviation), paper_pair, steps)
-        record = Marcher(DeviatingCycle(plain, [gaps]), EquationsOfMotion(shafts, 1e-4))._static_start(step)
+        record = Marcher(plain.with_gaps(Gaps(deviations=(gaps,))), EquationsOfMotion(shafts, 1e-4))._static_start(step)
         return record.state.position[0], record.solution.forces, plain.position(step), record.solution.status
 
     torque = scene.load.wheel_torque

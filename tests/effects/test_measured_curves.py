@@ -8,7 +8,8 @@ from tests.stand_in import stand_in_compliance
 
 from fenics_gears.commands.shared import checked_model
 from fenics_gears.contact.flank_gaps import flank_gaps
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.effects.flank_errors_sections import MEAN, REFERENCE_POINT, FlankErrors, GearErrors
@@ -23,9 +24,8 @@ STEPS = 20
 def drive_flanks(paper_pair):
     """A mesh cycle of drive flanks without finite elements."""
     gears = paper_pair.pinion, paper_pair.wheel
-    return MeshCycle(
-        Flanks(paper_pair, tuple(stand_in_compliance(gear) for gear in gears)),
-        ContactGrid(1.5, 20),
+    return Cycle(
+        elastic_mesh(Flanks(paper_pair, tuple(stand_in_compliance(gear) for gear in gears)), ContactGrid(1.5, 20)),
         STEPS,
         [5],
         tangential=False,

@@ -8,7 +8,8 @@ import pytest
 from tests.effects.hats import hat_mean
 
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
@@ -167,4 +168,4 @@ def test_gaps_open_by_the_removal_there(paper_scene, paper_pair, stand_in_flanks
 
 def _operator(pair, flanks, scene, grid, step):
     flanks = Flanks(pair, flanks.compliance, removals(scene, pair))
-    return MeshCycle(flanks, grid, 20, [5], tangential=False).position(step).operator
+    return Cycle(elastic_mesh(flanks, grid), 20, [5], tangential=False).position(step).operator

@@ -11,8 +11,9 @@ from tests.face_reference.cases import FACE_WIDTH, STEEL, base_slope, reference_
 from tests.face_reference.reference import OPENINGS
 
 from fenics_gears.contact.face import Face, even_slices
-from fenics_gears.contact.face_cycle import FaceCycle
+from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
 from fenics_gears.contact.laws import Tolerance
+from fenics_gears.contact.mesh_cycle import Cycle, Gaps
 from fenics_gears.contact.operator import COORDINATES, node_slices
 from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks
@@ -78,9 +79,9 @@ def answer(
     def opened(heights, positions):
         return OPENINGS[opening](heights) / face.cosine
 
-    cycle = FaceCycle(
-        Flanks(pair, sections), bodies, face, opened, grid, STEPS, [COORDINATES.index("rotation_2")], tangential=False
-    )
+    mesh = face_mesh(Flanks(pair, sections), bodies, face, grid)
+    cycle = Cycle(mesh, STEPS, [COORDINATES.index("rotation_2")], tangential=False)
+    cycle = cycle.with_gaps(Gaps(openings=(opening_over_face(cycle, opened),)))
     operator, load = cycle.position(round(phase * STEPS)).operator, force * face.cosine
     problem = StepProblem(
         np.zeros((1, 1)),

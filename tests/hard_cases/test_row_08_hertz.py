@@ -14,7 +14,8 @@ import pytest
 from tests.coarse import teeth_alone
 
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.operator import CompliancePairing, contact_operator
+from fenics_gears.contact.operator import Passage, contact_operator
+from fenics_gears.contact.pairing import CompliancePairing
 from fenics_gears.contact.pressure import without_oscillation
 from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks, drive_place, tooth_pair
@@ -74,7 +75,8 @@ def pressed(flanks, xi, force, spacing, length):
     """Offsets (n,), mm, and pressures (n,), MPa, of the contact nodes of one pair under a force."""
     cells = 2 * int(np.ceil(0.5 * length / spacing))
     nodes = tooth_pair(flanks, ContactGrid(cells * spacing, cells + 1), drive_place(flanks.pair, 0, xi))
-    operator = contact_operator(flanks, CompliancePairing(flanks), (nodes,), coordinates=[5])
+    passage = Passage((nodes,))
+    operator = contact_operator(flanks.pair, passage, [5], CompliancePairing(flanks).response(passage))
     problem = StepProblem(
         np.zeros((1, 1)), np.array([force]), operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0,
         np.ones(1),

@@ -8,8 +8,9 @@ from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
 from tests.coarse_sector import relative
 
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.mesh_cycle import pair_places
-from fenics_gears.contact.operator import CompliancePairing, contact_operator
+from fenics_gears.contact.operator import Passage, contact_operator
+from fenics_gears.contact.pairing import CompliancePairing
+from fenics_gears.contact.places import pair_places
 from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, tooth_pair
 from fenics_gears.elasticity.compliance import Reach
@@ -44,7 +45,8 @@ def approach(flanks, pairing, grid, phase, force, flank=DRIVE):
     forces of contact."""
     places = pair_places(flanks.pair, grid, phase % 1.0, coast_flanks=flank == COAST)
     pairs = tuple(tooth_pair(flanks, grid, place) for place in places if place.flank == flank)
-    operator = contact_operator(flanks, pairing, pairs, coordinates=[5])
+    passage = Passage(pairs)
+    operator = contact_operator(flanks.pair, passage, [5], pairing.response(passage))
     load, free = np.array([force]), np.array([np.sign(force)])
     problem = StepProblem(
         np.zeros((1, 1)),

@@ -10,7 +10,8 @@ from tests.contact.problems import all_open, random_problem
 from tests.frozen_gears import frozen_marcher
 
 from fenics_gears.contact.errors import NoStaticEquilibrium
-from fenics_gears.contact.mesh_cycle import MeshCycle, Position
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.contact.step_solver import solve_step
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import State
@@ -74,7 +75,7 @@ def test_a_static_load_that_opens_all_gaps_is_named(
     scene = scene if frictional else replace(scene, friction=None)
     scene = replace(scene, load=replace(scene.load, wheel_torque=-scene.load.wheel_torque))
     shafts = drivetrain(scene, paper_pair)
-    cycle = MeshCycle(stand_in_flanks, ContactGrid(1.5, 20), 40, shafts.indices, tangential=frictional)
+    cycle = Cycle(elastic_mesh(stand_in_flanks, ContactGrid(1.5, 20)), 40, shafts.indices, tangential=frictional)
     marcher = Marcher(cycle, EquationsOfMotion(shafts, 1e-4, scene.friction.coefficient if frictional else 0.0))
     with pytest.raises(NoStaticEquilibrium) as failure:
         marcher.run(1, 2)

@@ -7,7 +7,8 @@ import pytest
 from tests.coarse import coarse_scene, frictionless, teeth_alone
 
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.operator import CompliancePairing, contact_operator
+from fenics_gears.contact.operator import Passage, contact_operator
+from fenics_gears.contact.pairing import CompliancePairing
 from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import drive_place, tooth_pair
 from fenics_gears.model.model import model_of
@@ -30,7 +31,7 @@ def model(scene):
 
 @pytest.fixture(scope="module")
 def flanks(model):
-    return prepared(model, SilentProgress(), None)[1].flanks
+    return prepared(model, SilentProgress(), None)[1].mesh.response.__self__.flanks
 
 
 def pressed(operator, force):
@@ -41,6 +42,12 @@ def pressed(operator, force):
         Tolerance.of_load(force),
     )  # fmt: skip
     return solve_step(problem, cold_start(operator.gap, operator.node_pair))
+
+
+def operator_of(flanks, pairs):
+    """The contact equations of some tooth pairs."""
+    passage = Passage(pairs)
+    return contact_operator(flanks.pair, passage, ROTATION_2, CompliancePairing(flanks).response(passage))
 
 
 def only(operator, node):
@@ -59,12 +66,7 @@ def test_one_contact_node(model, flanks, measured):
     """Exact: it carries T/rb2, and the wheel gives way by its gap and C_11 T/rb2."""
     pair, force = flanks.pair, model.drivetrain.load[-1]
     place = drive_place(pair, 0, pair.pitch_point)
-    operator = contact_operator(
-        flanks,
-        CompliancePairing(flanks),
-        (tooth_pair(flanks, model.resolution.contact_grid, place),),
-        coordinates=ROTATION_2,
-    )
+    operator = operator_of(flanks, (tooth_pair(flanks, model.resolution.contact_grid, place),))
     errors = []
     for node in (0, operator.nodes // 2, operator.nodes - 1):
         alone = only(operator, node)
@@ -80,10 +82,7 @@ def test_coincident_contact_nodes_share_alike(model, flanks, measured):
     counted."""
     pair, force = flanks.pair, model.drivetrain.load[-1]
     nodes = tooth_pair(flanks, model.resolution.contact_grid, drive_place(pair, 0, pair.pitch_point))
-    once, twice = (
-        contact_operator(flanks, CompliancePairing(flanks), pairs, coordinates=ROTATION_2)
-        for pairs in ((nodes,), (nodes, nodes))
-    )
+    once, twice = (operator_of(flanks, pairs) for pairs in ((nodes,), (nodes, nodes)))
     first, second = pressed(once, force), pressed(twice, force)
     half = second.forces.reshape(2, -1)
     split = np.abs(half[0] - half[1]).max() / half.max()

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
@@ -20,7 +21,7 @@ BESIDE = (0.0, 1e-12, -1e-12)
 AT, AFTER, FINE = 10, 60, 400
 
 
-class Shifted(MeshCycle):
+class Shifted(Cycle):
     """Steps counted so that a tooth pair stands `beside` (mm) the pitch point at step AT."""
 
     beside = 0.0
@@ -36,7 +37,7 @@ class Shifted(MeshCycle):
 def past_the_pitch_point(scene, pair, flanks, beside, steps):
     """A march from AT steps before the pitch point to AFTER behind it, `steps` to a mesh cycle."""
     shafts = drivetrain(scene, pair)
-    cycle = Shifted(flanks, ContactGrid(1.5, 20), steps, shafts.indices, tangential=True)
+    cycle = Shifted(elastic_mesh(flanks, ContactGrid(1.5, 20)), steps, shafts.indices, tangential=True)
     cycle.beside = beside
     return Marcher(cycle, EquationsOfMotion(shafts, 1.0 / (200.0 * steps), scene.friction.coefficient)).run(
         AT + AFTER, AT + AFTER + 1

@@ -7,14 +7,15 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
 
-from fenics_gears.contact.mesh_cycle import MeshCycle
-from fenics_gears.contact.spring_cycle import PairSprings, SpringCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.spring_mesh import PairSprings, spring_mesh
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.model.model import model_of
 from fenics_gears.results.attributes import SOLVED
-from fenics_gears.results.extrema import MOST_SOLVED, highest
+from fenics_gears.results.crests import MOST_SOLVED, highest
 from fenics_gears.scene.data import ISO_6336, Accuracy
 from fenics_gears.simulation.simulate import simulate
 
@@ -55,7 +56,10 @@ def on_stand_ins(scene, flanks, steps):
     grid, tangential = model.resolution.contact_grid, scene.friction is not None
     return simulate(
         scene,
-        preparation=lambda *_: ((), MeshCycle(flanks, grid, steps, model.drivetrain.indices, tangential=tangential)),
+        preparation=lambda *_: (
+            (),
+            Cycle(elastic_mesh(flanks, grid), steps, model.drivetrain.indices, tangential=tangential),
+        ),
     )
 
 
@@ -96,7 +100,9 @@ def test_springs_in_closed_form(paper_scene):
             )
         ]
 
-    cycle = SpringCycle(model.pair, springs, 1, 20, model.drivetrain.indices, tangential=False, coast_flanks=False)
+    cycle = Cycle(
+        spring_mesh(model.pair, springs, 1, coast_flanks=False), 20, model.drivetrain.indices, tangential=False
+    )
     attributes = simulate(scene, preparation=lambda *_: ((), cycle)).attrs
     radius = model.pair.wheel.base_radius
     exact = scene.load.wheel_torque / radius / stiffness * (1.0 / 0.7 - 1.0 / 1.3) / radius
@@ -110,7 +116,9 @@ def test_a_step_solved_again_is_that_of_the_march(paper_scene, stand_in_flanks):
     and its turning at the pitch point."""
     scene = quasi_static(coarse_scene(paper_scene, cycles=2))
     model, records = model_of(scene), []
-    cycle = MeshCycle(stand_in_flanks, model.resolution.contact_grid, 40, model.drivetrain.indices, tangential=True)
+    cycle = Cycle(
+        elastic_mesh(stand_in_flanks, model.resolution.contact_grid), 40, model.drivetrain.indices, tangential=True
+    )
     Marcher(cycle, model.equations_of_motion).run(80, 1, observe=lambda steps, _: records.extend(steps.records))
 
     def marched(record):

@@ -6,7 +6,7 @@ Exudyn, side by side.
 
 Exudyn (J. Gerstmayr, https://github.com/jgerstm/EXUDYN) is a multi-body program of the University of Innsbruck. It is
 given rigid bodies and springs only (`exudyn_pair.py`); this program its drivetrain with a mesh of one spring
-(`contact.spring_cycle`), marched as any run. The pair is pair_19_48.toml of this folder, J1 : J2 = 1 : 19, with another
+(`contact.spring_mesh`), marched as any run. The pair is pair_19_48.toml of this folder, J1 : J2 = 1 : 19, with another
 bearing in every direction and another stiffness of either shaft.
 
 Exudyn 1.13.6 gave the seven natural frequencies, 215.3 to 4818.5 Hz, the same within 3e-15 of each, and the response to
@@ -25,7 +25,8 @@ from pathlib import Path
 import numpy as np
 
 from fenics_gears import load_scene
-from fenics_gears.contact.spring_cycle import PairSprings, SpringCycle
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.spring_mesh import PairSprings, spring_mesh
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.drivetrain import forces_of_torque
 from fenics_gears.dynamics.frequencies import natural_frequencies
@@ -65,13 +66,13 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
         # One pair all the time: it hands over to itself.
         return [PairSprings(0, DRIVE, np.zeros(1), np.zeros(1), np.array([MESH]))]
 
-    cycle = SpringCycle(pair, springs, 1, STEPS, shafts.indices, tangential=False, coast_flanks=False)
+    cycle = Cycle(spring_mesh(pair, springs, 1, coast_flanks=False), STEPS, shafts.indices, tangential=False)
     added = forces_of_torque(shafts.coordinates, shafts.radii, COUPLE_AFTER)
     marcher = Marcher(cycle, EquationsOfMotion(shafts, STEP, loads=(lambda step: added * (step > 0),)))
     start = marcher.start()
     # At rest where the first couple holds it, accelerated by what is added, as Exudyn starts.
     still = replace(
-        start, state=replace(start.state, velocity=0.0 * added, acceleration=np.linalg.solve(shafts.mass, added))
+        start, state=start.state._replace(velocity=0.0 * added, acceleration=np.linalg.solve(shafts.mass, added))
     )
     marcher.start = lambda: still
     records = marcher.run(STEPS - 1, STEPS).records

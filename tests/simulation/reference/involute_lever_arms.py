@@ -10,27 +10,25 @@ from dataclasses import replace
 
 import numpy as np
 
+from fenics_gears.contact.mesh import MeshTraits, by_newton
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import displacement_jacobian, lines_of
 from fenics_gears.simulation.reference_route import reference_route
 
 
 class InvoluteArms(Cycle):
-    """A remeshed cycle with involute arms, over the centre `coordinates`; its steps are solved in the mixed form."""
+    """A remeshed cycle with involute arms; its steps are solved in the mixed form."""
 
-    def __init__(self, cycle, coordinates: list[int]):
-        super().__init__(cycle.pair, cycle.grid, cycle.steps)
-        self._cycle, self._coordinates = cycle, coordinates
-
-    def pairs_at(self, index: int):
-        return self._cycle.pairs_at(index)
+    def __init__(self, cycle):
+        mesh = replace(cycle.mesh, solve=by_newton, traits=MeshTraits())
+        super().__init__(mesh, cycle.steps, cycle.coordinates, cycle.tangential)
 
     def position(self, step: int):
-        position = self._cycle.position(step)
+        position = super().position(step)
         operator = position.operator
         arms = lines_of(operator.pairs, operator.base_radii).lever_arms
         rigid = displacement_jacobian(operator.pairs, operator.base_radii, arms, operator.rigid_slip is not None)[
-            :, self._coordinates
+            :, self.coordinates
         ]
         return replace(
             position, operator=replace(operator, jacobian=np.ascontiguousarray(rigid), normal_lever_arms=arms)
@@ -40,4 +38,4 @@ class InvoluteArms(Cycle):
 def with_involute_arms(model, progress, cache):
     """A `preparation` for `simulate`."""
     gears, cycle = reference_route(model, progress, cache)
-    return gears, InvoluteArms(cycle, model.drivetrain.indices)
+    return gears, InvoluteArms(cycle)

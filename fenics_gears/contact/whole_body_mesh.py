@@ -1,4 +1,4 @@
-"""Mesh cycles of a pair whose teeth are not all alike: contact operators depend on the teeth in mesh.
+"""The mesh of a pair whose teeth are not all alike: contact operators depend on the teeth in mesh.
 
 Cycles whose teeth in mesh respond alike share their operators; the others have their own: with one cracked tooth, the
 few cycles in which it can be in mesh.
@@ -6,16 +6,22 @@ few cycles in which it can be in mesh.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import Cycle, MeshCycle, Position, pair_places
-from fenics_gears.contact.operator import CompliancePairing
-from fenics_gears.contact.tooth_pair import Flanks, PairNodes
+from fenics_gears.contact.mesh import Mesh, elastic_mesh
+from fenics_gears.contact.pairing import CompliancePairing
+from fenics_gears.contact.places import pair_places
+from fenics_gears.contact.tooth_pair import Flanks
+from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
+
+if TYPE_CHECKING:
+    from fenics_gears.contact.corner import CornerContact
 
 # Teeth respond alike where their compliances agree to this part of the largest, a fifth of the error of a default mesh.
 # The effect of a crack on the next teeth falls by about half from tooth to tooth.
@@ -55,51 +61,31 @@ class TeethInMesh:
         return (self.first + responding) % self.body.teeth, (self.first + loaded) % self.body.teeth
 
 
-class WholeBodyCycle(Cycle):
-    """The mesh cycles of a run; each is a `MeshCycle` of its own where its teeth are, and shared where they respond
-    alike.
+def whole_body_mesh(flanks: Flanks, grid: ContactGrid, steps: int, corner: CornerContact | None = None) -> Mesh:
+    """The mesh of gears of which one at least has a `WholeBodyCompliance`, over mesh cycles of so many steps.
 
-    Tooth 0 of either body is that of pair 0 at the start of the run. Arguments as of `MeshCycle`; at least one gear has
-    a `WholeBodyCompliance`.
+    Tooth 0 of either body is that of pair 0 at the start of the run.
     """
+    meshes = MeshesAlike(flanks, grid, steps, corner)
+    return replace(meshes.of_cycle(0), bodies=flanks.compliance, of_cycle=meshes.of_cycle)
 
-    traits = MeshCycle.traits
 
-    def __init__(self, flanks: Flanks, grid, steps: int, coordinates: list[int], tangential: bool, corner=None):
-        super().__init__(flanks.pair, grid, steps, flanks.compliance[0].flanks == 2, corner)
-        self._flanks, self._coordinates, self._tangential = flanks, coordinates, tangential
+class MeshesAlike:
+    """Meshes of their own for mesh cycles whose teeth respond differently, shared by those whose teeth respond alike;
+    arguments as of `whole_body_mesh`."""
+
+    def __init__(self, flanks: Flanks, grid: ContactGrid, steps: int, corner: CornerContact | None = None):
+        self._flanks, self._grid, self._steps, self._corner = flanks, grid, steps, corner
         self._blocks: tuple[dict, dict] = ({}, {})
         self._first_alike: tuple[dict[int, int], ...] = ({}, {})
-        self._cycles: dict[tuple[int, int], MeshCycle] = {}
+        self.meshes: dict[tuple[int, int], tuple[tuple, Mesh]] = {}
 
-    def pairs_at(self, index: int) -> tuple[PairNodes, ...]:
-        """The tooth pairs of the first cycle that can touch at position `index` (0 to steps - 1)."""
-        return self.of_cycle(0).pairs_at(index)
-
-    def position(self, step: int) -> Position:
-        """The contact equations at `step`."""
-        return self.of_cycle(step // self.steps).position(step)
-
-    def between(self, step: float, before: float) -> Position:
-        """The contact equations at a step that may lie between whole ones."""
-        return self.of_cycle(int(step // self.steps)).between(step, before)
-
-    def of_cycle(self, number: int) -> MeshCycle:
-        """The mesh cycle of that number, counted from the start of the run."""
+    def of_cycle(self, number: int) -> Mesh:
+        """The mesh in the mesh cycle of that number, counted from the start of the run."""
         key = tuple(self._like(gear, number) for gear in GEARS)
-        if key not in self._cycles:
-            self._cycles[key] = self._made(key)
-        return self._cycles[key]
-
-    @property
-    def bodies(self) -> tuple:
-        """Flank compliance of pinion and wheel."""
-        return self._flanks.compliance
-
-    @property
-    def kinds(self) -> int:
-        """Number of different cycles so far, each with operators of its own."""
-        return len(self._cycles)
+        if key not in self.meshes:
+            self.meshes[key] = self._made(key)
+        return self.meshes[key][1]
 
     def _like(self, gear: int, number: int) -> int:
         """The first tooth of a gear's earlier cycle whose teeth in mesh respond as those of cycle `number` do."""
@@ -129,8 +115,8 @@ class WholeBodyCycle(Cycle):
         pair 0."""
         places = [
             place
-            for step in range(self.steps)
-            for place in pair_places(self.pair, self.grid, step / self.steps, corner=self.corner)
+            for step in range(self._steps)
+            for place in pair_places(self._flanks.pair, self._grid, step / self._steps, corner=self._corner)
         ]
         found = []
         for gear in GEARS:
@@ -140,20 +126,17 @@ class WholeBodyCycle(Cycle):
             found.append(range(min(ahead + before), max(ahead + before) + 1))
         return tuple(found)
 
-    def _made(self, first: tuple[int, int]) -> MeshCycle:
-        compliance = tuple(
+    def _made(self, first: tuple[int, int]) -> tuple[tuple, Mesh]:
+        """Both gears as that mesh cycle meets them, and its mesh."""
+        bodies = tuple(
             body if body.alike else TeethInMesh(body, tooth) for body, tooth in zip(self._flanks.compliance, first)
         )
-        flanks = Flanks(self._flanks.pair, compliance, self._flanks.removal)
-        pairing = CompliancePairing(flanks, kept=self._blocks)
-        made = MeshCycle(flanks, self.grid, self.steps, self._coordinates, self._tangential, self.corner, pairing)
-        made.kept = self.kept
-        same_nodes = next(
-            (each for each in self._cycles.values() if self._same_nodes(each.flanks.compliance, compliance)), None
-        )
-        if same_nodes is not None:
-            made.share_pairs(same_nodes)
-        return made
+        flanks = Flanks(self._flanks.pair, bodies, self._flanks.removal)
+        made = elastic_mesh(flanks, self._grid, self._corner, CompliancePairing(flanks, self._blocks))
+        for others, mesh in self.meshes.values():
+            if self._same_nodes(others, bodies):
+                return bodies, replace(made, nodes=mesh.nodes)
+        return bodies, made
 
     def _same_nodes(self, one: tuple[FlankCompliance, ...], other: tuple[FlankCompliance, ...]) -> bool:
         """Whether the flank nodes of all teeth in mesh stand at the same roll angles, so that contact nodes see them

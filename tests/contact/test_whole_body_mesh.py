@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from tests.stand_in import stand_in_compliance
 
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import Flanks
-from fenics_gears.contact.whole_body_cycle import WholeBodyCycle, first_tooth
+from fenics_gears.contact.whole_body_mesh import first_tooth, whole_body_mesh
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
@@ -39,13 +40,21 @@ def rings(paper_pair):
     return tuple(stand_in_compliance(gear) for gear in (paper_pair.pinion, paper_pair.wheel))
 
 
-def cycle(paper_pair, bodies, kind=WholeBodyCycle, tangential=True):
-    return kind(Flanks(paper_pair, bodies), GRID, STEPS, ROTATIONS, tangential)
+def cycle(paper_pair, bodies, tangential=True):
+    flanks = Flanks(paper_pair, bodies)
+    alike = all(body.alike for body in bodies)
+    mesh = elastic_mesh(flanks, GRID) if alike else whole_body_mesh(flanks, GRID, STEPS)
+    return Cycle(mesh, STEPS, ROTATIONS, tangential)
+
+
+def meshes_of(found) -> int:
+    """How many meshes of their own the cycles so far have had."""
+    return len(found.mesh.of_cycle.__self__.meshes)
 
 
 def same(one, other) -> bool:
     names = ("compliance", "jacobian", "gap", "rigid_slip", "previous_compliance", "previous_jacobian")
-    return np.array_equal(one.carried_from, other.carried_from) and all(
+    return np.array_equal(one.node_before, other.node_before) and all(
         np.array_equal(getattr(one.operator, name), getattr(other.operator, name)) for name in names
     )
 
@@ -55,11 +64,11 @@ def test_equal_teeth_have_one_cycle_to_the_last_bit(paper_pair, rings, meshed):
     """Exact identity: bodies of equal teeth give the operators of the ring of sectors, friction's included, and only
     one set of them."""
     bodies = tuple(whole(ring, teeth) if own else ring for ring, teeth, own in zip(rings, (16, 24), meshed))
-    found, expected = cycle(paper_pair, bodies), cycle(paper_pair, rings, MeshCycle)
+    found, expected = cycle(paper_pair, bodies), cycle(paper_pair, rings)
     for step in [*range(-1, 2 * STEPS), 40 * STEPS + 3]:
         assert same(found.position(step), expected.position(step))
     assert same(found.between(STEPS + 0.5, STEPS - 0.25), expected.between(STEPS + 0.5, STEPS - 0.25))
-    assert found.kinds == 1 and found.traits.divisible and found.grid is GRID
+    assert meshes_of(found) == 1 and found.traits.divisible and found.grid is GRID
     assert found.pair_number(STEPS, 0) == 1
 
 
@@ -76,10 +85,7 @@ def test_a_softer_tooth_is_met_in_its_turn(paper_pair, rings, gear):
     assert tooth == ((11, 5)[gear])
     bodies = list(rings)
     bodies[gear] = whole(rings[gear], teeth, {tooth: factor})
-    found, healthy = (
-        cycle(paper_pair, tuple(bodies), tangential=False),
-        cycle(paper_pair, rings, MeshCycle, tangential=False),
-    )
+    found, healthy = (cycle(paper_pair, tuple(bodies), tangential=False), cycle(paper_pair, rings, tangential=False))
     phase = STEPS // 2
     for turned in range(-2, teeth + 8):
         operator, expected = (each.position(turned * STEPS + phase).operator for each in (found, healthy))
@@ -90,7 +96,7 @@ def test_a_softer_tooth_is_met_in_its_turn(paper_pair, rings, gear):
             )
             assert changed == ((turned - pair.place.index - number) % teeth == 0)
     # Its own cycles are those in which it can touch: at this grid pairs -1 to 2, and one more for the step before.
-    assert 1 < found.kinds <= 6
+    assert 1 < meshes_of(found) <= 6
 
 
 def test_friction_knows_the_teeth_of_the_step_before(paper_pair, rings):

@@ -1,4 +1,4 @@
-"""The mesh cycle of rigid flanks: the tooth pair with the smallest gap carries the whole force, and its gap is the
+"""The mesh of rigid flanks: the tooth pair with the smallest gap carries the whole force, and its gap is the
 kinematic transmission error.
 
 All contact nodes of the drive flanks move alike with the gears, by the base radii and along the line of action; so do
@@ -9,15 +9,15 @@ solution puts the whole force on the first of them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.interpolation import hat_integrals
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
-from fenics_gears.contact.mesh_cycle import Cycle, CycleTraits, Position
-from fenics_gears.contact.operator import ContactOperator, operator_on_lines, over_nodes
+from fenics_gears.contact.mesh import Mesh, MeshTraits, nodes_at
+from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.operator import ContactOperator, Passage, Response, count_of
+from fenics_gears.contact.places import pair_places
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, Removal, facing_points
 from fenics_gears.contact.window import ContactGrid, flank_ends, node_offsets
@@ -27,43 +27,70 @@ from fenics_gears.geometry.pair import GearPair
 SAME_GAP = 1e-10
 
 
-@dataclass(frozen=True)
-class RigidPosition(Position):
-    """A position with its nodes on the drive flanks and on the coast flanks, of which one of each can touch."""
+def rigid_mesh(
+    pair: GearPair,
+    removal: tuple[Removal | None, Removal | None],
+    grid: ContactGrid,
+    coast_flanks: bool = False,
+    frictional: bool = False,
+) -> Mesh:
+    """Rigid flanks; `removal`: material removed from either drive flank."""
+    if frictional:
+        from fenics_gears.contact.rigid_friction import RigidFriction as kind
+    else:
+        kind = RigidSolver
+    return Mesh(
+        pair,
+        grid,
+        lambda phase: nodes_at(
+            pair_places(pair, grid, phase, coast_flanks), lambda place: _nodes(pair, removal, grid, place)
+        ),
+        _rigid,
+        kind(pair),
+        MeshTraits(has_pressure=False, prescribes_friction=frictional, own_solver=True),
+        coast_flanks=coast_flanks,
+    )
 
-    sides: tuple[np.ndarray, np.ndarray]
+
+def _nodes(pair: GearPair, removal, grid: ContactGrid, place: Place) -> PairNodes | None:
+    offsets = node_offsets(flank_ends(pair, place.contact_rolls), grid)
+    if not len(offsets):
+        return None
+    if offsets[0] < 0.0 < offsets[-1]:
+        # True involutes touch on the line of action itself.
+        offsets = np.unique(np.append(offsets, 0.0))
+    (pinion_roll, _), (x_1, x_2), gap = facing_points(
+        pair, removal if place.flank == DRIVE else (None, None), place, offsets
+    )
+    return PairNodes(place, offsets, hat_integrals(offsets), gap, x_1, x_2, pinion_roll)
 
 
-class RigidCycle(Cycle):
-    """Contact nodes on rigid flanks; without friction.
+def _rigid(passage: Passage) -> Response:
+    """No compliance: views of a single zero."""
+    nodes = count_of(passage.pairs)
+    if passage.previous is None:
+        return Response(np.broadcast_to(0.0, (nodes, nodes)))
+    before = np.broadcast_to(0.0, (nodes, 2 * count_of(passage.previous)))
+    return Response(np.broadcast_to(0.0, (2 * nodes, 2 * nodes)), before)
 
-    `coordinates`: which centre coordinates are unknowns; `removal`: material removed from either drive flank.
-    """
 
-    traits = CycleTraits(has_pressure=False, own_solver=True)
-    frictional = False
+class RigidSolver:
+    """Solves a step between rigid flanks without friction."""
 
-    def __init__(
-        self,
-        pair: GearPair,
-        removal: tuple[Removal | None, Removal | None],
-        grid: ContactGrid,
-        steps: int,
-        coordinates: list[int],
-        coast_flanks: bool,
-    ):
-        super().__init__(pair, grid, steps, coast_flanks)
-        self._removal, self._coordinates = removal, coordinates
+    def __init__(self, pair: GearPair):
+        self.pair = pair
 
-    def solve(
-        self, position: RigidPosition, problem: StepProblem, status: np.ndarray, last: StepSolution | None
+    def __call__(
+        self, position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None
     ) -> StepSolution:
         """The step with the first of `_candidates` that holds the load: no node touching, or the leading node of a
         side, or of both.
 
         Raises ContactNotConverged where none of them holds the load.
         """
-        leaders = [int(nodes[np.argmin(problem.gap[nodes])]) for nodes in position.sides if len(nodes)]
+        drive = position.operator.on_drive_flanks
+        sides = (np.flatnonzero(drive), np.flatnonzero(~drive))
+        leaders = [int(nodes[np.argmin(problem.gap[nodes])]) for nodes in sides if len(nodes)]
         for iterations, touching in enumerate(self._candidates(leaders), 1):
             unit = self._unit_forces(position.operator, problem, touching)
             forces, coordinates = _solved(problem, touching, unit)
@@ -84,28 +111,6 @@ class RigidCycle(Cycle):
         unit = np.zeros((len(problem.gap), len(touching)))
         unit[touching, np.arange(len(touching))] = 1.0
         return unit
-
-    def _pair(self, place: Place) -> PairNodes | None:
-        offsets = node_offsets(flank_ends(self.pair, place.contact_rolls), self.grid)
-        if not len(offsets):
-            return None
-        if offsets[0] < 0.0 < offsets[-1]:
-            # True involutes touch on the line of action itself.
-            offsets = np.unique(np.append(offsets, 0.0))
-        removal = self._removal if place.flank == DRIVE else (None, None)
-        (pinion_roll, _), (x_1, x_2), gap = facing_points(self.pair, removal, place, offsets)
-        return PairNodes(place, offsets, hat_integrals(offsets), gap, x_1, x_2, pinion_roll)
-
-    def _position(self, index: float, pairs, previous, advance: float, carried: np.ndarray) -> RigidPosition:
-        nodes, before = len(over_nodes(pairs, "gap")), len(over_nodes(previous, "gap"))
-        # Rigid: views of a single zero.
-        rows = 2 * nodes if self.frictional else nodes
-        previous_compliance = np.broadcast_to(0.0, (nodes, 2 * before)) if self.frictional else None
-        compliance = np.broadcast_to(0.0, (rows, rows))
-        operator = operator_on_lines(self.pair, pairs, self._coordinates, compliance, previous_compliance, advance)
-        return RigidPosition(
-            operator, carried, (np.flatnonzero(operator.on_drive_flanks), np.flatnonzero(~operator.on_drive_flanks))
-        )
 
 
 def pairs_that_touch(operator: ContactOperator, node: int) -> np.ndarray:

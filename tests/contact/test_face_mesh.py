@@ -7,8 +7,9 @@ import pytest
 from tests.stand_in import stand_in_body, stand_in_compliance
 
 from fenics_gears.contact.face import Face, even_slices
-from fenics_gears.contact.face_cycle import FaceCycle
-from fenics_gears.contact.mesh_cycle import MeshCycle
+from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle, Gaps
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher
@@ -37,14 +38,14 @@ def face_cycle(model, face, opening=no_opening, grid=GRID, steps=STEPS):
     gears = (model.pair.pinion, model.pair.wheel)
     flanks = Flanks(model.pair, tuple(map(stand_in_compliance, gears)))
     bodies = tuple(stand_in_body(gear, WIDTH) for gear in gears)
-    return FaceCycle(
-        flanks, bodies, face, opening, grid, steps, model.drivetrain.indices, model.scene.friction is not None
-    )
+    mesh = face_mesh(flanks, bodies, face, grid)
+    cycle = Cycle(mesh, steps, model.drivetrain.indices, model.scene.friction is not None)
+    return cycle.with_gaps(Gaps(openings=(opening_over_face(cycle, opening),)))
 
 
 def plane_cycle(model, grid=GRID):
     flanks = Flanks(model.pair, tuple(stand_in_compliance(gear) for gear in (model.pair.pinion, model.pair.wheel)))
-    return MeshCycle(flanks, grid, STEPS, model.drivetrain.indices, model.scene.friction is not None)
+    return Cycle(elastic_mesh(flanks, grid), STEPS, model.drivetrain.indices, model.scene.friction is not None)
 
 
 def marched(model, cycle, steps=STEPS):

@@ -1,0 +1,94 @@
+"""Contact nodes in the slices of a face: a slice is a spur mesh at another phase."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from fenics_gears.contact.face import Face
+from fenics_gears.contact.face_pairing import FacePair, FacePairing
+from fenics_gears.contact.mesh import ELASTIC_FLANKS, Mesh, flank_nodes
+from fenics_gears.contact.mesh_cycle import Cycle, Opening, PerPosition, Position
+from fenics_gears.contact.operator import per_node
+from fenics_gears.contact.places import face_places
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, flank_points, interpolations
+from fenics_gears.contact.touching import Touching, touching_at
+from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles
+from fenics_gears.elasticity.face_compliance_data import FaceCompliance
+
+# Gap (k,), mm along the line of action, between flanks at heights z (k,), mm, and positions (k,), mm from T1.
+OverFace = Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+
+def face_mesh(
+    flanks: Flanks, bodies: tuple[FaceCompliance, FaceCompliance], face: Face, grid: ContactGrid, corner=None
+) -> Mesh:
+    """Elastic flanks in slices: compliance of the gears' three-dimensional `bodies`, and of fine plane sections near
+    the contact; gaps are those of flanks that are not modified along the face."""
+    pair, coast = flanks.pair, flanks.compliance[0].flanks == 2
+    pairing = FacePairing(flanks, bodies, face)
+
+    def nodes_of(place: Place) -> FacePair | None:
+        nodes = flank_nodes(flanks, grid, corner, place)
+        if nodes is None:
+            return None
+        rolls = flank_points(pair, nodes.place, nodes.offsets)[0]
+        coarse = interpolations(pairing.sections, grid, nodes.place, nodes.offsets, rolls)
+        return FacePair(**vars(nodes), coarse=coarse)
+
+    def nodes(phase: float) -> tuple[PairNodes, ...]:
+        found, alike = [], {}
+        for place in face_places(pair, grid, face, phase, coast, corner):
+            # Slices of a spur pair are all alike.
+            key = place.flank, place.index, face.shifts[place.slice]
+            if key not in alike:
+                alike[key] = nodes_of(place)
+            same = alike[key]
+            if same is not None:
+                found.append(replace(same, place=replace(same.place, slice=place.slice, height=place.height)))
+        return tuple(found)
+
+    return Mesh(
+        pair, grid, nodes, pairing.response,
+        traits=ELASTIC_FLANKS, bodies=flanks.compliance, coast_flanks=coast, corner=corner, face=face,
+    )  # fmt: skip
+
+
+def opening_over_face(cycle: Cycle, drive: OverFace, coast: OverFace | None = None) -> Opening:
+    """What lead modifications and misalignment leave between the flanks of a cycle over a face; `coast`: None for no
+    gap between the coast flanks."""
+    pair, face = cycle.pair, cycle.face
+
+    def roll(place: Place, phase: float) -> float:
+        """Roll angle (rad) of the theoretical contact on the pinion, also where a tip's edge touches."""
+        if place.line is None:
+            return place.contact_rolls[0]
+        xi = pair.path_start + (phase + place.index) * pair.base_pitch + face.shifts[place.slice]
+        return (contact_roll_angles if place.flank == DRIVE else coast_roll_angles)(pair, xi)[0]
+
+    def opening(position: Position) -> np.ndarray:
+        places, phase = [pairs.place for pairs in position.operator.pairs], position.index / cycle.steps
+        flanks, heights = (np.array([getattr(place, name) for place in places]) for name in ("flank", "height"))
+        along = pair.pinion.base_radius * np.array([roll(place, phase) for place in places])
+        found = np.zeros(len(places))
+        for flank, over_face in ((DRIVE, drive), (COAST, coast)):
+            if over_face is not None:
+                own = flanks == flank
+                found[own] = over_face(heights[own], along[own])
+        return per_node(position.operator.pairs, found)
+
+    return PerPosition(opening)
+
+
+def touching_on_face(
+    pair, grid: ContactGrid, face: Face, steps: int, coast_flanks: bool = False, corner=None
+) -> Touching:
+    """Where the pairs of a mesh cycle touch in any slice."""
+    ends = sorted({int(face.shifts.argmin()), int(face.shifts.argmax())})
+    # Slices between the outermost two touch between them.
+    outer = Face(face.positions[ends], face.widths[ends], face.slope, face.middles)
+    return touching_at(
+        lambda step: face_places(pair, grid, outer, step / steps, coast_flanks, corner), steps, coast_flanks
+    )

@@ -1,0 +1,106 @@
+"""What the contact equations of a mesh are put together from: contact nodes, and how they yield."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from fenics_gears.contact.operator import Passage, Response
+from fenics_gears.contact.pairing import CompliancePairing
+from fenics_gears.contact.places import pair_places
+from fenics_gears.contact.step_solver import StepProblem, StepSolution, solve_step
+from fenics_gears.contact.tooth_pair import Flanks, PairNodes, Place, ToothPair, tooth_pair
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.geometry.pair import GearPair
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from fenics_gears.contact.corner import CornerContact
+    from fenics_gears.contact.face import Face
+    from fenics_gears.contact.mesh_cycle import Position
+
+# Contact nodes of the tooth pairs that can touch at a phase (0 <= phase < 1).
+Nodes = Callable[[float], tuple[PairNodes, ...]]
+
+
+@dataclass(frozen=True)
+class MeshTraits:
+    """What the contact nodes of a mesh are.
+
+    `divisible`: there are positions between its steps. `nodes_on_flanks`: nodes are points of the flanks, springs are
+    not. `has_pressure`: forces of nodes are a pressure on the flank, those of springs and rigid flanks are not.
+    `prescribes_friction`: it follows from the place of a tooth pair, not from the slip of its nodes. `own_solver`:
+    steps are not solved by Newton's method first.
+    """
+
+    divisible: bool = False
+    nodes_on_flanks: bool = True
+    has_pressure: bool = True
+    prescribes_friction: bool = False
+    own_solver: bool = False
+
+
+ELASTIC_FLANKS = MeshTraits(divisible=True)
+
+
+def by_newton(position: Position, problem: StepProblem, status: np.ndarray, last: StepSolution | None) -> StepSolution:
+    """Solve a step at a position from the sets `status` (n,) by Newton's method and its fallbacks; `last`: the step
+    before, None at the start. Raises ContactNotConverged."""
+    return solve_step(problem, status)
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """A gear pair in mesh, as the contact equations are built of it.
+
+    `nodes`: of the tooth pairs that can touch; `response(passage)`: how these yield; `solve`: a step at a position.
+    `bodies`: flank compliance of pinion and wheel; empty where they have none. `corner`: tip edges that touch off the
+    line of action; `face`: slices along the axes, where it is resolved. `of_cycle(number)`: the mesh in a mesh cycle;
+    where None this one, as teeth are all alike.
+    """
+
+    pair: GearPair
+    grid: ContactGrid
+    nodes: Nodes
+    response: Callable[[Passage], Response]
+    solve: Callable[[Position, StepProblem, np.ndarray, StepSolution | None], StepSolution] = by_newton
+    traits: MeshTraits = MeshTraits()
+    bodies: tuple[Any, ...] = ()
+    coast_flanks: bool = False
+    corner: CornerContact | None = None
+    face: Face | None = None
+    of_cycle: Callable[[int], Mesh] | None = None
+
+
+def nodes_at(places: Iterable[Place], nodes_of: Callable[[Place], PairNodes | None]) -> tuple[PairNodes, ...]:
+    """The contact nodes of the places that have some."""
+    return tuple(pair for pair in map(nodes_of, places) if pair is not None)
+
+
+def flank_nodes(flanks: Flanks, grid: ContactGrid, corner: CornerContact | None, place: Place) -> ToothPair | None:
+    """The contact nodes of elastic flanks at a place, or None where their window is empty; `corner`: with tip edges."""
+    if corner is None:
+        return tooth_pair(flanks, grid, place)
+    from fenics_gears.contact.corner import corner_pair
+
+    return corner_pair(flanks, grid, corner, place)
+
+
+def elastic_mesh(
+    flanks: Flanks, grid: ContactGrid, corner: CornerContact | None = None, pairing: CompliancePairing | None = None
+) -> Mesh:
+    """Elastic flanks in the plane, whose teeth are all alike; `pairing`: of these flanks, one of its own unless
+    given."""
+    coast = flanks.compliance[0].flanks == 2
+
+    def nodes(phase: float) -> tuple[PairNodes, ...]:
+        places = pair_places(flanks.pair, grid, phase, coast, corner)
+        return nodes_at(places, lambda place: flank_nodes(flanks, grid, corner, place))
+
+    response = (pairing or CompliancePairing(flanks)).response
+    return Mesh(
+        flanks.pair, grid, nodes, response,
+        traits=ELASTIC_FLANKS, bodies=flanks.compliance, coast_flanks=coast, corner=corner,
+    )  # fmt: skip

@@ -1,0 +1,87 @@
+"""The mesh as springs along the line of action: stiffness tables, stiffness by a standard.
+
+A mesh spring that stiffens with its load, piecewise linear, is a row of linear springs side by side, each with a gap of
+its own:
+``F(u) = sum k_i (u - g_i)_+``. Each is a contact node, so that the march through time needs nothing new, and the energy
+is exactly ``sum p_i^2/(2 k_i)``. The springs of a tooth pair stand where its flanks meet on the line of action, with
+the lever arms that friction has there; across that line they yield as much as along it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from fenics_gears.contact.mesh import Mesh, MeshTraits
+from fenics_gears.contact.operator import Passage, Response, over_nodes
+from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, coast_place, drive_place
+from fenics_gears.contact.window import ContactGrid
+from fenics_gears.geometry.pair import GearPair
+
+# The springs of a pair stand at one point; this distance (mm) between them tells them apart from step to step.
+APART = 1e-9
+
+
+@dataclass(frozen=True)
+class PairSprings:
+    """Springs of a tooth pair: its `index`, `flank` DRIVE or COAST, `level` (m,) numbers, `gap` (m,), mm, `stiffness`
+    (m,), N/mm."""
+
+    index: int
+    flank: int
+    level: np.ndarray
+    gap: np.ndarray
+    stiffness: np.ndarray
+
+
+# The springs at a phase (0 <= phase < 1).
+Springs = Callable[[float], list[PairSprings]]
+
+
+@dataclass(frozen=True)
+class SpringNodes(PairNodes):
+    """Contact nodes (m,) that are springs of `stiffness` (m,), N/mm."""
+
+    stiffness: np.ndarray
+
+
+def spring_mesh(pair: GearPair, springs: Springs, levels: int, coast_flanks: bool) -> Mesh:
+    """A mesh of springs, at most so many `levels` of a pair."""
+    return Mesh(
+        pair,
+        ContactGrid(APART * max(levels - 1, 1), max(levels, 2)),
+        lambda phase: tuple(_nodes(pair, each, phase) for each in springs(phase)),
+        _response,
+        traits=MeshTraits(divisible=True, nodes_on_flanks=False, has_pressure=False),
+        coast_flanks=coast_flanks,
+    )
+
+
+def _nodes(pair: GearPair, springs: PairSprings, phase: float) -> SpringNodes:
+    count, xi = len(springs.gap), pair.path_start + (phase + springs.index) * pair.base_pitch
+    place = (drive_place if springs.flank == DRIVE else coast_place)(pair, springs.index, xi)
+    arm = place.contact_rolls[0] * pair.pinion.base_radius
+    roll = float(np.clip(place.contact_rolls[0], pair.pinion.form_roll_angle, pair.pinion.tip_roll_angle))
+    return SpringNodes(
+        place=place,
+        offsets=APART * springs.level,
+        lengths=np.ones(count),
+        gap=springs.gap,
+        pinion_lever_arm=np.full(count, arm),
+        wheel_lever_arm=np.full(count, pair.line_of_action_length - arm),
+        pinion_roll=np.full(count, roll),
+        stiffness=springs.stiffness,
+    )
+
+
+def _response(passage: Passage) -> Response:
+    softness = 1.0 / over_nodes(passage.pairs, "stiffness")
+    if passage.previous is None:
+        return Response(np.diag(softness))
+    earlier, before = 1.0 / over_nodes(passage.previous, "stiffness"), passage.node_before
+    # Tangential displacement of the springs that were there a step before, per force on them then.
+    displacement, known = np.zeros((len(before), 2 * len(earlier))), np.flatnonzero(before >= 0)
+    displacement[known, len(earlier) + before[known]] = earlier[before[known]]
+    return Response(np.diag(np.tile(softness, 2)), displacement)
