@@ -174,6 +174,7 @@ print(refused, ended, failed)
 """
 
 
+@pytest.mark.nightly
 def test_bytes_damaged_under_a_digest_made_anew_end_in_words(tmp_path):
     """Authority: house rule on errors; HDF5 itself ends the process at one of six such files, so that a copy of it
     reads them first: a copy that a signal ends is told from one that fails."""
