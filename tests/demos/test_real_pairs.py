@@ -34,6 +34,7 @@ def test_pairs_are_what_their_sources_say():
             assert 1e3 * lumped.moment_of_inertia == pytest.approx(0.5 * mass * radius**2, rel=5e-3)
 
 
+@pytest.mark.nightly
 def test_at_a_crawl_a_real_pair_is_quasi_static():
     """Limit: at a hundredth of the lowest natural frequency inertia changes the transmission error's height by less
     than 1 % of it."""

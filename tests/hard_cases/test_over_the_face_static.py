@@ -52,6 +52,7 @@ def places(pinion, wheel):
     )
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("friction", [pytest.param("", marks=BY_NIGHT), FRICTION])
 def test_hands_in_the_mirror(friction, measured):
     """Row 9. Exact symmetry: z -> -z turns hands, misalignment, places of bearings, axial forces and tilts round, and

@@ -69,6 +69,7 @@ def at_the_edge(scene, size):
     return float(pressure[edge].max()), result.attrs["mean_transmission_error"], result.attrs["warnings"]
 
 
+@pytest.mark.nightly
 def test_pressure_at_a_sharp_edge_grows_without_bound_and_is_flagged(coarse, measured):
     """Elasticity: a stress singularity at the corner; the nodal pressure grows with every refinement, the transmission
     error converges."""

@@ -71,6 +71,7 @@ def test_the_remedy_is_a_remedy(coarse):
             assert f"steps_per_mesh_cycle = {needed} instead of {steps}" in said[0]
 
 
+@pytest.mark.nightly
 def test_inertia_that_does_not_matter_is_named_and_its_effect_is_of_the_size_said(coarse, measured):
     """Measured against the quasi-static solver: the estimate of the difference is right within a factor of ten."""
     from fenics_gears.dynamics.guidance import effect_of_inertia

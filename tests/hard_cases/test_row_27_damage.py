@@ -203,6 +203,7 @@ def damage_case(damage: str, file: Path, other: Path) -> None:
         file.write_bytes(content.replace(values, values[8:] + values[:8]))
 
 
+@pytest.mark.nightly
 def test_a_damaged_case_is_computed_again(folder, undrawn, caplog, measured):
     """A study keeps no case that is not what was written into it; the dataset is that of the undisturbed study."""
     study = write_study(folder, TWO)

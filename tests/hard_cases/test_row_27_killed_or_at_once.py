@@ -120,6 +120,7 @@ def lengthened(folder, cycles):
     return "long.toml"
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.nightly)])
 def test_a_run_killed_while_it_marches_has_its_steps_on_disk(folder, measured, capsys, kills):
     """kill -9 at moments drawn at random: every step that is there is the undisturbed run's to the last bit, `gears
@@ -182,6 +183,7 @@ def test_a_run_killed_while_it_marches_has_its_steps_on_disk(folder, measured, c
         )
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize(
     "pauses", [(0.011,), pytest.param((0.0, 0.003, 0.007, 0.017, 0.023), marks=pytest.mark.nightly)]
 )

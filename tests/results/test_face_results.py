@@ -1,6 +1,7 @@
 """Results over the face: kept on disk while a run goes on, read again, and combined by a study."""
 
 import numpy as np
+import pytest
 import xarray as xr
 from tests.hard_cases.invariants import run_of
 from tests.helical import helical_scene, on_stand_in_bodies, wide_pair
@@ -25,6 +26,7 @@ OF_FACE = {
 }
 
 
+@pytest.mark.nightly
 def test_journal_keeps_fields_over_the_face(tmp_path, monkeypatch):
     """Identity: a run whose steps are written down as they come has the same result, bit for bit."""
     monkeypatch.setattr(journal, "SECONDS_WITHOUT", 0.0)

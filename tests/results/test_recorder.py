@@ -125,6 +125,7 @@ def test_compiled_contact_work_is_that_of_whole_arrays(marched):
             assert getattr(works, name)[step] == pytest.approx(getattr(other, name), abs=1e-10 * scale)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("coast", [False, True])
 @pytest.mark.parametrize("friction", [False, True])
 @pytest.mark.parametrize("root_stress", [False, True])

@@ -70,7 +70,7 @@ def test_between_steps_the_pattern_goes_on_as_the_peak_does():
     assert np.isnan(apart.values[np.searchsorted(field.y, 60.0 * 0.425) - 1, 0])
 
 
-@pytest.mark.parametrize("side", ["", "coast_"])
+@pytest.mark.parametrize("side", ["", pytest.param("coast_", marks=pytest.mark.nightly)])
 def test_line_loads_add_up_to_the_forces(run, side):
     """Identity: the line load of the mesh over the face is its normal force, of a tooth pair that pair's; and contact
     ends where the lines are."""

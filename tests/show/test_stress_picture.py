@@ -89,6 +89,7 @@ def parted(run, tmp_path):
     )
 
 
+@pytest.mark.nightly
 def test_teeth_that_have_parted_are_drawn_without_stress(parted, tmp_path):
     """No forces, no stress: bodies in the colour of zero."""
     assert main(["picture", str(tmp_path), "--at", "0.25", "--quiet"]) == 0

@@ -16,7 +16,7 @@ from fenics_gears.simulation.stored_forces import stored_forces
 STEP = 5
 
 
-@pytest.mark.parametrize("coast", [False, True])
+@pytest.mark.parametrize("coast", [pytest.param(False, marks=pytest.mark.nightly), True])
 def test_rows_give_what_the_recovered_sectors_have(coast):
     """Exact identity (Betti): along the profile, across the tooth's trace, in every slice, on both gears and all teeth
     in reach, to 1e-9 of the largest;

@@ -25,6 +25,7 @@ def observed(errors):
     return np.log2(np.abs(np.array(errors[:-1]) / np.array(errors[1:])))
 
 
+@pytest.mark.nightly
 def test_contact_nodes_converge_to_hertz(hertz, gears):
     """Literature (Johnson 1985, ch. 4 and 5): peak pressure, half-width, and what the approach changes by with the
     load, order 2 or better."""
@@ -40,6 +41,7 @@ def test_contact_nodes_converge_to_hertz(hertz, gears):
     )
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("gear", [0, 1])
 def test_flank_elements_converge_to_the_half_plane(hertz, gears, gear):
     """Exact: under pressures of one shape and load the half-plane's displacement goes with the logarithm of their width

@@ -47,6 +47,7 @@ def test_a_cracked_gear_equals_brute_force():
     assert np.array_equal(found.between(7, 8), found.between(8, 7).T)
 
 
+@pytest.mark.nightly
 def test_the_cache_knows_a_body_by_its_mesh(tmp_path):
     """What is kept is what was computed, in another material too; a point moved by a hair is another body."""
     mesh = whole_body(whole_gear_mesh(coarse_sector_mesh("P1"), PINION.teeth), PINION, "gear").mesh

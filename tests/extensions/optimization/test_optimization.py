@@ -170,6 +170,7 @@ def test_the_front_is_that_of_every_pair_compared():
     assert front(tried, ["a", "b"]) == [0, 1, 3, 5]
 
 
+@pytest.mark.nightly
 @pytest.mark.usefixtures("unwritten")
 def test_a_killed_search_repeats_nothing(folder):
     """Authority: the search that was not stopped. SIGKILL in the middle of a line; then each run is there once, but for

@@ -92,6 +92,7 @@ def balanced(effective, rigid, force, forces):
     return forces, coordinates
 
 
+@pytest.mark.nightly
 def test_long_steps_lose_no_more_digits(paper_cases, both_routes):
     """Equilibrium: with the wheel's inertia vanishing its couple is the load's. [22] inverts K_qq + K^i, so that
     4J/dt^2 may vanish."""
