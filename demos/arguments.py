@@ -14,7 +14,7 @@ def output_directory(demo: str, description: str, arguments: list[str] | None = 
     """Where a demonstration shall write: the argument, `results/<demo>` unless given.
 
     arguments: those of the command line where None. Call it before NumPy is loaded: one thread for BLAS, which small
-        matrices are quickest with.
+    matrices are quickest with.
     """
     environment.prepare()
     os.environ.setdefault("OMP_NUM_THREADS", "1")

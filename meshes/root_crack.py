@@ -1,7 +1,7 @@
 """Meshes of whole gears, of which teeth may be cracked at their root.
 
 A crack is a straight slit without width: along it cells meet at points that are there twice, once for either face, but
-    for its tip.
+for its tip.
 """
 
 from __future__ import annotations
@@ -32,9 +32,8 @@ class RootCrack:
     """A straight crack from the fillet on the drive flank's side into the tooth.
 
     depth: its length, mm. angle: rad, between it and the tooth's centreline; a right angle goes straight across the
-        tooth, less goes
-    down towards the bore. mouth: rad, angle between fillet and centreline where it begins; the most stressed place is
-    near 30 degrees.
+    tooth, less goes down towards the bore. mouth: rad, angle between fillet and centreline where it begins; the most
+    stressed place is near 30 degrees.
     """
 
     depth: float

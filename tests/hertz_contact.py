@@ -2,8 +2,8 @@
 
 Johnson, Contact Mechanics, 1985, sections 4.2 (c) and 5.6. In the plane the approach of two bodies has no value of its
 own: it goes with the logarithm of how far off the point is that is held. What the bodies' shape makes of it is
-    proportional to the load, though, so that the
-approach per line load of two loads F1 > F2 on the same flanks differs by ln(F1/F2)/(pi E*), whatever the bodies.
+proportional to the load, though, so that the approach per line load of two loads F1 > F2 on the same flanks differs by
+ln(F1/F2)/(pi E*), whatever the bodies.
 """
 
 from __future__ import annotations

@@ -13,8 +13,7 @@ def stand_in_compliance(
     neighbours.
 
     `local`, `tooth`: mm per N/mm, of the size that steel teeth have. With `coast_flank` the tooth carries that flank
-        along as it
-    bends: away from it, as the mirrored frame sees it.
+    along as it bends: away from it, as the mirrored frame sees it.
     """
     arc = np.linspace(
         0.5 * gear.base_radius * gear.form_roll_angle**2,

@@ -29,8 +29,7 @@ def whole_gear_compliance(
     """Flank compliance seen by one loaded tooth of a fully meshed gear.
 
     mesh: the whole gear with "hub" and "flank t" as in BodyMesh, all flanks meshed alike. tooth_offsets: how many teeth
-        ahead of
-    the loaded one are known. In a body without symmetry every loaded tooth has its own.
+    ahead of the loaded one are known. In a body without symmetry every loaded tooth has its own.
     Raises ComputationError where the mesh lacks a flank or the hub.
     """
     chosen = element_named(element)

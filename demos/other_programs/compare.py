@@ -42,8 +42,7 @@ STEPS, CYCLES = 200, 30
 @dataclass(frozen=True)
 class Comparison:
     """What all programs say: `phase` (n,) of the mesh cycle with curves over it, T_E in um on the wheel's base circle,
-    stiffness in N/um, `single` its largest
-    value with one tooth pair; frequencies in Hz."""
+    stiffness in N/um, `single` its largest value with one tooth pair; frequencies in Hz."""
 
     phase: np.ndarray
     static_error: np.ndarray

@@ -5,9 +5,8 @@ Reads a JSON object from standard input and writes one to standard output; run b
 program. N, m, kg, s, rad.
 
 `GearElementTVMS` adds bending, shear and axial compression of the tooth as a beam, the gear body by Sainsot, Velex and
-Duverger (2004), and a Hertz stiffness
-that knows no load. The rotors: a shaft that twists as a torsional spring does, on a flywheel (the prescribed rotation)
-or the load at its far end; it is so long that it hardly bends.
+Duverger (2004), and a Hertz stiffness that knows no load. The rotors: a shaft that twists as a torsional spring does,
+on a flywheel (the prescribed rotation) or the load at its far end; it is so long that it hardly bends.
 """
 
 import json

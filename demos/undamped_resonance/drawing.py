@@ -21,8 +21,7 @@ SHADE = "#F3EBDD"
 @styled
 def draw(curves: Mapping[str, Sweep]) -> Figure:
     """Above the transmission error, filled where contact was kept, open where it was lost, crossed where the run has no
-    meaning; below
-    how much of the time the drive flanks did not touch."""
+    meaning; below how much of the time the drive flanks did not touch."""
     figure = Figure(figsize=(10.0, 7.6), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1)
     above, below = figure.subplots(2, sharex=True, gridspec_kw={"height_ratios": [1.6, 1.0]})

@@ -1,10 +1,9 @@
 """The command ``gears``. Logging is configured here and nowhere else; what the commands do is in ``commands``.
 
 Exit codes: 0 done, 2 the scene or the call is wrong (nothing written), 3 the computation failed (the steps computed are
-    kept,
-marked incomplete) or cannot fit into memory, 4 the run ended with a result that has no meaning (it is kept, with the
-reason), 130 interrupted by Ctrl-C (the steps computed are kept), 141 the standard output could not be written, as when
-the program that reads it closed the pipe.
+kept, marked incomplete) or cannot fit into memory, 4 the run ended with a result that has no meaning (it is kept, with
+the reason), 130 interrupted by Ctrl-C (the steps computed are kept), 141 the standard output could not be written, as
+when the program that reads it closed the pipe.
 """
 
 from __future__ import annotations

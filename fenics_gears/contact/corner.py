@@ -4,9 +4,8 @@ There the tip touches off the line of action, along the mate's own normal. That 
 circle and passes through the centre of the edge's arc, and so is a line of action of its own: turned by `lean` from the
 theoretical one, at the base radius from the mate's centre and at another distance from the tip's. Along it a pair has
 contact nodes, gaps and compliance as any other pair, with the tip at the end of its window. Where the edge leaves the
-path of contact the two lines
-coincide: nothing jumps, and no contact is counted twice. The edge between the involute and the fillet of an undercut
-    gear is one more such edge.
+path of contact the two lines coincide: nothing jumps, and no contact is counted twice. The edge between the involute
+and the fillet of an undercut gear is one more such edge.
 """
 
 from __future__ import annotations

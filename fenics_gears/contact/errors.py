@@ -14,8 +14,7 @@ class ContactNotConverged(ComputationError):
     sets.
 
     Attributes: `time` (s) and `step`, None until the march fills them in; `attempts`: list of (method, outcome,
-        residual
-    history (iterations, 5), sets (iterations, nodes)); `partial`: the dataset of the steps before, or None.
+    residual history (iterations, 5), sets (iterations, nodes)); `partial`: the dataset of the steps before, or None.
     """
 
     def __init__(self, attempts, reason: str, time: float | None = None, step: int | None = None):

@@ -23,7 +23,7 @@ class Balance:
     """How much of the load along the free motion a unit normal force at each node balances, (n,).
 
     `normal`: by itself; `sliding`: with the friction that opposes the node's slip; `most`: with the friction that helps
-        most.
+    most.
     """
 
     normal: np.ndarray

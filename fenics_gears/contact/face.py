@@ -16,8 +16,7 @@ class Face:
     middle of the common face.
 
     `slope`: mm along the path of contact per mm of z: the tangent of the base helix angle, positive for a right-hand
-        pinion. `middles` (mm): of the
-    faces of pinion and wheel.
+    pinion. `middles` (mm): of the faces of pinion and wheel.
     """
 
     positions: np.ndarray

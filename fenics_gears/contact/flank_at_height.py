@@ -35,8 +35,7 @@ def roll_angle_at_height(base_radius: float, contact_roll_angle: float, height) 
 @njit(cache=True)
 def _points(base_radius, contact, heights):
     """Newton in ``s = v^2/2`` (arc length over base radius), in which ``dh/ds = rb cos(vc - v)``: h is convex in s
-    below the
-    contact point and concave above it, so steps from the contact point never pass the root."""
+    below the contact point and concave above it, so steps from the contact point never pass the root."""
     lowest, turning = math.cos(contact) - ROUND_OFF, contact + 0.5 * math.pi
     rolls, x = np.full(len(heights), np.nan), np.full(len(heights), np.nan)
     for point in range(len(heights)):

@@ -20,8 +20,7 @@ def flank_rows(gear: int, pair: ToothPair, tangential: bool) -> np.ndarray:
     first.
 
     `gear`: 0 the pinion, 1 the wheel. A positive contact force pushes on the flank; that of friction acts against e_y
-        of the
-    tooth's frame. The coast flank's are in the frame mirrored at the tooth's centreline, as its compliance is.
+    of the tooth's frame. The coast flank's are in the frame mirrored at the tooth's centreline, as its compliance is.
     """
     weights = pair.interpolation[gear].weights
     axes = directions(pair.place.contact_rolls[gear], tangential)

@@ -35,8 +35,8 @@ FEWEST_STEPS_A_WAVE = 2
 @dataclass(frozen=True)
 class _Nodes:
     """The contact nodes of one pair at a position: where they stand among all; for either gear the index of its tooth
-    and the gap (n, m)
-    per unit of each deviation; of either gear the functions that give the measured excess (n,) of a tooth."""
+    and the gap (n, m) per unit of each deviation; of either gear the functions that give the measured excess (n,) of a
+    tooth."""
 
     nodes: slice
     teeth: tuple[int, int]
@@ -144,7 +144,7 @@ def profile_shapes(
     cosine and the sine of the waviness.
 
     `roll`: roll angles (rad) at the nodes, or where these average; `turned`: by which the helix turns the gear's
-        section at the pair's height, in the sense of rotation.
+    section at the pair's height, in the sense of rotation.
     """
     start, end = deviations.active_profile
     along = (roll - start) / (end - start)
@@ -162,8 +162,8 @@ def _amounts(deviations: FlankDeviations, angular_pitch: float, sense: float) ->
     """The deviations of each tooth (z, m), mm, in the order of the shapes.
 
     Waves continue from tooth to tooth: roll angle v of the pinion's tooth i is on the line of action when the pinion
-        has turned by v + i
-    times the angular pitch; on the wheel, where roll angles fall, by i times the angular pitch less v.
+    has turned by v + i times the angular pitch; on the wheel, where roll angles fall, by i times the angular pitch less
+    v.
     """
     columns = [deviations.index, deviations.slope, deviations.form]
     if deviations.helix is not None:
@@ -177,8 +177,7 @@ def _amounts(deviations: FlankDeviations, angular_pitch: float, sense: float) ->
 
 def flank_gaps(errors: FlankErrors, pair: GearPair, steps: int, face: Face | None = None) -> FlankGaps:
     """The gaps that flank errors add, in a run of so many steps a mesh cycle; `face`: of a scene that has one. Raises
-    SceneError for waves that the
-    steps do not sample."""
+    SceneError for waves that the steps do not sample."""
     deviations = flank_deviations(errors, pair, None if face is None else face.middles)
     for own, gear, name in zip(deviations, (pair.pinion, pair.wheel), ("pinion", "wheel")):
         waves = 0 if own.waviness is None else own.waviness.waves

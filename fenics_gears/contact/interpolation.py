@@ -158,8 +158,7 @@ class Averages:
     """A contact node sees averages over its function, so that nothing jumps as it passes nodes of the flank.
 
     `places`: offsets at which nodes need the values that they see; `seen`: what they see of values there; `of_flank`:
-        the weights of
-    the flank's nodes.
+    the weights of the flank's nodes.
     """
 
     places, seen, of_flank = (

@@ -2,8 +2,8 @@
 
 Deflection delta (mm): overlap of the undeformed flanks along the line of action, that is the transmission error of the
 teeth beyond that of rigid flanks. Secant stiffness F/delta (N/mm) is the mesh stiffness of ISO 6336-1, load over
-deformation; the tangent dF/ddelta
-is the spring that small vibrations meet: the closed contact nodes stay closed and friction forces stay as they are.
+deformation; the tangent dF/ddelta is the spring that small vibrations meet: the closed contact nodes stay closed and
+friction forces stay as they are.
 """
 
 from __future__ import annotations

@@ -170,8 +170,7 @@ def _last_displacement(
     nodes now.
 
     `angles`: by which the roll angles of pinion and wheel have risen, rad. Between the last step's nodes displacements
-        are linear
-    in the roll angle [A.2]; beyond them the gear moves rigidly [A.4].
+    are linear in the roll angle [A.2]; beyond them the gear moves rigidly [A.4].
     """
     last = count_of(before.pairs)
     tangential_last = displacement_jacobian(before.pairs, radii, height_lever_arms(before.pairs, radii), True)[last:]

@@ -38,8 +38,7 @@ class ContactOperator:
     """Contact at one position: n nodes, m = n without friction, 2 n with it; k centre coordinates.
 
     `base_radii` (mm) of pinion and wheel; `pairs`: the tooth pairs whose nodes these are, in order; `normal_lever_arms`
-    (n,),
-    mm: of a normal force about the pinion's and the wheel's centre.
+    (n,), mm: of a normal force about the pinion's and the wheel's centre.
 
     `compliance` C (m, m), mm/N; `jacobian` G (m, k); `gap` (n,), mm; `rigid_slip` (n,), mm: slip of rigid flanks during
     the step that ends here; `previous_compliance` E (n, m of the step before) and `previous_jacobian` (n, k): the
@@ -47,7 +46,7 @@ class ContactOperator:
     `previous_jacobian q - E p`. The last three are None without friction.
 
     `dependent_rows`: rows of the compliance that are combinations of others, see `contact.rank`. `face`: of pairs in
-        slices; None in the plane.
+    slices; None in the plane.
     """
 
     pairs: tuple[PairNodes, ...]
@@ -103,7 +102,7 @@ def per_node(pairs: Sequence[PairNodes], values: np.ndarray) -> np.ndarray:
 class Lines:
     """Line of action of each contact node: its direction `normal` (n, 2) in space, from pinion to wheel, `tangent` (n,
     2) across it, sign (n,) of rotations there, and `lever_arms` (n,), mm, of normal forces about the centres of pinion
-      and wheel.
+    and wheel.
 
     Lever arms are the base radii, and at a tip's edge those of the mate's normal. An involute turned by phi moves by rb
     phi along its own normal wherever it is touched, so that T1/rb1 = T2/rb2 holds exactly without friction.

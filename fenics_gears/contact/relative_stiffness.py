@@ -1,10 +1,8 @@
 """The paper's equilibrium equations in the relative displacement of the contact nodes alone: [22], then [C.1].
 
 Each gear is taken in its own frame, x outwards along its flank's normal at the line of action, so that both gears
-respond alike to a
-contact force: K_i u_i + p + f_i = 0, and the relative displacement u is u_1 + u_2. (The wheel's frame is turned by half
-    a
-turn: the paper's u_c^2 and F_e^2 are -u_2 and -f_2.)
+respond alike to a contact force: K_i u_i + p + f_i = 0, and the relative displacement u is u_1 + u_2. (The wheel's
+frame is turned by half a turn: the paper's u_c^2 and F_e^2 are -u_2 and -f_2.)
 
 [22] eliminates the centre through K_inv = [K_qq + K^i]^-1, which exists even where the drivetrain alone holds nothing
 (K^i singular, a wheel without mass): the flank nodes hold the centre. K_i is then singular and only contact holds the
@@ -29,8 +27,7 @@ class CentreEliminated:
     """One gear without its centre [22]: `stiffness` (2n, 2n), N/mm, over the contact nodes' normals and tangents.
 
     `stiffness` given: over the nodes and (dx, dy, phi); `motion` (3, k): of the centre per coordinate of the
-        drivetrain;
-    `effective` (k, k): the drivetrain's stiffness K^i [17], [20] on them.
+    drivetrain; `effective` (k, k): the drivetrain's stiffness K^i [17], [20] on them.
     """
 
     def __init__(self, stiffness: np.ndarray, motion: np.ndarray, effective: np.ndarray):
@@ -52,10 +49,9 @@ class RelativeStiffness:
     """`stiffness` (m, m), N/mm, in K u + p + f = 0 [C.1] over the contact nodes: normals, and tangents with friction.
 
     `gears`: stiffness (2n + 3, 2n + 3) of pinion and wheel over their nodes' normals, tangents and (dx, dy, phi);
-        `effective`
-    (k, k): effective stiffness of the drivetrain over `coordinates`, positions in CENTRE_COORDINATES; `base_radii`, mm.
-    Maps from drivetrain forces F and displacement u are kept as small matrices, since a run keeps many of these
-    objects.
+    `effective` (k, k): effective stiffness of the drivetrain over `coordinates`, positions in CENTRE_COORDINATES;
+    `base_radii`, mm. Maps from drivetrain forces F and displacement u are kept as small matrices, since a run keeps
+    many of these objects.
     """
 
     def __init__(self, gears, effective: np.ndarray, coordinates: list[int], base_radii, tangential: bool):

@@ -71,7 +71,7 @@ def stiffness_table(cycle: Cycle, rotation: int, load: float, loads: tuple[float
     """Tabulate a cycle without friction at its own steps.
 
     `rotation`: column of the wheel's rotation among the operators' coordinates. `load`: the force (N) that the `loads`
-        are parts of.
+    are parts of.
     """
     levels = load * np.asarray(loads)
     flanks = (DRIVE, COAST) if cycle.coast_flanks else (DRIVE,)

@@ -171,7 +171,7 @@ def nodes_on_flanks(
     """Contact nodes at `offsets` (n,), mm, that see the flanks by the grid's interpolation.
 
     `distances`: of pinion's and wheel's surface from their foot on the place's line, mm, and `gap`, mm, where the
-        interpolation wants them.
+    interpolation wants them.
     """
     view, line = INTERPOLATIONS[grid.interpolation], place.line_in(flanks.pair)
     rolls = flank_points(flanks.pair, place, offsets)[0]

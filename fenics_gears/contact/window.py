@@ -1,10 +1,9 @@
 """The contact grid of one tooth pair: where its contact nodes lie across the line of action.
 
-A contact node sits at an offset `y` from the line of action, positive towards the pinion's centre. The grid follows
-the moving contact point. Where a tip or a form circle cuts the window, a node sits exactly on that edge and moves with
-it: nodes then leave one by one at the far end of the window, which is open, and nothing jumps where the load is. Nodes
-    stand closer beside
-a tip, towards whose edge the contact pressure rises steeply.
+A contact node sits at an offset `y` from the line of action, positive towards the pinion's centre. The grid follows the
+moving contact point. Where a tip or a form circle cuts the window, a node sits exactly on that edge and moves with it:
+nodes then leave one by one at the far end of the window, which is open, and nothing jumps where the load is. Nodes
+stand closer beside a tip, towards whose edge the contact pressure rises steeply.
 """
 
 from __future__ import annotations
@@ -32,8 +31,8 @@ class ContactGrid:
     flanks.
 
     `closer_at_edges`: nodes stand closer beside a tip that cuts the window. `inner_length` (mm): where no edge is near,
-        nodes further than half of it from
-    the line of action are left out, since flanks touch far from the line at edges alone; None: none are.
+    nodes further than half of it from the line of action are left out, since flanks touch far from the line at edges
+    alone; None: none are.
     """
 
     length: float

@@ -19,8 +19,7 @@ class BetweenSteps(Stepper):
     """Solves the static motion between two steps without the march; the `cycle` is divisible.
 
     `marched`: whether a record is that of the march at its step. With friction the step before is solved on the way
-        from a start some steps
-    earlier: from further back, at most a mesh cycle, until it is what was marched.
+    from a start some steps earlier: from further back, at most a mesh cycle, until it is what was marched.
     """
 
     def __init__(self, cycle: Cycle, equations: EquationsOfMotion, marched: Callable[[Record], bool]):

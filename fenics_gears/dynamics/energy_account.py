@@ -11,8 +11,7 @@ for friction. A node that only one end of the step has is given the compliance a
 other.
 
 F is the mean of the loads at both ends of the step, where they vary. Backward Euler, which is used where no vibration
-is sampled and
-for rigid flanks, has another balance: its dissipation is in the defect.
+is sampled and for rigid flanks, has another balance: its dissipation is in the defect.
 
 The account is in the frame of the nominal motion. The power that the nominal motion carries through the mesh, load
 times nominal speed, is added to input and output alike.

@@ -49,8 +49,7 @@ def effect_of_inertia(slowest: Vibration, mesh_frequency: float) -> float:
 
 def judged_frequency(elastic: Sequence[Vibration], mesh_frequencies: tuple[float, float]) -> float:
     """The mesh frequency (Hz) to judge a run by: its lowest, whose steps are the longest, or its highest where inertia
-    matters only
-    there."""
+    matters only there."""
     slowest = next((vibration for vibration in elastic if vibration.excited), elastic[0])
     lowest, highest = mesh_frequencies
     return lowest if effect_of_inertia(slowest, lowest) >= NOTABLE else highest

@@ -41,12 +41,11 @@ class March:
     """A march so far.
 
     `kept`: the last steps; `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of
-        `METHODS` solved;
+    `METHODS` solved;
     `separations`: step and smallest opening (mm) of every step without contact of drive flanks; `locked`: steps at
-        which friction
-    locks a closed node (`contact.existence`); `uncertified`: how many of the `judged` last steps may have more than one
-    solution (`contact.uniqueness`); `interrupted`: stopped by the user. `friction` and `stiffness`, the effective one
-    (k, k), N/mm: of every step.
+    which friction locks a closed node (`contact.existence`); `uncertified`: how many of the `judged` last steps may
+    have more than one solution (`contact.uniqueness`); `interrupted`: stopped by the user. `friction` and `stiffness`,
+    the effective one (k, k), N/mm: of every step.
     """
 
     friction: float

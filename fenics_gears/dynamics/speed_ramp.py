@@ -5,8 +5,7 @@ the frequency is linear in the phase, and the time from one phase to another is 
 
 The frame of the nominal motion turns with the gears. Where it accelerates, inertia forces -M X'' of the nominal motion
 X act in it: on arcs rb phi, X'' = p_b f' for the pinion, -p_b f' for the wheel, which turns the other way, and nothing
-    for the twist of a shaft.
-Damping is that of the motion relative to the nominal one, as at a steady speed.
+for the twist of a shaft. Damping is that of the motion relative to the nominal one, as at a steady speed.
 """
 
 from __future__ import annotations

@@ -38,7 +38,7 @@ class EquationsOfMotion:
     scene has none.
 
     `time_scales`: how mesh and step compare with the drivetrain's vibrations; they decide on the method in time and on
-        the start.
+    the start.
     `clock`: when a step is, every `time_step` unless given; `loads`: forces that vary, besides the drivetrain's own.
     """
 

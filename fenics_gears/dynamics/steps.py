@@ -27,7 +27,7 @@ class Record:
     """One step: its number, the state and the contact solution.
 
     `parts`: where the step was divided, all of its parts in order; their numbers lie between whole ones, the last is
-        the step itself.
+    the step itself.
     """
 
     step: float

@@ -2,10 +2,8 @@
 
 Gears move about their mid-width. A tilt theta (rad, about x along and y off the line of action) displaces the shaft at
 the height z by theta_y z in x and by -theta_x z in y, so that bearings that do not stand at equal distances couple x
-with theta_y and y with theta_x.
-Gyroscopic moments are left out: they shift a tilting frequency by half of J/J_t times the speed of rotation (1/s), J_t
-    being the moment of inertia
-about a diameter. J is 2 J_t at most, a flat disc's.
+with theta_y and y with theta_x. Gyroscopic moments are left out: they shift a tilting frequency by half of J/J_t times
+the speed of rotation (1/s), J_t being the moment of inertia about a diameter. J is 2 J_t at most, a flat disc's.
 """
 
 from __future__ import annotations

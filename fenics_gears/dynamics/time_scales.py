@@ -14,9 +14,9 @@ class TimeScales:
 
     `samples_vibration`: a period of the slowest vibration has two steps or more, the least that can represent it.
     `follows_statics`: the mesh is slower than the slowest vibration. `outruns_vibration`: it is faster than the
-        fastest.
+    fastest.
     `impulsive`: flanks are rigid and forces jump; with average acceleration they would change sign at every step from
-        then on.
+    then on.
     """
 
     samples_vibration: bool = True

@@ -1,7 +1,7 @@
 """A torque on the wheel's shaft that varies with the angle that the shaft has turned.
 
 The angle is that of the nominal motion: deviations of the shaft's end from it are small beside the period of any
-    harmonic.
+harmonic.
 """
 
 from __future__ import annotations

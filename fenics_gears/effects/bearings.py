@@ -34,8 +34,7 @@ def _places(gear: str):
 @dataclass(frozen=True)
 class Support(Section):
     """``[bearings.pinion]`` and ``[bearings.wheel]``; fields that are left out are those of ``[bearings]``, and the
-    defaults hold if that
-    section leaves them out too."""
+    defaults hold if that section leaves them out too."""
 
     stiffness: float | None = _stiffness(
         "stiffness in all directions across the axis", "from `stiffness_x` and `stiffness_y`"

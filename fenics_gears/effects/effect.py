@@ -47,7 +47,7 @@ class Effect:
     something else, ``read`` makes them of the section, and ``write`` a section (a dictionary) of them. ``rules`` finds
     what is wrong between fields.
     ``within``: the section's path where a scene does not have it at the top; the scene's attribute is ``section`` all
-        the same.
+    the same.
 
     Hooks, each with the effect's data first:
 

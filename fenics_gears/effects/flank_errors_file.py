@@ -47,8 +47,8 @@ def deviations_in(path: Path, names: Sequence[str]) -> dict[str, tuple[float, ..
     `names`.
 
     The first line names the columns: `tooth`, and deviations with their unit in brackets, or with a unit in every cell.
-        Columns are parted by
-    commas, semicolons or tabs; empty lines and those that begin with # are passed over. Raises FileProblem.
+    Columns are parted by commas, semicolons or tabs; empty lines and those that begin with # are passed over. Raises
+    FileProblem.
     """
     columns, rows = _table(path, dict.fromkeys(names, LENGTH), "tooth, pitch (um), profile_slope (um)")
     found: dict[int, tuple[float, ...]] = {}

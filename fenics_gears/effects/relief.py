@@ -58,8 +58,7 @@ def length_field(measured: str) -> Any:
 @dataclass(frozen=True)
 class Relief(Section):
     """``[tip_relief.pinion]`` and ``[tip_relief.wheel]``; fields that are left out are those of ``[tip_relief]``, and
-    the defaults hold
-    if that section leaves them out too."""
+    the defaults hold if that section leaves them out too."""
 
     alternatives = (STARTS, GROWTH)
 
@@ -113,8 +112,7 @@ class Relief(Section):
 @dataclass(frozen=True)
 class RootReliefOfGear(Relief):
     """``[root_relief.pinion]`` and ``[root_relief.wheel]``; fields that are left out are those of ``[root_relief]``,
-    and the defaults hold
-    if that section leaves them out too."""
+    and the defaults hold if that section leaves them out too."""
 
     start: float | Measured | str | None = start_field("LPSTC", "lowest point of single tooth contact")
 

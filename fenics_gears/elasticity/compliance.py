@@ -15,8 +15,8 @@ class Reach:
     """Distances, in pitches, between teeth whose flanks interact.
 
     same: the largest between two drive flanks, or two coast flanks. across: least and largest between a drive flank and
-        a coast flank,
-    positive where the tooth of the drive flank stands counter-clockwise; None where coast flanks are not loaded.
+    a coast flank, positive where the tooth of the drive flank stands counter-clockwise; None where coast flanks are not
+    loaded.
     """
 
     same: int
@@ -32,18 +32,14 @@ class Reach:
 class FlankCompliance:
     """Displacement of drive-flank nodes per unit line force on drive-flank nodes, hub ring held.
 
-    roll_angle: (n,), rad, strictly increasing from the form circle to the tip: the nodes of the
-        drive flank, element vertices and (second order) the nodes between them.
-    element_order: 1 or 2, the polynomial order of the displacement along a flank element.
-    blocks: (offsets + 1, 2n, 2n), mm per N/mm (plane strain, unit thickness). blocks[m] is the
-        displacement of the flank m pitches ahead (counter-clockwise) of the loaded one. Dofs are
-        interleaved x0, y0, x1, y1, ...; components are those of each tooth's own canonical frame.
-        blocks[0] is symmetric positive definite.
-    alike: all teeth are alike (`WholeBodyCompliance`: they differ).
-    flanks: 1, or 2 where the coast flank is known too: its 2n dofs then follow the drive flank's 2n, in the tooth's
-        frame
-        mirrored at its centreline, in which the coast flank has the drive flank's place.
-    timings: time_mesh, time_compile, time_condense (s), unknowns, from_cache and the like.
+    roll_angle: (n,), rad, strictly increasing from the form circle to the tip: the nodes of the drive flank, element
+    vertices and (second order) the nodes between them. element_order: 1 or 2, the polynomial order of the displacement
+    along a flank element. blocks: (offsets + 1, 2n, 2n), mm per N/mm (plane strain, unit thickness). blocks[m] is the
+    displacement of the flank m pitches ahead (counter-clockwise) of the loaded one. Dofs are interleaved x0, y0, x1,
+    y1, ...; components are those of each tooth's own canonical frame. blocks[0] is symmetric positive definite. alike:
+    all teeth are alike (`WholeBodyCompliance`: they differ). flanks: 1, or 2 where the coast flank is known too: its 2n
+    dofs then follow the drive flank's 2n, in the tooth's frame mirrored at its centreline, in which the coast flank has
+    the drive flank's place. timings: time_mesh, time_compile, time_condense (s), unknowns, from_cache and the like.
     """
 
     roll_angle: np.ndarray
@@ -107,9 +103,8 @@ class BothFlanksCompliance(FlankCompliance):
     In the mirror a coast flank is a drive flank, and a tooth ahead is one behind.
 
     blocks: (offsets + 1, 2n, 2n): of the drive flanks alone; those of the coast flanks are their transposes. across:
-        (k, 2n, 2n),
-    each symmetric: across[m - first_across] is the displacement of the drive flank m pitches ahead of a loaded coast
-        flank.
+    (k, 2n, 2n), each symmetric: across[m - first_across] is the displacement of the drive flank m pitches ahead of a
+    loaded coast flank.
     """
 
     across: np.ndarray = field(kw_only=True)

@@ -24,10 +24,8 @@ class CondensedBody:
     """Stiffness of a body on named groups of boundary nodes, Young's modulus 1 MPa, unit thickness.
 
     points: coordinates (k, 2) of each group's nodes, mm; (k, 3) of a body in three dimensions. stiffness: (2 K, 2 K),
-        N/mm per mm, over the
-    groups in the order of ``points``, dofs interleaved x, y, in the mesh's own frame; (3 K, 3 K), N/mm, interleaved x,
-    y, z, in three
-    dimensions. timings: seconds and unknowns.
+    N/mm per mm, over the groups in the order of ``points``, dofs interleaved x, y, in the mesh's own frame; (3 K, 3 K),
+    N/mm, interleaved x, y, z, in three dimensions. timings: seconds and unknowns.
     """
 
     points: dict[str, np.ndarray]
@@ -55,7 +53,7 @@ def condense(
     """Schur complement of a body's stiffness onto groups of nodes, disjoint and given by coordinates (mm).
 
     cells_of: for groups with several nodes in one place, as on the faces of a crack, the centre (k, 2) of a cell of
-        each node.
+    each node.
     """
     clock = perf_counter()
     compile_ahead(element)

@@ -65,7 +65,7 @@ def closed_ring(parts: Sequence[np.ndarray], cut: int) -> np.ndarray:
     other dofs.
 
     parts: counter-clockwise, each over its lower cut (`cut` dofs), its upper cut in the frame of the part ahead, and
-        other dofs, if any.
+    other dofs, if any.
     """
     inner = np.cumsum([cut * len(parts)] + [len(part) - 2 * cut for part in parts])
     total = np.zeros((inner[-1],) * 2)

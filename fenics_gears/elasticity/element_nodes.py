@@ -29,8 +29,7 @@ class ElementNodes:
     quadrilaterals.
 
     points: (n, 2), the mesh's unit of length. cells: (m, k) node indices: corners counter-clockwise, middles of the
-        sides in the
-    same order, the middle of a quadrilateral.
+    sides in the same order, the middle of a quadrilateral.
     """
 
     points: np.ndarray

@@ -20,13 +20,12 @@ FASTEST_GROWTH = 0.35
 class ElementSizes:
     """Element sizes of a sector, mm.
 
-    flank: along the working flank, kept down to ``depth`` times itself below it. fillet: along root
-    and fillets. coast: along the coast flank and the tip. body: largest size in the tooth and the rim
-    below it; further inside elements go on growing. growth: increase of size per distance.
-    both_flanks: the coast flank is a working flank too, meshed as the drive flank's mirror image.
-    hub_angle: largest angle (rad) of an edge along the bore. mate_tip: roll angles (rad) between which the mate's tip
-        edge may press
-    on the flank. There, and beside the flank's own tip, its elements are finer; None: none are.
+    flank: along the working flank, kept down to ``depth`` times itself below it. fillet: along root and fillets. coast:
+    along the coast flank and the tip. body: largest size in the tooth and the rim below it; further inside elements go
+    on growing. growth: increase of size per distance. both_flanks: the coast flank is a working flank too, meshed as
+    the drive flank's mirror image. hub_angle: largest angle (rad) of an edge along the bore. mate_tip: roll angles
+    (rad) between which the mate's tip edge may press on the flank. There, and beside the flank's own tip, its elements
+    are finer; None: none are.
     """
 
     flank: float
@@ -71,9 +70,8 @@ class Discretisation:
     """How a gear's body is divided into finite elements.
 
     element: a name of ELEMENTS. flank_element_size, body_element_size: mm, along the working flank and the largest in
-        tooth and rim
-    (None: from the module). elastic_teeth: teeth this many pitches apart and further do not feel each other (1: each
-    feels itself alone); None: all do. mate_tip: roll angles (rad), see ElementSizes.
+    tooth and rim (None: from the module). elastic_teeth: teeth this many pitches apart and further do not feel each
+    other (1: each feels itself alone); None: all do. mate_tip: roll angles (rad), see ElementSizes.
     """
 
     element: str

@@ -34,10 +34,8 @@ class FilletCurve:
     """The points of the drive side's fillet at which stress is evaluated; the coast side's are their mirror images.
 
     samples: (k, 2), the root finely sampled from the middle of the tooth space. length: (p,), along it. tangents: (p,
-        2).
-    tangent_angle: (p,), rad, between tangent and the tooth's centreline. The first points go from the root circle to
-        the form circle, the
-    last is the one at `section_angle`, not a number where the fillet has no such tangent.
+    2). tangent_angle: (p,), rad, between tangent and the tooth's centreline. The first points go from the root circle
+    to the form circle, the last is the one at `section_angle`, not a number where the fillet has no such tangent.
     """
 
     outline: ToothOutline

@@ -28,8 +28,7 @@ def flank_compliance(
     them, and they share an entry of the cache.
 
     reach: of the teeth whose interaction is wanted, and whether the coast flanks' is. Raises SceneError for an unknown
-        element or an
-    impossible size, ComputationError when a stage fails.
+    element or an impossible size, ComputationError when a stage fails.
     """
     chosen = element_named(discretisation.element)
     sizes = discretisation.sizes(gear, both_flanks=reach.across is not None)

@@ -17,13 +17,10 @@ class BodyMesh:
     """Straight-sided mesh of a gear body or of a sector of it.
 
     points: (n, 2), mm (modules where a sector was meshed in them), in the canonical frame of the tooth it belongs to
-        (of tooth 0
-        for a whole gear).
-    cells: (m, 3) triangles or (m, 4) quadrilaterals, corners counter-clockwise.
-    edges: named parts of the boundary, each (k, 2) point indices. A sector has "flank", "hub",
-        "lower cut" and "upper cut" (clockwise and counter-clockwise side); a whole gear has "hub"
-        and "flank 0", "flank 1", ... counted counter-clockwise.
-    web: part of the body that is less wide than the rest, lengths as of the points.
+    (of tooth 0 for a whole gear). cells: (m, 3) triangles or (m, 4) quadrilaterals, corners counter-clockwise. edges:
+    named parts of the boundary, each (k, 2) point indices. A sector has "flank", "hub", "lower cut" and "upper cut"
+    (clockwise and counter-clockwise side); a whole gear has "hub" and "flank 0", "flank 1", ... counted
+    counter-clockwise. web: part of the body that is less wide than the rest, lengths as of the points.
     """
 
     points: np.ndarray

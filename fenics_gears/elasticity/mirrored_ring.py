@@ -2,11 +2,10 @@
 symmetry.
 
 Every motion of a symmetric sector is the sum of a symmetric and an antisymmetric one. The two are uncoupled, and each
-has a stiffness
-of half the size: on the centreline the symmetric one does not move across it, the antisymmetric one not along it.
-With v the drive half's motion and v' the coast half's in the mirrored frame, the sector's energy is ``s^T S_s s + a^T
-S_a a`` where ``s = (v + v') / 2`` and ``a = (v - v') / 2``; any response is ``(R_s + R_a) / 2`` within a half and
-``(R_s - R_a) / 2`` across.
+has a stiffness of half the size: on the centreline the symmetric one does not move across it, the antisymmetric one not
+along it. With v the drive half's motion and v' the coast half's in the mirrored frame, the sector's energy is ``s^T S_s
+s + a^T S_a a`` where ``s = (v + v') / 2`` and ``a = (v - v') / 2``; any response is ``(R_s + R_a) / 2`` within a half
+and ``(R_s - R_a) / 2`` across.
 """
 
 from __future__ import annotations
@@ -78,7 +77,7 @@ def unfolded(own: np.ndarray, other: np.ndarray, image, turn) -> np.ndarray:
     its own side and on the other's.
 
     image: from motions of the upper cut to those of the lower one, its image; turn: of a pitch, so that both are in the
-        frame of a lower cut.
+    frame of a lower cut.
     """
     return np.hstack([(image @ other.T).T, own @ turn])
 

@@ -26,7 +26,7 @@ class Factor:
     make the factor and call `schur`.
 
     `what`: the matrix's name in messages. Raises ComputationError when the factorisation fails. Release the memory by
-        `close`.
+    `close`.
     """
 
     def __init__(self, matrix: sparse.csr_matrix | PETSc.Mat, what: str, schur_dofs: np.ndarray | None = None):

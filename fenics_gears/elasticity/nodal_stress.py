@@ -32,7 +32,7 @@ class NodalStress:
     displacements in the mesh's unit of length.
 
     weight: (n,), areas of the elements that meet at the section's nodes. On a sector's cut some of its elements are in
-        the neighbouring sector, whose stress counts by its own weight.
+    the neighbouring sector, whose stress counts by its own weight.
     """
 
     def __init__(self, nodes: ElementNodes, poissons_ratio: float, sweep: Sweep | None = None):
@@ -61,7 +61,7 @@ class NodalStress:
         averaged over the heights by `averages` (S, h).
 
         As of `at_nodes`, per displacement: dofs by height, node, component; directions in the section's frame at each
-            height; rows by average, then point.
+        height; rows by average, then point.
         """
         # t . sigma t over the nine entries of a gradient.
         normal = 2.0 * self._shear * np.einsum("pi,pj->pij", directions, directions) + self._lame * np.eye(3)

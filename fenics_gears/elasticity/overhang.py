@@ -49,8 +49,7 @@ def near_field(gear: Gear, material: Material, roll_angle: np.ndarray) -> np.nda
     ln(depth/distance).
 
     The same along and across the flank; averaged over what each node stands for. As a convex function that falls to
-    zero the logarithm, cut
-    off at that depth, is positive definite (Polya's criterion).
+    zero the logarithm, cut off at that depth, is positive definite (Polya's criterion).
     """
     depth, arc = NEAR_DEPTH * gear.normal_module, arc_length(gear.base_radius, roll_angle)
     edges = np.concatenate([arc[:1], 0.5 * (arc[1:] + arc[:-1]), arc[-1:]])

@@ -31,8 +31,8 @@ class RecoveredSectors:
     """Some sectors of a gear under load, the hub held, each in its own tooth's frame at each height.
 
     sectors: numbers, pitches counter-clockwise of the first. displacement: (sectors, h, n, 2) in the plane, (sectors,
-        h, n, 3) over the face, mm. stress: (sectors, h, n, 3, 3), MPa, averaged over the elements that meet at a node,
-        those of a neighbouring sector included that is there.
+    h, n, 3) over the face, mm. stress: (sectors, h, n, 3, 3), MPa, averaged over the elements that meet at a node,
+    those of a neighbouring sector included that is there.
     """
 
     sectors: tuple[int, ...]
@@ -44,7 +44,7 @@ class GearRecovery:
     """A gear whose displacement and stress are recovered from forces on its flanks. Use it in a `with`, or `close` it.
 
     gear, material: lengths in mm, MPa; over the face the gear is its transverse section. sector: that its compliance
-        was computed on, in modules.
+    was computed on, in modules.
     """
 
     def __init__(self, gear: Gear, material: Material, sector: Sector):

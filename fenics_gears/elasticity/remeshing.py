@@ -36,8 +36,7 @@ def remeshed_stiffness(
     """Stiffness of a gear at all positions: meshed and condensed, or from the cache.
 
     positions: for each the loaded teeth, tuples of remeshed_gear.LoadedTooth. job: whose ranks share the positions out.
-        report: called with
-    positions done and in all, of this process. Raises ComputationError when a position fails.
+    report: called with positions done and in all, of this process. Raises ComputationError when a position fails.
     """
     inputs = {
         "remeshed": NUMBERS_VERSION,

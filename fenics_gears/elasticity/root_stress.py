@@ -28,10 +28,9 @@ class RootStressRows:
     where there is one slice, MPa/N over the face.
 
     rows: (2 reach + 1, S, 2 p, d): rows[reach + m] are those of the tooth m pitches ahead (counter-clockwise) of the
-        loaded one; the drive side's p points, then the coast side's; d dofs of the loaded tooth by flank, slice, node
-        and component in its own frame (at that height), not mirrored.
-    tangent_angle: (p,), rad, between the fillet's tangent and the tooth's centreline; the last point is the one at 30
-        degrees.
+    loaded one; the drive side's p points, then the coast side's; d dofs of the loaded tooth by flank, slice, node and
+    component in its own frame (at that height), not mirrored. tangent_angle: (p,), rad, between the fillet's tangent
+    and the tooth's centreline; the last point is the one at 30 degrees.
     """
 
     rows: np.ndarray
@@ -56,9 +55,8 @@ def root_stress_rows(
     compliance. Stress does not depend on Young's modulus.
 
     discretisation: of the plane section (Discretisation), or of the body over the face (FaceDiscretisation), which
-        takes slices.
-    slices: of the face, middles from the gear's mid-width and widths (S,), mm; stress is averaged over a slice, and its
-    force spreads over it.
+    takes slices. slices: of the face, middles from the gear's mid-width and widths (S,), mm; stress is averaged over a
+    slice, and its force spreads over it.
     """
     inputs = similar_inputs("root stress", gear, material, discretisation, coast_flank) | {
         "slices": [gear.in_modules(*each.tolist()) for each in slices or ()],

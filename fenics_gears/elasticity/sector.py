@@ -18,9 +18,9 @@ class Sector:
     """A sector, Young's modulus 1 MPa: plane and of unit thickness, or swept along the face by `sweep`.
 
     Its nodes go by height, then by the section's (ElementNodes); a plane one has one height. Dofs are interleaved: x, y
-        and of a swept sector z, in the section's frame turned with it.
-    cuts: (c,) nodes of the lower and of the upper cut by height and radius; hub: (h,). link: stiffness (2 d, 2 d)
-        between the dofs of both cuts off the hub. Release the factor by `close`.
+    and of a swept sector z, in the section's frame turned with it. cuts: (c,) nodes of the lower and of the upper cut
+    by height and radius; hub: (h,). link: stiffness (2 d, 2 d) between the dofs of both cuts off the hub. Release the
+    factor by `close`.
     """
 
     def __init__(self, mesh: BodyMesh, section: ElementNodes, stiffness: sparse.csr_matrix, sweep: Sweep | None = None):

@@ -87,8 +87,7 @@ def sector_boundary(
     """Nodes along the boundary of a sector and the size field that its inside is to follow.
 
     flank_rolls: roll angles (rad), ascending from form circle to tip, of the flank's vertices where they are
-        prescribed.
-    All else, the cuts above all, stays as without them.
+    prescribed. All else, the cuts above all, stays as without them.
     """
     outline = tooth_outline(gear, FILLET_SAMPLES)
     flank = canonical_point(gear.base_radius, flank_roll_angles(gear, sizes.flank, sizes.mate_tip))

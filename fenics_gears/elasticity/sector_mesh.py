@@ -28,9 +28,8 @@ def sector_mesh(
     With both flanks working it is symmetric about the tooth's centreline, so that both flanks are equally accurate.
     Flank vertices stand on the exact involute, even in arc length or at `flank_rolls` (rad, see sector_boundary).
     Quadrilaterals come from a mesh of twice the size whose every cell is split, so that no triangle is left over in any
-    version
-    of gmsh. gmsh works in modules: similar gears get similar meshes, in any unit of length. Raises ComputationError
-    when gmsh fails, a cell is folded, or quadrilaterals meet an odd number of flank elements.
+    version of gmsh. gmsh works in modules: similar gears get similar meshes, in any unit of length. Raises
+    ComputationError when gmsh fails, a cell is folded, or quadrilaterals meet an odd number of flank elements.
     """
     if sizes.both_flanks:
         return with_image(half_sector_mesh(gear, sizes, quadrilaterals, flank_rolls))
@@ -88,9 +87,8 @@ def filled(
     that differ by round-off.
 
     slit: (k, 2), points of a line that goes inwards from the boundary's point `mouth` and along which cells meet; its
-        edges stay
-    undivided too. Returns points, the boundary's first and in its order, then the slit's, and the cells: triangles,
-    then with ``recombine`` quadrilaterals.
+    edges stay undivided too. Returns points, the boundary's first and in its order, then the slit's, and the cells:
+    triangles, then with ``recombine`` quadrilaterals.
     """
     with gmsh_model("gear sector") as gmsh:
         try:

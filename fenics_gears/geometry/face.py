@@ -80,8 +80,8 @@ def misalignment_opening(
 
     The wheel turns by small angles about the pitch point in the middle of the common face, so that neither end comes
     nearer on the whole: about a point of its axis, or about an end of the face, all gaps of a helical pair would open
-        or close alike besides, which only turns the wheel. The point of contact,
-    (position - pitch point, 0, z) from there, moves along the contact normal (c, 0, -c tau) by
+    or close alike besides, which only turns the wheel. The point of contact, (position - pitch point, 0, z) from there,
+    moves along the contact normal (c, 0, -c tau) by
 
     * c (z + tau (position - pitch point)) for an angle of 1 in the plane of action,
     * nothing for an angle out of it: it moves in the plane of the flanks.

@@ -43,9 +43,8 @@ class HelixDeviations:
     """Deviations along the face (z,), mm, over its ``width`` (mm) with mid-width at the height ``middle`` (mm).
 
     ``slope``: excess of material at the right end over that at the left one. ``form``: excess in the middle over that
-        at both ends.
-    ``curves`` (z, CURVE_POINTS): measured excess from the left end to the right one, in place of both; None without
-    measured helices.
+    at both ends. ``curves`` (z, CURVE_POINTS): measured excess from the left end to the right one, in place of both;
+    None without measured helices.
     """
 
     slope: np.ndarray
@@ -60,11 +59,10 @@ class FlankDeviations:
     """Deviations of a gear with z teeth, counted as they mesh: arrays (z,), mm, and the waviness that all share.
 
     ``index``: cumulative pitch deviation, the arc on the reference circle by which a tooth comes late; zero for the
-        last tooth. ``slope``: excess of material at the tip over that at the start of active profile. ``form``: excess
-        in the middle over that at
-    both ends. ``active_profile``: roll angles (rad) of its start and its end. ``helix``: None in the plane. ``curves``
-    (z, CURVE_POINTS): measured excess over the active profile, in place of slope and form; None without measured
-    profiles.
+    last tooth. ``slope``: excess of material at the tip over that at the start of active profile. ``form``: excess in
+    the middle over that at both ends. ``active_profile``: roll angles (rad) of its start and its end. ``helix``: None
+    in the plane. ``curves`` (z, CURVE_POINTS): measured excess over the active profile, in place of slope and form;
+    None without measured profiles.
     """
 
     index: np.ndarray
@@ -201,8 +199,7 @@ def measured_share(curve: MeasuredCurve, along: str, pair: GearPair, name: str) 
 
 def slope_and_form(deviations: FlankDeviations | HelixDeviations) -> tuple[np.ndarray, np.ndarray]:
     """Slope and form deviations (z,), mm: as given, or those of measured curves by ISO 1328-1, the rise of the line of
-    least squares and the range of
-    what is left of it."""
+    least squares and the range of what is left of it."""
     if deviations.curves is None:
         return deviations.slope, deviations.form
     along = np.linspace(-0.5, 0.5, CURVE_POINTS)

@@ -1,9 +1,8 @@
 """Flank tolerances of ISO 1328-1:2013.
 
 Formulas (5) to (12) of the standard, taken from published programs that cite them by number, not from the standard
-itself; values are not
-rounded as it prints them. Check: the values that another such program is tested by (module 3 mm, 40 teeth, class 6:
-single pitch 8.94 um, total cumulative pitch 28.80 um).
+itself; values are not rounded as it prints them. Check: the values that another such program is tested by (module 3 mm,
+40 teeth, class 6: single pitch 8.94 um, total cumulative pitch 28.80 um).
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ def schlenk(pair: GearPair, normal_force: float, pinion_speed: float, viscosity:
     of mineral oil (X_L = 1).
 
     `normal_force`: N along the line of action; `pinion_speed`: 1/min; `viscosity`: dynamic, mPa s, at the oil's
-        temperature; `roughness`: mean Ra of both flanks, um.
+    temperature; `roughness`: mean Ra of both flanks, um.
     Raises OutOfRange below the slowest gears that it was fitted to.
     """
     pitch_radius = pair.pinion.base_radius / cos(pair.operating_pressure_angle)
@@ -63,7 +63,7 @@ def benedict_kelley(
 
     Arguments as of `schlenk`; w in N/mm, sliding and rolling speed in m/s, S the roughness in microinches, of at most
     30. Raises OutOfRange where the logarithm is not positive: the discs of the tests ran between boundary and full
-      lubrication, and friction falls to nothing beyond.
+    lubrication, and friction falls to nothing beyond.
     """
     path = pair.path_start + (np.arange(POINTS) + 0.5) / POINTS * (pair.path_end - pair.path_start)
     turning = 1e-3 * 2.0 * pi * pinion_speed / 60.0

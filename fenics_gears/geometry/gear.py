@@ -27,9 +27,8 @@ class Gear:
     it stretched along the pitch line by 1/cos(helix angle), as an ellipse. The rack's addendum, which cuts the gear's
     dedendum, follows from root radius and profile shift.
     `tip_chamfer`: radial height of the chamfer between flank and tip circle. `protuberance`: by which the rack's
-        rounding stands out beyond
-    the flank that cuts the finished involute, normal to it, going back at `protuberance_angle`; both in its normal
-    section.
+    rounding stands out beyond the flank that cuts the finished involute, normal to it, going back at
+    `protuberance_angle`; both in its normal section.
     """
 
     teeth: int

@@ -44,8 +44,7 @@ class GearData:
     `face_width` (mm) and `material` are None where it has the pair's.
 
     `tip_chamfer`, mm: its radial height. `protuberance`, mm, of the rack beyond the finished flank, and its angle, rad.
-        `nominal_profile_shift`: that of the
-    drawing, None where the thickness has it.
+    `nominal_profile_shift`: that of the drawing, None where the thickness has it.
     """
 
     teeth: int
@@ -67,11 +66,10 @@ class GearData:
 class GearPairData:
     """The pair: module and centre distance in mm, pressure angle in rad; rigid without a material.
 
-    `face_width`, mm: over which both gears meet. `material`: of gears that have none of their own.
-    `helix_angle`, rad, at the reference cylinder, 0 for spur gears; module, pressure angle and what is given in modules
-    are then those of the normal
-    section. `pinion_hand`: "right" or "left", the wheel has the other. `axial_offsets`, mm: of the mid-widths of pinion
-    and wheel from a common place.
+    `face_width`, mm: over which both gears meet. `material`: of gears that have none of their own. `helix_angle`, rad,
+    at the reference cylinder, 0 for spur gears; module, pressure angle and what is given in modules are then those of
+    the normal section. `pinion_hand`: "right" or "left", the wheel has the other. `axial_offsets`, mm: of the
+    mid-widths of pinion and wheel from a common place.
     """
 
     module: float

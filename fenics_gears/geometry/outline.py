@@ -21,9 +21,8 @@ class ToothOutline:
     """Drive side of one tooth; the coast side is its mirror image about the centreline.
 
     fillet: (n, 2), mm, from the root circle (first point) to the form circle (last point), evenly spaced along the
-        curve.
-    centreline_angle, space_angle: polar angles (rad) of the tooth's centreline and of the centre of the tooth space
-    beside the drive flank; the root circle runs from the fillet's first point to the space angle.
+    curve. centreline_angle, space_angle: polar angles (rad) of the tooth's centreline and of the centre of the tooth
+    space beside the drive flank; the root circle runs from the fillet's first point to the space angle.
     """
 
     gear: Gear

@@ -73,7 +73,7 @@ class ExpectedCost:
     operators; unknowns (words, number) of the gears; how bodies over the face are condensed (words, way).
 
     Bytes: `memory` of all, of which `operators` need not be kept: they are made again each time the mesh cycle comes
-        round.
+    round.
     """
 
     condensing: float | None
@@ -162,8 +162,7 @@ def expected_cost(model: Model, ranks: int = 1) -> ExpectedCost:
 @dataclass(frozen=True)
 class _Gear:
     """A gear to be condensed: its finite elements' unknowns, dofs of a flank, blocks of its compliance that are
-    computed, those that contact
-    copies (the transposes, of teeth behind), dense inverses of a flank's size."""
+    computed, those that contact copies (the transposes, of teeth behind), dense inverses of a flank's size."""
 
     words: str
     unknowns: float

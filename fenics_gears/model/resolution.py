@@ -65,9 +65,8 @@ class Resolution:
     """All of `[accuracy]`, decided: element name, element size (mm), contact grid, steps in a mesh cycle, condensation.
 
     `half_width`: the Hertz half-width (mm) that the defaults go by; zero without load. `body_element_size` (mm):
-        largest in tooth
-    and rim, None for the element's default; `elastic_teeth`: how far apart teeth feel each other (1: not at all), None
-    for all;
+    largest in tooth and rim, None for the element's default; `elastic_teeth`: how far apart teeth feel each other (1:
+    not at all), None for all;
     `mate_tips`: roll angles (rad) of pinion and wheel between which the mate's tip edge may press.
     """
 

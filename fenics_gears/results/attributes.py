@@ -1,8 +1,7 @@
 """The attributes of a result: what each is, and when it is there. Tests compare the results of runs with this list.
 
 What may be in a result beside them: one attribute for each method of the solver, by the prefix ``RUNG``, and one for
-    each setting whose
-error was estimated, by the prefix ``ESTIMATED``.
+each setting whose error was estimated, by the prefix ``ESTIMATED``.
 """
 
 from __future__ import annotations

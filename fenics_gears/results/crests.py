@@ -53,8 +53,8 @@ def highest(
 
 def _steep_neighbour(steps: np.ndarray, values: np.ndarray, near: float) -> int:
     """The steeper of the intervals in which a curve falls below the largest value by more than `near` on either side
-    within a step of it; 0 where
-    neither falls by so much in itself, over more than a jump's width, or both are at an end."""
+    within a step of it; 0 where neither falls by so much in itself, over more than a jump's width, or both are at an
+    end."""
     top, found = int(values.argmax()), {}
     for side in (-1, 1):
         end = top
@@ -76,8 +76,7 @@ def _bounds(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     is to be solved there.
 
     That is the crossing of the lines from either side. Where one rises into the interval and the other lies far below
-    its end, the curve may
-    have jumped down anywhere: then half-way.
+    its end, the curve may have jumped down anywhere: then half-way.
     """
     slope, h = np.diff(y) / np.diff(x), np.diff(x)[1:-1]
     left, right, a, b = slope[:-2], slope[2:], y[1:-2], y[2:-1]

@@ -1,9 +1,8 @@
 """The result of a run: one labelled dataset, with units and long names.
 
 Dimensions: `time`, all marched steps; `slot`, the tooth pairs that can touch at once; `gear` ("pinion", "wheel");
-    `contact_time`, the
-steps whose contact fields are stored; `contact_node`; of flanks resolved over the face also `face_position`. A variable
-that belongs to an effect is there only when the scene names that effect.
+`contact_time`, the steps whose contact fields are stored; `contact_node`; of flanks resolved over the face also
+`face_position`. A variable that belongs to an effect is there only when the scene names that effect.
 """
 
 from __future__ import annotations

@@ -40,8 +40,7 @@ STUDIED = (
 
 def key_numbers(counted: xr.Dataset, pair: GearPair, timed: bool = True) -> dict[str, float | str]:
     """All numbers of the settled steps of a result; its attribute `friction_loss` is used if it is there. timed: the
-    scene has a speed, without
-    which there is no power."""
+    scene has a speed, without which there is no power."""
     # The last step begins the next cycle.
     settled = counted.isel(time=slice(0, max(counted.sizes["time"] - 1, 1)))
     return (
@@ -56,8 +55,7 @@ def key_numbers(counted: xr.Dataset, pair: GearPair, timed: bool = True) -> dict
 
 def _harmonics(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
     """Harmonics and r.m.s. of the transmission error as a length at the wheel's base circle, um, and r.m.s. of the mesh
-    force, N, of the last whole mesh
-    cycles; nothing of less than one, or on a ramp, where no two cycles are alike."""
+    force, N, of the last whole mesh cycles; nothing of less than one, or on a ramp, where no two cycles are alike."""
     phase = settled["mesh_phase"].values
     if len(phase) < 2 or "mesh_frequency" in settled:
         return {}
@@ -94,8 +92,7 @@ def _stiffness(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
 
 def _pair_force(settled: xr.Dataset) -> dict[str, float]:
     """The largest normal force of a tooth pair, N, at the steps, on drive or coast flanks; nothing where shares of
-    rigid pairs are not
-    determined, or nothing presses."""
+    rigid pairs are not determined, or nothing presses."""
     over_time = largest_force_over_time(settled)
     if np.isnan(over_time).any() or over_time.max() <= NO_FORCE:
         return {}

@@ -39,8 +39,7 @@ class Recorder:
     stress, if asked for.
 
     `journal`: where a long march is written down; in memory only where None. `steps`: how many are recorded.
-        `first_number`: number of the
-    pair that reaches the start of contact as the run begins.
+    `first_number`: number of the pair that reaches the start of contact as the run begins.
     """
 
     def __init__(

@@ -37,8 +37,8 @@ def settled(model: Model, steps: int) -> Settled:
     quasi-static run.
 
     They are whole common periods: at least the last one, and where all cycles are alike at least those with contact
-        fields, even if the
-    start has not died down. A run that never repeats (a ramp) and does not die down counts as a whole.
+    fields, even if the start has not died down. A run that never repeats (a ramp) and does not die down counts as a
+    whole.
     """
     a_cycle, period = model.resolution.steps_per_mesh_cycle, common_period(model.scene)
     rate, slowest = _slowest(model)

@@ -30,12 +30,11 @@ class Layout:
     """What belongs to the contact nodes (n,) of a position of the gears, whatever the step.
 
     `index`: of the node's tooth pair at the position; `node`: its place in that pair; `drive`: whether it is on a drive
-        flank; `at_end`:
-    whether it stands on an end of the window; `on_edge` (4, n): on the edge of the pinion's and of the wheel's tip, and
-    on the edge at the form circle of either where it is undercut; `arcs` (2, n): where it touches the pinion's and the
-    wheel's flank, mm along the involute from the base circle; `rows_of_normals` (6, n) and `rows_of_tangents` (6, n or
-    0): reaction of both centres to a unit of each force: force (x, y), N, and torque, N mm; over a face (12, n), with
-    the axial force, N, and the moments about x and y, N mm, of both gears after these.
+    flank; `at_end`: whether it stands on an end of the window; `on_edge` (4, n): on the edge of the pinion's and of the
+    wheel's tip, and on the edge at the form circle of either where it is undercut; `arcs` (2, n): where it touches the
+    pinion's and the wheel's flank, mm along the involute from the base circle; `rows_of_normals` (6, n) and
+    `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force (x, y), N, and torque, N mm;
+    over a face (12, n), with the axial force, N, and the moments about x and y, N mm, of both gears after these.
     """
 
     def __init__(self, operator: ContactOperator, cycle: Cycle, tangential: bool):
@@ -176,8 +175,8 @@ class SideBySide:
     """The contact nodes (N,) of consecutive steps, one step's after the other's.
 
     `step`: the place of the step that each node is of; `slot`: where its tooth pair is kept, pairs being numbered from
-        `first_number` on for the
-    pair of index 0 in cycle 0; `normal` and `tangential`: its forces, N, the latter None without friction.
+    `first_number` on for the pair of index 0 in cycle 0; `normal` and `tangential`: its forces, N, the latter None
+    without friction.
     """
 
     def __init__(self, known: KnownLayouts, cycle: Cycle, steps: Steps, slots: int, first_number: int):

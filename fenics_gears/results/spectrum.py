@@ -43,8 +43,8 @@ class OrderLines:
     """Amplitudes of a signal (n,) by order (n,), turns of the pinion being order 1; without the mean.
 
     `exact`: of whole hunting tooth periods without a window, so that each line stands alone; else of a record in a
-        window, where a line spreads
-    over `spread` bins on either side; `bandwidth`: the window's equivalent noise bandwidth in bins.
+    window, where a line spreads over `spread` bins on either side; `bandwidth`: the window's equivalent noise bandwidth
+    in bins.
     """
 
     orders: np.ndarray
@@ -96,8 +96,7 @@ def order_lines(
     pinion and wheel.
 
     window: one of `WINDOWS`, laid over the whole record; None takes whole hunting tooth periods without a window where
-        the record has them, else
-    Hann's. None where the record is shorter than a turn of the pinion.
+    the record has them, else Hann's. None where the record is shorter than a turn of the pinion.
     """
     steps, period = len(error) - 1, lcm(*teeth)
     if cycles < teeth[0] * (1.0 - 1e-9) or steps < 2:

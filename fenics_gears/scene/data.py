@@ -79,9 +79,9 @@ class Motion:
     and are shown in pictures.
 
     ``fewer_where_too_large``: the scene does not give that number, so fewer are stored where the result would be too
-        large.
+    large.
     ``speed_given``: whether the scene has a speed; if not, no result depends on one, and the frequency is
-        ``NOMINAL_FREQUENCY``.
+    ``NOMINAL_FREQUENCY``.
     """
 
     mesh_frequency: float

@@ -1,7 +1,7 @@
 """Charts as data: curves, bars, bands and a coloured field over two axes, with units, captions and colours.
 
 Two modules draw them: ``show.drawing`` by matplotlib, for files and paper, and ``show.report.interactive`` by plotly,
-    for zooming.
+for zooming.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Curve:
     lower and upper edge.
 
     width: of the line in pixels, or of bars along the first axis. fill: colour inside a closed line. words: beside each
-        place, on the side `beside` ("right", "top right").
+    place, on the side `beside` ("right", "top right").
     """
 
     name: str

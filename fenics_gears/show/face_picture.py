@@ -58,7 +58,7 @@ def face_picture(
     """Both gears in mesh, and the loaded teeth of each alone; `scale`: of the displacements of the teeth from the hubs.
 
     limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there. Raises ComputationError without
-        pyvista.
+    pyvista.
     """
     figure = Figure(figsize=(16.0, 9.0), dpi=dpi)
     tiles = [pressed_tiles(mesh, dataset, gear, scale) for gear in (0, 1)]

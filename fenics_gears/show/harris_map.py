@@ -27,10 +27,9 @@ def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "", note: str =
     cycles), in um along the line of action.
 
     result: a variable in a unit of length; or a dataset with `transmission_error` in a unit of length, or in rad of the
-        wheel beside the
-    attribute `base_radius_wheel` (mm). The coordinate `load` has units. Curves of one mesh cycle are drawn twice; of
-    more than two the first two are drawn; a load without a result (not a number) has no curve. Raises ComputationError
-    for a result without these dimensions and units.
+    wheel beside the attribute `base_radius_wheel` (mm). The coordinate `load` has units. Curves of one mesh cycle are
+    drawn twice; of more than two the first two are drawn; a load without a result (not a number) has no curve. Raises
+    ComputationError for a result without these dimensions and units.
     """
     error = result["transmission_error"] if isinstance(result, xr.Dataset) else result
     if not {"load", "mesh_phase"} <= set(error.coords) or set(error.dims) != {"load", "mesh_phase"}:

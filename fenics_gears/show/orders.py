@@ -154,8 +154,7 @@ def mesh_order_chart(run: Run, name: str, unit: str, found: Spectrum) -> Chart:
 
 def spectrum(run: Run, values: np.ndarray) -> Spectrum:
     """The mesh orders of values (time,): of whole hunting tooth periods where these are stored at a steady speed, so
-    that what comes with a
-    turn of either gear stands apart; else of whole mesh cycles."""
+    that what comes with a turn of either gear stands apart; else of whole mesh cycles."""
     scene = run.scene
     if scene is not None and scene.speed_ramp is None:
         teeth = scene.gears.pinion.teeth, scene.gears.wheel.teeth

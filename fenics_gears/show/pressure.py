@@ -113,9 +113,8 @@ def _peaks(run: Run) -> str:
 
 def pressure_field(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray) -> Field:
     """The largest pressure (MPa) in each cell of a raster over steps and flank, from pressure and roll angle (step,
-    pair, node) and the
-    steps' mesh cycles (step,): each node under pressure reaches half-way to its neighbours and to the steps before and
-    after."""
+    pair, node) and the steps' mesh cycles (step,): each node under pressure reaches half-way to its neighbours and to
+    the steps before and after."""
     low, high = node_edges(place)
     known = (pressure > 0.0) & np.isfinite(low) & np.isfinite(high)
     finite = place[np.isfinite(place)]

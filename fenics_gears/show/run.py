@@ -40,8 +40,7 @@ class Run:
     """A result, the file it was read from, and the settings of its report.
 
     at: mesh cycles after the first stored step at which the stress picture is drawn, None for where the largest force
-        is; stress: whether
-    it is drawn at all.
+    is; stress: whether it is drawn at all.
     """
 
     dataset: xr.Dataset
@@ -155,8 +154,7 @@ class Run:
 
     def of_pairs(self, name: str, unit: str, **place) -> list[tuple[str, np.ndarray, int]]:
         """Curves of a variable of the tooth pairs that carry in the cycles shown: words for it, values (time,), not a
-        number where the
-        pair has none, and its number."""
+        number where the pair has none, and its number."""
         part = np.flatnonzero(self.in_window)
         values = in_unit(self.dataset[name].sel(place).transpose("time", "slot"), unit)
         curves = []

@@ -109,8 +109,7 @@ def stress_picture(
     """Both gears, their teeth in contact enlarged, and with `close_up` the most loaded contact itself.
 
     scale: of the displacement. limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there whether
-        this mesh exceeds it
-    or not. width: inches of a figure 16 to 9.
+    this mesh exceeds it or not. width: inches of a figure 16 to 9.
     """
     figure = Figure(figsize=(16.0, 9.0), dpi=100.0 * width / 16.0)
     loaded = loaded_contact(mesh, dataset)

@@ -10,9 +10,8 @@ MOST_POINTS = 2000
 
 def thinned(values: np.ndarray, most: int = MOST_POINTS) -> np.ndarray:
     """Places (k,) of the values (n,) that a curve is drawn through: all of them up to `most`; beyond, of each of most/2
-    slices the
-    smallest and the largest value, and a place that is not a number where there is one, so that gaps stay; both ends of
-    the curve."""
+    slices the smallest and the largest value, and a place that is not a number where there is one, so that gaps stay;
+    both ends of the curve."""
     count = len(values)
     if count <= most:
         return np.arange(count)

@@ -28,7 +28,7 @@ class Route:
     returns gears and cycle.
 
     `condensed_once`: its gears are flank compliances that other runs can share; `stresses`: stresses can be recovered
-        in them.
+    in them.
     """
 
     function: str

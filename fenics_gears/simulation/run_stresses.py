@@ -39,11 +39,11 @@ class GearInSpace:
     at the origin, z along the axes from the middle of the common face.
 
     sectors: numbers of those recovered. Nodes by sector, height and the section's node; in the plane there is one
-        height. points (s, h, n, 3), mm, without load. elastic: of the same shape, mm, displacement from where the hub
-        is held. stress (s, h, n, 3, 3), MPa. others: points (t, h, n, 3) of all other sectors.
-    centre: (2,), mm. motion: of the hub from its nominal one, mm, mm, rad. section: nodes and cells of a sector's
-        section; outline: (k, 2) sides of its boundary, of first order, without those on the cuts. in_root, on_flank:
-        (n,), whether a node lies in a fillet or below, and whether it is on the involute that carries.
+    height. points (s, h, n, 3), mm, without load. elastic: of the same shape, mm, displacement from where the hub is
+    held. stress (s, h, n, 3, 3), MPa. others: points (t, h, n, 3) of all other sectors. centre: (2,), mm. motion: of
+    the hub from its nominal one, mm, mm, rad. section: nodes and cells of a sector's section; outline: (k, 2) sides of
+    its boundary, of first order, without those on the cuts. in_root, on_flank: (n,), whether a node lies in a fillet or
+    below, and whether it is on the involute that carries.
     """
 
     sectors: tuple[int, ...]
@@ -88,7 +88,7 @@ class GearsInMesh:
     """Pinion and wheel at a stored time; `coast`: whether the coast flanks carry more than the drive flanks.
 
     `approach`: mm along their line of action that the hubs' motion brings the flanks together that carry more; coast
-        flanks stand apart by the backlash before it. `over_face`: whether the gears are recovered in three dimensions.
+    flanks stand apart by the backlash before it. `over_face`: whether the gears are recovered in three dimensions.
     """
 
     time: float

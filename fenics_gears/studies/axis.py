@@ -33,8 +33,7 @@ class Axis:
     """A swept field: its path in the scene and its values as TOML has them.
 
     `name`: of the coordinate; `unit`: of the coordinate's numbers, the one that the first value is written in, empty
-        where the
-    values are bare numbers or texts.
+    where the values are bare numbers or texts.
     """
 
     path: Path

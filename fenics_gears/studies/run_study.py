@@ -42,8 +42,7 @@ def run_study(path: Path, output: Path | None, progress: Progress, quiet: bool =
     """Run what is missing of a study and write its dataset; None on every rank of an MPI job but 0.
 
     output: the study's directory, `results/<name of the study file>` where None. Raises SceneError, before anything is
-        computed or
-    written, where the study is wrong; ComputationError where its directory cannot be used.
+    computed or written, where the study is wrong; ComputationError where its directory cannot be used.
     """
     with ranks() as team:
         if team is None:

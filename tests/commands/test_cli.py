@@ -149,8 +149,7 @@ def test_a_study_is_told_from_a_scene(capsys, tmp_path, monkeypatch):
 
 def test_what_goes_into_a_log_is_plain():
     """Authority: ECMA-48's control sequences begin with ESC. mpirun starts its processes on a terminal of their own,
-    also where a pipe or a file
-    has what it writes; a terminal without mpirun has colours, so that the test can fail."""
+    also where a pipe or a file has what it writes; a terminal without mpirun has colours, so that the test can fail."""
     assert "\x1b" in on_a_terminal(CHECK, {})
     written = on_a_terminal(CHECK, {"OMPI_COMM_WORLD_SIZE": "1"})
     assert "\x1b" not in written and "Gear pair" in written

@@ -27,14 +27,13 @@ def run(tmp_path):
         {
             "transmission_error": variable(("time",), "rad"),
             "rotation": variable(("time", "gear"), "rad"),
-            "pair_normal_force": variable(("time", "pair"), "N"),
+            "pair_normal_force": variable(("time", "slot"), "N"),
             "newton_iterations": (("time",), np.arange(steps), {"units": "1"}),
         },
         {
             "time": ("time", 0.1 + 1e-5 * np.arange(steps), {"units": "s"}),
             "mesh_phase": ("time", np.linspace(0, 1, steps), {"units": "1"}),
             "gear": ["pinion", "wheel"],
-            "pair": [4, 5, 6],
         },
         {"complete": 1, "scene": "title = 'synthetic'"},
     )

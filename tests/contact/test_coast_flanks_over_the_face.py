@@ -45,8 +45,7 @@ def coast_helicoid(pair, angle, height, position):
     drive flank's.
 
     `angle`: by which the string's direction is turned; the string through the line of action is `position` long at the
-        height 0. A right-hand
-    pinion's section turns counter-clockwise with the height, towards the foot of that string.
+    height 0. A right-hand pinion's section turns counter-clockwise with the height, towards the foot of that string.
     """
     radius, double = pair.pinion.base_radius, 2.0 * pair.operating_pressure_angle
     turned = angle + double

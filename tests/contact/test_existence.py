@@ -42,8 +42,7 @@ def certified(problem, sigma, stiffness=None):
 @pytest.mark.parametrize("free", [False, True], ids=["held", "free"])
 def test_a_certified_solution_is_the_only_one(free):
     """Brute force: with the slip directions given, all 2^4 sets of closed nodes of 500 problems leave at most one
-    solution where the
-    certificate says so, and sometimes two where it does not."""
+    solution where the certificate says so, and sometimes two where it does not."""
     most = {True: 0, False: 0}
     count = {True: 0, False: 0}
     for seed in range(500):
@@ -123,8 +122,7 @@ def test_a_step_that_locks_without_a_solution_is_named(seed, nodes, words):
 
 def test_two_solutions_are_not_certified():
     """Exact: where friction pulls the flanks together by more than the normal force parts them (mu c_nt > c_nn) an open
-    gap of g
-    has two solutions, p = 0 and p = g/(mu c_nt - c_nn - 1/k)."""
+    gap of g has two solutions, p = 0 and p = g/(mu c_nt - c_nn - 1/k)."""
     problem = one_node(2.0, coupling=1.2, load=0.0, stiffness=1e9, gap=1e-3)
     problem = replace(problem, tolerance=Tolerance.of_load(1e3))
     assert not certified(problem, np.array([-1.0]))

@@ -1,8 +1,8 @@
 """Newton and its fallbacks: each tested by an input on which all methods before it end without a solution.
 
 The seeds are the smallest of 100 000 random problems (1 to 8 nodes, friction 0.1 to 2, with and without a free motion).
-The methods
-solved, in their order: 78 697, 13 816, 170, 74, 5733, 123, 1369; nothing solved 18, whose error says self-locking.
+The methods solved, in their order: 78 697, 13 816, 170, 74, 5733, 123, 1369; nothing solved 18, whose error says
+self-locking.
 """
 
 from dataclasses import replace

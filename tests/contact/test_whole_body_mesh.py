@@ -78,8 +78,7 @@ def test_a_softer_tooth_is_met_in_its_turn(paper_pair, rings, gear):
     first.
 
     The operator's own compliance of the tooth's contact nodes is that of the softer tooth in cycle `number` and a turn
-    later, and of no
-    other tooth in any other cycle."""
+    later, and of no other tooth in any other cycle."""
     teeth, number, factor = (16, 24)[gear], 5, 2.0
     tooth = first_tooth(gear, number) % teeth
     assert tooth == ((11, 5)[gear])

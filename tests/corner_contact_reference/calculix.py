@@ -1,8 +1,8 @@
 """A pair of gears at one position as an input file of CalculiX, and the couple on the wheel from what it prints.
 
 Frame: pinion's centre at the origin, line of action y = -rb1, as in the program. The pinion's bore is held, the wheel's
-    is
-turned by given angles; the couple that this takes is the sum over the bore's reactions. Plane strain, thickness 1 mm.
+is turned by given angles; the couple that this takes is the sum over the bore's reactions. Plane strain, thickness 1
+mm.
 """
 
 from __future__ import annotations

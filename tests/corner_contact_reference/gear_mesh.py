@@ -42,8 +42,7 @@ class GearMesh:
     middles.
 
     `hub`: indices of the bore's nodes. `contact`: (cell, side) of the edges on the loaded teeth's flanks, tip edges and
-        tip
-    lands, (k, 2).
+    tip lands, (k, 2).
     """
 
     points: np.ndarray

@@ -32,7 +32,7 @@ class Case:
     """One analysis: mesh phase, edge radius of both gears' tips (mm), and how it is done.
 
     `refinement`: factor on all element sizes; `slave`: the gear whose surface contact is integrated over; `penalty`,
-        MPa/mm.
+    MPa/mm.
     """
 
     phase: float

@@ -53,8 +53,7 @@ def test_the_scene_has_the_mesh_that_lies_in_the_repository():
 @pytest.mark.nightly
 def test_the_bump_comes_with_the_cracked_tooth_and_fills_the_orders_between_those_of_the_mesh(turns):
     """On fine teeth the pair alone is 14.7 % more compliant at this depth (README); coarse ones are within 1 %. Exact:
-    equal teeth have
-    no orders but the mesh's."""
+    equal teeth have no orders but the mesh's."""
     whole, broken = turns
     alone = int(np.argmin(np.abs(whole.phase - ALONE)))
     assert broken.error[alone] / whole.error[alone] == pytest.approx(1.147, abs=0.01)

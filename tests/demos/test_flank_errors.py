@@ -15,8 +15,7 @@ from fenics_gears.simulation.simulate import simulate
 @pytest.mark.nightly
 def test_the_picture_names_every_error_of_the_scene():
     """The scene's own sections: run-out of both gears, 37 waves on the pinion, tolerance class 6; a whole hunting tooth
-    period of 48 mesh
-    cycles, so that every line stands alone. On coarse teeth."""
+    period of 48 mesh cycles, so that every line stands alone. On coarse teeth."""
     scene = load_scene(SCENE)
     assert (scene.motion.mesh_cycles, scene.motion.recorded_cycles) == (48, 48)
     assert scene.flank_errors.tolerance_class == 6

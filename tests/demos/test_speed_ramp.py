@@ -43,9 +43,8 @@ def coarsened(path):
 @pytest.mark.parametrize("frequency", [200.0, 240.0])
 def test_two_steady_vibrations_at_one_speed(monkeypatch, frequency):
     """Known behaviour of gears with backlash (Kahraman and Singh, Journal of Sound and Vibration 142, 1990: jumps, the
-    branch depends on the
-    direction): at 200 Hz the steady vibration reached from above is several times that reached from below; at 240 Hz
-    they are the same."""
+    branch depends on the direction): at 200 Hz the steady vibration reached from above is several times that reached
+    from below; at 240 Hz they are the same."""
     monkeypatch.setattr(sweeps, "load_scene", coarsened)
     monkeypatch.setattr(sweeps, "SETTLING_CYCLES", 60 if frequency == 200.0 else 120)
     store = GearStore()

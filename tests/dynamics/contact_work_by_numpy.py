@@ -23,8 +23,7 @@ class _Nodes:
     """Which contact nodes the ends of a step share, and what those that only one end has would do at the other.
 
     `kept`, `kept_before`: positions of the shared nodes now and before; `new`: now only; `gone`: before only; `both`:
-        rows of the
-    shared nodes now and before, tangents included where there are any.
+    rows of the shared nodes now and before, tangents included where there are any.
     """
 
     def __init__(self, last: Record, record: Record):

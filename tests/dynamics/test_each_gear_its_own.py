@@ -62,7 +62,7 @@ def test_the_short_form_is_both_gears_own_to_the_last_bit(paper_scene, paper_pai
     rayleigh = Rayleigh(damping.stiffness_proportional, damping.mass_proportional)
     each = replace(
         paper_scene,
-        inertia=Inertia(pinion=gear, wheel=gear, load=inertia.moment_of_inertia),
+        inertia=Inertia(pinion=gear, wheel=gear, load=LoadInertia(inertia.moment_of_inertia)),
         shafts=Shafts(input=Shaft(shafts.torsional_stiffness), output=Shaft(shafts.torsional_stiffness)),
         damping=Damping(pinion=rayleigh, wheel=rayleigh),
     )

@@ -55,7 +55,7 @@ def test_bearings_carry_a_force_as_the_lever_rule_says(on_bearings, helical, num
     """Exact: six balances of either gear under a force along a leaning normal at a point of the mesh.
 
     Two supports are statically determinate: each carries the force across the axis, and the moment of the axial force,
-        by the distance from the other one.
+    by the distance from the other one.
     """
     pair, force, (xi, height) = helical, 5000.0, (11.0, 4.0)
     shafts = drivetrain(on_bearings, pair)

@@ -88,8 +88,8 @@ def test_the_mesh_is_softer_while_the_cracked_tooth_carries_and_nowhere_else(tur
 
 def test_a_run_says_where_its_crack_would_be_closed(turn):
     """The two teeth in mesh before the cracked one press it together until it carries itself: two mesh cycles of 20
-    steps; most, about 1.8 um,
-    where the next one has the whole load (demos/cracked_tooth/opening.py). Never on whole teeth."""
+    steps; most, about 1.8 um, where the next one has the whole load (demos/cracked_tooth/opening.py). Never on whole
+    teeth."""
     cracked, whole = (each.attrs["warnings"] for each in turn)
     pattern = r"pass through each other in (\d+) of 321 steps, by up to ([\d.]+) um \(it opens by up to ([\d.]+) um\)"
     words = re.search(r"the faces of a crack in the pinion would " + pattern, cracked)

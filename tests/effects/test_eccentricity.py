@@ -37,8 +37,7 @@ def harmonics(result, radius):
 @pytest.mark.parametrize(("gear", "turns"), [("pinion", 3), ("wheel", 2)])
 def test_rigid_gears_have_one_harmonic_once_a_turn(rigid, paper_pair, gear, turns):
     """Exact: T_E, as a length on the base circle, is a cosine of the eccentricity's own amplitude, once a turn of its
-    gear: the gap opens
-    by -e cos(rotation + phase) for the pinion, by +e cos(rotation + phase) for the wheel."""
+    gear: the gap opens by -e cos(rotation + phase) for the pinion, by +e cos(rotation + phase) for the wheel."""
     offsets = {"pinion": None, "wheel": None, gear: Offset(DISTANCE, PHASE)}
     spectrum = harmonics(simulate(replace(rigid, eccentricity=Eccentricity(**offsets))), paper_pair.wheel.base_radius)
     sign = -1.0 if gear == "pinion" else 1.0
@@ -79,8 +78,7 @@ class _Position:
 @pytest.mark.parametrize("gear", [0, 1])
 def test_gaps_of_both_flanks_are_displacements_along_their_own_normals(paper_pair, gear):
     """Exact: a rigid displacement of the base circle by (x, y). The line of centres is the mirror of both lines of
-    action: towards the
-    mate, both flanks close; around, what one loses the other gains."""
+    action: towards the mate, both flanks close; around, what one loses the other gains."""
     steps, offsets = 20, [None, None]
     offsets[gear] = Offset(DISTANCE, 0.0)
     run_out, angle = RunOut(paper_pair, Eccentricity(*offsets), steps), paper_pair.operating_pressure_angle

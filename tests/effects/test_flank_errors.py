@@ -95,9 +95,8 @@ def test_a_tooth_out_of_place_displaces_the_rigid_pair_while_it_leads(rigid, pap
 )
 def test_waves_give_their_own_order_and_go_on_from_tooth_to_tooth(rigid, paper_pair, gear, turns, waves):
     """Known answer: on the line of action all pairs in mesh see the same phase of the wave, so that the rigid pair has
-    one order, k of its
-    gear's turn, as large as the wave is high; what contact gains beside the line of action is of second order in the
-    height."""
+    one order, k of its gear's turn, as large as the wave is high; what contact gains beside the line of action is of
+    second order in the height."""
     small, amplitude = 1e-7, 1e-4
     found = []
     for height in (small, amplitude):
@@ -149,8 +148,7 @@ def excess_per_unit(name, roll, tooth, pair):
 @pytest.mark.parametrize("name", ["pitch", "profile_slope", "profile_form", "amplitude", "phase"])
 def test_gaps_follow_each_deviation(both_flanks, paper_pair, name):
     """Finite differences against the definition: the gap's derivative is less the excess on the flank, averaged over a
-    node's hat by
-    adaptive quadrature; coast flanks have true profiles, but stand where their tooth stands."""
+    node's hat by adaptive quadrature; coast flanks have true profiles, but stand where their tooth stands."""
     change, step = 1e-7, 3 * STEPS + 11
     position = both_flanks.position(step)
     ends = [flank_gaps(moved(name, sign * change), paper_pair, STEPS)(step, position) for sign in (1, -1)]
@@ -179,8 +177,8 @@ def _excess_at(name, offset, pair, tooth, gear_pair):
 @pytest.mark.parametrize("name", ["profile_slope", "amplitude"])
 def test_the_loaded_pair_answers_with_maxwells_reciprocity(paper_scene, paper_pair, stand_in_flanks, name):
     """Exact: complementary energy has one mixed derivative. T_E's change with a deviation is the change with the load F
-    of the forces'
-    work sum(p g') on the gaps that a unit of it makes. Central differences away from changes of contact."""
+    of the forces' work sum(p g') on the gaps that a unit of it makes. Central differences away from changes of
+    contact."""
     scene = without(frictionless(quasi_static(paper_scene)), "shafts", "bearings")
     step, change, steps = 11, 2e-7, 40
 

@@ -40,8 +40,7 @@ def table(heading="tooth, pitch (um)", rows=PITCHES, first=1, joint=", "):
 
 def test_the_example_has_what_the_class_draws():
     """Identity: the demonstration's tables list the drawn deviations of its scene, rounded to 0.1 um; a cumulative
-    deviation sums the roundings of
-    its pitches, at most half a digit for each of 24 teeth."""
+    deviation sums the roundings of its pitches, at most half a digit for each of 24 teeth."""
     drawn, listed = (load_scene(DEMOS / "flank_errors" / f"{name}.toml") for name in ("flank_errors", "measured"))
     assert replace(listed, flank_errors=None, title="", name="") == replace(drawn, flank_errors=None, title="", name="")
     pair = gear_pair(drawn.gears)

@@ -56,8 +56,7 @@ def test_an_absent_section_takes_its_effect_and_variables_away(section):
 
 def test_names_in_the_list_are_consistent():
     """Authority: identity; needs and excludes name sections of the list, variables of one name are one and the same,
-    such as the pressure at kinks of
-    either relief."""
+    such as the pressure at kinks of either relief."""
     named = [name for effect in effects.EFFECTS for name in (*effect.needs, *effect.excludes)]
     assert set(named) <= set(SECTIONS)
     variables = {variable for effect in effects.EFFECTS for variable in effect.variables} | set(
@@ -68,8 +67,7 @@ def test_names_in_the_list_are_consistent():
 
 def test_needs_and_conflicts_are_found():
     """Authority: docs/promises.md; damping is that of moving masses. A meshed body's crack would be closed by its coast
-    flanks, and the mesh
-    of a plane section has no face."""
+    flanks, and the mesh of a plane section has no face."""
     assert effects.missing_needs(["damping"]) == [(effects.effect_named("damping"), "inertia")]
     assert effects.missing_needs(["damping", "inertia"]) == []
     pairs = (("body_meshes", "coast_flanks"), ("lead_modifications", "body_meshes"), ("misalignment", "body_meshes"))

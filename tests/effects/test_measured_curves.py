@@ -64,8 +64,8 @@ def places_of(pair, gear, along, points=400):
 @pytest.mark.parametrize("gear", ["pinion", "wheel"])
 def test_a_measured_curve_is_the_deviation_it_shows(drive_flanks, paper_pair, tmp_path, gear, along):
     """Identity: curves that show a slope and a form make the gaps of the lists, within the error of 200 straight
-    pieces, at most pi^2/(4 200^2)
-    of the form from the table and as much again from its points; with their mean at zero, as slope and form have it."""
+    pieces, at most pi^2/(4 200^2) of the form from the table and as much again from its points; with their mean at
+    zero, as slope and form have it."""
     number = ("pinion", "wheel").index(gear)
     teeth = (16, 24)[number]
     slopes, forms = 1e-3 * np.arange(1.0, teeth + 1.0), 2e-3 * np.cos(np.arange(teeth))

@@ -115,8 +115,8 @@ print(json.dumps(said))
 @pytest.fixture(scope="module")
 def printed(extended, plain):
     """What a process in the extended package prints: runs of a bare scene, one with the brake, the bare one under the
-    whole torque and one with
-    shafts and brake; and what `gears check` says of a scene with the brake, without it, and of a wrong one."""
+    whole torque and one with shafts and brake; and what `gears check` says of a scene with the brake, without it, and
+    of a wrong one."""
     brake = block("toml", "[brake]")
     scenes = {
         "with": text_of() + brake,

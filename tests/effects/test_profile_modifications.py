@@ -34,8 +34,7 @@ def test_curves_are_what_the_fields_say(paper_pair):
 
 def test_a_slope_is_the_slope_error_of_all_teeth_alike():
     """Identity: material removed towards the tip is a negative profile slope deviation of every tooth, but for a shift
-    of the whole flank by half of it. The
-    two are seen at the same nodes, but at roll angles found in two ways."""
+    of the whole flank by half of it. The two are seen at the same nodes, but at roll angles found in two ways."""
     teeth = 16
     modified = simulate(scene_from_text(ELASTIC + '[profile_modifications.pinion]\nslope = "8 um"\n'))
     listed = ", ".join(['"-8 um"'] * teeth)

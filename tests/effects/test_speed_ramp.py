@@ -115,8 +115,7 @@ def test_spin_up_at_rest_changes_the_mesh_force_by_inertia_times_acceleration(
     paper_scene, paper_pair, stand_in_flanks, absent
 ):
     """Exact: in a frame that accelerates evenly, gears that do not roll stand still, and the mesh carries T/rb2 and J
-    alpha/rb2 of all
-    that turns behind it: the wheel, and the shaft's end where there is one."""
+    alpha/rb2 of all that turns behind it: the wheel, and the shaft's end where there is one."""
     scene = replace(paper_scene, friction=None, damping=None, **dict.fromkeys(absent))
     for clock in (UP, DOWN):
         marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-4)
@@ -136,8 +135,7 @@ def test_spin_up_at_rest_changes_the_mesh_force_by_inertia_times_acceleration(
 
 def test_a_slow_ramp_follows_the_steady_runs(paper_scene):
     """Known limit: a ramp that takes 200 mesh cycles from 300 to 350 Hz, clear of resonance, has in each cycle the
-    peak-to-peak transmission error
-    of a steady run at the cycle's frequency, within 2 %."""
+    peak-to-peak transmission error of a steady run at the cycle's frequency, within 2 %."""
     scene = frictionless(paper_scene)
     model = model_of(replace(coarse(scene, 200, 1, start=300.0), speed_ramp=SpeedRamp(350.0)))
     _, cycle = prepared(model, SilentProgress(), user_cache())
@@ -167,9 +165,8 @@ def test_the_energy_account_closes(paper_scene, ramp, absent):
 
 def test_a_ramp_to_a_crawl_says_what_its_slow_end_does_to_the_whole_run(paper_scene):
     """Authority: the rule of `dynamics.time_scales`, half the slowest period, on the ramp's true steps; above the
-    frequency that the warning
-    names, which is that of a steady run, it is gone. A crawl is passed in few steps, none of them as long as its
-    frequency would have."""
+    frequency that the warning names, which is that of a steady run, it is gone. A crawl is passed in few steps, none of
+    them as long as its frequency would have."""
     crawl = replace(coarse(paper_scene, 20), speed_ramp=SpeedRamp(0.01))
     assert not model_of(crawl).time_scales.samples_vibration
     (said,) = [warning for warning in model_of(crawl).warnings if "backward Euler" in warning]

@@ -42,9 +42,8 @@ def test_true_involutes_transmit_exactly(rigid_scene):
 
 def test_relief_is_the_least_gap_of_the_pairs_on_the_line_of_action(rigid_scene, paper_pair):
     """Exact: the kinematic error is the smallest sum of both flanks' removals among the pairs on the path of contact,
-    give or take what
-    a step of the window off the line of action gains (the relief's slope over the flanks' curvature: below 0.4 um
-    here)."""
+    give or take what a step of the window off the line of action gains (the relief's slope over the flanks' curvature:
+    below 0.4 um here)."""
     scene = replace(rigid_scene, tip_relief=TipRelief(Relief(DEPTH, None), Relief(DEPTH, None)))
     result = simulate(scene)
     pinion, wheel = removals(scene, paper_pair)
@@ -90,8 +89,7 @@ def test_friction_needs_elastic_teeth(paper_scene):
 
 def test_rigid_gears_accelerate_as_their_errors_say(rigid_scene, paper_scene):
     """Newton's law: with one moving coordinate the mesh force is (T + J phi2'')/rb2, phi2 the kinematic error; backward
-    Euler's own
-    second difference, exact while no flank lifts off."""
+    Euler's own second difference, exact while no flank lifts off."""
     slow = Motion(20.0, 3, 1)
     scene = replace(
         rigid_scene,

@@ -87,8 +87,7 @@ def test_the_right_side_is_the_couples_work_by_finite_differences(paper_scene, p
 
 def test_quasi_static_transmission_error_follows_the_couple(paper_scene):
     """Exact: without friction and inertia a step knows only its own couple, so that the error at a step is that under
-    the constant
-    couple of the same size; on elastic shafts and teeth alike."""
+    the constant couple of the same size; on elastic shafts and teeth alike."""
     scene = coarse(frictionless(quasi_static(paper_scene)), cycles=1)
     result = simulate(replace(scene, torque_ripple=RIPPLE))
     couples = expected_couple(result, RIPPLE)
@@ -163,8 +162,7 @@ def test_steady_vibration_is_the_frequency_response(paper_scene, paper_pair, sta
 
 def test_a_ripple_far_above_all_vibrations_is_not_felt(paper_scene):
     """Known limit: at 20 kHz the gears stay at their mean position whatever rides on the couple; they start where the
-    loads of a whole
-    cycle balance, so that nothing rings."""
+    loads of a whole cycle balance, so that nothing rings."""
     scene = replace(frictionless(coarse(paper_scene)), motion=Motion(20e3, 30, 2))
     ripple = TorqueRipple((Harmonic(24.0, 200e3),))
     off, on = (simulate(replace(scene, torque_ripple=each)) for each in (None, ripple))

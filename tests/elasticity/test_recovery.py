@@ -174,8 +174,8 @@ def traction_error(name: str, size: float) -> tuple[float, float]:
 @pytest.mark.parametrize(("name", "order"), [("P1", 1.0), ("Q1 incompatible", 1.0), ("P2", 1.5), ("Q2", 1.5)])
 def test_normal_stress_on_the_flank_is_minus_the_pressure(name, order):
     """Equilibrium of the surface: -p where pressed, zero beside it. Stress at a boundary node converges with at least
-    the polynomial order
-    less what an irregular mesh takes of averaging: 1 for first order elements, near 2 for second order ones."""
+    the polynomial order less what an irregular mesh takes of averaging: 1 for first order elements, near 2 for second
+    order ones."""
     coarse, fine = (traction_error(name, size) for size in (0.3, 0.1))
     rate = np.log(max(coarse) / max(fine)) / np.log(3.0)
     assert max(fine) < (0.05 if order == 1.0 else 0.01)

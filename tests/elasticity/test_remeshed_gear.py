@@ -75,8 +75,7 @@ def test_joined_sectors_equal_the_remeshed_whole_gear(name):
 @pytest.mark.parametrize("name", ["P1", "P2"])
 def test_prescribing_the_standard_vertices_changes_nothing(name, size):
     """Exact identity (1e-10): with the fast route's own flank vertices the compliance is a part of the fast route's,
-    though the vertices' places
-    differ by round-off."""
+    though the vertices' places differ by round-off."""
     assert distance_to_the_fast_route(ELEMENTS[name], name, size) < 1e-10
 
 

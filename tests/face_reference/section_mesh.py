@@ -22,7 +22,7 @@ class SectionSizes:
     their surface, and far away.
 
     `growth`: increase of size per distance; `teeth_beside`: whole teeth on either side of the loaded ones, the others
-        being left out.
+    being left out.
     """
 
     band: float
@@ -45,8 +45,7 @@ class Section:
     of sides 01, 12, 20.
 
     `held`: nodes on the bore. `flanks`: for each loaded tooth (pitches counter-clockwise of tooth 0) the roll angles (2
-        k + 1,) of its drive
-    flank's nodes, vertices and middles in turn, and the nodes.
+    k + 1,) of its drive flank's nodes, vertices and middles in turn, and the nodes.
     """
 
     points: np.ndarray

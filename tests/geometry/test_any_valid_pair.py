@@ -79,8 +79,7 @@ def test_angles_and_ratios_do_not_know_the_module(pair, scale):
 @given(PAIRS)
 def test_outline_of_every_valid_gear_is_a_simple_curve(pair):
     """Authority: a tooth: from root to tip the radius grows and the tooth gets thinner, unless it is undercut, the
-    fillet never stands still or
-    turns back, and the root circle between two teeth has a length that is not negative."""
+    fillet never stands still or turns back, and the root circle between two teeth has a length that is not negative."""
     for gear in (pair.pinion, pair.wheel):
         outline = tooth_outline(gear)
         assert np.all(fillet_speed(gear, np.linspace(0.0, gear.fillet_end, 101)[1:]) > 0.0)

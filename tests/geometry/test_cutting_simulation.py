@@ -24,9 +24,8 @@ MODULE = 5.0
 
 def rack_profile(gear):
     """Half thickness and depth (n, 2), mm, of the rack's tooth in the transverse section, from the middle of its tip:
-    tip line, rounding, flank of the
-    protuberance, flank. Written from the drawing of the tool in its normal section, which is stretched along the pitch
-    line."""
+    tip line, rounding, flank of the protuberance, flank. Written from the drawing of the tool in its normal section,
+    which is stretched along the pitch line."""
     alpha, rounding, module = gear.normal_pressure_angle, gear.rack_tip_radius, gear.normal_module
     beta, protuberance = gear.helix_angle, gear.protuberance
     steep = gear.protuberance_angle if protuberance else alpha

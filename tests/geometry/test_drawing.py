@@ -70,8 +70,7 @@ def test_the_page_s_scene_is_the_demo():
 @pytest.mark.parametrize("profile", RACKS)
 def test_without_a_word_gears_have_no_backlash_and_the_rack_s_clearance(shifts, helix_angle, profile):
     """Authority: the definition of the working pressure angle and of k (ISO 21771), through the geometry of the pair:
-    no backlash, and both tip clearances
-    the rack's dedendum less its addendum."""
+    no backlash, and both tip clearances the rack's dedendum less its addendum."""
     pair = pair_of(
         {"helix_angle": helix_angle, "rack": {"profile": profile}},
         {"profile_shift": shifts[0]},
@@ -267,9 +266,8 @@ def remarks(*changes) -> list[str]:
 
 def test_a_centre_distance_that_is_off_is_remarked():
     """Authority: ISO/TR 10064-2, annex A: at 76 mm and 3 mm a backlash of 0.125 mm is the least that is recommended;
-    half a millimetre less of centre distance takes
-    about 2 tan(alpha_wt) times as much along the pitch circles, 0.4 mm, and 0.7 mm more than 0.2 modules of the
-    tips."""
+    half a millimetre less of centre distance takes about 2 tan(alpha_wt) times as much along the pitch circles, 0.4 mm,
+    and 0.7 mm more than 0.2 modules of the tips."""
     fitting = scene_of({"backlash": "0.12 mm"}).gears.centre_distance
 
     def nearer(by: float) -> list[str]:

@@ -31,7 +31,7 @@ def contact_gap(pair, misalignment, position, z):
     point, by solving for the point of the wheel's flank.
 
     Written from the definition: the flank's section is the involute of a string unwound from the wheel's base circle,
-        shorter by tau z at z.
+    shorter by tau z at z.
     """
     tau, rb1, rb2, span = pair.slope, pair.pinion.base_radius, pair.wheel.base_radius, pair.line_of_action_length
     centre, pivot = np.array([span, -rb1 - rb2, 0.0]), np.array([pair.pitch_point, -rb1, 0.0])

@@ -12,8 +12,7 @@ EVERY_CLASS = range(1, 12)
 
 def test_tolerances_are_those_of_the_standard():
     """Literature: ISO 1328-1:2013, module 3 mm, 40 teeth, class 6: single pitch 8.94 um, total cumulative pitch 28.80
-    um before rounding,
-    total profile 12 um when rounded to a whole one."""
+    um before rounding, total profile 12 um when rounded to a whole one."""
     found = flank_tolerance(120.0, 3.0, 6)
     assert found.single_pitch == pytest.approx(8.94e-3, abs=5e-6)
     assert found.cumulative_pitch == pytest.approx(28.80e-3, abs=5e-6)

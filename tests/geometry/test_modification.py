@@ -25,8 +25,7 @@ def test_relief_from_the_highest_point_of_single_tooth_contact(paper_pair):
 
 def test_two_pairs_are_never_both_relieved_nor_both_unrelieved(paper_pair):
     """Authority: what HPSTC means: a pair in single contact touches where neither flank is relieved; in double contact
-    one
-    pair touches where the pinion, the other where the wheel is relieved."""
+    one pair touches where the pinion, the other where the wheel is relieved."""
     pinion, wheel = tip_reliefs(paper_pair, TipRelief(Relief(0.031, None), Relief(0.031, None)))
 
     def removed(position):

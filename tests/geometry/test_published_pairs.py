@@ -106,9 +106,8 @@ CITED = {
 @pytest.mark.parametrize("scene", CITED)
 def test_scenes_of_cited_helical_pairs(scene):
     """Other programs: GEARpie (REPORT/H501.txt), a notebook of Drivetrain Hub (geometry, chapter 3), KISSsoft by a
-    public program; all as the scenes say, to the
-    digits printed. Left out is the notebook's backlash: it is the radial play times 2 sin(alpha_w), the first term of
-    what the involutes have, 5 % more."""
+    public program; all as the scenes say, to the digits printed. Left out is the notebook's backlash: it is the radial
+    play times 2 sin(alpha_w), the first term of what the involutes have, 5 % more."""
     rows = {label: value for label, value, _ in characteristics(gear_pair(load_scene(SCENES / f"{scene}.toml").gears))}
     for label, printed in CITED[scene].items():
         digits = len(str(printed).split(".")[1])

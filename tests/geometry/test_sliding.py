@@ -14,8 +14,7 @@ from fenics_gears.geometry.sliding import (
 
 def test_specific_sliding_is_the_difference_of_the_arcs_that_roll_and_slide(paper_pair):
     """Authority: the arcs s = rb v^2/2 of the involutes; while the pinion turns a little, contact passes ds1 of its
-    flank and ds2 of the
-    wheel's, and slides over ds1 - ds2 (central differences)."""
+    flank and ds2 of the wheel's, and slides over ds1 - ds2 (central differences)."""
     positions = np.linspace(paper_pair.path_start, paper_pair.path_end, 9)
     advance = 1e-4
 

@@ -35,9 +35,8 @@ def gear(module, teeth, shift, helix_angle=0.0, pressure_angle=20.0):
 )
 def test_base_tangent_length_of_printed_examples(of, teeth, printed):
     """Authority: KHK Gear Technical Reference, span measurement of profile shifted spur gears and of helical gears in
-    the normal system, with the spanned
-    teeth that it chooses; m 2, z 20: machinecalcs.com, Span Measurement Over Teeth (15.321 mm), to the printed
-    digits."""
+    the normal system, with the spanned teeth that it chooses; m 2, z 20: machinecalcs.com, Span Measurement Over Teeth
+    (15.321 mm), to the printed digits."""
     assert spanned_teeth(of) == teeth
     assert base_tangent_length(of, teeth) == pytest.approx(printed, abs=6e-5)
 
@@ -58,8 +57,7 @@ def test_normal_thickness_of_printed_examples(of, printed):
 @pytest.mark.parametrize("shift", [-0.2, 0.5])
 def test_a_ball_touches_the_flanks(helix_angle, shift):
     """Authority: brute force, the least distance from the ball's centre, in the middle of a tooth space, to the flank
-    as a surface in space is the ball's
-    radius, and it is reached at the radius of contact."""
+    as a surface in space is the ball's radius, and it is reached at the radius of contact."""
     of, diameter = gear(2.5, 23, shift, helix_angle), 4.5
     centre, lead = ball_centre(of, diameter), tan(of.helix_angle) / of.reference_radius
     # Half angle of the space at the base circle, from the middle of the space to the start of the involute.
@@ -98,8 +96,7 @@ def test_two_balls_are_as_far_apart_as_their_spaces(teeth):
 @pytest.mark.parametrize("shift", [-0.3, 0.0, 0.6])
 def test_each_measure_gives_back_the_profile_shift(teeth, helix_angle, shift):
     """Authority: identity; and what the program chooses to measure with touches the flanks near the shifted reference
-    circle: balls within
-    a tenth of a module, a caliper within the half module that the next whole span may be away."""
+    circle: balls within a tenth of a module, a caliper within the half module that the next whole span may be away."""
     of, bare = gear(3.0, teeth, shift, helix_angle, 22.5), gear(3.0, teeth, 0.0, helix_angle, 22.5)
     count, ball = spanned_teeth(of), ball_diameter(of)
     assert shift_of_normal_thickness(bare, normal_thickness(of)) == pytest.approx(shift, abs=1e-12)

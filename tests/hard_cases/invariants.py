@@ -86,10 +86,9 @@ def step_residuals(run: Run, before, record) -> dict[str, float]:
     """How far one step misses rows 1 to 3; `before` is the step before it, None at the start.
 
     penetration: um. tension, cone, equilibrium: of the largest force of the step. complementarity: p_n gap of that
-        force
-    times the largest length that a gap is the difference of (centre coordinates, deflections, gaps). wrong_way: -p_t
-    slip likewise; dissipation: the same of the sum. sum_of_forces, sum_of_moments, couples_by_base_radii: of the sum of
-    all nodal forces (times the centre distance).
+    force times the largest length that a gap is the difference of (centre coordinates, deflections, gaps). wrong_way:
+    -p_t slip likewise; dissipation: the same of the sum. sum_of_forces, sum_of_moments, couples_by_base_radii: of the
+    sum of all nodal forces (times the centre distance).
     """
     operator, forces = record.position.operator, record.solution.forces
     n = operator.nodes

@@ -124,8 +124,7 @@ def test_every_step_of_any_scene(measured, tmp_path):
 @pytest.mark.parametrize("examples", [4, pytest.param(30, marks=pytest.mark.nightly)])
 def test_every_step_of_any_frictionless_scene_without_load(measured, examples):
     """Authority: as above. One scene in fifteen had failed: with no load to measure by, round-off of stiff springs and
-    teeth was taken
-    for a force that nothing balances."""
+    teeth was taken for a force that nothing balances."""
     scenes = valid_scenes(torques=st.just(0.0)).filter(lambda scene: scene.friction is None)
     judged(Tally(), measured, "stand-in teeth, no load, no friction", on_stand_ins, examples, scenes)
 

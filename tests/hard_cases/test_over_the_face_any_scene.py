@@ -1,6 +1,6 @@
 """Rows 1 to 3 at every step of pairs whose flanks are resolved over the face, drawn at random: helix angles to 35
-degrees, hands, widths, misalignment of
-either sign, crowning, loads over five decades, gears that tilt on springs over six decades, coast flanks, inertia."""
+degrees, hands, widths, misalignment of either sign, crowning, loads over five decades, gears that tilt on springs over
+six decades, coast flanks, inertia."""
 
 from collections import Counter
 

@@ -40,8 +40,8 @@ def run(suite_cache):
 @pytest.mark.nightly
 def test_slices_refined(run, measured):
     """Row 22. Known order: means over slices are midpoint rules, of second order once slices are thinner than the
-    layers (6 mm), where flanks enter contact
-    smoothly; from slice to slice the phases fall differently on the steps, so that 1.2 is asked for."""
+    layers (6 mm), where flanks enter contact smoothly; from slice to slice the phases fall differently on the steps, so
+    that 1.2 is asked for."""
     slices = (6, 12, 24)
     results = [
         run(RELIEF + CROWNED, accuracy=accuracy(number, layers=4, nodes=17, steps=7))["transmission_error"].values

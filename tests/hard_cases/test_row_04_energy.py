@@ -134,9 +134,8 @@ def test_account_of_a_run_closes(paper_scene, measured, absent):
 
 def test_friction_loss_is_that_of_the_literature(paper_scene, measured):
     """Niemann/Winter, Maschinenelemente 2, mesh loss factor: P/P0 = mu H_v, H_v = pi (u + 1)/(z1 u) (1 - e + e1^2 +
-    e2^2), for
-    a load that stands whole on a single pair and half on each of two; elastic teeth share it more smoothly, by some per
-    cent."""
+    e2^2), for a load that stands whole on a single pair and half on each of two; elastic teeth share it more smoothly,
+    by some per cent."""
     scene = replace(paper_scene, inertia=None, damping=None, accuracy=COARSE, motion=Motion(200.0, 2, 2))
     result = simulate(scene)
     loss = result.attrs["friction_loss"]

@@ -1,8 +1,7 @@
 """Row 7: two blocks pressed together by a uniform pressure, meshed in DOLFINx, with contact nodes of a third spacing.
 
 Exact solution: both are in uniform uniaxial stress, the pressure is the same at every contact node, and the blocks
-    approach by
-F/W (H1 + H2)(1 - nu^2)/E, which every element holds.
+approach by F/W (H1 + H2)(1 - nu^2)/E, which every element holds.
 """
 
 import numpy as np

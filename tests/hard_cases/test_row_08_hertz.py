@@ -2,9 +2,8 @@
 h.
 
 Literature: K. L. Johnson, Contact Mechanics, 1985, section 4.2. One tooth pair alone, contact nodes 0.7 elements apart
-    (the default),
-over loads that move the edges of contact across the nodes and positions that move it across the elements: the worst
-error counts.
+(the default), over loads that move the edges of contact across the nodes and positions that move it across the
+elements: the worst error counts.
 """
 
 from functools import lru_cache

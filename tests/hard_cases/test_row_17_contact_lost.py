@@ -75,8 +75,7 @@ def test_reversed_torque_is_the_mirror_image(both_flanks, paper_pair, absent, me
 
 def test_sudden_release_flies_to_the_coast_flanks_and_comes_back(both_flanks, paper_pair, measured):
     """Newton's first law: released, with rigid shafts and bearings and no damping, the wheel crosses the backlash at
-    constant speed, and
-    between the flanks its energy stays what the teeth gave it."""
+    constant speed, and between the flanks its energy stays what the teeth gave it."""
     scene = replace(both_flanks, damping=None, bearings=None, shafts=None, accuracy=FINE, motion=Motion(200.0, 12, 12))
     result = with_torque(scene, lambda step: 0.0 if step > 20 else 1.0)
     driving, coasting = result.normal_force.values > 0.0, result.coast_normal_force.values > 0.0
@@ -112,9 +111,8 @@ def test_flight_of_the_whole_drivetrain_follows_the_matrix_exponential(
     paper_scene, paper_pair, stand_in_flanks, measured
 ):
     """Exact solution: released, the teeth part, and from then on springs, dampers and masses move as the exponential of
-    their linear
-    system; average acceleration approaches it with order 2, and is itself, step by step, that of the drivetrain without
-    gears."""
+    their linear system; average acceleration approaches it with order 2, and is itself, step by step, that of the
+    drivetrain without gears."""
     scene, errors = frictionless(paper_scene), []
     for count in (100, 200, 400):
         step = 2e-3 / count
@@ -146,9 +144,8 @@ def test_flight_of_the_whole_drivetrain_follows_the_matrix_exponential(
 
 def test_undamped_resonance_crosses_the_backlash_and_comes_back(both_flanks, paper_pair, measured):
     """Claim 10 and what the paper's model lacks: undamped at resonance the teeth part, cross the backlash, touch on the
-    coast flanks and
-    return, again and again; in free flight, centres fixed, both openings sum to the backlash but for the hat
-    average."""
+    coast flanks and return, again and again; in free flight, centres fixed, both openings sum to the backlash but for
+    the hat average."""
     fine = replace(COARSE, steps_per_mesh_cycle=160)
     result = simulate(replace(both_flanks, damping=None, bearings=None, accuracy=fine, motion=Motion(270.0, 40, 40)))
     driving, coasting = result.normal_force.values > 0.0, result.coast_normal_force.values > 0.0

@@ -63,9 +63,8 @@ def test_difference_to_quasi_static_vanishes_with_the_frequency(coarse, measured
 
 def test_high_end_is_the_rigid_mean_motion(coarse, measured):
     """Newton's law: far above every natural frequency the mesh force's fluctuation meets mass alone, the ripple falls
-    as 1/f^2, and what
-    the start leaves to ring shows as a drift of the cycles' means, here over a period of the slowest vibration, without
-    damping."""
+    as 1/f^2, and what the start leaves to ring shows as a drift of the cycles' means, here over a period of the slowest
+    vibration, without damping."""
     scene = frictionless(replace(coarse, damping=None))
     static = simulate(at(quasi_static(scene), 200.0)).transmission_error.values
     ripple = {}

@@ -42,9 +42,8 @@ CASES = {
 @pytest.mark.parametrize("name", CASES)
 def test_large_steps_are_finite_bounded_and_named(coarse, name, damped, measured):
     """Energy: backward Euler takes energy and gives none, so that nothing exceeds what the quasi-static solution holds,
-    but for the
-    kinetic energy of following it; average acceleration may carry what the start brought. Twice the static energy
-    bounds both."""
+    but for the kinetic energy of following it; average acceleration may carry what the start brought. Twice the static
+    energy bounds both."""
     scene, mesh_frequency, steps = CASES[name](coarse if damped else replace(coarse, damping=None))
     scene = replace(scene, accuracy=replace(COARSE, steps_per_mesh_cycle=steps), motion=Motion(mesh_frequency, 60, 60))
     result, static = simulate(scene), simulate(quasi_static(scene))

@@ -101,8 +101,8 @@ BOUNCES = {
 @pytest.mark.parametrize("name", BOUNCES)
 def test_order_across_changes_of_status(paper_scene, paper_pair, stand_in_flanks, name, measured):
     """Known order: a change of status is met at the end of its step. Forces of elastic teeth do not jump but kink
-    there, and slip over a step is
-    exact, so that the order stays 2. Mean order over two halvings, against steps 8 times finer."""
+    there, and slip over a step is exact, so that the order stays 2. Mean order over two halvings, against steps 8 times
+    finer."""
     speed, coefficient, least = BOUNCES[name]
     friction = replace(paper_scene.friction, coefficient=coefficient) if coefficient else None
     scene = replace(paper_scene, friction=friction)

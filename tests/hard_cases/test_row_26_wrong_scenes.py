@@ -1,9 +1,8 @@
 """Row 26: a wrong value in any field of a scene is refused before any computation.
 
 Authority throughout: hard case 26. The refusal names file, field, value as written, what is allowed and the nearest
-    known name; the
-exit code is 2; nothing is written. The fields come from the schema itself, so that a new one is tried too. How messages
-are worded for mistakes as people make them is told by tests/scene/test_wrong_scenes.py.
+known name; the exit code is 2; nothing is written. The fields come from the schema itself, so that a new one is tried
+too. How messages are worded for mistakes as people make them is told by tests/scene/test_wrong_scenes.py.
 """
 
 import re
@@ -177,8 +176,7 @@ def test_a_wrong_value_in_any_field_is_refused(outcome, measured, kind, every):
 @breadth
 def test_a_missing_field_is_named(outcome, measured, every):
     """Every field without a default, and the demo's own choice among alternatives of which one is required; one with a
-    default may be left out, or a rule
-    between fields says what then is missing."""
+    default may be left out, or a rule between fields says what then is missing."""
     chosen = {
         "gears.pinion.profile_shift",
         "gears.wheel.profile_shift",

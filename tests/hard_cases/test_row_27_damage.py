@@ -1,8 +1,7 @@
 """Row 27: damaged cache entries and results; nothing that is read back can be code.
 
 Authority throughout: hard case 27: recomputed or resumed; never a wrong number, never half a result under its final
-    name. Where a number
-is compared, the reference is the same run undisturbed, and the two are the same to the last bit.
+name. Where a number is compared, the reference is the same run undisturbed, and the two are the same to the last bit.
 """
 
 import logging

@@ -1,8 +1,7 @@
 """Row 27: a full disk.
 
 Authority throughout: hard case 27: recomputed or resumed; never a wrong number, never half a result under its final
-    name. Where a number
-is compared, the reference is the same run undisturbed, and the two are the same to the last bit.
+name. Where a number is compared, the reference is the same run undisturbed, and the two are the same to the last bit.
 """
 
 import errno
@@ -92,8 +91,7 @@ def test_a_full_disk_leaves_no_half_result(folder, undrawn, measured, size):
 
 def test_a_cache_on_a_full_disk_keeps_nothing(tmp_path, measured):
     """An entry that does not fit: a warning, no file, and the process goes on. What a run does without its cache is
-    told by
-    tests/studies/test_run_study.py."""
+    told by tests/studies/test_run_study.py."""
     program = (
         "import logging, numpy\n"
         "from pathlib import Path\n"

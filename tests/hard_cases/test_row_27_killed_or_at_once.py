@@ -1,8 +1,7 @@
 """Row 27: kill -9 at any moment, and several runs at once on one cache.
 
 Authority throughout: hard case 27: recomputed or resumed; never a wrong number, never half a result under its final
-    name. Where a number
-is compared, the reference is the same run undisturbed, and the two are the same to the last bit.
+name. Where a number is compared, the reference is the same run undisturbed, and the two are the same to the last bit.
 """
 
 import os
@@ -124,9 +123,8 @@ def lengthened(folder, cycles):
 @pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.nightly)])
 def test_a_run_killed_while_it_marches_has_its_steps_on_disk(folder, measured, capsys, kills):
     """kill -9 at moments drawn at random: every step that is there is the undisturbed run's to the last bit, `gears
-    plot` and `gears report` draw
-    them and say that the run did not end. The run keeps a journal from its first block of steps on, not only after two
-    seconds."""
+    plot` and `gears report` draw them and say that the run did not end. The run keeps a journal from its first block of
+    steps on, not only after two seconds."""
     scene = lengthened(folder, 400)
     program = (
         "import sys\nfrom fenics_gears.results import journal\njournal.SECONDS_WITHOUT = 0.0\nfrom"

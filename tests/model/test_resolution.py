@@ -57,8 +57,7 @@ def test_steps_follow_the_highest_frequency(paper_scene, paper_pair):
 
 def test_damping_ratios_and_what_the_mesh_excites(paper_scene, paper_pair):
     """Exact: Rayleigh damping gives a translation of frequency w the ratio (alpha w + beta/w)/2; without friction
-    nothing moves it off the
-    line of action."""
+    nothing moves it off the line of action."""
     for friction in (False, True):
         modes = vibrations(drivetrain(paper_scene, paper_pair), mesh_stiffness(paper_scene), friction)
         omega = sqrt(0.155e6 / 4.9e-3)

@@ -81,8 +81,8 @@ def test_stresses_above_the_yield_strength_are_named(coarse):
 @pytest.mark.parametrize(("shape", "kinked"), [(LINEAR, True), (PARABOLIC, False)])
 def test_the_kink_of_linear_relief_is_named_where_it_presses_hardest(coarse, shape, kinked):
     """Elasticity: a flank with a kink has a logarithmically infinite pressure there (Johnson, Contact Mechanics, 5.2),
-    which elements of any size miss by some part; a
-    parabola has no kink. House rule: a warning and the printed number are the same."""
+    which elements of any size miss by some part; a parabola has no kink. House rule: a warning and the printed number
+    are the same."""
     relief = Relief(0.06, shape=shape)
     scene = replace(
         coarse, motion=Motion(200.0, 1, 1), inertia=None, damping=None, tip_relief=TipRelief(relief, relief)

@@ -2,8 +2,7 @@
 of manufacture.
 
 Authority of every test here: the scene's format and hard case 26. A refusal names file, field, what is wrong with which
-    value and what
-is allowed.
+value and what is allowed.
 """
 
 from pathlib import Path

@@ -1,8 +1,7 @@
 """Wrong scenes are refused before any computation, in words that a person can act on: how each mistake is worded.
 
 Authority of every test here: hard case 26 and docs/promises.md's scene format. A refusal names file, field, value as
-    written, what is
-allowed and the nearest known name; the exit code is 2; nothing is written.
+written, what is allowed and the nearest known name; the exit code is 2; nothing is written.
 """
 
 import re

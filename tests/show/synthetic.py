@@ -18,8 +18,7 @@ BARE = ("centre_y", "friction_force")
 
 def made_up_run(*, steps=21, cycles=2.0, nodes=5, scene="", **attributes) -> xr.Dataset:
     """Every variable that a picture shows, over `cycles` mesh cycles that begin with cycle 28; three tooth pairs a
-    cycle wide
-    and more, in slots as those of any result."""
+    cycle wide and more, in slots as those of any result."""
     phase = 28.0 + np.linspace(0.0, cycles, steps)
     wave = np.sin(2 * np.pi * phase)
     pairs = np.arange(27, 29 + int(cycles))

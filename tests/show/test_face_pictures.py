@@ -46,8 +46,7 @@ def test_pattern_shows_the_largest_pressure_where_it_is(run):
 
 def test_between_steps_the_pattern_goes_on_as_the_peak_does():
     """Exact: a pressure that travels along the flank with a peak rising linearly in diameter leaves that line, whatever
-    the spacing of the steps; where two pairs follow each other
-    nothing lies between them."""
+    the spacing of the steps; where two pairs follow each other nothing lies between them."""
     places = np.linspace(0.2, 0.6, 9)
     rolls = places[:, None, None, None] + np.linspace(-0.01, 0.01, 5)
     pressure = np.broadcast_to(1000.0 * places[:, None, None, None] * [0.0, 0.7, 1.0, 0.7, 0.0], rolls.shape)

@@ -21,8 +21,7 @@ def error_of(lines, cycles):
 
 def test_whole_periods_have_each_line_by_itself():
     """Exact: cosines of orders 2/3, 1, 16 and 37 give those lines with those amplitudes and nothing else, also where
-    the record holds
-    more than a period."""
+    the record holds more than a period."""
     lines = [(2.0 / 3.0, 3.0), (1.0, 2.0), (16.0, 4.0), (37.0, 0.5)]
     for cycles in (PERIOD, 2 * PERIOD, PERIOD + 7):
         found = order_lines(error_of(lines, cycles), cycles, TEETH)
@@ -39,8 +38,7 @@ def test_whole_periods_have_each_line_by_itself():
 @pytest.mark.parametrize("cycles", [16, 20.5, 47])
 def test_a_shorter_record_shows_them_in_a_window(cycles):
     """Known property of Hann's window: a line midway between two bins has 8/(3 pi) of its height (1.42 dB less), none
-    has less; four bins away
-    less than 1 % is left."""
+    has less; four bins away less than 1 % is left."""
     found = order_lines(error_of([(16.0, 4.0)], cycles), cycles, TEETH)
     assert not found.exact
     assert 0.999 * 8.0 / (3.0 * np.pi) * 4.0 <= found.amplitudes.max() <= 4.0 + 1e-3

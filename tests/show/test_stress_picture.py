@@ -59,8 +59,7 @@ def strongly_coloured(pixels):
 
 def test_picture_is_whole_and_colours_are_where_the_stress_is(picture):
     """Known position: two tooth pairs touch at a quarter of the mesh cycle, both on the line of action; the enlarged
-    contact is in its panel's
-    middle; bores, rims and tips far from the mesh are pale."""
+    contact is in its panel's middle; bores, rims and tips far from the mesh are pale."""
     assert picture.shape == (900, 1600, 3)
     enlarged = part(picture, (0.735, 0.36, 0.19, 0.49))
     coloured = np.argwhere(strongly_coloured(enlarged)) / enlarged.shape[:2]

@@ -50,8 +50,7 @@ def test_sections_of_both_gears_say_what_the_short_form_says(paper_scene):
 
 def test_a_gear_that_stands_out_gives_way_by_the_width_that_counts(stand_in_flanks, paper_pair, paper_scene):
     """Exact: C = N A N^T/b', with the width b' that counts, and near the contact on the same flank (1/b - 1/b') of the
-    near field more; on
-    another tooth the near field has no part."""
+    near field more; on another tooth the near field has no part."""
     model = model_of(of_gears(coarse_scene(paper_scene), pinion={"face_width": 30.0}, wheel={"face_width": 15.0}))
     flanks = flanks_of(model, stand_in_flanks.compliance)
     wide, narrow = (body.block(0) for body in flanks.compliance)
@@ -96,9 +95,8 @@ steps_per_mesh_cycle = 20
 
 def test_unequal_widths_against_a_resolved_model():
     """Authority: another program's resolved model in three dimensions (18-node wedges, its own outline and contact):
-    9.763 um at phase 0.3, one pair in mesh. The plane
-    is below it by what `gears check` says of plane strain, within 2 %; with all of the pinion's 8 mm it was 8.816
-    um."""
+    9.763 um at phase 0.3, one pair in mesh. The plane is below it by what `gears check` says of plane strain, within 2
+    %; with all of the pinion's 8 mm it was 8.816 um."""
     scene = scene_from_text(RESOLVED)
     result, model = simulate(scene), model_of(scene)
     deflection = 1e3 * result.attrs["base_radius_wheel"] * float(result.transmission_error[6])

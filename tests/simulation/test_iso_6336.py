@@ -3,8 +3,7 @@
 c'th is for ideal teeth, c' = 0.8 c'th is adjusted to measurements; finite element teeth lie between. The standard
 counts the teeth and the body close to them, not the twist of the body between rim and bore, which the transmission
 error contains: with bores of half the root diameter that twist takes 15 % off the mesh stiffness of a 24/72 pair. The
-    bores of the standard pairs
-are 0.7 of the root.
+bores of the standard pairs are 0.7 of the root.
 """
 
 from dataclasses import replace

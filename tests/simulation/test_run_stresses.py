@@ -49,9 +49,8 @@ either_way = pytest.mark.parametrize("of_run", ["driving", "driven"])
 @either_way
 def test_flanks_touch_where_the_pressure_is(of_run, request):
     """Signorini: averaged over the hats of the contact nodes, the recovered displacement closes the gap at every node
-    under pressure (N u = g),
-    and leaves none open that is negative elsewhere. Nothing of the run's own displacements is used, only its forces and
-    hubs."""
+    under pressure (N u = g), and leaves none open that is negative elsewhere. Nothing of the run's own displacements is
+    used, only its forces and hubs."""
     scene, result, stresses = request.getfixturevalue(of_run)
     for index in (0, 13, 29):
         stored = stored_forces(result, stresses.model, stresses.cycle, index)

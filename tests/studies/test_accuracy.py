@@ -52,7 +52,7 @@ def report(scene, tiny, tmp_path_factory):
     cache = tmp_path_factory.mktemp("accuracy") / "cache"
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("FENICS_GEARS_CACHE", str(cache))
-        found = reports.measure(scene, quick=True, seconds_on_single=0.0)
+        found = reports.measure(scene, quick=True)
     assert not cache.exists()
     return found
 

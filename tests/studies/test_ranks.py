@@ -30,8 +30,7 @@ def test_a_study_of_more_ranks_than_cases_gives_what_it_gives_alone(folder, undr
 @pytest.mark.nightly
 def test_both_of_two_ranks_compute_and_a_wrong_study_ends_both(folder):
     """Authority: issue 3; rank 0 does not merely hand out: a task ends when one of the other rank's has begun.
-    docs/promises.md: a wrong study
-    ends with exit code 2, nothing written, and no rank is left waiting."""
+    docs/promises.md: a wrong study ends with exit code 2, nothing written, and no rank is left waiting."""
     program = (
         "import os, sys, time\n"
         "from pathlib import Path\n"

@@ -33,8 +33,8 @@ def test_lines_come_at_most_every_few_seconds_and_say_the_time_left():
 
 def test_no_time_left_is_said_before_enough_is_known():
     """Of a real run of 75 s: its first mesh cycle took half of the time, and the estimates then were hours. And of
-    cases of 20 s each, whose number is looked at
-    more often than it changes. What is said is at most a factor of two off."""
+    cases of 20 s each, whose number is looked at more often than it changes. What is said is at most a factor of two
+    off."""
     steps = [done if done < 40 else 40.0 + 35.0 * (done - 40) / 7160 for done in range(7201)]
     for times, counts, whole in (
         (steps, range(7201), 75.0),

@@ -34,10 +34,9 @@ def face_compliance(
     faces free.
 
     gear: its transverse section. Similar gears share an entry of the cache. With `reach.across` the coast flank's dofs
-        follow the drive
-    flank's, in the tooth's frame mirrored at its centreline at that height: x and y as of the mirrored section, heights
-    and z as they are.
-    job: whose ranks share the work. Raises SceneError for an impossible size, ComputationError when a stage fails.
+    follow the drive flank's, in the tooth's frame mirrored at its centreline at that height: x and y as of the mirrored
+    section, heights and z as they are. job: whose ranks share the work. Raises SceneError for an impossible size,
+    ComputationError when a stage fails.
     """
     check_inputs(gear, material, reach)
     discretisation.check()

@@ -25,10 +25,9 @@ class SweptSector:
     turned with it.
 
     held: (f, f), compliance of the drive flank, or of drive and coast flank, with the cuts held. to_cuts: (f, 2 c),
-        (minus) the flanks' motion per
-    motion of the lower and the upper cut. link: (2 c, 2 c), stiffness between the cuts, flanks free. The upper cut's
-    dofs are in the next sector's frame.
-    lower: (c / 3, 3), X, Y, z of the lower cut's nodes.
+    (minus) the flanks' motion per motion of the lower and the upper cut. link: (2 c, 2 c), stiffness between the cuts,
+    flanks free. The upper cut's dofs are in the next sector's frame. lower: (c / 3, 3), X, Y, z of the lower cut's
+    nodes.
     """
 
     held: np.ndarray
@@ -52,8 +51,8 @@ def condensed_swept_sector(
     with its coast flank.
 
     iterative: by conjugate gradients instead of MUMPS. comm: communicator whose ranks share the work: one half of them
-        has the even motions, the other the odd ones, and each half shares out the heights.
-    Every rank calls this and gets the result.
+    has the even motions, the other the odd ones, and each half shares out the heights. Every rank calls this and gets
+    the result.
     """
     clock = perf_counter()
     section = SectionForms(mesh, poissons_ratio)

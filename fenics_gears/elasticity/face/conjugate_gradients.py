@@ -40,7 +40,7 @@ def flank_free_by_gradients(
     """As `mirrored_ring.flank_free` of half a sector's Schur complement; on the group's rank 0.
 
     rows: this rank's rows, of `own` heights. motions: (3 m, 6), rigid ones of all kept nodes, which multigrid must
-        know.
+    know.
     Raises ComputationError where the iteration does not converge.
     """
     inner = np.ones(fold.unknowns, dtype=bool)

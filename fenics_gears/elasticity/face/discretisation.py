@@ -20,11 +20,9 @@ class FaceDiscretisation:
     """A section of elements, second order, that is swept along the face in layers.
 
     section_size: mm, of the elements along the flanks; those of fillet and body follow from it. layers: over the face.
-        face_width: mm.
-    twist: rad/mm, of the section along z, counter-clockwise positive. overhang: mm, at either end of the face, beyond
-        that on which the mate touches;
-    it has overhang_layers of the layers at either end, and layers are of one thickness in it and beside it. The
-    outermost at a free end is cut in two.
+    face_width: mm. twist: rad/mm, of the section along z, counter-clockwise positive. overhang: mm, at either end of
+    the face, beyond that on which the mate touches; it has overhang_layers of the layers at either end, and layers are
+    of one thickness in it and beside it. The outermost at a free end is cut in two.
     """
 
     section_size: float

@@ -30,13 +30,11 @@ class Fold:
     """Which nodes of a swept sector stand for all of them, hub held, and how the others follow.
 
     nodes: (n, 2), of the section; height by height they are the sector's. kept: (m,), numbers of those kept: of the
-        drive flank's side, and at the
-    section's centreline from mid-width on; standing: (k,), the section's nodes some of which are kept. Half the
-    unknowns are their dofs, 3 each; at mid-width on the centreline some of them are dead.
+    drive flank's side, and at the section's centreline from mid-width on; standing: (k,), the section's nodes some of
+    which are kept. Half the unknowns are their dofs, 3 each; at mid-width on the centreline some of them are dead.
     flank, cut: dofs (f,), (c,) of the drive flank's and the upper cut's nodes in the half, by height, then radius.
-        cut_turned, flank_turned: sparse
-    (c, c), (f, f), from motions of the upper cut and the drive flank to those of the lower cut and the coast flank,
-    their images.
+    cut_turned, flank_turned: sparse (c, c), (f, f), from motions of the upper cut and the drive flank to those of the
+    lower cut and the coast flank, their images.
     """
 
     def __init__(self, mesh: BodyMesh, nodes: np.ndarray, heights: int, centreline: float):

@@ -25,7 +25,7 @@ def half_turn_basis(lower: np.ndarray, heights: int) -> tuple[sparse.csr_matrix,
     eigenvalue 1; they come first.
 
     lower: (k, 3), X, Y, z of the cut's nodes, by height and then along the cut; every height has the same section
-        nodes.
+    nodes.
     """
     along, nodes = len(lower) // heights, np.arange(len(lower))
     partner = along * (heights - 1 - nodes // along) + nodes % along
@@ -95,7 +95,7 @@ def ring_blocks(
     and the response of its cuts.
 
     comm: communicator over whose ranks the products are shared out; every rank calls this, rank 0 gets the result, the
-        others None.
+    others None.
     """
     rows = to_cuts if comm is None else np.array_split(to_cuts, comm.size)[comm.rank]
     (own_lower, own_upper), (lower, upper) = np.hsplit(rows, 2), np.hsplit(to_cuts, 2)

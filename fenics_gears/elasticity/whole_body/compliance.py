@@ -15,12 +15,10 @@ class WholeBodyCompliance:
     """Displacement of drive-flank nodes per unit line force on drive-flank nodes of every tooth, hub ring held.
 
     Teeth are counted counter-clockwise. roll_angles: of each tooth's flank nodes (n,), rad, strictly increasing.
-    element_order: 1 or 2.
-    blocks: blocks[t][m] (2n', 2n), mm per N/mm (plane strain, unit thickness), is the displacement of the flank m
-        pitches ahead of tooth t
-    under forces on tooth t; dofs and components as in `FlankCompliance`. openings: of a body with cracks, by the loaded
-    tooth, (k, 2n), mm per N/mm: how far the faces are moved apart at k places; of teeth within `offsets` of a crack.
-    timings: as there.
+    element_order: 1 or 2. blocks: blocks[t][m] (2n', 2n), mm per N/mm (plane strain, unit thickness), is the
+    displacement of the flank m pitches ahead of tooth t under forces on tooth t; dofs and components as in
+    `FlankCompliance`. openings: of a body with cracks, by the loaded tooth, (k, 2n), mm per N/mm: how far the faces are
+    moved apart at k places; of teeth within `offsets` of a crack. timings: as there.
     """
 
     roll_angles: tuple[np.ndarray, ...]
@@ -46,7 +44,7 @@ class WholeBodyCompliance:
         a turn.
 
         sides: as of `FlankCompliance`. Raises ComputationError for coast flanks, and for teeth further apart than
-            `offsets`.
+        `offsets`.
         """
         if any(sides):
             raise ComputationError(

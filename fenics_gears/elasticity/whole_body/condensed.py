@@ -42,7 +42,7 @@ def whole_body_compliance(
     """Flank compliance of every tooth of a meshed gear (`whole_body.outline`), from the cache or computed.
 
     tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. Raises ComputationError when a
-        stage fails.
+    stage fails.
     """
     chosen = element_named(element)
     tooth_offsets = min(tooth_offsets, gear.teeth - 1)

@@ -26,8 +26,7 @@ class Part:
     """One part of a body: its mesh, and nodes of the whole body that are kept of it.
 
     flank: (f,), by radius; interface: (i,), those shared with other parts, not on the hub; hub: (h,); faces: (c,),
-        those on the faces of
-    cracks, with the centres (c, 2) of a cell of each.
+    those on the faces of cracks, with the centres (c, 2) of a cell of each.
     """
 
     mesh: BodyMesh

@@ -34,7 +34,7 @@ class LoadMap:
     none: no speeds).
 
     Loads are what the scene gives: torques on the wheel, torques on the pinion, or powers, which go through the pair at
-        every speed.
+    every speed.
     """
 
     file: Path

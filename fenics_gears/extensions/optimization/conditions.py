@@ -19,9 +19,8 @@ FROM_ZERO = ("profile_modifications", "lead_modifications")
 
 def samples(design: Design, fresh: bool = False) -> np.ndarray:
     """Deviations (samples, scatters) in parts of their limits, -1 to 1, by Sobol's scrambled sequence: the same for all
-    designs, so that these
-    are compared under the same deviations. Without tolerances one sample of none. `fresh`: other ones, and `FRESH`
-    times as many."""
+    designs, so that these are compared under the same deviations. Without tolerances one sample of none. `fresh`: other
+    ones, and `FRESH` times as many."""
     count = len(design.tolerances.scatters)
     if not count:
         return np.zeros((1, 0))
@@ -42,8 +41,7 @@ def value_of(tree: Mapping[str, Any], path: fields.Path) -> Any:
 
 def scattered(tree: Mapping[str, Any], scatters: Sequence[Scatter], deviations: np.ndarray) -> dict[str, Any]:
     """A parsed scene with deviations (scatters,), in parts of the limits; a modification that is not there deviates
-    from zero, another field
-    that is not there does not deviate."""
+    from zero, another field that is not there does not deviate."""
     changed = dict(tree)
     for scatter, deviation in zip(scatters, deviations):
         written = value_of(tree, scatter.path)

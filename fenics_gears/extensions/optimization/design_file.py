@@ -70,8 +70,7 @@ def load_design(path: str | Path) -> Design:
 
 def _checked_ranges(design: Design, sections: Sections) -> Scene:
     """The scene in the middle of all ranges. Raises SceneError where it is none, where ends of a range, operating
-    points or what is before make none, or
-    where it has no such results as are wanted."""
+    points or what is before make none, or where it has no such results as are wanted."""
     middle, mistakes = _middle(design), sections.mistakes
     _try(design, sections, design.before, ("scene",), "the scene before any change")
     scene = _try(

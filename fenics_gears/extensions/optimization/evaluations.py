@@ -37,10 +37,9 @@ class Evaluation:
     """What a design amounts to.
 
     `values`: of its variables; `goals`: by name, judged by the design file's statistic; `of_samples`: by name, the
-        values (samples,) behind it;
+    values (samples,) behind it;
     `at_points`: by name, the mean over the samples at each operating point; `violation`: of the constraints, 0 where
-        all hold; `failure`: why it
-    has no numbers, empty where it has.
+    all hold; `failure`: why it has no numbers, empty where it has.
     """
 
     values: dict[str, float | str]
@@ -70,7 +69,7 @@ class Evaluator:
     """Evaluates designs with the processes of a `team`; runs that are in `directory` are taken from there.
 
     `designs`: how many of how many have been evaluated, for the progress; `computed`: runs that were computed here;
-        `kept`: those that were there before, beside `others` of versions with other numbers.
+    `kept`: those that were there before, beside `others` of versions with other numbers.
     """
 
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):

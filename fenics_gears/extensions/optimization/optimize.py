@@ -37,14 +37,13 @@ class Outcome:
     """What an optimisation found.
 
     `before`: the scene before, `tried`: all designs in their order, `best`: the place of the chosen one, `front`:
-        places of the Pareto front.
+    places of the Pareto front.
     `fresh`: the scene before and the chosen design under samples that the search did not know, where there are
-        tolerances.
+    tolerances.
     `along`: by variable its values and the chosen design's evaluations there, without scatter; `limits`: by scatter the
-        evaluations of the
-    chosen design at the lower limit, without scatter and at the upper limit; nothing where one failed. `harris`:
-    torques (loads,), N m, and of the scene before and the chosen one curves (2, steps) of mesh phase and transmission
-    error, rad.
+    evaluations of the chosen design at the lower limit, without scatter and at the upper limit; nothing where one
+    failed. `harris`: torques (loads,), N m, and of the scene before and the chosen one curves (2, steps) of mesh phase
+    and transmission error, rad.
     """
 
     design: Design
@@ -74,9 +73,9 @@ def optimize(
     kept in `runs` of the directory.
 
     output: the directory, `results/<name of the design file>` where None. Raises SceneError, before anything is
-        computed or written, where the design
-    file is wrong or the work takes more than `expected.MOST_HOURS`, unless `any_time`; ComputationError where the
-    directory cannot be used or no design keeps the constraints; KeyboardInterrupt at Ctrl-C.
+    computed or written, where the design file is wrong or the work takes more than `expected.MOST_HOURS`, unless
+    `any_time`; ComputationError where the directory cannot be used or no design keeps the constraints;
+    KeyboardInterrupt at Ctrl-C.
     """
     with ranks() as team:
         if team is None:

@@ -37,8 +37,7 @@ class ImportedScene:
 @dataclass(frozen=True)
 class Choice:
     """Which stage and load case of a file are meant, None for the only one; torque of the driven and speed of the
-    driving gear, as
-    quantities of a scene, that stand before those of the file."""
+    driving gear, as quantities of a scene, that stand before those of the file."""
 
     stage: int | None = None
     load_case: str | None = None

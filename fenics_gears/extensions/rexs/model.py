@@ -34,8 +34,7 @@ class _Node(BaseModel):
 
 class Attribute(_Node):
     """A value and its unit as written (empty where there is none). ``value``: a text; of an array a list of texts, or
-    code and text where it
-    is coded; of a matrix a list of lists."""
+    code and text where it is coded; of a matrix a list of lists."""
 
     id: Name
     unit: OtherName = ""
@@ -165,8 +164,7 @@ class Model(_Node):
 
 def checked_model(tree: Any) -> Model:
     """The model of a file's tree, as JSON has it. Raises ModelError where it is none: of another shape, with numbers
-    that are there twice
-    or lead nowhere, or of a version that is not known."""
+    that are there twice or lead nowhere, or of a version that is not known."""
     try:
         model = Model.model_validate(tree)
     except ValidationError as error:

@@ -48,7 +48,7 @@ def gear_outline(pair: GearPair, gear: int, phase: float, coast: bool = False) -
     centres upright.
 
     coast: with the coast flanks where the drive flanks are at that phase, which is the mirror image at the line of
-        centres.
+    centres.
     """
     centre, angles = standing(pair, gear, phase)
     tooth = _tooth((pair.pinion, pair.wheel)[gear])

@@ -43,7 +43,7 @@ class Limit:
     of its error.
 
     `least_error`: error of the last term where that is taken as the limit: by its order, or the last difference without
-        one.
+    one.
     """
 
     value: np.ndarray

@@ -1,11 +1,10 @@
 """The measures by which two runs of a scene are compared, and their relative distance.
 
 All are arrays of the same shape in all runs but the curve of T_E, which has a value for each step of the last mesh
-cycle. Curves of different steps are
-compared at phases that both have: the value at a step is what a run computes, while straight lines between steps would
-    add an error of
-their own at the kinks where tooth pairs enter or leave contact. T_EPP is located between steps (`results.extrema`).
-The `energy defect` is an error in itself, given in parts of the drive's work.
+cycle. Curves of different steps are compared at phases that both have: the value at a step is what a run computes,
+while straight lines between steps would add an error of their own at the kinks where tooth pairs enter or leave
+contact. T_EPP is located between steps (`results.extrema`). The `energy defect` is an error in itself, given in parts
+of the drive's work.
 """
 
 from __future__ import annotations

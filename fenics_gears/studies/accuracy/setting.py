@@ -21,7 +21,7 @@ class Setting:
     steps, and the rest.
 
     `slices`, `layers`: of flanks resolved over the face, whose body elements are those of the swept section; None in
-        the plane.
+    the plane.
     """
 
     element: str

@@ -1,10 +1,9 @@
 """The trial runs from which the errors of settings are estimated: three that are coarse in different ways.
 
 Two sizes make a setting: that of the mesh, with which flank elements, contact nodes and body elements grow together
-    from their defaults, and the
-number of steps. Over a face there is a third, the number of slices; layers of the bodies go with these, since a layer
-tells but a few slices apart. All errors fall with the square of the size, so that a run with twice the size differs
-by three times the error."""
+from their defaults, and the number of steps. Over a face there is a third, the number of slices; layers of the bodies
+go with these, since a layer tells but a few slices apart. All errors fall with the square of the size, so that a run
+with twice the size differs by three times the error."""
 
 from __future__ import annotations
 
@@ -56,7 +55,7 @@ class TrialRuns:
     """Trial runs, each setting once; gears are condensed once for all runs that share them.
 
     `begun`: called before each run with its settings in words; `tick`: called often during a run, may raise
-        KeyboardInterrupt.
+    KeyboardInterrupt.
     """
 
     def __init__(self, scene: Scene, begun: Callable[[str], None], tick: Callable[[], None] | None = None):

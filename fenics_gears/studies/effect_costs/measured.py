@@ -34,11 +34,10 @@ class Row:
     """Costs and results of one subset.
 
     `contact_rows`: of the contact operator, on the average over the mesh cycle; `step_times` (rounds,), s; `condense`:
-        both gears, s,
-    zero for rigid flanks; `operators`: of one mesh cycle, s; `transmission_error`: peak to peak, mm on the wheel's base
-    circle;
+    both gears, s, zero for rigid flanks; `operators`: of one mesh cycle, s; `transmission_error`: peak to peak, mm on
+    the wheel's base circle;
     `peak_force`: largest contact force of the mesh, N; `remarks`: what to know of this row; `peak_pressure`: MPa, tip
-        edges left out, NaN of rigid flanks;
+    edges left out, NaN of rigid flanks;
     `face_load_factor`: K_Hbeta, NaN where flanks are not resolved over the face.
     """
 

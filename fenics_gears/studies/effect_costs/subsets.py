@@ -28,8 +28,7 @@ Valid = Callable[[Sections], str]
 @dataclass(frozen=True)
 class Subset:
     """A scene with some of its effects: `kind` of subset, the `effect` that is added or left out ("" for none), the
-    `sections` that are on,
-    and those that had to be added or left out `beside` it."""
+    `sections` that are on, and those that had to be added or left out `beside` it."""
 
     kind: str
     effect: str

@@ -5,11 +5,9 @@ side by side.
     python -m tests.benchmarks.against_getfem [PYTHON]   # PYTHON: one that has GetFEM, /usr/bin/python3 unless given
 
 GetFEM (Y. Renard and K. Poulios, "GetFEM: automated FE modeling of multiphysics problems based on a generic weak form
-language", ACM TOMS 47(1),
-2020) is given whole gears in six-node triangles, which have nothing of this program but the outline of the teeth, and
-  finds contact itself
-(`getfem_pair.py`). Only positions away from tip edges are compared: there contact is on the line of action, as this
-program takes it by default.
+language", ACM TOMS 47(1), 2020) is given whole gears in six-node triangles, which have nothing of this program but the
+outline of the teeth, and finds contact itself (`getfem_pair.py`). Only positions away from tip edges are compared:
+there contact is on the line of action, as this program takes it by default.
 """
 
 from __future__ import annotations

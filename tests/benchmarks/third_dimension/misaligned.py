@@ -1,10 +1,9 @@
 """Line load of a misaligned spur pair on stiff shafts, against a uniform foundation and ISO 6336-1, method C.
 
 Foundation: springs of c (N/mm per mm of face and mm of approach) that know nothing of their neighbours. Under the force
-    F over the face width b and a
-misalignment f the largest line load is ``1 + c b f/(2 F)`` times the mean one while the whole face touches, ``2 sqrt(c
-b f/(2 F))`` times beyond. ISO 6336-1, 7.5 (method C) has the same formulas with ``c_gamma_beta = 0.85 c_gamma_alpha``
-and the misalignment after running-in.
+F over the face width b and a misalignment f the largest line load is ``1 + c b f/(2 F)`` times the mean one while the
+whole face touches, ``2 sqrt(c b f/(2 F))`` times beyond. ISO 6336-1, 7.5 (method C) has the same formulas with
+``c_gamma_beta = 0.85 c_gamma_alpha`` and the misalignment after running-in.
 """
 
 from __future__ import annotations

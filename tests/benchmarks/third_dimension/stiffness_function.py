@@ -59,8 +59,7 @@ def measure() -> list[Row]:
 
 def slices_in_parallel(gears: GearPairData) -> np.ndarray:
     """Mesh stiffness at STEPS phases, N/(mm um), of plane slices of the transverse section that know nothing of each
-    other: means of the plane
-    route's over the overlap ratio."""
+    other: means of the plane route's over the overlap ratio."""
     pair, samples = gear_pair(gears), 4 * STEPS
     flat = [replace(gear, rack_tip_radius=0.2) for gear in (gears.pinion, gears.wheel)]
     spur = GearPairData(

@@ -58,8 +58,8 @@ def rotation_under_couple(mesh: BodyMesh) -> float:
 @pytest.mark.parametrize("depth", [0.3, 0.6])
 def test_a_crack_lets_a_bent_strip_turn_as_fracture_mechanics_says(depth):
     """Authority: K_I = sigma sqrt(pi a) F(a/W) of an edge crack in pure bending, F by Brown and Srawley (ASTM STP 410,
-    1966) to 0.2 % up to
-    a/W = 0.6; by energy release (Irwin) the additional rotation is 12 pi sigma/(E' W^2) times the integral of a F^2."""
+    1966) to 0.2 % up to a/W = 0.6; by energy release (Irwin) the additional rotation is 12 pi sigma/(E' W^2) times the
+    integral of a F^2."""
     shape = np.polynomial.Polynomial([1.122, -1.40, 7.33, -13.08, 14.0])
     integral = (np.polynomial.Polynomial([0.0, 1.0]) * shape**2).integ()(depth / HEIGHT)
     expected = 12.0 * np.pi * integral * (6.0 / HEIGHT**2) * (1.0 - 0.3**2)

@@ -44,8 +44,7 @@ def lines(samples):
 
 def test_tones_are_heard_at_their_frequency_and_amplitude():
     """Exact: two harmonics of the mesh, whose cycles are repeated without a seam, and nothing else, the mean among it.
-    The filter's passband is even
-    within 0.02 dB, 0.2 %."""
+    The filter's passband is even within 0.02 dB, 0.2 %."""
     amplitudes = lines(sound(steady((MESH, 100.0), (12 * MESH, 10.0)), "normal_force", 2.0).samples)
     assert amplitudes[400] == pytest.approx(100.0, rel=2e-3) and amplitudes[4800] == pytest.approx(10.0, rel=2e-3)
     amplitudes[[400, 4800]] = 0.0

@@ -18,9 +18,8 @@ MATERIALS = (Material(206e3, 0.3), Material(206e3, 0.3))
 
 def test_it_is_the_temperature_under_a_moving_band(paper_pair):
     """Exact: a semi-elliptic band of heat on a half-space that moves fast, T(x) = 1/(B sqrt(pi v)) int q(s)/sqrt(x - s)
-    ds; heat splits so that both flanks, the one slower than
-    the other, have the same largest temperature. The formula's 0.80 is the rounded largest value, 0.7924 by the
-    integral."""
+    ds; heat splits so that both flanks, the one slower than the other, have the same largest temperature. The formula's
+    0.80 is the rounded largest value, 0.7924 by the integral."""
     position, force, friction, speed = 0.75 * paper_pair.path_end, 400.0, 0.1, 1500.0
     first, second = position, paper_pair.line_of_action_length - position
     radius = first * second / (first + second)

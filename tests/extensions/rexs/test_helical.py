@@ -1,9 +1,8 @@
 """Helical pairs and lead modifications from REXS.
 
 Authority: the schema of REXS 1.6 for names and kinds (helix_crowning, helix_slope, end_relief_datum_face,
-    end_relief_non_datum_face), ISO 21771 for
-the sign of the helix angle and for what left and right flanks are, and files of other programs for coordinates (from
-mid-width, datum face negative).
+end_relief_non_datum_face), ISO 21771 for the sign of the helix angle and for what left and right flanks are, and files
+of other programs for coordinates (from mid-width, datum face negative).
 """
 
 from math import cos, radians

@@ -279,9 +279,8 @@ def test_relief_given_below_the_tip_is_extended_to_it(tmp_path, shape, power):
 
 def test_reliefs_by_their_length_of_roll(tmp_path):
     """L_C of ISO 21771 is the scene's own length on the path of contact: where the relief of a tip starts, geometry
-    computes its own way; beside
-    the diameter that it gives the length says nothing new; the depth at another diameter is extended from that
-    start."""
+    computes its own way; beside the diameter that it gives the length says nothing new; the depth at another diameter
+    is extended from that start."""
     base = 36.0 * cos(radians(20.0))
     length = sqrt(41.32**2 - base**2) - sqrt(39.5**2 - base**2)
     scene, _ = scene_of(tmp_path, with_relief(datum_length=(length, "mm")))
@@ -304,8 +303,7 @@ def test_reliefs_by_their_length_of_roll(tmp_path):
 @pytest.mark.parametrize("dtype, code", [("<f4", "float32"), ("<f8", "float64")])
 def test_arrays(paper_scene, tmp_path, form, dtype, code):
     """Authority: numpy's bytes. An array of one entry, plain or coded, with padding or without, is that entry; a longer
-    one that no scene has a
-    place for is told with its range."""
+    one that no scene has a place for is told with its range."""
     amounts = np.array([-2.5, 0.25, 12.0], dtype)
     coded = {"code": code, "value": base64.b64encode(amounts.tobytes()).decode().rstrip("=")}
     one = {"code": code, "value": base64.b64encode(np.array([4.5], dtype).tobytes()).decode()}

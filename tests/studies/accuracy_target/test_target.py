@@ -104,8 +104,7 @@ def test_a_tighter_target_takes_a_finer_mesh(scene, run):
 
 def test_only_steps_with_a_past_have_an_error(scene):
     """Identity: a quasi-static step without friction knows nothing of the one before, so that half the steps give the
-    same values; with friction
-    they do not, and one more run measures by how much."""
+    same values; with friction they do not, and one more run measures by how much."""
     runs, sizes = TrialRuns(scene, lambda words: None), Sizes(2.5, 40)
     assert set(runs.errors(sizes)) == {MESH} and runs.runs == 2
     rubbing = TrialRuns(replace(scene, friction=Friction(0.1)), lambda words: None)
