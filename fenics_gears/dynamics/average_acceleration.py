@@ -61,18 +61,22 @@ def history(step, mass, damping):
     """What position, velocity and acceleration at the start of a step add to its load: matrices (3, k, k); the first is
     also what inertia and damping add to the stiffness."""
     found = np.empty((3, *mass.shape))
-    found[0] = 4.0 / (step * step) * mass + 2.0 / step * damping
-    found[1] = 4.0 / step * mass + damping
-    found[2] = mass
+    for i, j in np.ndindex(mass.shape):
+        found[0, i, j] = 4.0 / (step * step) * mass[i, j] + 2.0 / step * damping[i, j]
+        found[1, i, j] = 4.0 / step * mass[i, j] + damping[i, j]
+        found[2, i, j] = mass[i, j]
     return found
 
 
 @njit(cache=True)
 def advanced(step, before, position):
     """Position, velocity and acceleration (3, k) at the end of a step from those `before` and the position (k,)."""
-    change, after = 2.0 / step * (position - before[0]), np.empty_like(before)
-    after[0], after[1] = position, change - before[1]
-    after[2] = 2.0 / step * (change - 2.0 * before[1]) - before[2]
+    after = np.empty_like(before)
+    # By numbers: expressions of arrays take compiled code longer to load than they take to run.
+    for c in range(len(position)):
+        change, velocity = 2.0 / step * (position[c] - before[0, c]), before[1, c]
+        after[0, c], after[1, c] = position[c], change - velocity
+        after[2, c] = 2.0 / step * (change - 2.0 * velocity) - before[2, c]
     return after
 
 

@@ -47,7 +47,9 @@ class BackwardEuler:
 def history(step, mass, damping):
     """As `average_acceleration.history`."""
     found = np.zeros((3, *mass.shape))
-    found[0], found[1] = mass / (step * step) + damping / step, mass / step
+    for i, j in np.ndindex(mass.shape):
+        found[0, i, j] = mass[i, j] / (step * step) + damping[i, j] / step
+        found[1, i, j] = mass[i, j] / step
     return found
 
 
@@ -55,6 +57,7 @@ def history(step, mass, damping):
 def advanced(step, before, position):
     """As `average_acceleration.advanced`."""
     after = np.empty_like(before)
-    after[0], after[1] = position, (position - before[0]) / step
-    after[2] = (after[1] - before[1]) / step
+    for c in range(len(position)):
+        after[0, c], after[1, c] = position[c], (position[c] - before[0, c]) / step
+        after[2, c] = (after[1, c] - before[1, c]) / step
     return after
