@@ -16,7 +16,7 @@ def run(tmp_path):
     numbers = np.random.default_rng(1)
 
     def variable(dims, unit):
-        sizes = {"time": steps, "gear": 2, "pair": 3}
+        sizes = {"time": steps, "gear": 2, "slot": 3}
         return (
             dims,
             numbers.normal(size=[sizes[dim] for dim in dims]) * 10.0 ** numbers.integers(-9, 9),
