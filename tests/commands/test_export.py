@@ -28,6 +28,7 @@ def run(tmp_path):
             "transmission_error": variable(("time",), "rad"),
             "rotation": variable(("time", "gear"), "rad"),
             "pair_normal_force": variable(("time", "slot"), "N"),
+            "pair_number": (("time", "slot"), np.zeros((steps, 3), int), {"units": "1", "number_at_phase_0": 1}),
             "newton_iterations": (("time",), np.arange(steps), {"units": "1"}),
         },
         {

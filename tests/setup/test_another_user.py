@@ -43,7 +43,7 @@ def test_compiled_loops_find_a_place(as_another):
     writes."""
     run, folder = as_another
     program = "from fenics_gears.system import environment; environment.prepare()\n"
-    program += "from fenics_gears.contact import laws; print(laws.opens._cache.cache_path)"
+    program += "from fenics_gears.contact import laws; print(laws.next_status._cache.cache_path)"
     first, second = run("-c", program), run("-c", program)
     assert first.returncode == 0, first.stderr
     assert first.stdout.startswith(str(folder)) and first.stderr.count("\n") == 1 and "XDG_CACHE_HOME" in first.stderr
