@@ -3,7 +3,6 @@ stress."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -22,6 +21,7 @@ from fenics_gears.show.pressure import COLOURS as PRESSURE_COLOURS
 from fenics_gears.show.stress_grid import surface
 from fenics_gears.show.stress_picture import COLOURS, colour_bar, heading, rounded_up
 from fenics_gears.simulation.run_stresses import GearInSpace, GearsInMesh
+from fenics_gears.system.virtual_display import ensure_display
 
 UNLOADED, EDGES = "#E4E7EA", "#5A6068"
 PIXELS = 150  # an inch
@@ -136,14 +136,12 @@ def _rendered(
     """The image of a panel."""
     try:
         import pyvista
-
-        if pyvista.vtk_version_info[:2] < (9, 4) and not os.environ.get("DISPLAY"):
-            pyvista.start_xvfb(window_size=[1600, 1200])
-    except (ImportError, OSError) as error:
+    except ImportError as error:
         raise ComputationError(
-            "a picture of gears in three dimensions needs pyvista, and a version of VTK before 9.4 a display or Xvfb"
-            f" (Debian: xvfb): {error}"
+            "a picture of gears in three dimensions needs pyvista, which is not installed"
         ) from error
+    # pyvista's own start_xvfb waits three seconds and leaves the server running.
+    ensure_display(pyvista.vtk_version_info)
     if hasattr(pyvista, "vtk_verbosity"):
         # Without a display VTK warns before it draws in memory; versions before 0.45 of pyvista leave it to its own.
         pyvista.vtk_verbosity("off")
