@@ -224,8 +224,7 @@ class GearPair:
     def backlash(self) -> float:
         """Gap (mm) along the line of action between the coast flanks while the drive flanks touch.
 
-        The base pitch less both base-circle thicknesses seen at the operating pressure angle; negative when the teeth
-        overlap.
+        The base pitch less both base-circle thicknesses at the operating pressure angle; negative when teeth overlap.
         """
         swept = involute_function(tan(self.operating_pressure_angle))
         pinion, wheel = self.pinion, self.wheel

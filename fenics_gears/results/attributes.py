@@ -16,8 +16,7 @@ ESTIMATED = "estimated_error: "
 
 @dataclass(frozen=True)
 class ResultAttribute:
-    """One attribute: its name, its units ("" for a text or a switch), what it is, and ``when`` it is there ("" for
-    always)."""
+    """One attribute: its name, its units ("": a text, a switch), what it is, and ``when`` it is there ("": always)."""
 
     name: str
     units: str

@@ -13,8 +13,8 @@ from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.contact_loss import contact_losses
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March
-from fenics_gears.effects.relief import PARABOLIC, Reliefs
 from fenics_gears.results.key_numbers import wedged
+from fenics_gears.results.pressure_limits import warnings_of_pressure
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
@@ -26,9 +26,6 @@ LARGEST_ROTATION = 0.05
 # Work that the time stepping itself does at changes of contact within a mesh cycle, in parts of the largest energy,
 # above which there is a warning. The sharp edges of unrelieved tips alone take 3 to 4 %.
 NOTABLE_WORK = 0.1
-# Peak pressure of a line contact over yield strength, at which the material below begins to yield by Tresca's criterion
-# (Johnson, Contact Mechanics, 1985, eq. 6.4).
-LINE_CONTACT = 1.67
 # Warnings with these words come first: the numbers of the run are wrong.
 NO_MEANING = "the result has no meaning"
 FEWER_THAN_THE_PERIOD = "of the common period"
@@ -76,12 +73,7 @@ def warnings_of(recorder: Recorder, march: March, result: xr.Dataset) -> list[st
     watched = recorder.watched
     of_flanks = [*_window(cycle, watched), *_rank(watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
     if cycle.traits.has_pressure and recorder.steps:
-        of_flanks += _yielding(recorder.model.scene, result.attrs)
-        of_flanks += [
-            *_sharp_edge(recorder.model.scene, watched),
-            *_undercut_edge(watched),
-            *_kink(recorder.model.scene, result.attrs),
-        ]
+        of_flanks += warnings_of_pressure(recorder.model.scene, watched, result.attrs)
     if cycle.face is not None:
         # Imported here: plane scenes have none.
         from fenics_gears.results.face_variables import warnings_of_face
@@ -163,99 +155,6 @@ def _wedged(cycle: Cycle, result: xr.Dataset) -> list[str]:
         f" flanks by up to {coast[both].max():.4g} N, since there is less backlash"
         f" ({max(cycle.pair.backlash * 1e3, 0.0):.3f} um) than the gears need: raise gears.centre_distance"
     ]
-
-
-def _sharp_edge(scene: Scene, watched: Watched) -> list[str]:
-    """Contact on the sharp edge of a tip, where linear elasticity has infinite pressure."""
-    touched = {gear: watched[f"on the {gear}'s tip"] for gear in ("pinion", "wheel")}
-    steps = int((touched["pinion"] | touched["wheel"]).sum())
-    if not steps:
-        return []
-    gears = [gear for gear, at in touched.items() if at.any()]
-    named = " and ".join(f"the {gear}'s" for gear in gears)
-    return [
-        f"contact reaches the sharp edge of {named} tip in {steps} of {len(touched['pinion'])} steps: the pressure"
-        f" there does not converge with the mesh, forces and transmission error do; {_off_the_edge(scene, gears)}"
-    ]
-
-
-def _undercut_edge(watched: Watched) -> list[str]:
-    """Contact on the edge between an undercut gear's involute and its fillet, at its form circle."""
-    found = []
-    for gear in ("pinion", "wheel"):
-        at = watched[f"on the {gear}'s form circle"]
-        if at.any():
-            found.append(
-                f"contact reaches the edge at the form circle of the undercut {gear} in {int(at.sum())} of {len(at)}"
-                " steps: the pressure there does not converge with the mesh, forces and transmission error do;"
-                f" [root_relief.{gear}] takes the load off the edge"
-            )
-    return found
-
-
-def _yielding(scene: Scene, numbers: Mapping) -> list[str]:
-    """Stresses above what the materials bear without yielding, where their yield strength is known."""
-    found, pressure = [], numbers.get("peak_contact_pressure", 0.0)
-    for gear, material in zip(("pinion", "wheel"), scene.gears.materials):
-        strength = material.yield_strength
-        if strength is None:
-            continue
-        limit, root = LINE_CONTACT * strength, numbers.get(f"largest_root_stress_{gear}", 0.0)
-        if pressure > limit:
-            found.append(
-                f"the peak contact pressure, {pressure:.4g} MPa, is above what the {gear}'s material bears below the"
-                f" flank without yielding, {limit:.4g} MPa: {LINE_CONTACT:g} times its yield strength of {strength:g}"
-                " MPa (Johnson, Contact Mechanics, 1985, eq. 6.4); the model is elastic"
-            )
-        if root > strength:
-            found.append(
-                f"the largest root stress of the {gear}, {root:.4g} MPa, is above its yield strength of {strength:g}"
-                " MPa; the model is elastic"
-            )
-    return found
-
-
-def _kink(scene: Scene, numbers: Mapping) -> list[str]:
-    """More pressure at the kink where a linear relief starts than elsewhere: linear elasticity has infinite pressure
-    there."""
-    largest, elsewhere = numbers.get("peak_kink_pressure", 0.0), numbers.get("peak_contact_pressure", 0.0)
-    if largest <= elsewhere:
-        return []
-    linear = {section: _linear(getattr(scene, section)) for section in ("tip_relief", "root_relief")}
-    named = ((section.replace("_", " "), gears) for section, gears in linear.items() if gears)
-    starts = " or ".join(f"the linear {words} of the {' or the '.join(gears)}" for words, gears in named)
-    remedies = ", ".join(f'{section}.shape = "{PARABOLIC}"' for section, gears in linear.items() if gears)
-    return [
-        f"beside the kink where {starts} starts the pressure reaches {largest:.4g} MPa and does not converge with the"
-        f" mesh; forces and transmission error do. The peak contact pressure, {elsewhere:.4g} MPa, is without it;"
-        f" {remedies} starts without a kink"
-    ]
-
-
-def _linear(reliefs: Reliefs | None) -> list[str]:
-    """The gears whose relief is linear."""
-    own = {gear: getattr(reliefs, gear, None) for gear in ("pinion", "wheel")}
-    return [gear for gear, relief in own.items() if relief is not None and relief.power == 1 and relief.depth > 0.0]
-
-
-def _off_the_edge(scene: Scene, gears: list[str]) -> str:
-    """The remedies for contact on sharp tips that the scene does not have yet."""
-    reliefs = [getattr(scene.tip_relief, gear) for gear in gears] if scene.tip_relief is not None else []
-    if None in reliefs:
-        ways = [
-            f"[tip_relief.{gear}] takes the load off the edge" for gear, relief in zip(gears, reliefs) if relief is None
-        ]
-    elif reliefs:
-        ways = ["a deeper or longer tip relief takes more load off the edge"]
-        ways += (
-            [f'tip_relief.shape = "{PARABOLIC}" is steeper at the tip']
-            if any(relief.power == 1 for relief in reliefs)
-            else []
-        )
-    else:
-        ways = ["[tip_relief] takes the load off the edge"]
-    rounded = scene.corner_contact is not None and min(scene.corner_contact.edge_radii) > 0.0
-    return ", ".join([*ways, *([] if rounded else ["[corner_contact] with an edge_radius rounds it"])])
 
 
 def _separation(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock, result: xr.Dataset) -> list[str]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import io
 import textwrap
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import matplotlib
 import numpy as np
@@ -20,102 +19,31 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from fenics_gears.show.chart import BAND, BARS, LINES, MARKED_LINES, MARKERS, Chart, Curve
+from fenics_gears.show.panel_sizes import (
+    APART_LEVEL,
+    APART_UPRIGHT,
+    BAR,
+    BAR_GAP,
+    BAR_NAME,
+    FLAG_ROW,
+    GAP,
+    HALF_LABEL,
+    HEADING_LINE,
+    LEGEND_ROW,
+    LETTERS,
+    TICK,
+    TICK_ROW,
+    TITLE,
+    WIDTH,
+    Panel,
+    Scale,
+)
 from fenics_gears.show.panels import DARK, GRID, styled
 from fenics_gears.show.thinning import thinned
 from fenics_gears.show.ticks import ticks, written
 
 DASHES = {"solid": "-", "dash": (0, (5, 2.5)), "dot": (0, (1, 1.6))}
-WIDTH, GAP = 10.0, 0.12
-# The inside of a panel for each pixel of a chart's height.
-PANEL = 0.0086
-# Heights of a line of the heading and of a title, of a row of a legend and of flags, and of tick labels below an axis.
-HEADING_LINE, LINE, LEGEND_ROW, FLAG_ROW, TICK_ROW = 0.25, 0.22, 0.265, 0.236, 0.33
-# Widths of a letter at a tick, in a flag and in a legend, and of what a legend's entry has besides.
-LETTER, FLAG_LETTER, LEGEND_LETTER, LEGEND_HANDLE = 0.106, 0.092, 0.092, 0.56
-# A tick and the gap to its label; room of an axis' title; half a tick label beyond an axis' end; a colour bar and the
-# room before it.
-TICK, TITLE, HALF_LABEL, BAR, BAR_GAP = 0.05, 0.28, 0.3, 0.2, 0.24
-# Least distance of ticks on an upright and on a level axis.
-APART_UPRIGHT, APART_LEVEL = 0.36, 0.75
-# Letters of a line of heading and titles.
-LETTERS = 92
-BAR_NAME = "colour bar"
-# A still image is 900 points wide: more than these of a curve are not seen in it.
-STILL_POINTS = 1000
-
-
-@dataclass(frozen=True)
-class Panel:
-    """A chart with its title in lines, and whether its first axis is named."""
-
-    chart: Chart
-    title: str = ""
-    named: bool = True
-
-    @property
-    def above(self) -> float:
-        """Height of title and legend."""
-        return GAP + LEGEND_ROW * self.legend_rows + (LINE * (self.title.count("\n") + 1) if self.title else 0.0)
-
-    @property
-    def inside(self) -> float:
-        """Height between the axes' ends."""
-        return PANEL * self.chart.height
-
-    @property
-    def height(self) -> float:
-        """Height of all."""
-        return self.above + self.inside + (TICK_ROW + TITLE) * self.named + GAP
-
-    @property
-    def has_grid(self) -> bool:
-        """Whether lines lead from the ticks across; colours and drawings have none."""
-        return self.chart.field is None and not self.chart.equal
-
-    @property
-    def overhang(self) -> float:
-        """Width of a flag's words beyond the end of the first axis."""
-        first, last = self.chart.x_range or (0.0, 1.0)
-        return max(
-            (
-                FLAG_LETTER * (len(flag.words) + 2) - 0.8 * WIDTH * (last - flag.x) / (last - first)
-                for flag in self.chart.flags
-            ),
-            default=0.0,
-        )
-
-    @property
-    def legend_columns(self) -> int:
-        """Names beside each other; as wide as the widest where they are not all in one row."""
-        widths = [LEGEND_HANDLE + LEGEND_LETTER * len(curve.name) for curve in self.chart.curves if curve.listed]
-        return len(widths) if sum(widths) <= 0.82 * WIDTH else max(1, int(0.82 * WIDTH / max(widths)))
-
-    @property
-    def legend_rows(self) -> int:
-        """Rows of these; none without a legend."""
-        return (
-            -(-sum(curve.listed for curve in self.chart.curves) // self.legend_columns) if self.chart.has_legend else 0
-        )
-
-
-@dataclass(frozen=True)
-class Scale:
-    """Ticks of an axis of `axes`: places (n,) on it and their labels; the axis' title."""
-
-    axes: Axes
-    places: np.ndarray
-    labels: Sequence[str]
-    title: str
-
-    @property
-    def label_width(self) -> float:
-        """Room of ticks and labels beside an upright axis."""
-        return 2 * TICK + LETTER * max(map(len, self.labels), default=0)
-
-    @property
-    def width(self) -> float:
-        """Room that an upright axis takes, with the colour bar that it may be of."""
-        return self.label_width + TITLE + (BAR_GAP + BAR if self.axes.get_label() == BAR_NAME else 0.0)
+STILL_POINTS = 1000  # of a curve; a still image is 900 points wide
 
 
 @styled
@@ -191,8 +119,7 @@ def _figure(panels: Sequence[Panel], heading: float = 0.0) -> Figure:
 
 
 def _draw(axes: Axes, panel: Panel) -> list[Scale]:
-    """A chart, its legend above it where no curve can be, its title above that; the upright scales, the chart's own
-    first."""
+    """A chart, its legend and title above it; the upright scales, the chart's own first."""
     chart = panel.chart
     bars = [_draw_field(axes, panel)] if chart.field is not None else []
     for curve in chart.curves:
@@ -257,8 +184,7 @@ def _draw_level(axes: Axes, panel: Panel, width: float) -> None:
 
 
 def _draw_upright(scale: Scale, side: int, room: float) -> None:
-    """Ticks of an upright axis with labels on its left (-1) or right (1) side, and its title at the end of the room
-    that there is."""
+    """Ticks of an upright axis, labels on its left (-1) or right (1) side, its title at the end of the room."""
     axes, end = scale.axes, 0.5 + 0.5 * side
     inch, across = side / (axes.get_position().width * WIDTH), axes.get_yaxis_transform()
     _draw_lines(axes, [((end, place), (end + TICK * inch, place)) for place in scale.places], across)

@@ -9,8 +9,8 @@ from fenics_gears.effects.corner_contact import CornerContact
 from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
+from fenics_gears.results.pressure_limits import yielding
 from fenics_gears.results.summary import summary_rows
-from fenics_gears.results.validity import _yielding
 from fenics_gears.scene.data import Accuracy, Material, Motion
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
@@ -70,9 +70,9 @@ def test_stresses_above_the_yield_strength_are_named(coarse):
     scene = replace(coarse, gears=replace(coarse.gears, material=Material(206e3, 0.3, 650.0)))
 
     def said(pressure, root_stress=0.0):
-        return _yielding(scene, {"peak_contact_pressure": pressure, "largest_root_stress_wheel": root_stress})
+        return yielding(scene, {"peak_contact_pressure": pressure, "largest_root_stress_wheel": root_stress})
 
-    assert not said(0.997 * limit, 649.0) and not _yielding(coarse, {"peak_contact_pressure": 1e4})
+    assert not said(0.997 * limit, 649.0) and not yielding(coarse, {"peak_contact_pressure": 1e4})
     assert [line.split(",")[0] for line in said(1.003 * limit)] == ["the peak contact pressure"] * 2
     (line,) = said(0.0, 651.0)
     assert "root stress of the wheel, 651 MPa, is above its yield strength of 650 MPa" in line

@@ -1,0 +1,112 @@
+"""Warnings of a finished run about stress: pressure that no mesh resolves, and materials that would yield."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from fenics_gears.effects.relief import PARABOLIC, Reliefs
+from fenics_gears.scene.data import Scene
+
+# Peak pressure of a line contact over yield strength at which the material below yields by Tresca's criterion,
+# whose largest shear stress is 0.300 of the pressure (Johnson, Contact Mechanics, 1985, eq. 6.4).
+LINE_CONTACT = 1.67
+
+
+def warnings_of_pressure(scene: Scene, watched: Mapping[str, np.ndarray], numbers: Mapping) -> list[str]:
+    """A sentence for each, from what was `watched` at every step and the `numbers` (attributes) of the result."""
+    return [*yielding(scene, numbers), *_sharp_edge(scene, watched), *_undercut_edge(watched), *_kink(scene, numbers)]
+
+
+def _sharp_edge(scene: Scene, watched: Mapping[str, np.ndarray]) -> list[str]:
+    """Contact on the sharp edge of a tip, where linear elasticity has infinite pressure."""
+    touched = {gear: watched[f"on the {gear}'s tip"] for gear in ("pinion", "wheel")}
+    steps = int((touched["pinion"] | touched["wheel"]).sum())
+    if not steps:
+        return []
+    gears = [gear for gear, at in touched.items() if at.any()]
+    named = " and ".join(f"the {gear}'s" for gear in gears)
+    return [
+        f"contact reaches the sharp edge of {named} tip in {steps} of {len(touched['pinion'])} steps: the pressure"
+        f" there does not converge with the mesh, forces and transmission error do; {_off_the_edge(scene, gears)}"
+    ]
+
+
+def _undercut_edge(watched: Mapping[str, np.ndarray]) -> list[str]:
+    """Contact on the edge between an undercut gear's involute and its fillet, at its form circle."""
+    found = []
+    for gear in ("pinion", "wheel"):
+        at = watched[f"on the {gear}'s form circle"]
+        if at.any():
+            found.append(
+                f"contact reaches the edge at the form circle of the undercut {gear} in {int(at.sum())} of {len(at)}"
+                " steps: the pressure there does not converge with the mesh, forces and transmission error do;"
+                f" [root_relief.{gear}] takes the load off the edge"
+            )
+    return found
+
+
+def yielding(scene: Scene, numbers: Mapping) -> list[str]:
+    """Stresses above what the materials bear without yielding, where their yield strength is known."""
+    found, pressure = [], numbers.get("peak_contact_pressure", 0.0)
+    for gear, material in zip(("pinion", "wheel"), scene.gears.materials):
+        strength = material.yield_strength
+        if strength is None:
+            continue
+        limit, root = LINE_CONTACT * strength, numbers.get(f"largest_root_stress_{gear}", 0.0)
+        if pressure > limit:
+            found.append(
+                f"the peak contact pressure, {pressure:.4g} MPa, is above what the {gear}'s material bears below the"
+                f" flank without yielding, {limit:.4g} MPa: {LINE_CONTACT:g} times its yield strength of {strength:g}"
+                " MPa (Johnson, Contact Mechanics, 1985, eq. 6.4); the model is elastic"
+            )
+        if root > strength:
+            found.append(
+                f"the largest root stress of the {gear}, {root:.4g} MPa, is above its yield strength of {strength:g}"
+                " MPa; the model is elastic"
+            )
+    return found
+
+
+def _kink(scene: Scene, numbers: Mapping) -> list[str]:
+    """More pressure at the kink where a linear relief starts than elsewhere: linear elasticity has infinite pressure
+    there."""
+    largest, elsewhere = numbers.get("peak_kink_pressure", 0.0), numbers.get("peak_contact_pressure", 0.0)
+    if largest <= elsewhere:
+        return []
+    linear = {section: _linear(getattr(scene, section)) for section in ("tip_relief", "root_relief")}
+    named = ((section.replace("_", " "), gears) for section, gears in linear.items() if gears)
+    starts = " or ".join(f"the linear {words} of the {' or the '.join(gears)}" for words, gears in named)
+    remedies = ", ".join(f'{section}.shape = "{PARABOLIC}"' for section, gears in linear.items() if gears)
+    return [
+        f"beside the kink where {starts} starts the pressure reaches {largest:.4g} MPa and does not converge with the"
+        f" mesh; forces and transmission error do. The peak contact pressure, {elsewhere:.4g} MPa, is without it;"
+        f" {remedies} starts without a kink"
+    ]
+
+
+def _linear(reliefs: Reliefs | None) -> list[str]:
+    """The gears whose relief is linear."""
+    own = {gear: getattr(reliefs, gear, None) for gear in ("pinion", "wheel")}
+    return [gear for gear, relief in own.items() if relief is not None and relief.power == 1 and relief.depth > 0.0]
+
+
+def _off_the_edge(scene: Scene, gears: list[str]) -> str:
+    """The remedies for contact on sharp tips that the scene does not have yet."""
+    reliefs = [getattr(scene.tip_relief, gear) for gear in gears] if scene.tip_relief is not None else []
+    if None in reliefs:
+        ways = [
+            f"[tip_relief.{gear}] takes the load off the edge" for gear, relief in zip(gears, reliefs) if relief is None
+        ]
+    elif reliefs:
+        ways = ["a deeper or longer tip relief takes more load off the edge"]
+        ways += (
+            [f'tip_relief.shape = "{PARABOLIC}" is steeper at the tip']
+            if any(relief.power == 1 for relief in reliefs)
+            else []
+        )
+    else:
+        ways = ["[tip_relief] takes the load off the edge"]
+    rounded = scene.corner_contact is not None and min(scene.corner_contact.edge_radii) > 0.0
+    return ", ".join([*ways, *([] if rounded else ["[corner_contact] with an edge_radius rounds it"])])
