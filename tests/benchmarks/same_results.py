@@ -31,6 +31,7 @@ save(simulate(load_scene(sys.argv[1])), sys.argv[2])
 # Differences of large numbers, and what they are differences of.
 DIFFERENCES = {
     "energy_defect": "work_input",
+    "rms_normal_force": "normal_force",
     "work_contact_changes": "work_input",
     "drive_flank_opening": 1e-3,
     "centre_y": "centre_x",
