@@ -45,7 +45,10 @@ def mesh_stiffness(contact, status, forces, coordinates):
             overlap[node] = -gap[node]
             for c in range(len(coordinates)):
                 overlap[node] += jacobian[node, c] * coordinates[c]
-    return np.array([force / _highest(overlap, node_pair), _tangent(contact.compliance, closed), pairs])
+    deflection = _highest(overlap, node_pair)
+    # Of a gear so heavy that it does not move, the deflection is below the last digit of its rotation.
+    secant = force / deflection if deflection > 0.0 else np.nan
+    return np.array([secant, _tangent(contact.compliance, closed), pairs])
 
 
 @njit(cache=True)

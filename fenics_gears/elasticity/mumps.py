@@ -30,7 +30,7 @@ class Factor:
     """
 
     def __init__(self, matrix: sparse.csr_matrix | PETSc.Mat, what: str, schur_dofs: np.ndarray | None = None):
-        self._schur_size = 0 if schur_dofs is None else len(schur_dofs)
+        self._schur_size, self._what = 0 if schur_dofs is None else len(schur_dofs), what
         if sparse.issparse(matrix):
             matrix = _petsc_matrix(matrix)
         # Of a matrix declared definite, MUMPS over several processes gives back the diagonal of the Schur complement
@@ -65,7 +65,7 @@ class Factor:
             raise
 
     def solve(self, loads: np.ndarray) -> np.ndarray:
-        """Solution (n, k) for loads (n, k)."""
+        """Solution (n, k) for loads (n, k). Raises ComputationError where the Schur complement cannot be factorised."""
         result = np.empty_like(loads)
         for first in range(0, loads.shape[1], COLUMNS_AT_ONCE):
             part = slice(first, first + COLUMNS_AT_ONCE)
@@ -75,10 +75,18 @@ class Factor:
             )
             left.assemble()
             dense.assemble()
-            self._factor.matSolve(dense, left)
-            result[:, part] = left.getDenseArray()
-            left.destroy()
-            dense.destroy()
+            try:
+                self._factor.matSolve(dense, left)
+                result[:, part] = left.getDenseArray()
+            except PETSc.Error as error:
+                raise ComputationError(
+                    f"PETSc could not solve with the factor of {self._what}: what is left on its outer dofs is not"
+                    " positive definite, as of a body that nothing holds or that cannot change its volume (Poisson's"
+                    f" ratio near 0.5): {error}"
+                ) from error
+            finally:
+                left.destroy()
+                dense.destroy()
         return result
 
     def schur(self) -> np.ndarray | None:
