@@ -21,7 +21,7 @@ from fenics_gears.contact.mesh import Mesh, Nodes
 from fenics_gears.contact.node_before import nodes_before
 from fenics_gears.contact.operator import ContactOperator, Passage, contact_operator, over_nodes
 from fenics_gears.contact.step_solver import StepProblem, StepSolution
-from fenics_gears.contact.tooth_pair import PairNodes, Place
+from fenics_gears.contact.tooth_pair import PairNodes
 
 # Of the memory that contact operators may take: what is kept for good, and what a march holds of a block of steps, the
 # one before it beside.
@@ -146,10 +146,6 @@ class Cycle:
     def beside(self, kind: type[Value]) -> Value:
         """The one object of a kind that goes with the operators: what others know of them, whatever the gaps."""
         return self._beside.setdefault(kind, kind())
-
-    def contact_width(self, place: Place) -> float:
-        """Length (mm) of the line of contact of a tooth pair, or of its slice of the face."""
-        return self.pair.face_width if self.face is None else float(self.face.contact_widths[place.slice])
 
     def position(self, step: int) -> Position:
         """The contact equations at `step` (any integer)."""

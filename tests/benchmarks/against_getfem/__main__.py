@@ -22,7 +22,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from tests.benchmarks.against_getfem.gear_mesh import MeshSizes, gear_mesh, placed, wheel_centre
+from tests.corner_contact_reference.calculix import placed, wheel_centre
+from tests.corner_contact_reference.gear_mesh import MeshSizes, gear_mesh
 
 from fenics_gears.effects import without
 from fenics_gears.elasticity.cache import Cache

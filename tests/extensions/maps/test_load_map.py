@@ -25,8 +25,6 @@ from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.dynamic_factor import quasi_static
 from fenics_gears.simulation.simulate import simulate
 
-DEMO = Path(__file__).parents[3] / "demos" / "lundvall2004.toml"
-
 
 def mapped(loads=(), speeds=(), most=1000, **changes):
     """The map of the paper's scene."""
