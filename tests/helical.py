@@ -7,6 +7,7 @@ from math import cos, radians
 
 from tests.stand_in import stand_in_body, stand_in_compliance
 
+from fenics_gears.elasticity.body import Bodies, Body
 from fenics_gears.model.model import Model
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
@@ -70,13 +71,15 @@ def wide_pair(more: str = "") -> Scene:
     return helical_scene(more, width=30.0, torque=300e3, accuracy="")
 
 
-def on_stand_in_bodies(model: Model, reach: float | None = 0.2) -> tuple[tuple, tuple]:
-    """Sections and bodies without finite elements of a scene's gears, of both flanks where it has coast flanks."""
+def on_stand_in_bodies(model: Model, reach: float | None = 0.2) -> Bodies:
+    """Bodies without finite elements of a scene's gears, of both flanks where it has coast flanks."""
     offsets, coast = model.touching.reach.farthest, model.scene.coast_flanks is not None
     gears = (model.pair.pinion, model.pair.wheel)
-    sections = tuple(stand_in_compliance(gear, offsets=offsets, coast_flank=coast) for gear in gears)
-    bodies = tuple(
-        stand_in_body(gear, width, elements=12, offsets=offsets, coast_flank=coast, reach=reach)
+    pinion, wheel = (
+        Body(
+            stand_in_compliance(gear, offsets=offsets, coast_flank=coast),
+            stand_in_body(gear, width, elements=12, offsets=offsets, coast_flank=coast, reach=reach),
+        )
         for gear, width in zip(gears, model.pair.face_widths)
     )
-    return sections, bodies
+    return pinion, wheel

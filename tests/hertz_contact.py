@@ -21,12 +21,12 @@ from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
+from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, canonical_normal, roll_angle_at_arc_length
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import hertz_half_width, plane_contact_modulus, relative_radius
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.elastic_route import gear_compliance
 
 # The smaller load, in parts of the larger: half its half-width.
 SMALLER = 0.25
@@ -84,7 +84,12 @@ class HertzContact:
     def compliances(self, flank_element_size: float, element: str = "P2", cache=None):
         """Both gears' flank compliance."""
         model = self.model(flank_element_size, element)
-        return tuple(gear_compliance(model, name, Reach(2), cache) for name in ("pinion", "wheel"))
+        return tuple(
+            flank_compliance(gear, material, model.resolution.discretisation(number), Reach(2), cache)
+            for number, (gear, material) in enumerate(
+                zip((self.pair.pinion, self.pair.wheel), self.scene.gears.materials)
+            )
+        )
 
     def pressed(self, compliances, spacing: float, line_load: float) -> Pressed:
         """Solve one position under a line load (N/mm) with contact nodes `spacing` (mm) apart, one of them on the line

@@ -18,6 +18,7 @@ from tests.coarse import coarse_scene, frictionless, quasi_static
 from tests.helical import helical_scene, on_stand_in_bodies
 from tests.stand_in import stand_in_compliance
 
+from fenics_gears.elasticity.body import Body
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
@@ -27,7 +28,6 @@ from fenics_gears.model.model import model_of
 from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.elastic_route import mesh_cycle
-from fenics_gears.simulation.face_route import face_cycle
 from fenics_gears.simulation.simulate import simulate
 
 FILE = Path(__file__).with_suffix(".json")
@@ -69,13 +69,13 @@ def _numbers(run) -> dict[str, float]:
 def in_the_plane(model, progress, cache):
     """Contact equations on teeth without finite elements."""
     coast = model.scene.coast_flanks is not None
-    gears = tuple(stand_in_compliance(gear, coast_flank=coast) for gear in (model.pair.pinion, model.pair.wheel))
+    gears = tuple(Body(stand_in_compliance(gear, coast_flank=coast)) for gear in (model.pair.pinion, model.pair.wheel))
     return (), mesh_cycle(model, gears)
 
 
 def over_the_face(model, progress, cache):
     """The same on bodies over the face."""
-    return (), face_cycle(model, *on_stand_in_bodies(model))
+    return (), mesh_cycle(model, on_stand_in_bodies(model))
 
 
 def _of_a_body() -> dict[str, float]:

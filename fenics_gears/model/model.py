@@ -30,6 +30,9 @@ from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 if TYPE_CHECKING:
     from fenics_gears.contact.face import Face
     from fenics_gears.dynamics.frequencies import Vibration
+    from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+
+    FaceOpening = Callable[..., np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -123,21 +126,26 @@ class Model:
 
         return face_of(self.scene, self.pair)
 
-    def face_opening(self, z: np.ndarray, position: np.ndarray | None = None) -> np.ndarray:
-        """Gap (k,), mm, along the line of action by lead modifications and misalignment at places z (k,), mm, on the
-        face; see `geometry.face`."""
-        from fenics_gears.geometry.face import face_opening
-
-        return face_opening(self.pair, self.scene.lead_modifications, self.scene.misalignment, z, position)
-
     @property
-    def coast_face_opening(self) -> Callable[[np.ndarray, np.ndarray], np.ndarray] | None:
-        """The same between the coast flanks, along their own line of action; None where nothing opens them."""
-        from fenics_gears.geometry.face import coast_face_opening
+    def face_openings(self) -> tuple[FaceOpening, FaceOpening | None]:
+        """Gaps (k,), mm, along the line of action by lead modifications and misalignment at places z (k,), mm, on the
+        face and positions (k,), mm; see `geometry.face`. Of the drive flanks, and of the coast flanks, along their own
+        line of action; None where nothing opens these."""
+        from fenics_gears.geometry.face import coast_face_opening, face_opening
 
+        leads, misalignment = self.scene.lead_modifications, self.scene.misalignment
         return (
-            None if self.scene.misalignment is None else partial(coast_face_opening, self.pair, self.scene.misalignment)
+            partial(face_opening, self.pair, leads, misalignment),
+            None if misalignment is None else partial(coast_face_opening, self.pair, misalignment),
         )
+
+    def solid_discretisation(self, gear: int) -> FaceDiscretisation | None:
+        """How the body of the pinion (0) or the wheel (1) is divided over its face; None of a plane scene."""
+        if self.face is None:
+            return None
+        from fenics_gears.model.face_resolution import face_discretisation
+
+        return face_discretisation(self, gear)
 
     def transmission_error(self, position: np.ndarray) -> np.ndarray:
         """T_E = phi2 + (z1/z2) phi1 [13], rad of the wheel, at centre coordinates (..., k)."""

@@ -8,15 +8,16 @@ from dataclasses import replace
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.effects import EFFECTS
+from fenics_gears.elasticity.body import Bodies, Body
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.elasticity.compliance import FlankCompliance, Reach
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.elastic_route import Compliances, gear_compliance, mesh_cycle
-from fenics_gears.simulation.routes import CONDENSED, ON_FACE, prepared, route_of
+from fenics_gears.simulation.bodies import body_key, gear_body
+from fenics_gears.simulation.elastic_route import mesh_cycle
+from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
 
-GEARS = ("pinion", "wheel")
 NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
 
 
@@ -32,16 +33,15 @@ class GearStore:
     """
 
     def __init__(self, most: int | None = 2, cycles: bool = True):
-        self._gears: dict[tuple, FlankCompliance] = {}
-        self._bodies: dict[tuple, object] = {}
+        self._gears: dict[tuple, Body] = {}
         self._most, self._cycles = most, cycles
         self._operators_key: tuple | None = None
-        self._operators: tuple[Compliances, Cycle] | None = None
+        self._operators: tuple[Bodies, Cycle] | None = None
         self._cycle_key: tuple | None = None
         self._cycle: Cycle | None = None
 
-    def prepared(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, Cycle]:
-        """Compliances and mesh cycle for ``simulate``, kept or made."""
+    def prepared(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Bodies, Cycle]:
+        """Bodies and mesh cycle for ``simulate``, kept or made."""
         if not self._cycles:
             return self._made(model, progress, cache)
         key, shared = operators_key(model), True
@@ -51,80 +51,36 @@ class GearStore:
             )
             unrelieved = replace(model, removal=(None, None)) if differs_in_gaps_alone(model) else model
             self._operators, self._operators_key, shared = self._made(unrelieved, progress, cache), key, False
-        compliances, cycle = self._operators
+        bodies, cycle = self._operators
         if cycle_key(model) != self._cycle_key:
             self._cycle, self._cycle_key = (
                 relieved(cycle, model) if differs_in_gaps_alone(model) else cycle,
                 cycle_key(model),
             )
         if shared:
-            compliances = tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in compliances)
-        return compliances, self._cycle
+            bodies = tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in bodies)
+        return bodies, self._cycle
 
-    def gear(self, model: Model, name: str, reach: Reach, cache: Cache | None) -> FlankCompliance:
-        """Flank compliance of the "pinion" or the "wheel", kept, from the cache, or condensed."""
-        key = gear_key(model, name, reach)
+    def body(self, model: Model, name: str, cache: Cache | None) -> Body:
+        """The "pinion" or the "wheel", kept, from the cache, or condensed."""
+        key = body_key(model, name)
         # Last in the dictionary, last to be given up.
-        self._gears[key] = self._gears.pop(key, None) or gear_compliance(model, name, reach, cache)
-        return self._gears[key]
+        self._gears[key] = found = self._gears.pop(key, None) or gear_body(model, name, cache)
+        while self._most is not None and len(self._gears) > self._most:
+            del self._gears[next(iter(self._gears))]
+        return found
 
-    def _made(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Compliances, Cycle]:
-        if route_of(model) not in (CONDENSED, ON_FACE):
+    def _made(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Bodies, Cycle]:
+        if route_of(model) is not CONDENSED:
             return prepared(model, progress, cache)
-        reach = model.touching.reach
-        compliances = tuple(self.gear(model, name, reach, cache) for name in GEARS)
-        self._forget(self._gears)
-        if model.face is None:
-            return compliances, mesh_cycle(model, compliances)
-        # Imported here: plane scenes have none.
-        from fenics_gears.simulation.face_route import face_cycle
-
-        bodies = tuple(self.body(model, name, reach, cache) for name in GEARS)
-        return (*compliances, *bodies), face_cycle(model, compliances, bodies)
-
-    def body(self, model: Model, name: str, reach: Reach, cache: Cache | None):
-        """Compliance of the "pinion" or the "wheel" over its face, kept, from the cache, or condensed."""
-        from fenics_gears.simulation.face_route import gear_body
-
-        key = body_key(model, name, reach)
-        self._bodies[key] = self._bodies.pop(key, None) or gear_body(model, name, reach, cache)
-        self._forget(self._bodies)
-        return self._bodies[key]
-
-    def _forget(self, kept: dict) -> None:
-        while self._most is not None and len(kept) > self._most:
-            del kept[next(iter(kept))]
+        pinion, wheel = (self.body(model, name, cache) for name in GEARS)
+        return (pinion, wheel), mesh_cycle(model, (pinion, wheel))
 
 
 @functools.lru_cache(maxsize=1)
 def own_gear_store() -> GearStore:
     """The store of this process."""
     return GearStore()
-
-
-def gear_key(model: Model, name: str, reach: Reach) -> tuple:
-    """What a gear's flank compliance depends on."""
-    own = tuple(getattr(getattr(model.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
-    return (
-        getattr(model.pair, name),
-        model.scene.gears.material_of(name),
-        model.resolution.discretisation(GEARS.index(name)),
-        reach,
-        own,
-    )
-
-
-def body_key(model: Model, name: str, reach: Reach) -> tuple:
-    """What a gear's compliance over the face depends on."""
-    # Imported here: plane scenes have none.
-    from fenics_gears.model.face_resolution import face_discretisation
-
-    return (
-        getattr(model.pair, name),
-        model.scene.gears.material_of(name),
-        face_discretisation(model, GEARS.index(name)),
-        reach,
-    )
 
 
 def differs_in_gaps_alone(model: Model) -> bool:
@@ -135,7 +91,8 @@ def differs_in_gaps_alone(model: Model) -> bool:
         scene.corner_contact,
         *(getattr(scene, effect.section) for effect in EFFECTS if effect.gaps or effect.elasticity),
     )
-    return model.removal != (None, None) and route_of(model) is CONDENSED and all(each is None for each in others)
+    plane = model.face is None and route_of(model) is CONDENSED
+    return plane and model.removal != (None, None) and all(each is None for each in others)
 
 
 def relieved(cycle: Cycle, model: Model) -> Cycle:
@@ -177,9 +134,7 @@ def _over_face(model: Model) -> tuple | None:
     """What operators over a face depend on beside; None in the plane."""
     if model.face is None:
         return None
-    from fenics_gears.model.face_resolution import face_discretisation
-
-    divided = tuple(face_discretisation(model, gear) for gear in range(len(GEARS)))
+    divided = tuple(model.solid_discretisation(gear) for gear in range(len(GEARS)))
     return model.face.slices, divided, model.scene.lead_modifications, model.scene.misalignment
 
 

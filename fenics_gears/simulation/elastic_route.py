@@ -1,4 +1,4 @@
-"""The fast route: each gear condensed once, its flank compliance seen by the contact nodes of every position."""
+"""The fast route: each gear condensed once, its compliance seen by the contact nodes of every position."""
 
 from __future__ import annotations
 
@@ -8,57 +8,38 @@ from fenics_gears.contact.mesh import Mesh, elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps, Opening
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.effects import from_effects
+from fenics_gears.elasticity.body import Bodies
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model.model import Model
+from fenics_gears.simulation.bodies import gear_bodies
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
-
-Compliances = tuple[FlankCompliance, FlankCompliance]
 
 
 def elastic_route(
     model: Model, progress: Progress, cache: Cache | None, job: Job | None = None
-) -> tuple[Compliances, Cycle]:
-    """Flank compliance of both gears, and the contact operators of a mesh cycle on them."""
-    compliances = gear_compliances(model, progress, cache)
-    return compliances, mesh_cycle(model, compliances)
+) -> tuple[Bodies, Cycle]:
+    """The bodies of both gears, and the contact operators of a mesh cycle on them; `job`: whose ranks share the work on
+    each body in three dimensions."""
+    bodies = gear_bodies(model, progress, cache, job)
+    return bodies, mesh_cycle(model, bodies)
 
 
-def gear_compliances(model: Model, progress: Progress, cache: Cache | None) -> Compliances:
-    """Flank compliance of pinion and wheel, reaching as many teeth as can be loaded together."""
-    compliances = []
-    for name in ("pinion", "wheel"):
-        progress.stage(f"condense {name}")
-        compliances.append(gear_compliance(model, name, model.touching.reach, cache))
-    return compliances[0], compliances[1]
-
-
-def gear_compliance(model: Model, name: str, reach: Reach, cache: Cache | None) -> FlankCompliance:
-    """Flank compliance of the "pinion" or the "wheel" over the teeth within reach, from the cache where it is there."""
-    own = [each for each in from_effects(model.scene, "elasticity", model, name, reach, cache) if each is not None]
-    if own:
-        return own[0]
-    # Imported here: rigid flanks have none.
-    from fenics_gears.elasticity.gear_compliance import flank_compliance
-
-    return flank_compliance(
-        getattr(model.pair, name),
-        model.scene.gears.material_of(name),
-        model.resolution.discretisation(("pinion", "wheel").index(name)),
-        reach,
-        cache,
-    )
-
-
-def mesh_cycle(model: Model, compliances: Compliances) -> Cycle:
+def mesh_cycle(model: Model, bodies: Bodies) -> Cycle:
     """The contact operators of one mesh cycle, for the centre coordinates and the friction that the scene has."""
-    flanks, grid = flanks_of(model, compliances), model.resolution.contact_grid
-    if all(each.alike for each in compliances):
-        return cycle_of(model, elastic_mesh(flanks, grid, model.corner))
+    flanks, grid, corner = flanks_of(model, bodies), model.resolution.contact_grid, model.corner
+    first, second = (body.solid for body in bodies)
+    if first is not None and second is not None:
+        # Imported here: plane scenes have none.
+        from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
+
+        mesh = face_mesh(flanks, (first, second), model.face, grid, corner)
+        return cycle_of(model, mesh, lambda cycle: opening_over_face(cycle, *model.face_openings))
+    if all(each.alike for each in flanks.compliance):
+        return cycle_of(model, elastic_mesh(flanks, grid, corner))
     from fenics_gears.contact.whole_body_mesh import whole_body_mesh
 
-    return cycle_of(model, whole_body_mesh(flanks, grid, model.resolution.steps_per_mesh_cycle, model.corner))
+    return cycle_of(model, whole_body_mesh(flanks, grid, model.resolution.steps_per_mesh_cycle, corner))
 
 
 def cycle_of(model: Model, mesh: Mesh, over_face: Callable[[Cycle], Opening] | None = None) -> Cycle:
@@ -71,17 +52,18 @@ def cycle_of(model: Model, mesh: Mesh, over_face: Callable[[Cycle], Opening] | N
     return cycle.with_gaps(Gaps(None, openings, tuple(from_effects(model.scene, "gaps", model))))
 
 
-def flanks_of(model: Model, compliances: Compliances) -> Flanks:
-    """Both gears as contact in the plane sees them: a load over the common face spreads in a gear that is wider."""
-    pair = model.pair
-    if pair.effective_face_widths == (pair.face_width, pair.face_width):
-        return Flanks(pair, compliances, model.removal)
+def flanks_of(model: Model, bodies: Bodies) -> Flanks:
+    """Both gears as contact sees them: in the plane a load over the common face spreads in a gear that is wider."""
+    pair, first, second = model.pair, bodies[0].section, bodies[1].section
+    within = pair.effective_face_widths == (pair.face_width, pair.face_width)
+    if within or any(body.solid is not None for body in bodies):
+        return Flanks(pair, (first, second), model.removal)
     # Imported here: gears of one width have none.
     from fenics_gears.elasticity.overhang import with_overhang
 
     gears, materials = (pair.pinion, pair.wheel), model.scene.gears.materials
     pinion, wheel = (
-        with_overhang(body, gear, material, pair.face_width / width)
-        for body, gear, material, width in zip(compliances, gears, materials, pair.effective_face_widths)
+        with_overhang(body.section, gear, material, pair.face_width / width)
+        for body, gear, material, width in zip(bodies, gears, materials, pair.effective_face_widths)
     )
     return Flanks(pair, (pinion, wheel), model.removal)

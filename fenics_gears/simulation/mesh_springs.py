@@ -14,11 +14,13 @@ from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.contact.spring_mesh import PairSprings, Springs, spring_mesh
 from fenics_gears.contact.stiffness_table import LOADS, stiffness_table
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, coast_place, drive_place, facing_points
+from fenics_gears.elasticity.body import Bodies
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
 from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.model.model import Model
-from fenics_gears.simulation.elastic_route import Compliances, cycle_of, flanks_of, gear_compliances
+from fenics_gears.simulation.bodies import gear_bodies
+from fenics_gears.simulation.elastic_route import cycle_of, flanks_of
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
@@ -28,14 +30,11 @@ MOST_PHASES = 200
 DEFLECTION_WITHOUT_LOAD = 1e-3
 
 
-def table_route(
-    model: Model, progress: Progress, cache: Cache | None, job: Job | None = None
-) -> tuple[Compliances, Cycle]:
-    """Flank compliance of both gears, and the springs that a table of their full contact gives."""
-    compliances = gear_compliances(model, progress, cache)
+def table_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[Bodies, Cycle]:
+    """The bodies of both gears, and the springs that a table of their full contact gives."""
+    bodies = gear_bodies(model, progress, cache)
     progress.stage("tabulate the mesh stiffness")
-    compliances, cycle = table_cycle(model, compliances)
-    return compliances, cycle
+    return table_cycle(model, bodies)
 
 
 def iso_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[tuple, Cycle]:
@@ -43,15 +42,14 @@ def iso_route(model: Model, progress: Progress, cache: Cache | None, job: Job | 
     return (), iso_cycle(model)
 
 
-def table_cycle(model: Model, compliances: Compliances, loads: tuple[float, ...] = LOADS) -> tuple[Compliances, Cycle]:
-    """The mesh cycle of a stiffness table of the full contact; the compliances' `time_condense` has what the table
-    took.
+def table_cycle(model: Model, bodies: Bodies, loads: tuple[float, ...] = LOADS) -> tuple[Bodies, Cycle]:
+    """The mesh cycle of a stiffness table of the full contact; the bodies' `time_condense` has what the table took.
 
     `loads`: in parts of the force that the scene transmits.
     """
     begun, resolution = perf_counter(), model.resolution
     full = Cycle(
-        elastic_mesh(flanks_of(model, compliances), resolution.contact_grid, model.corner),
+        elastic_mesh(flanks_of(model, bodies), resolution.contact_grid, model.corner),
         min(resolution.steps_per_mesh_cycle, MOST_PHASES),
         [CENTRE_COORDINATES.index("rotation_2")],
         tangential=False,
@@ -59,7 +57,7 @@ def table_cycle(model: Model, compliances: Compliances, loads: tuple[float, ...]
     force = abs(model.scene.load.wheel_torque) / model.pair.wheel.base_radius
     force = force or DEFLECTION_WITHOUT_LOAD * model.scene.gears.module * mesh_stiffness(model.scene)
     table = stiffness_table(full, 0, force, loads)
-    first, second = compliances
+    first, second = bodies
     spent = first.timings["time_condense"] + perf_counter() - begun
     first = replace(first, timings={**first.timings, "time_condense": spent})
     return (first, second), _cycle(model, table.springs, len(loads) - 1)

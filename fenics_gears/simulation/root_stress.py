@@ -3,18 +3,13 @@ it."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
 from fenics_gears.model.model import Model
 from fenics_gears.results.root_stress_variables import RootStress
+from fenics_gears.simulation.bodies import discretisation_of
 from fenics_gears.system.progress import Progress
-
-if TYPE_CHECKING:
-    from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 
 
 def root_stress(model: Model, cycle: Cycle, progress: Progress, cache: Cache | None) -> RootStress:
@@ -40,13 +35,3 @@ def rows_of(model: Model, name: str, cache: Cache | None) -> RootStressRows:
         cache=cache,
         slices=None if face is None else (face.positions - face.middles[gear], face.widths),
     )
-
-
-def discretisation_of(model: Model, gear: int) -> Discretisation | FaceDiscretisation:
-    """How the body of a gear, 0 or 1, is divided: in the plane or over the face."""
-    if model.face is None:
-        return model.resolution.discretisation(gear)
-    # Imported here: plane scenes have none.
-    from fenics_gears.model.face_resolution import face_discretisation
-
-    return face_discretisation(model, gear)

@@ -46,7 +46,6 @@ RIGID = Route("rigid_route:rigid_route")
 REMESHED = Route("reference_route:reference_route")
 ISO_SPRINGS = Route("mesh_springs:iso_route")
 TABLE_SPRINGS = Route("mesh_springs:table_route", condensed_once=True)
-ON_FACE = Route("face_route:face_route", condensed_once=True, stresses=True)
 CONDENSED = Route("elastic_route:elastic_route", condensed_once=True, stresses=True)
 BY_MODEL = {None: CONDENSED, ELASTIC: CONDENSED, ISO_6336: ISO_SPRINGS, STIFFNESS_TABLE: TABLE_SPRINGS}
 
@@ -55,8 +54,6 @@ def route_of(model: Model) -> Route:
     """The route that a scene's `[gears.material]` and `[accuracy]` choose."""
     if model.scene.tooth_elasticity is None:
         return RIGID
-    if model.face is not None:
-        return ON_FACE
     return REMESHED if model.resolution.condensation == EVERY_STEP else BY_MODEL[model.scene.accuracy.model]
 
 

@@ -22,7 +22,7 @@ from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import ONCE
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.root_stress import discretisation_of
+from fenics_gears.simulation.bodies import discretisation_of
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
 from fenics_gears.system.progress import SilentProgress

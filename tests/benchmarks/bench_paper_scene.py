@@ -15,7 +15,8 @@ import pytest
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import load_scene
-from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
+from fenics_gears.simulation.bodies import gear_bodies
+from fenics_gears.simulation.elastic_route import mesh_cycle
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.system.progress import SilentProgress
 
@@ -27,31 +28,31 @@ def model():
 
 
 @pytest.fixture(scope="module")
-def compliances(model):
-    return gear_compliances(model, SilentProgress(), None)
+def bodies(model):
+    return gear_bodies(model, SilentProgress(), None)
 
 
-def marched(model, compliances):
+def marched(model, bodies):
     """All 3000 steps, the contact operators of the mesh cycle included."""
-    cycle = mesh_cycle(model, compliances)
+    cycle = mesh_cycle(model, bodies)
     return Marcher(cycle, model.equations_of_motion).run(model.steps, model.contact_steps)
 
 
 def test_mesh_and_condense_both_gears(benchmark, model):
-    benchmark.pedantic(gear_compliances, args=(model, SilentProgress(), None), rounds=7, warmup_rounds=1)
+    benchmark.pedantic(gear_bodies, args=(model, SilentProgress(), None), rounds=7, warmup_rounds=1)
 
 
-def test_contact_operators_of_a_mesh_cycle(benchmark, model, compliances):
+def test_contact_operators_of_a_mesh_cycle(benchmark, model, bodies):
     def build():
-        cycle = mesh_cycle(model, compliances)
+        cycle = mesh_cycle(model, bodies)
         for step in range(cycle.steps):
             cycle.position(step)
 
     benchmark.pedantic(build, rounds=7, warmup_rounds=1)
 
 
-def test_march(benchmark, model, compliances):
-    march = benchmark.pedantic(marched, args=(model, compliances), rounds=7, warmup_rounds=1)
+def test_march(benchmark, model, bodies):
+    march = benchmark.pedantic(marched, args=(model, bodies), rounds=7, warmup_rounds=1)
     benchmark.extra_info["steps a second"] = round(march.steps / benchmark.stats["median"])
     benchmark.extra_info["newton iterations a step"] = march.newton_iterations / march.steps
     print(f"\n{benchmark.extra_info}")

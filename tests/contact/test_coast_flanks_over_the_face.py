@@ -23,8 +23,7 @@ from fenics_gears.contact.tooth_pair import (
 )
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.model.model import model_of
-from fenics_gears.simulation.elastic_route import gear_compliances
-from fenics_gears.simulation.face_route import gear_bodies
+from fenics_gears.simulation.bodies import gear_bodies
 from fenics_gears.system.progress import SilentProgress
 
 BOTH = "[coast_flanks]\n"
@@ -33,10 +32,10 @@ BOTH = "[coast_flanks]\n"
 def coasting(hand="right", more=""):
     """The model of a pair with both flanks, and its contact on stand-in bodies."""
     model = model_of(helical_scene(BOTH + more, hand=hand, offset=2.0))
-    sections, bodies = on_stand_in_bodies(model)
-    flanks, own = Flanks(model.pair, sections), model.drivetrain.indices
-    cycle = Cycle(face_mesh(flanks, bodies, model.face, ContactGrid(2.0, 13)), 16, own, False)
-    opening = opening_over_face(cycle, model.face_opening, model.coast_face_opening)
+    bodies, own = on_stand_in_bodies(model), model.drivetrain.indices
+    flanks, solids = Flanks(model.pair, tuple(body.section for body in bodies)), tuple(body.solid for body in bodies)
+    cycle = Cycle(face_mesh(flanks, solids, model.face, ContactGrid(2.0, 13)), 16, own, False)
+    opening = opening_over_face(cycle, *model.face_openings)
     return model, cycle.with_gaps(Gaps(openings=(opening,)))
 
 
@@ -117,8 +116,8 @@ def real(suite_cache):
         ' "P1"\ncontact_nodes = 9\nsteps_per_mesh_cycle = 16'
     )
     model = model_of(helical_scene(BOTH, teeth=(18, 20), accuracy=accuracy))
-    sections, bodies = (of(model, SilentProgress(), suite_cache) for of in (gear_compliances, gear_bodies))
-    return model, Flanks(model.pair, sections), bodies
+    bodies = gear_bodies(model, SilentProgress(), suite_cache)
+    return model, Flanks(model.pair, tuple(body.section for body in bodies)), tuple(body.solid for body in bodies)
 
 
 def test_coast_flanks_are_the_drive_flanks_turned_over(real):

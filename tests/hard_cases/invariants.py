@@ -13,11 +13,11 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import displacement_jacobian
 from fenics_gears.dynamics.march import Marcher
+from fenics_gears.elasticity.body import Bodies
 from fenics_gears.model.model import Model
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
-from fenics_gears.simulation.elastic_route import Compliances, mesh_cycle
-from fenics_gears.simulation.face_route import face_cycle
+from fenics_gears.simulation.elastic_route import mesh_cycle
 from fenics_gears.simulation.rigid_route import rigid_cycle
 
 
@@ -46,19 +46,16 @@ NODES_OF_THEIR_OWN, SHARES = (
 )
 
 
-def cycle_of(model: Model, compliances) -> Cycle:
-    """Contact on given gears: rigid ones (None), plane ones, or over a face, of which there are the sections and the
-    bodies."""
-    if compliances is None:
-        return rigid_cycle(model)
-    return mesh_cycle(model, compliances) if model.face is None else face_cycle(model, *compliances)
+def cycle_of(model: Model, bodies: Bodies | None) -> Cycle:
+    """Contact on given gears, None for rigid ones."""
+    return rigid_cycle(model) if bodies is None else mesh_cycle(model, bodies)
 
 
-def run_of(model: Model, compliances: Compliances | tuple | None) -> Run:
+def run_of(model: Model, bodies: Bodies | None) -> Run:
     """March a scene on given gears (as of `cycle_of`) and keep every step; its result is made too, and is of numbers
     where it can be."""
-    cycle = cycle_of(model, compliances)
-    without_number = NODES_OF_THEIR_OWN + (SHARES if compliances is None else ())
+    cycle = cycle_of(model, bodies)
+    without_number = NODES_OF_THEIR_OWN + (SHARES if bodies is None else ())
     marcher = Marcher(cycle, model.equations_of_motion)
     recorder = Recorder(model, cycle)
     try:

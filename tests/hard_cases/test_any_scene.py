@@ -15,9 +15,10 @@ from tests.hard_cases.random_scenes import valid_scenes
 from tests.stand_in import stand_in_compliance
 
 from fenics_gears.contact.errors import MoreThanOneSolution, NoStaticEquilibrium, SelfLocking
+from fenics_gears.elasticity.body import Body
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.model import model_of
-from fenics_gears.simulation.elastic_route import gear_compliances
+from fenics_gears.simulation.bodies import gear_bodies
 from fenics_gears.system.progress import SilentProgress
 
 # Row, words, limit and unit of each residual of `invariants.step_residuals`.
@@ -84,15 +85,14 @@ def on_stand_ins(model):
         return None
     reach, coast = model.touching.reach.farthest, model.scene.coast_flanks is not None
     return tuple(
-        stand_in_compliance(gear, offsets=reach, coast_flank=coast) for gear in (model.pair.pinion, model.pair.wheel)
+        Body(stand_in_compliance(gear, offsets=reach, coast_flank=coast))
+        for gear in (model.pair.pinion, model.pair.wheel)
     )
 
 
 def on_elements(cache):
     """The real teeth, coarse."""
-    return lambda model: (
-        None if model.scene.tooth_elasticity is None else gear_compliances(model, SilentProgress(), cache)
-    )
+    return lambda model: None if model.scene.tooth_elasticity is None else gear_bodies(model, SilentProgress(), cache)
 
 
 def judged(tally, measured, gears, compliances_of, examples, scenes=valid_scenes()):

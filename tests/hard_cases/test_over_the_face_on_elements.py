@@ -7,8 +7,7 @@ from tests.hard_cases.test_any_scene import LAWS
 from tests.helical import CROWNED, helical_scene
 
 from fenics_gears.model.model import model_of
-from fenics_gears.simulation.elastic_route import gear_compliances
-from fenics_gears.simulation.face_route import gear_bodies
+from fenics_gears.simulation.bodies import gear_bodies
 from fenics_gears.system.progress import SilentProgress
 
 TEETH = (18, 20)
@@ -28,7 +27,7 @@ def run(suite_cache):
 
     def marched(more="", **changes):
         model = model_of(helical_scene(more, teeth=TEETH, **{"accuracy": accuracy(), **changes}))
-        found = run_of(model, tuple(of(model, SilentProgress(), suite_cache) for of in (gear_compliances, gear_bodies)))
+        found = run_of(model, gear_bodies(model, SilentProgress(), suite_cache))
         assert found.failure is None, str(found.failure)
         for name, value in worst_of(found).items():
             assert value <= LAWS[name][2], f"{name}: {value}"

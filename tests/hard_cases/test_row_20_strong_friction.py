@@ -10,7 +10,7 @@ from tests.hard_cases.invariants import run_of, worst_of
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import model_of
 from fenics_gears.results.summary import summary_rows
-from fenics_gears.simulation.elastic_route import gear_compliances
+from fenics_gears.simulation.bodies import gear_bodies
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
@@ -40,7 +40,7 @@ def with_friction(scene, coefficient, absent=()):
 def marched(scene):
     """A run with all its steps."""
     model = model_of(scene)
-    return run_of(model, gear_compliances(model, SilentProgress(), user_cache()))
+    return run_of(model, gear_bodies(model, SilentProgress(), user_cache()))
 
 
 def outcome(run):

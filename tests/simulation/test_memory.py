@@ -17,7 +17,7 @@ from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import model_of
-from fenics_gears.simulation import face_route
+from fenics_gears.simulation import bodies
 from fenics_gears.simulation import simulate as simulation
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate
@@ -98,15 +98,15 @@ def test_a_run_says_that_bodies_are_condensed_by_conjugate_gradients(monkeypatch
     """Promise of the page on clusters: they take a multiple of the time. The pinion's memory is between what the two
     ways need, the wheel's is enough for a factorisation."""
     model, said = model_of(helical_scene(teeth=(24, 18))), []
-    monkeypatch.setattr(face_route, "gear_body", lambda *arguments: None)
+    monkeypatch.setattr(bodies, "gear_body", lambda *arguments: None)
     monkeypatch.setattr(SilentProgress, "stage", lambda self, name: said.append(name))
     enough = [
         [expected_memory(*expected_size(gear, face_discretisation(model, number)), way) for way in (True, False)]
         for number, gear in enumerate((model.pair.pinion, model.pair.wheel))
     ]
     monkeypatch.setenv(MEMORY_VARIABLE, f"{0.5 * (max(enough[1][1], enough[0][0]) + enough[0][1]) / 1e6:.6f} MB")
-    face_route.gear_bodies(model, SilentProgress(), None)
-    assert said == ["condense pinion's body by conjugate gradients", "condense wheel's body"], enough
+    bodies.gear_bodies(model, SilentProgress(), None)
+    assert said == ["condense pinion by conjugate gradients", "condense wheel"], enough
 
 
 def test_sizes_of_memory(monkeypatch):

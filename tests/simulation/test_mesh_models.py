@@ -12,7 +12,8 @@ from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.elastic_route import gear_compliances, mesh_cycle
+from fenics_gears.simulation.bodies import gear_bodies
+from fenics_gears.simulation.elastic_route import mesh_cycle
 from fenics_gears.simulation.simulate import simulate
 
 MODELS = (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336)
@@ -105,7 +106,7 @@ def test_friction_of_mesh_springs_does_not_bend_the_teeth(paper_scene):
     scene = quasi_static(coarse_scene(paper_scene))
 
     def without_bending(model, progress, cache):
-        gears = gear_compliances(model, progress, cache)
+        gears = gear_bodies(model, progress, cache)
         return gears, WithoutBending(mesh_cycle(model, gears))
 
     table, full, unbent = (

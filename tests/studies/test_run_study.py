@@ -15,7 +15,7 @@ from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import model_of
 from fenics_gears.runs import runs
 from fenics_gears.scene.read import load_scene
-from fenics_gears.simulation.elastic_route import gear_compliances
+from fenics_gears.simulation.bodies import gear_bodies
 from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.study_file import load_study
 from fenics_gears.system.progress import SilentProgress
@@ -166,7 +166,7 @@ def stopped_in_the_middle(folder, study, how, ranks=0):
     """A study that a signal stops once a process, under mpirun rank 1, has done three cases, there two; the ended
     process."""
     # Alone it has no mpi4py, which DOLFINx needs: its gears come from the cache.
-    gear_compliances(model_of(load_scene(folder / "pair.toml")), SilentProgress(), user_cache())
+    gear_bodies(model_of(load_scene(folder / "pair.toml")), SilentProgress(), user_cache())
     call = command("study", study, "--output", "here", ranks=ranks)
     at = call.index("fenics_gears")
     call[at : at + 1] = ["tests.studies.stopped_study", how.name, "2" if ranks else "3", "1" if ranks else "0"]

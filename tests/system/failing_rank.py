@@ -27,7 +27,7 @@ STAGES = {
     "march": "dynamics.march:Marcher.run",
     "writing": "results:save",
     "reading a study": "studies.run_study:load_study",
-    "condensing for a study": "runs.gear_store:GearStore.gear",
+    "condensing for a study": "runs.gear_store:GearStore.body",
     "a case": "runs.runs:simulate",
     "writing a case": "runs.folder:Folder.keep",
     "combining": "studies.run_study:save_study",

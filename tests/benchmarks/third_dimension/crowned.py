@@ -25,7 +25,7 @@ from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import plane_contact_modulus, relative_radius
 from fenics_gears.scene.data import Accuracy
-from fenics_gears.simulation.face_route import face_route
+from fenics_gears.simulation.elastic_route import elastic_route
 from fenics_gears.system.progress import SilentProgress
 
 NAME = "crowned"
@@ -68,7 +68,7 @@ class CrownedFlanks:
         crowning = LeadModification(crowning=gears.face_width**2 / (8.0 * self.exact.radius_along))
         scene = scene_of(gears, accuracy, self.exact.load / gears.face_width)
         scene = replace(scene, misalignment=None, lead_modifications=LeadModifications(pinion=crowning))
-        self.cycle = face_route(model_of(scene), SilentProgress(), user_cache())[1]
+        self.cycle = elastic_route(model_of(scene), SilentProgress(), user_cache())[1]
         phase = (self.pair.pitch_point - self.pair.path_start) / self.pair.base_pitch % 1.0
         self.operator = self.cycle.between(phase, phase).operator
 
