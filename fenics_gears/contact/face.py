@@ -1,5 +1,5 @@
 """The face of a gear pair, cut into slices across the axes: where a slice stands, and how far its mesh is ahead of the
-middle one's."""
+middle one's. In the plane there is one slice."""
 
 from __future__ import annotations
 
@@ -44,10 +44,20 @@ class Face:
         """Distance (S,), mm, along the path of contact by which each slice is ahead of the middle of the face."""
         return self.slope * self.positions
 
+    @cached_property
+    def outermost_shifts(self) -> tuple[float, ...]:
+        """Least and largest of the shifts; one where all are alike."""
+        return tuple(sorted({float(self.shifts.min()), float(self.shifts.max())}))
+
     def axial_share(self, gear: int, turn: float) -> float:
         """Axial component of the contact normal of the pinion (0) or the wheel (1) in that gear's own tooth frame;
         `turn`: as of a Place."""
         return -turn * (1.0, -1.0)[gear] * self.slope * self.cosine
+
+
+def one_slice(width: float) -> Face:
+    """The face (mm) of flanks that are alike along the axes."""
+    return Face(np.zeros(1), np.array([width]))
 
 
 def even_slices(width: float, slices: int) -> tuple[np.ndarray, np.ndarray]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.contact.face import Face
-from fenics_gears.contact.operator import FACE_COORDINATES, Lines, over_nodes, per_node
+from fenics_gears.contact.operator import FACE_COORDINATES, Lines, per_node
 
 SENSES = (1.0, -1.0)  # of the relative displacement: the pinion approaches with +n, the wheel with -n
 
@@ -61,13 +61,3 @@ def _axial_and_tilts(
         tilts = np.stack([y * axial - z * direction[:, 1], z * direction[:, 0] - x * axial], axis=1)
         found.append(sense * np.concatenate([axial[:, None], tilts / base_radii[gear]], axis=1))
     return np.concatenate(found, axis=1)
-
-
-def node_slices_of_face(pairs) -> np.ndarray:
-    """Number (n,) of the slice that each contact node is in."""
-    return per_node(pairs, np.array([pair.place.slice for pair in pairs], dtype=int))
-
-
-def areas(pairs, face: Face) -> np.ndarray:
-    """Area (n,), mm^2, of the flank that each contact node stands for."""
-    return over_nodes(pairs, "lengths") * face.contact_widths[node_slices_of_face(pairs)]

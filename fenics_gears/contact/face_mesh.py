@@ -9,12 +9,11 @@ import numpy as np
 
 from fenics_gears.contact.face import Face
 from fenics_gears.contact.face_pairing import FacePair, FacePairing
-from fenics_gears.contact.mesh import ELASTIC_FLANKS, Mesh, flank_nodes
+from fenics_gears.contact.mesh import Mesh, MeshTraits, flank_nodes
 from fenics_gears.contact.mesh_cycle import Cycle, Opening, PerPosition, Position
 from fenics_gears.contact.operator import per_node
 from fenics_gears.contact.places import face_places
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, flank_points, interpolations
-from fenics_gears.contact.touching import Touching, touching_at
 from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
@@ -51,8 +50,8 @@ def face_mesh(
         return tuple(found)
 
     return Mesh(
-        pair, grid, nodes, pairing.response,
-        traits=ELASTIC_FLANKS, bodies=flanks.compliance, coast_flanks=coast, corner=corner, face=face,
+        pair, grid, nodes, pairing.response, traits=MeshTraits(divisible=True, repeats=True),
+        bodies=flanks.compliance, coast_flanks=coast, corner=corner, face=face,
     )  # fmt: skip
 
 
@@ -80,15 +79,3 @@ def opening_over_face(cycle: Cycle, drive: OverFace, coast: OverFace | None = No
         return per_node(position.operator.pairs, found)
 
     return PerPosition(opening)
-
-
-def touching_on_face(
-    pair, grid: ContactGrid, face: Face, steps: int, coast_flanks: bool = False, corner=None
-) -> Touching:
-    """Where the pairs of a mesh cycle touch in any slice."""
-    ends = sorted({int(face.shifts.argmin()), int(face.shifts.argmax())})
-    # Slices between the outermost two touch between them.
-    outer = Face(face.positions[ends], face.widths[ends], face.slope, face.middles)
-    return touching_at(
-        lambda step: face_places(pair, grid, outer, step / steps, coast_flanks, corner), steps, coast_flanks
-    )

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fenics_gears.contact.compliance_product import directions
+from fenics_gears.contact.face import Face
 from fenics_gears.contact.tooth_pair import COAST, ToothPair
 from fenics_gears.geometry.gear import Gear
 
@@ -32,24 +33,36 @@ def sector_of(gear: int, pair: ToothPair) -> int:
     return SENSE_OF_TEETH[gear] * pair.place.teeth[gear]
 
 
-def flank_forces(
-    gear: int, data: Gear, pairs: Sequence[ToothPair], forces: Sequence[np.ndarray], face_width: float
-) -> dict[int, np.ndarray]:
-    """Line forces (2 f,) or, with coast flanks, (4 f,), N/mm, on the flank nodes of a gear's loaded teeth, in each
-    tooth's own frame.
+def rows_in_slice(gear: int, data: Gear, face: Face, pair: ToothPair, tangential: bool) -> np.ndarray:
+    """Forces (f components, n or 2 n) on the nodes of a flank in the pair's slice, in the tooth's own frame, per unit
+    force at the pair's contact nodes: N over a face of many slices, of one N/mm."""
+    if face.slices > 1:
+        # Imported here: plane scenes have none.
+        from fenics_gears.contact.face_forces import slice_rows
 
-    `forces`: of each pair's contact nodes, (n,) or (2 n,) with friction's, N. Teeth go by `sector_of`.
+        return slice_rows(gear, data, face, pair, tangential)
+    line = flank_rows(gear, pair, tangential) / face.widths[0]
+    return unmirrored(data, line) if pair.place.flank == COAST else line
+
+
+def flank_forces(
+    gear: int, data: Gear, face: Face, averages: np.ndarray, pairs: Sequence[ToothPair], forces: Sequence[np.ndarray]
+) -> dict[int, np.ndarray]:
+    """Forces (flanks, h, f components) on the flank nodes of a gear's loaded teeth, in each tooth's own frame at that
+    height, as of `rows_in_slice`.
+
+    `averages` (slices, h): over each slice, of values at the heights of the gear's nodes. A slice moves as the average
+    over its width; its force spreads over the nodes accordingly. `forces`: of each pair's contact nodes in its slice,
+    (n,) or (2 n,) with friction's, N. Teeth go by `sector_of`.
     """
     both = any(pair.place.flank == COAST for pair in pairs)
     result: dict[int, np.ndarray] = {}
     for pair, force in zip(pairs, forces):
-        nodes = len(pair.offsets)
-        line = flank_rows(gear, pair, len(force) > nodes) @ force / face_width
-        total = result.setdefault(sector_of(gear, pair), np.zeros(len(line) * (2 if both else 1)))
-        if pair.place.flank == COAST:
-            total[len(line) :] += unmirrored(data, line)
-        else:
-            total[: len(line)] += line
+        if not force.any():
+            continue
+        section = rows_in_slice(gear, data, face, pair, len(force) > len(pair.offsets)) @ force
+        total = result.setdefault(sector_of(gear, pair), np.zeros((2 if both else 1, averages.shape[1], len(section))))
+        total[pair.place.flank if both else 0] += averages[pair.place.slice][:, None] * section
     return result
 
 

@@ -13,17 +13,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fenics_gears.contact.face import Face
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.interpolation import node_average, quadrature_offsets
 from fenics_gears.contact.mesh_cycle import PerPosition, Position
-from fenics_gears.contact.operator import node_slices
+from fenics_gears.contact.operator import IN_THE_PLANE, node_slices
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, ToothPair
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
-    from fenics_gears.contact.face import Face
     from fenics_gears.effects.flank_errors_sections import FlankErrors
 
 # A later tooth stands behind on the pinion, whose flank drives: the gap opens. On the wheel it stands nearer to the
@@ -175,10 +175,15 @@ def _amounts(deviations: FlankDeviations, angular_pitch: float, sense: float) ->
     return np.ascontiguousarray(np.stack(columns, axis=1))
 
 
-def flank_gaps(errors: FlankErrors, pair: GearPair, steps: int, face: Face | None = None) -> FlankGaps:
-    """The gaps that flank errors add, in a run of so many steps a mesh cycle; `face`: of a scene that has one. Raises
+def deviations_of(errors: FlankErrors, pair: GearPair, face: Face) -> tuple[FlankDeviations, FlankDeviations]:
+    """Deviations of pinion and wheel; those along the face where it has many slices."""
+    return flank_deviations(errors, pair, face.middles if face.slices > 1 else None)
+
+
+def flank_gaps(errors: FlankErrors, pair: GearPair, steps: int, face: Face = IN_THE_PLANE) -> FlankGaps:
+    """The gaps that flank errors add, in a run of so many steps a mesh cycle; `face`: with its slices. Raises
     SceneError for waves that the steps do not sample."""
-    deviations = flank_deviations(errors, pair, None if face is None else face.middles)
+    deviations = deviations_of(errors, pair, face)
     for own, gear, name in zip(deviations, (pair.pinion, pair.wheel), ("pinion", "wheel")):
         waves = 0 if own.waviness is None else own.waviness.waves
         if waves * FEWEST_STEPS_A_WAVE > steps * gear.teeth:
@@ -187,4 +192,4 @@ def flank_gaps(errors: FlankErrors, pair: GearPair, steps: int, face: Face | Non
                 f" fewer than {FEWEST_STEPS_A_WAVE} a wave; raise accuracy.steps_per_mesh_cycle to"
                 f" {-(-FEWEST_STEPS_A_WAVE * waves // gear.teeth)} or more"
             )
-    return FlankGaps(pair, deviations, steps, 0.0 if face is None else face.slope)
+    return FlankGaps(pair, deviations, steps, face.slope)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from fenics_gears.contact.face import Face, one_slice
 from fenics_gears.contact.operator import Passage, Response
 from fenics_gears.contact.pairing import CompliancePairing
 from fenics_gears.contact.places import pair_places
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     import numpy as np
 
     from fenics_gears.contact.corner import CornerContact
-    from fenics_gears.contact.face import Face
     from fenics_gears.contact.mesh_cycle import Position
 
 # Contact nodes of the tooth pairs that can touch at a phase (0 <= phase < 1).
@@ -31,6 +31,7 @@ class MeshTraits:
 
     `divisible`: there are positions between its steps. `nodes_on_flanks`: nodes are points of the flanks, springs are
     not. `has_pressure`: forces of nodes are a pressure on the flank, those of springs and rigid flanks are not.
+    `repeats`: a step is nearer to the one a mesh cycle before than to the last one, as flanks have many slices.
     `prescribes_friction`: it follows from the place of a tooth pair, not from the slip of its nodes. `own_solver`:
     steps are not solved by Newton's method first.
     """
@@ -40,6 +41,7 @@ class MeshTraits:
     has_pressure: bool = True
     prescribes_friction: bool = False
     own_solver: bool = False
+    repeats: bool = False
 
 
 ELASTIC_FLANKS = MeshTraits(divisible=True)
@@ -57,7 +59,7 @@ class Mesh:
 
     `nodes`: of the tooth pairs that can touch; `response(passage)`: how these yield; `solve`: a step at a position.
     `bodies`: flank compliance of pinion and wheel; empty where they have none. `corner`: tip edges that touch off the
-    line of action; `face`: slices along the axes, where it is resolved. `of_cycle(number)`: the mesh in a mesh cycle;
+    line of action; `face`: its slices along the axes; one unless given. `of_cycle(number)`: the mesh in a mesh cycle;
     where None this one, as teeth are all alike.
     """
 
@@ -72,6 +74,11 @@ class Mesh:
     corner: CornerContact | None = None
     face: Face | None = None
     of_cycle: Callable[[int], Mesh] | None = None
+
+    @property
+    def on_face(self) -> Face:
+        """The face with its slices."""
+        return self.face or one_slice(self.pair.face_width)
 
 
 def nodes_at(places: Iterable[Place], nodes_of: Callable[[Place], PairNodes | None]) -> tuple[PairNodes, ...]:

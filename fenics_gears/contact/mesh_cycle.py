@@ -128,7 +128,12 @@ class Cycle:
     def __init__(self, mesh: Mesh, steps: int, coordinates: list[int], tangential: bool):
         self.mesh, self.steps, self.coordinates, self.tangential = mesh, steps, coordinates, tangential
         self.pair, self.grid, self.traits = mesh.pair, mesh.grid, mesh.traits
-        self.bodies, self.coast_flanks, self.corner, self.face = mesh.bodies, mesh.coast_flanks, mesh.corner, mesh.face
+        self.bodies, self.coast_flanks, self.corner, self.face = (
+            mesh.bodies,
+            mesh.coast_flanks,
+            mesh.corner,
+            mesh.on_face,
+        )
         self.gaps, self.kept = Gaps(), Kept()
         self._pairs: dict[tuple, tuple[PairNodes, ...]] = {}
         self._built: dict[tuple[Mesh, int], Position] = {}
@@ -232,17 +237,13 @@ class Cycle:
         gap = over_nodes(position.operator.pairs, "gap") if profile is None else profile(position)
         for opening in self.gaps.openings:
             gap = gap + opening(position)
-        return position.with_gap(self._along_normal * gap)
+        # Openings are measured along the line of action, gaps along the normal.
+        return position.with_gap(self.face.cosine * gap)
 
     def _deviating(self, step: float, position: Position) -> Position:
         if not self.gaps.deviations:
             return position
         gap = position.operator.gap
         for deviation in self.gaps.deviations:
-            gap = gap + self._along_normal * deviation(step, position)
+            gap = gap + self.face.cosine * deviation(step, position)
         return position.with_gap(gap)
-
-    @property
-    def _along_normal(self) -> float:
-        """Openings are measured along the line of action, gaps along the normal."""
-        return 1.0 if self.face is None else self.face.cosine

@@ -12,15 +12,13 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
 from math import cos, sin
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from fenics_gears.contact.face import Face, one_slice
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes
 from fenics_gears.geometry.pair import GearPair
-
-if TYPE_CHECKING:
-    from fenics_gears.contact.face import Face
 
 # The centre coordinates q of the model: seven in the plane. Rotations are carried as arc lengths rb1 phi1, rb2 phi2
 # (mm), so that every coordinate is a length and every row a force, and no equation is scaled against another. The
@@ -31,6 +29,7 @@ CENTRE_COORDINATES = ("centre_x1", "centre_y1", "rotation_1", "centre_x2", "cent
 FACE_COORDINATES = ("axial_1", "tilt_x1", "tilt_y1", "axial_2", "tilt_x2", "tilt_y2")
 COORDINATES = CENTRE_COORDINATES + FACE_COORDINATES
 NO_NODES_BEFORE = np.empty(0, dtype=np.int64)
+IN_THE_PLANE = one_slice(1.0)
 
 
 @dataclass(frozen=True)
@@ -45,8 +44,8 @@ class ContactOperator:
     tangential displacement that the material points touching now had at the end of the step before is
     `previous_jacobian q - E p`. The last three are None without friction.
 
-    `dependent_rows`: rows of the compliance that are combinations of others, see `contact.rank`. `face`: of pairs in
-    slices; None in the plane.
+    `dependent_rows`: rows of the compliance that are combinations of others, see `contact.rank`. `face`: whose slices
+    the pairs are in.
     """
 
     pairs: tuple[PairNodes, ...]
@@ -59,7 +58,7 @@ class ContactOperator:
     previous_compliance: np.ndarray | None
     previous_jacobian: np.ndarray | None
     dependent_rows: int = 0
-    face: Face | None = None
+    face: Face = IN_THE_PLANE
 
     @property
     def nodes(self) -> int:
@@ -142,10 +141,10 @@ def displacement_jacobian(
     normal_lever_arms: tuple[np.ndarray, np.ndarray],
     tangential: bool,
     lines: Lines | None = None,
-    face: Face | None = None,
+    face: Face = IN_THE_PLANE,
 ) -> np.ndarray:
     """Relative displacement of the contact nodes per centre coordinate: G (m, 7), over CENTRE_COORDINATES, mm per mm;
-    over a `face` (m, 13).
+    over a `face` of many slices (m, 13).
 
     `lines`: of the nodes, where they are known.
     """
@@ -157,7 +156,7 @@ def displacement_jacobian(
     if tangential:
         rows[nodes:, 0:2], rows[nodes:, 2] = tangent, turn * lines.friction_arms[0] / base_radii[0]
         rows[nodes:, 3:5], rows[nodes:, 5] = -tangent, turn * lines.friction_arms[1] / base_radii[1]
-    if face is None:
+    if face.slices == 1:
         return rows
     from fenics_gears.contact.face_jacobian import on_face
 
@@ -190,7 +189,7 @@ class Response(NamedTuple):
 
 
 def contact_operator(
-    gears: GearPair, passage: Passage, coordinates: list[int], response: Response, face: Face | None = None
+    gears: GearPair, passage: Passage, coordinates: list[int], response: Response, face: Face = IN_THE_PLANE
 ) -> ContactOperator:
     """The contact equations of nodes whose normal forces act along their pair's line; those of friction too where the
     passage has previous nodes.
@@ -212,7 +211,7 @@ def contact_operator(
         normal_lever_arms=arms,
         compliance=response.compliance,
         jacobian=displacement_jacobian(pairs, radii, arms, frictional, lines, face).take(coordinates, axis=1),
-        gap=over_nodes(pairs, "gap") * (1.0 if face is None else face.cosine),
+        gap=over_nodes(pairs, "gap") * face.cosine,
         rigid_slip=slip,
         previous_compliance=before,
         previous_jacobian=earlier,
@@ -244,10 +243,10 @@ def slip_of_rigid_flanks(lines: Lines, turned: tuple[float, float]) -> np.ndarra
 
 
 def earlier_tangential_jacobian(
-    lines: Lines, radii: tuple[float, float], turned: tuple[float, float], face: Face | None = None
+    lines: Lines, radii: tuple[float, float], turned: tuple[float, float], face: Face = IN_THE_PLANE
 ) -> np.ndarray:
-    """Tangential rigid displacement (n, 7), over a `face` (n, 13), of the points touching now, per centre coordinate
-    one step before."""
+    """Tangential rigid displacement (n, 7), over a `face` of many slices (n, 13), of the points touching now,
+    per centre coordinate one step before."""
     offsets, (arm_1, arm_2) = over_nodes(lines.pairs, "offsets"), lines.friction_arms
     height_1, height_2 = lines.lever_arms[0] - offsets, lines.lever_arms[1] + offsets
     tangent, turn = lines.tangent, lines.turn
@@ -255,7 +254,7 @@ def earlier_tangential_jacobian(
     # A point (x, -h) of the pinion stood at (x cos a - h sin a, ...) before the pinion turned by a; likewise the wheel.
     rows[:, 0:2], rows[:, 2] = tangent, turn * (arm_1 * cos(turned[0]) - turn * height_1 * sin(turned[0])) / radii[0]
     rows[:, 3:5], rows[:, 5] = -tangent, turn * (arm_2 * cos(turned[1]) - turn * height_2 * sin(turned[1])) / radii[1]
-    if face is None:
+    if face.slices == 1:
         return rows
     from fenics_gears.contact.face_jacobian import earlier_tangents_on_face
 

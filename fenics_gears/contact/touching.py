@@ -7,9 +7,10 @@ steps` at a step of the cycle.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
 from functools import lru_cache
+from math import floor
 from typing import TYPE_CHECKING
 
 from fenics_gears.contact.places import pair_places
@@ -68,10 +69,25 @@ class Touching:
 
 @lru_cache(maxsize=64)
 def touching(
-    pair: GearPair, grid: ContactGrid, steps: int, coast_flanks: bool = False, corner: CornerContact | None = None
+    pair: GearPair,
+    grid: ContactGrid,
+    steps: int,
+    coast_flanks: bool = False,
+    corner: CornerContact | None = None,
+    shifts: tuple[float, ...] = (0.0,),
 ) -> Touching:
-    """Where the pairs of a mesh cycle touch."""
-    return touching_at(lambda step: pair_places(pair, grid, step / steps, coast_flanks, corner), steps, coast_flanks)
+    """Where the pairs of a mesh cycle touch in any slice; `shifts`: of the outermost slices (`Face.outermost_shifts`),
+    between which the others touch."""
+
+    def places_at(step: int) -> Iterator[Place]:
+        for shift in shifts:
+            ahead = shift / pair.base_pitch
+            passed = floor(step / steps + ahead)
+            for place in pair_places(pair, grid, step / steps + ahead - passed, coast_flanks, corner):
+                # A slice that is a whole mesh cycle ahead has the next pair where the middle has this one.
+                yield replace(place, index=place.index - passed) if passed else place
+
+    return touching_at(places_at, steps, coast_flanks)
 
 
 def touching_at(places_at: Callable[[int], Iterable[Place]], steps: int, coast_flanks: bool) -> Touching:

@@ -166,13 +166,13 @@ def _moving_coordinates(supports: Supports) -> tuple[str, ...]:
     moving = {"rotation_2"}
     if supports.bearings is not None:
         moving.update(TRANSLATIONS)
-        moving.update(_over_the_face(supports.bearings))
+        moving.update(_leaning(supports.bearings))
     if supports.shafts is not None:
         moving.update(("rotation_1", "shaft_twist"))
     return tuple(name for name in COORDINATES if name in moving)
 
 
-def _over_the_face(bearings: Bearings) -> set[str]:
+def _leaning(bearings: Bearings) -> set[str]:
     """The coordinates of gears whose bearings have places: tilts, and the axial one where the shaft is not held."""
     tilting = [name for name in FACE_COORDINATES if bearings.places_of(SIDE[name]) is not None]
     return {name for name in tilting if _kind(name) == "tilt" or bearings.axial(SIDE[name]) is not None}

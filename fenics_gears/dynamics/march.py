@@ -175,7 +175,7 @@ class Marcher(Stepper):
         cycle = self.cycle.steps
         # Positions of a block are held together, also those that are not kept.
         most = LONGEST_BLOCK_OF_OWN_SOLVER if self.cycle.traits.own_solver else LONGEST_BLOCK
-        if self.cycle.face is not None:
+        if self.cycle.traits.repeats:
             # The sets of the mesh cycle before are known when a block begins.
             most = min(most, cycle)
         longest = int(min(most, max(SHARE_OF_A_BLOCK * self.cycle.kept.most / self.cycle.position(0).bytes, 1.0)))
@@ -214,7 +214,7 @@ class Marcher(Stepper):
         durations, cycle_before = np.zeros(len(steps)), NO_SETS
         if self._motion.method != STATIC:
             durations[1:] = [self.clock.duration(step - 1, step) for step in numbers]
-        if self.cycle.face is not None:
+        if self.cycle.traits.repeats:
             cycle_before = self._cycle_before(steps)
         loads = (
             np.array([self.load(step) for step in (numbers[0], *numbers)])

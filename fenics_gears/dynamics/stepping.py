@@ -141,7 +141,7 @@ class Stepper:
         There they are nearly those of the same position a mesh cycle before. In a plane, with a tenth of the nodes, a
         step before is as near.
         """
-        if self.cycle.face is not None:
+        if self.cycle.traits.repeats:
             self._sets[step] = status
             self._sets.pop(step - self.cycle.steps - 2, None)
 

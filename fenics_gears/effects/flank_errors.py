@@ -40,12 +40,11 @@ def gaps(errors: FlankErrors, model):
 
 def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
     """The deviations of every tooth, given and drawn; slope and form of measured curves are evaluated by ISO 1328-1."""
-    from fenics_gears.geometry.flank_deviations import flank_deviations, slope_and_form
+    from fenics_gears.contact.flank_gaps import deviations_of
+    from fenics_gears.geometry.flank_deviations import slope_and_form
 
     values = {}
-    for gear, found in zip(
-        GEARS, flank_deviations(errors, cycle.pair, None if cycle.face is None else cycle.face.middles)
-    ):
+    for gear, found in zip(GEARS, deviations_of(errors, cycle.pair, cycle.face)):
         dimension = (f"{gear}_tooth",)
         values[f"{gear}_index_deviation"] = dimension, found.index
         slope, form = slope_and_form(found)

@@ -15,8 +15,8 @@ STAGES = ("time_mesh", "time_compile", "time_condense")
 
 @dataclass(frozen=True)
 class Body:
-    """A gear: flank compliance of its `section` in plane strain, and where flanks are resolved over the face that of the
-    `solid` in three dimensions, whose contact the finer section corrects.
+    """A gear: flank compliance of its `section` in plane strain, and where flanks are resolved over the face that of
+    the `solid` in three dimensions, whose contact the finer section corrects.
 
     timings: seconds that both took, by stage.
     """

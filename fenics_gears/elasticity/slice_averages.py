@@ -13,8 +13,11 @@ def slice_averages(heights: np.ndarray, order: int, positions: np.ndarray, width
     """Weights (S, h) of the layers' nodes at `heights` (h,), mm, in the averages over slices with middles and widths
     (S,), mm.
 
-    `order`: 1 or 2, of the shape functions along a layer. Raises ValueError for a slice that reaches beyond the layers.
+    `order`: 1 or 2, of the shape functions along a layer. What has one height is alike along the axes. Raises
+    ValueError for a slice that reaches beyond the layers.
     """
+    if len(heights) == 1:
+        return np.ones((len(positions), 1))
     ends = heights[::order]
     slack = 1e-9 * (ends[-1] - ends[0])
     low, high = positions - 0.5 * widths, positions + 0.5 * widths

@@ -7,7 +7,7 @@ measured, of the examples.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import lcm
 
 import numpy as np
@@ -17,7 +17,7 @@ from fenics_gears.effects import body_meshes, effects_on
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP
-from fenics_gears.model.storage import FILLET_POINTS, FILLET_POINTS_OVER_FACE
+from fenics_gears.model.storage import fillet_points
 
 Number = float | np.ndarray
 
@@ -95,7 +95,7 @@ def too_large(model: Model, cost: ExpectedCost, allowed: float) -> str:
     if cost.held <= allowed:
         return ""
     less = "Larger flank elements and fewer mesh cycles take less"
-    if model.face is not None:
+    if cost.ways:
         less = (
             f"Fewer slices (accuracy.slices, here {model.face.slices}) and larger elements of the bodies"
             " (accuracy.body_element_size, accuracy.layers) take less"
@@ -151,8 +151,8 @@ def expected_cost(model: Model, ranks: int = 1) -> ExpectedCost:
     if resolution.condensation == EVERY_STEP:
         return _remeshed_cost(model, gears)
     sections = _sections(model, gears)
-    if model.face is None:
-        return sections
+    if model.face.slices == 1:
+        return _with_root_stress(model, gears, sections)
     # Imported here: plane scenes have none.
     from fenics_gears.model.face_cost import face_cost
 
@@ -237,11 +237,6 @@ def _sections(model: Model, gears: list[_Gear]) -> ExpectedCost:
         for gear in gears
     )
     marching, operators = _marching(model, rows), operator_bytes(positions, rows, friction)
-    if model.scene.output.root_stress and model.face is None:
-        held += ON_FLANKS * positions * rows
-        for gear in gears:
-            seconds, kept, step = root_stress_cost(model, gear.unknowns, UNKNOWN, gear.flank_dofs)
-            condensing, held, marching = condensing + seconds, held + kept, marching + model.steps * step
     return ExpectedCost(
         condensing,
         marching,
@@ -252,12 +247,27 @@ def _sections(model: Model, gears: list[_Gear]) -> ExpectedCost:
     )
 
 
+def _with_root_stress(model: Model, gears: list[_Gear], sections: ExpectedCost) -> ExpectedCost:
+    """The cost of a plane run with that of its root stress, where the scene asks for it."""
+    if not model.scene.output.root_stress:
+        return sections
+    held, seconds, step = ON_FLANKS * _positions(model) * contact_rows(model), 0.0, 0.0
+    for gear in gears:
+        own = root_stress_cost(model, gear.unknowns, UNKNOWN, gear.flank_dofs)
+        seconds, held, step = seconds + own[0], held + own[1], step + own[2]
+    return replace(
+        sections,
+        condensing=sections.condensing + seconds,
+        marching=sections.marching + model.steps * step,
+        memory=sections.memory + held,
+    )
+
+
 def root_stress_cost(model: Model, unknowns: float, factorised: float, flank: float) -> tuple[float, float, float]:
     """Of the root stress of a gear, in the plane or in slices: seconds of condensing, bytes of its rows, seconds of a
     step. factorised: seconds of an unknown; flank: dofs of the flank or flanks."""
-    points, solved = 2.0 * (FILLET_POINTS + 1), SOLVED_UNKNOWN
-    if model.face is not None:
-        points, solved = 2.0 * (FILLET_POINTS_OVER_FACE + 1) * model.face.slices, SOLVED_OVER_FACE
+    slices = model.face.slices
+    points, solved = 2.0 * (fillet_points(slices) + 1) * slices, SOLVED_UNKNOWN if slices == 1 else SOLVED_OVER_FACE
     teeth = 2 * model.touching.reach.farthest + (3 if model.scene.coast_flanks is not None else 1)
     return (
         unknowns * (factorised + solved * (points + flank)),

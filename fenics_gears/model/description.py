@@ -88,7 +88,7 @@ def _model_rows(model: Model) -> Rows:
             ", ".join(model.drivetrain.coordinates),
         ),
         ("contact nodes of a tooth pair", f"{grid.nodes},", touching)
-        if model.face is None
+        if model.face.slices == 1
         else ("slices of the face", f"{model.face.slices},", f"contact nodes in each, {touching}"),
         ("equations in time", _method(model), ""),
         *(

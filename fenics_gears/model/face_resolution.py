@@ -136,7 +136,7 @@ def loaded_part(model: Model) -> float:
     places = np.linspace(*model.pair.common_face, 401)
     # How far each place stands back from the first that touches, by increasing distance, and the approach at which the
     # load reaches so far.
-    opening = np.sort(model.face_openings[0](places))
+    opening = np.sort(model.face_opening(places))
     stiffness = MESH_STIFFNESS * mean_youngs_modulus(model.scene.tooth_elasticity)
     carried = stiffness * (opening * np.arange(len(places)) - np.cumsum(np.insert(opening[:-1], 0, 0.0))) / len(places)
     line_load = abs(model.scene.load.wheel_torque) / model.pair.wheel.base_radius / model.pair.face_width

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fenics_gears.contact.face import Face, one_slice
 from fenics_gears.contact.touching import Touching, touching
 from fenics_gears.dynamics.clock import Clock, SteadyClock
 from fenics_gears.dynamics.drivetrain import Drivetrain
@@ -28,11 +29,8 @@ from fenics_gears.model.storage import counted_bytes, sizes, stored_arrays
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 
 if TYPE_CHECKING:
-    from fenics_gears.contact.face import Face
     from fenics_gears.dynamics.frequencies import Vibration
     from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-
-    FaceOpening = Callable[..., np.ndarray]
 
 
 @dataclass(frozen=True)
@@ -97,51 +95,38 @@ class Model:
     def touching(self) -> Touching:
         """Which tooth pairs can touch: how far apart loaded teeth are (`reach`), and how many pairs there are at once
         (`slots`)."""
-        resolution = self.resolution
-        if self.face is not None:
-            from fenics_gears.contact.face_mesh import touching_on_face
-
-            return touching_on_face(
-                self.pair,
-                resolution.contact_grid,
-                self.face,
-                resolution.steps_per_mesh_cycle,
-                self.scene.coast_flanks is not None,
-                self.corner,
-            )
-        return touching(
-            self.pair,
-            resolution.contact_grid,
-            resolution.steps_per_mesh_cycle,
-            self.scene.coast_flanks is not None,
-            self.corner,
-        )
+        grid, steps = self.resolution.contact_grid, self.resolution.steps_per_mesh_cycle
+        coast, shifts = self.scene.coast_flanks is not None, self.face.outermost_shifts
+        return touching(self.pair, grid, steps, coast, self.corner, shifts)
 
     @cached_property
-    def face(self) -> Face | None:
-        """The slices of the common face; None of a plane scene."""
+    def face(self) -> Face:
+        """The common face in slices; a plane scene has one."""
         if not self.scene.three_dimensional:
-            return None
+            return one_slice(self.pair.face_width)
         from fenics_gears.model.face_resolution import face_of
 
         return face_of(self.scene, self.pair)
 
-    @property
-    def face_openings(self) -> tuple[FaceOpening, FaceOpening | None]:
-        """Gaps (k,), mm, along the line of action by lead modifications and misalignment at places z (k,), mm, on the
-        face and positions (k,), mm; see `geometry.face`. Of the drive flanks, and of the coast flanks, along their own
-        line of action; None where nothing opens these."""
-        from fenics_gears.geometry.face import coast_face_opening, face_opening
+    def face_opening(self, z: np.ndarray, position: np.ndarray | None = None) -> np.ndarray:
+        """Gap (k,), mm, along the line of action by lead modifications and misalignment at places z (k,), mm, on the
+        face; see `geometry.face`."""
+        from fenics_gears.geometry.face import face_opening
 
-        leads, misalignment = self.scene.lead_modifications, self.scene.misalignment
+        return face_opening(self.pair, self.scene.lead_modifications, self.scene.misalignment, z, position)
+
+    @property
+    def coast_face_opening(self) -> Callable[[np.ndarray, np.ndarray], np.ndarray] | None:
+        """The same between the coast flanks, along their own line of action; None where nothing opens them."""
+        from fenics_gears.geometry.face import coast_face_opening
+
         return (
-            partial(face_opening, self.pair, leads, misalignment),
-            None if misalignment is None else partial(coast_face_opening, self.pair, misalignment),
+            None if self.scene.misalignment is None else partial(coast_face_opening, self.pair, self.scene.misalignment)
         )
 
     def solid_discretisation(self, gear: int) -> FaceDiscretisation | None:
         """How the body of the pinion (0) or the wheel (1) is divided over its face; None of a plane scene."""
-        if self.face is None:
+        if not self.scene.three_dimensional:
             return None
         from fenics_gears.model.face_resolution import face_discretisation
 
@@ -157,10 +142,8 @@ class Model:
     @property
     def stored_bytes(self) -> int:
         """Size of the result in memory: curves of all steps, and contact fields of those that are stored."""
-        slices = 0 if self.face is None else self.face.slices
-        size = sizes(
-            self.steps + 1, self.contact_steps, self.touching.slots, self.resolution.contact_grid.most_nodes, slices
-        )
+        slots, nodes = self.touching.slots, self.resolution.contact_grid.most_nodes
+        size = sizes(self.steps + 1, self.contact_steps, slots, nodes, self.face.slices)
         return counted_bytes(stored_arrays(self.scene, size), size)
 
     @cached_property
@@ -191,7 +174,7 @@ class Model:
         found += [*locking_warnings(self.resolution, self.scene.gears.materials), *rim_warnings(self)]
         for sentences in from_effects(self.scene, "warnings", self):
             found += sentences
-        if self.face is not None:
+        if self.scene.three_dimensional:
             from fenics_gears.model.face_resolution import face_warnings
 
             found += face_warnings(self)
@@ -256,7 +239,7 @@ def model_of(scene: Scene) -> Model:
     corner(scene, pair)  # refused here, before the run asks for it
     shafts = drivetrain(scene, pair)
     model = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
-    if model.face is not None:
+    if scene.three_dimensional:
         from fenics_gears.model.face_resolution import check_layers
 
         check_layers(model)

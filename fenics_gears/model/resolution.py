@@ -26,13 +26,9 @@ from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.scene.data import ISO_6336, Material, Scene
 from fenics_gears.scene.defaults import (
     COARSEST_ELEMENT,
-    ELEMENTS_PER_HALF_WIDTH,
-    ELEMENTS_PER_HALF_WIDTH_ON_FACE,
     FINEST_ELEMENT,
     MOST_STEPS_PER_MESH_CYCLE,
     NODE_SPACING,
-    STEPS_PER_MESH_CYCLE,
-    STEPS_PER_MESH_CYCLE_ON_FACE,
     STEPS_PER_PERIOD,
 )
 
@@ -119,9 +115,8 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     line_load = abs(scene.load.wheel_torque) / pair.wheel.base_radius / pair.face_width
     smallest = min(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end))
     half_width = hertz_half_width(line_load, smallest, plane_contact_modulus(scene))
-    elements = ELEMENTS_PER_HALF_WIDTH_ON_FACE if scene.three_dimensional else ELEMENTS_PER_HALF_WIDTH
     size = asked.flank_element_size or float(
-        np.clip(half_width / elements, FINEST_ELEMENT * module, COARSEST_ELEMENT * module)
+        np.clip(half_width / scene.fineness.elements_per_half_width, FINEST_ELEMENT * module, COARSEST_ELEMENT * module)
     )
     length = asked.contact_length or _contact_length(scene, pair, line_load, half_width, size)
     spacing = NODE_SPACING * size if (asked.element or DEFAULT_ELEMENT).endswith("2") else size
@@ -170,7 +165,7 @@ def _rigid_resolution(scene: Scene, drivetrain: Drivetrain) -> Resolution:
     """Rigid flanks touch at a point: a window in which it is found, and steps."""
     asked, module = scene.accuracy, scene.gears.module
     steps = asked.steps_per_mesh_cycle or (
-        STEPS_PER_MESH_CYCLE if drivetrain.mass is None else MOST_STEPS_PER_MESH_CYCLE
+        scene.fineness.steps_per_mesh_cycle if drivetrain.mass is None else MOST_STEPS_PER_MESH_CYCLE
     )
     grid = ContactGrid(asked.contact_length or RIGID_WINDOW * module, asked.contact_nodes or RIGID_NODES)
     return Resolution(RIGID, 0.0, grid, steps, half_width=0.0, condensation=ONCE)
@@ -194,7 +189,7 @@ def _widest(pair: GearPair) -> float:
 
 def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
     """Steps that resolve the mesh cycle and, with inertia, the drivetrain's highest frequency."""
-    fewest = STEPS_PER_MESH_CYCLE_ON_FACE if scene.three_dimensional else STEPS_PER_MESH_CYCLE
+    fewest = scene.fineness.steps_per_mesh_cycle
     if drivetrain.mass is None:
         return fewest
     from fenics_gears.dynamics.frequencies import natural_frequencies

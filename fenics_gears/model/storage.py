@@ -31,13 +31,18 @@ CONTACT_COORDINATES = {
 Arrays = Mapping[str, tuple[tuple[str, ...], np.dtype]]
 
 
-def sizes(steps: int, contact_steps: int, slots: int, nodes: int, slices: int = 0) -> dict[str, int]:
-    """Length of each dimension of a result with so many steps, of which the contact fields of so many are stored;
-    `slices` of a face, if it has any."""
+def fillet_points(slices: int) -> int:
+    """Stress points of a fillet in each of so many slices."""
+    return FILLET_POINTS if slices == 1 else FILLET_POINTS_OVER_FACE
+
+
+def sizes(steps: int, contact_steps: int, slots: int, nodes: int, slices: int = 1) -> dict[str, int]:
+    """Length of each dimension of a result with so many steps, of which the contact fields of so many are stored, over
+    so many `slices` of the face."""
     return {
         "face_position": slices,
         "time": steps, "contact_time": contact_steps, "slot": slots, "contact_node": nodes,
-        "gear": 2, "fillet": 2, "fillet_point": 2 * (FILLET_POINTS_OVER_FACE if slices else FILLET_POINTS),
+        "gear": 2, "fillet": 2, "fillet_point": 2 * fillet_points(slices),
     }  # fmt: skip
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from fenics_gears.geometry.modification import kinks
 from fenics_gears.model.model import Model
 from fenics_gears.model.modification import removals
+from fenics_gears.results.face_ends import in_end_zone
 from fenics_gears.results.side_by_side import SideBySide
 
 # What a node is beside; where it is beside several, the last.
@@ -51,8 +52,5 @@ class EdgesAndKinks:
         for place in self._places:
             near = np.abs(arcs[place.gear] - place.arc) <= REACH[place.kind] * self.half_width
             found[near & nodes.drive if place.kind == KINK else near] = place.kind
-        if nodes.cycle.face is not None:
-            from fenics_gears.results.face_ends import in_end_zone
-
-            found[in_end_zone(nodes.cycle.pair, nodes.cycle.face.positions)[nodes.of("slice")]] = EDGE
+        found[in_end_zone(nodes.cycle.pair, nodes.cycle.face.positions)[nodes.of("slice")]] = EDGE
         return found

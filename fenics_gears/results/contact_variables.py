@@ -37,7 +37,7 @@ def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
         "newton_iterations": steps.iterations,
         "closed_nodes": nodes.summed(nodes.closed),
     }
-    if scene.three_dimensional:
+    if len(reactions) > 6:
         values |= dict(zip(("reaction_z", "reaction_moment_x", "reaction_moment_y"), of_gears(reactions[6:])))
     if scene.friction is not None:
         values["friction_force"] = nodes.summed(nodes.tangential * drive)
@@ -122,8 +122,8 @@ def _normal(record: Record) -> np.ndarray:
 
 
 def node_variables(scene: Scene, nodes: SideBySide) -> Values:
-    """Pressure, traction and place of each contact node (steps, slots, nodes); pressures are zero, places not a number
-    where there is none."""
+    """Pressure, traction and place of each contact node (steps, slots, slices, nodes); pressures are zero, places not a
+    number where there is none."""
     pressure = nodes.normal / nodes.of("area")
     traction = None if scene.friction is None else nodes.tangential / nodes.of("area")
     values = {"contact_offset": nodes.over_nodes(nodes.of("offsets"), True, np.nan)}

@@ -124,7 +124,7 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
                 numbered | {"long_name": "pair_number at the times of the contact fields"},
             ),
         }
-    if recorder.cycle.face is not None:
+    if recorder.cycle.face.slices > 1:
         words = (
             "distance along the axes from the middle of the common face, towards the end from which the pinion is seen"
             " to turn counter-clockwise"
@@ -203,7 +203,7 @@ def _numbers(recorder: Recorder, march: March, result: xr.Dataset, counted: xr.D
         numbers |= _friction_loss(counted)
     counted.attrs.update(numbers)
     numbers |= key_numbers(counted, recorder.model.pair, timed=recorder.model.scene.motion.speed_given)
-    if recorder.cycle.face is not None:
+    if recorder.cycle.face.slices > 1:
         from fenics_gears.results.load_factors import load_factors
 
         numbers |= load_factors(counted, recorder.model.pair)

@@ -64,7 +64,7 @@ class Extrema:
         )
         self._quasi_static = model.drivetrain.mass is None
         follows_statics = self._quasi_static or not model.time_scales.averages_acceleration
-        self._sought = SOUGHT if cycle.face is None else SOUGHT_OVER_FACE
+        self._sought = SOUGHT if cycle.face.slices == 1 else SOUGHT_OVER_FACE
         self.found_by = CUBICS if not follows_statics else SOLVED if cycle.traits.divisible else STEPS
         if self.found_by == SOLVED:
             # Not a method of this object: with a circle of references all operators would stay until Python looks for
@@ -168,7 +168,7 @@ def _largest_force_of_a_pair(record: Record) -> float:
     """Largest normal force, N, of a pair of flanks at a position."""
     operator = record.position.operator
     pair_of_node = operator.node_pair
-    if operator.face is not None:
+    if operator.face.slices > 1:
         # There a tooth pair has nodes in many slices.
         numbers = {
             key: number

@@ -33,7 +33,7 @@ def _stiffness(steps):
 
 
 def _together(parts: np.ndarray) -> np.ndarray:
-    """Values of tooth pairs, or of their slices, one after the other at each step."""
+    """Values of the slices of tooth pairs, one after the other at each step."""
     return parts.reshape(len(parts), -1)
 
 
@@ -51,8 +51,7 @@ def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray], singula
             continue
         place = fields[f"{side}contact_roll_angle"]
         pressure = read_off(fields[f"{side}contact_pressure"], place)
-        by_part = nodes.by_slot if nodes.cycle.face is None else nodes.by_slice
-        presses_edge = by_part(pressed_edge & (nodes.drive == drive))[..., None] > 0
+        presses_edge = nodes.by_slice(pressed_edge & (nodes.drive == drive))[..., None] > 0
         kinds = np.where(presses_edge, EDGE, nodes.over_nodes(beside, drive, NOTHING))
         for kind, found in largest.items():
             found.append(_together(np.where(kinds == kind, pressure, 0.0).max(axis=-1)))

@@ -54,13 +54,8 @@ class Recorder:
         self.loads = model.loads if loads is None else loads
         ways = touching_at(lambda step: [pair.place for pair in cycle.pairs_at(step)], cycle.steps, cycle.coast_flanks)
         self.first_number, self.slots = 1 + ways.latest, ways.slots
-        self.size = sizes(
-            model.steps + 1,
-            model.contact_steps,
-            self.slots,
-            cycle.grid.most_nodes,
-            0 if cycle.face is None else cycle.face.slices,
-        )
+        nodes = cycle.grid.most_nodes
+        self.size = sizes(model.steps + 1, model.contact_steps, self.slots, nodes, cycle.face.slices)
         self.stored = stored_arrays(model.scene, self.size)
         self._room = self._room_for(journal)
         self.kept: Kept = self._room
@@ -135,7 +130,7 @@ class Recorder:
         watched = watched_contact(nodes)
         if scene.resolves_contact:
             fields |= node_variables(scene, nodes)
-            if cycle.face is not None:
+            if cycle.face.slices > 1:
                 from fenics_gears.results.face_variables import face_variables, in_transverse_plane
 
                 fields |= face_variables(nodes)
@@ -145,7 +140,8 @@ class Recorder:
             fields |= self.stress.values(nodes)
         for found in from_effects(scene, "watched", cycle, block):
             watched |= found
-        kept = {name: of for name, of in (values | fields).items() if name in self.stored}
+        found = values | fields
+        kept = {name: self._in_shape(found[name], dims) for name, (dims, _) in self.stored.items() if name in found}
         self._room.put(self.steps, kept | {f"{WATCHED}{name}": of for name, of in watched.items()}, march)
         # Last of all: a march that is interrupted before this line evaluates these steps again.
         self._watched = tuple(watched)
@@ -155,6 +151,10 @@ class Recorder:
             worked,
             self.steps + len(block),
         )
+
+    def _in_shape(self, values: np.ndarray, dims: Sequence[str]) -> np.ndarray:
+        """Values of some steps over the dimensions of their variable: one slice is none."""
+        return values.reshape(len(values), *(self.size[each] for each in dims[1:]))
 
     def _centres(self, block: Steps) -> dict[str, np.ndarray]:
         scene, drivetrain = self.model.scene, self.model.drivetrain

@@ -9,10 +9,10 @@ from collections.abc import Sequence
 import numpy as np
 from scipy import sparse
 
-from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, flank_rows, sector_of, unmirrored
+from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, rows_in_slice, sector_of
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import node_slices
-from fenics_gears.contact.tooth_pair import COAST, ToothPair
+from fenics_gears.contact.tooth_pair import ToothPair
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.elasticity.root_stress import RootStressRows
 from fenics_gears.errors import ComputationError
@@ -67,14 +67,8 @@ class RootStress:
     def _forces(self, gear: int, pair: ToothPair, tangential: bool) -> tuple[int, np.ndarray]:
         """The slice that a pair is in, and forces (f components, n or 2 n) on a flank's nodes there per contact
         force."""
-        face, data = self.cycle.face, (self.pair.pinion, self.pair.wheel)[gear]
-        if face is not None:
-            # Imported here: plane scenes have none.
-            from fenics_gears.contact.face_forces import slice_rows
-
-            return pair.place.slice, slice_rows(gear, data, face, pair, tangential)
-        line = flank_rows(gear, pair, tangential) / self.pair.face_width
-        return 0, unmirrored(data, line) if pair.place.flank == COAST else line
+        data = (self.pair.pinion, self.pair.wheel)[gear]
+        return pair.place.slice, rows_in_slice(gear, data, self.cycle.face, pair, tangential)
 
     def _known(self, gear: int, ahead: int) -> np.ndarray:
         rows = self.rows[gear]
@@ -120,12 +114,12 @@ class RootStress:
         along = np.moveaxis(values[..., :-1], 3, -1)
         along = along.reshape(*along.shape[:3], -1, along.shape[-1])
         section = values[..., -1].swapaxes(-1, -2)
-        over_face = self.cycle.face is not None
         return {
-            "root_stress": along if over_face else along[..., 0],
+            "root_stress": along,
+            "root_stress_over_face": section,
             "root_stress_maximum": np.fmax.reduce(along, axis=(-1, -2)),
             "root_stress_at_30_degrees": np.fmax.reduce(section, axis=-1),
-        } | ({"root_stress_over_face": section} if over_face else {})
+        }
 
     def labels(self) -> tuple[dict[str, str], dict[str, tuple]]:
         """Long names of the variables, and the coordinates of their fillet points."""
@@ -137,7 +131,7 @@ class RootStress:
                 "stress where the fillet's tangent stands at 30 degrees to the tooth's centreline"
             ),
         }
-        if self.cycle.face is not None:
+        if self.cycle.face.slices > 1:
             section = words["root_stress_at_30_degrees"]
             words |= {"root_stress_at_30_degrees": f"largest {section}", "root_stress_over_face": section}
         return words, {

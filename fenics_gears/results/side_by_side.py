@@ -30,11 +30,12 @@ class Layout:
     """What belongs to the contact nodes (n,) of a position of the gears, whatever the step.
 
     `index`: of the node's tooth pair at the position; `node`: its place in that pair; `drive`: whether it is on a drive
-    flank; `at_end`: whether it stands on an end of the window; `on_edge` (4, n): on the edge of the pinion's and of the
-    wheel's tip, and on the edge at the form circle of either where it is undercut; `arcs` (2, n): where it touches the
-    pinion's and the wheel's flank, mm along the involute from the base circle; `rows_of_normals` (6, n) and
-    `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force (x, y), N, and torque, N mm;
-    over a face (12, n), with the axial force, N, and the moments about x and y, N mm, of both gears after these.
+    flank; `slice`: of the face, that it is in; `at_end`: whether it stands on an end of the window; `on_edge` (4, n):
+    on the edge of the pinion's and of the wheel's tip, and on the edge at the form circle of either where it is
+    undercut; `arcs` (2, n): where it touches the pinion's and the wheel's flank, mm along the involute from the base
+    circle; `rows_of_normals` (6, n) and `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each
+    force: force (x, y), N, and torque, N mm; over a face of many slices (12, n), with the axial force, N, and the
+    moments about x and y, N mm, of both gears after these.
     """
 
     def __init__(self, operator: ContactOperator, cycle: Cycle, tangential: bool):
@@ -43,16 +44,11 @@ class Layout:
         self.index = per_node(pairs, np.array([pair.place.index for pair in pairs], dtype=int))
         self.node = np.concatenate([np.arange(count) for count in counts] or [np.empty(0, dtype=int)])
         self.drive = per_node(pairs, np.array([pair.place.flank == DRIVE for pair in pairs], dtype=bool))
-        self.area, self.offsets, self.rolls = (
-            over_nodes(pairs, name) for name in ("lengths", "offsets", "pinion_roll")
-        )
+        self.slice = per_node(pairs, np.array([pair.place.slice for pair in pairs], dtype=int))
+        lengths, self.offsets, self.rolls = (over_nodes(pairs, name) for name in ("lengths", "offsets", "pinion_roll"))
+        self.area = lengths * operator.face.contact_widths[self.slice]
         self.at_end = np.abs(self.offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
-        if operator.face is None:
-            self.area = self.area * cycle.pair.face_width
-        else:
-            from fenics_gears.contact.face_jacobian import areas, node_slices_of_face
-
-            self.area, self.slice = areas(pairs, operator.face), node_slices_of_face(pairs)
+        if cycle.grid.inner_length is not None:
             self.at_end |= _at_inner_end(cycle, pairs, self.offsets)
         self.on_edge = self.arcs = None
         if cycle.traits.has_pressure:
@@ -218,11 +214,11 @@ class SideBySide:
         )
 
     def over_nodes(self, values: np.ndarray, drive: bool, absent: float) -> np.ndarray:
-        """Values (N,) of drive or coast flanks by step, slot, slice of the face if there are any, and contact node;
-        `absent` where there is no node."""
-        slices = () if self.cycle.face is None else (self.cycle.face.slices,)
-        field = np.full((len(self.steps), self.slots, *slices, self.cycle.grid.most_nodes), absent)
-        places = (self._slots if not slices else self._slices) * self.cycle.grid.most_nodes + self.of("node")
+        """Values (N,) of drive or coast flanks by step, slot, slice of the face, and contact node; `absent` where there
+        is no node."""
+        most = self.cycle.grid.most_nodes
+        field = np.full((len(self.steps), self.slots, self.cycle.face.slices, most), absent)
+        places = self._slices * most + self.of("node")
         if drive and self.drive.all():
             field.reshape(-1)[places] = values
         else:

@@ -74,7 +74,7 @@ def warnings_of(recorder: Recorder, march: March, result: xr.Dataset) -> list[st
     of_flanks = [*_window(cycle, watched), *_rank(watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
     if cycle.traits.has_pressure and recorder.steps:
         of_flanks += warnings_of_pressure(recorder.model.scene, watched, result.attrs)
-    if cycle.face is not None:
+    if "line_load" in result:
         # Imported here: plane scenes have none.
         from fenics_gears.results.face_variables import warnings_of_face
 

@@ -50,7 +50,7 @@ def _keys(model: Model, name: str) -> Iterator[tuple[str, tuple]]:
     key = body_key(model, name)
     yield BODY, key
     if model.scene.output.root_stress and route_of(model).stresses:
-        slices = None if model.face is None else (model.face.slices, model.pair.common_face, model.pair.gear_middles)
+        slices = model.face.slices, model.pair.common_face, model.pair.gear_middles
         yield ROOT_STRESS, (*key, slices, model.scene.coast_flanks is not None)
 
 

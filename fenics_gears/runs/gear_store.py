@@ -91,7 +91,7 @@ def differs_in_gaps_alone(model: Model) -> bool:
         scene.corner_contact,
         *(getattr(scene, effect.section) for effect in EFFECTS if effect.gaps or effect.elasticity),
     )
-    plane = model.face is None and route_of(model) is CONDENSED
+    plane = model.face.slices == 1 and route_of(model) is CONDENSED
     return plane and model.removal != (None, None) and all(each is None for each in others)
 
 
@@ -118,24 +118,16 @@ def operators_key(model: Model) -> tuple:
     )
     apart = model.removal == (None, None) or differs_in_gaps_alone(model)
     springs = scene.accuracy.model, None if scene.resolves_contact else scene.load
-    own = None if apart else _reliefs(scene)
+    own, divided = None if apart else _reliefs(scene), tuple(model.solid_discretisation(gear) for gear in (0, 1))
     return (
         scene.gears,
         in_operators,
         scene.coast_flanks is not None,
-        (accuracy, springs, _over_face(model)),
+        (accuracy, springs, model.face.slices, divided, scene.lead_modifications, scene.misalignment),
         own,
         tuple(model.drivetrain.indices),
         scene.friction is not None,
     )
-
-
-def _over_face(model: Model) -> tuple | None:
-    """What operators over a face depend on beside; None in the plane."""
-    if model.face is None:
-        return None
-    divided = tuple(model.solid_discretisation(gear) for gear in range(len(GEARS)))
-    return model.face.slices, divided, model.scene.lead_modifications, model.scene.misalignment
 
 
 def cycle_key(model: Model) -> tuple:

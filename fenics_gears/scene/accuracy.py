@@ -43,8 +43,9 @@ class Accuracy(Section):
         "0.08 mm",
         meaning="size of the elements on the flank",
         otherwise=(
-            f"1/{defaults.ELEMENTS_PER_HALF_WIDTH:g} of the smallest Hertz half-width of one pair under the whole load,"
-            f" 1/{defaults.ELEMENTS_PER_HALF_WIDTH_ON_FACE:g} of it in three-dimensional scenes, but at least"
+            f"1/{defaults.IN_THE_PLANE.elements_per_half_width:g} of the smallest Hertz half-width of one pair under"
+            " the whole load,"
+            f" 1/{defaults.OVER_THE_FACE.elements_per_half_width:g} of it in three-dimensional scenes, but at least"
             f" 1/{1.0 / defaults.FINEST_ELEMENT:g} and at most 1/{1.0 / defaults.COARSEST_ELEMENT:g} of the module"
         ),
     )
@@ -95,7 +96,8 @@ class Accuracy(Section):
         100,
         meaning="time steps of a mesh cycle",
         otherwise=(
-            f"{defaults.STEPS_PER_MESH_CYCLE}, in three-dimensional scenes {defaults.STEPS_PER_MESH_CYCLE_ON_FACE};"
+            f"{defaults.IN_THE_PLANE.steps_per_mesh_cycle}, in three-dimensional scenes"
+            f" {defaults.OVER_THE_FACE.steps_per_mesh_cycle};"
             f" with `[inertia]` as many as give the highest natural frequency {defaults.STEPS_PER_PERIOD} steps per"
             f" period, at most {defaults.MOST_STEPS_PER_MESH_CYCLE}; with `[inertia]` and rigid flanks"
             f" {defaults.MOST_STEPS_PER_MESH_CYCLE}"

@@ -6,17 +6,7 @@ from collections.abc import Iterator
 
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.section import allowed_in, names_in
-from fenics_gears.inputs.tree import (
-    GEARS,
-    Tree,
-    load_in,
-    material_sections,
-    over_the_face,
-    quantity_at,
-    quantity_in,
-    table,
-    value_at,
-)
+from fenics_gears.inputs.tree import GEARS, Tree, load_in, material_sections, quantity_at, quantity_in, table, value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.accuracy import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy
 from fenics_gears.scene.gear_schema import Gears
@@ -78,7 +68,7 @@ def _remeshed_gears_have_one_width(tree: Tree) -> Iterator[Problem]:
     common = quantity_at(tree, "gears", "face_width")
     widths = {quantity_at(tree, "gears", gear, "face_width") or common for gear in GEARS}
     offsets = {quantity_at(tree, "gears", gear, "axial_offset") or 0.0 for gear in GEARS}
-    if asked == EVERY_STEP and not over_the_face(tree) and (len(widths) > 1 or len(offsets) > 1):
+    if asked == EVERY_STEP and (len(widths) > 1 or len(offsets) > 1):
         remedy = 'Give both gears the width that they have in common, or take condensation = "once".'
         message = f"is for gears of one face width without axial_offset. {remedy}"
         yield Problem(("accuracy", "condensation"), as_written(asked), message)

@@ -33,6 +33,7 @@ from fenics_gears.scene.accuracy import ISO_6336 as ISO_6336
 from fenics_gears.scene.accuracy import RIGID_TEETH as RIGID_TEETH
 from fenics_gears.scene.accuracy import STIFFNESS_TABLE as STIFFNESS_TABLE
 from fenics_gears.scene.accuracy import Accuracy as Accuracy
+from fenics_gears.scene.defaults import IN_THE_PLANE, OVER_THE_FACE, Fineness
 from fenics_gears.scene.output import Output as Output
 
 
@@ -175,6 +176,11 @@ class Scene:
             or self.misalignment is not None
             or leaning
         )
+
+    @property
+    def fineness(self) -> Fineness:
+        """How finely flanks and steps are divided by default."""
+        return OVER_THE_FACE if self.three_dimensional else IN_THE_PLANE
 
     @property
     def resolves_contact(self) -> bool:

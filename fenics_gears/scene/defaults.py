@@ -3,17 +3,26 @@ reference of scenes says what they are."""
 
 from __future__ import annotations
 
-# Elements in a Hertz half-width. The transmission error of the paper's pair is then within 0.15 % of its limit, the
-# peak pressure within 0.1 %. Two would do for sharp tips, but rounded edges of a sixtieth of the module would err by 2
-# %. Over a face there are many of them.
-ELEMENTS_PER_HALF_WIDTH, ELEMENTS_PER_HALF_WIDTH_ON_FACE = 3.0, 2.0
+from typing import NamedTuple
+
+
+class Fineness(NamedTuple):
+    """Flank elements in a Hertz half-width, and the fewest steps of a mesh cycle."""
+
+    elements_per_half_width: float
+    steps_per_mesh_cycle: int
+
+
+# With three elements in a half-width the transmission error of the paper's pair is within 0.15 % of its limit, the peak
+# pressure within 0.1 %. Two would do for sharp tips, but rounded edges of a sixtieth of the module would err by 2 %.
+# Over a face there are many of them.
+# Between steps curves are seen as straight lines, 0.4 % off in L2 for the transmission error of the paper's pair; its
+# extremes are located between them. Over a face a step costs more, and curves of helical pairs are smoother.
+IN_THE_PLANE, OVER_THE_FACE = Fineness(3.0, 200), Fineness(2.0, 100)
 # Flank elements stay between these parts of the module, whatever the load: a vanishing load has no half-width.
 FINEST_ELEMENT, COARSEST_ELEMENT = 1.0 / 200.0, 1.0 / 25.0
 # Distance of contact nodes in flank elements, of second order; first-order elements cannot tell so many apart.
 NODE_SPACING = 0.7
-# Between steps curves are seen as straight lines, 0.4 % off in L2 for the transmission error of the paper's pair; its
-# extremes are located between them. Over a face a step costs more, and curves of helical pairs are smoother.
-STEPS_PER_MESH_CYCLE, STEPS_PER_MESH_CYCLE_ON_FACE = 200, 100
 STEPS_PER_PERIOD = 20
 MOST_STEPS_PER_MESH_CYCLE = 1000
 # Largest elements of the body's section and largest layers of it over the common face, in normal modules.

@@ -34,7 +34,9 @@ def mesh_cycle(model: Model, bodies: Bodies) -> Cycle:
         from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
 
         mesh = face_mesh(flanks, (first, second), model.face, grid, corner)
-        return cycle_of(model, mesh, lambda cycle: opening_over_face(cycle, *model.face_openings))
+        return cycle_of(
+            model, mesh, lambda cycle: opening_over_face(cycle, model.face_opening, model.coast_face_opening)
+        )
     if all(each.alike for each in flanks.compliance):
         return cycle_of(model, elastic_mesh(flanks, grid, corner))
     from fenics_gears.contact.whole_body_mesh import whole_body_mesh

@@ -88,7 +88,7 @@ class GearsInMesh:
     """Pinion and wheel at a stored time; `coast`: whether the coast flanks carry more than the drive flanks.
 
     `approach`: mm along their line of action that the hubs' motion brings the flanks together that carry more; coast
-    flanks stand apart by the backlash before it. `over_face`: whether the gears are recovered in three dimensions.
+    flanks stand apart by the backlash before it.
     """
 
     time: float
@@ -97,7 +97,11 @@ class GearsInMesh:
     pair: GearPair
     approach: float
     coast: bool
-    over_face: bool = False
+
+    @property
+    def over_face(self) -> bool:
+        """Whether the gears are recovered over the face, at more than one height."""
+        return self.gears[0].points.shape[1] > 1
 
 
 class RunStresses:
@@ -136,7 +140,7 @@ class RunStresses:
         approach = float((motion[0, :2] - motion[1, :2]) @ place.axes[0] + place.turn * arcs)
         gears = tuple(self._gear(gear, stored, motion[gear]) for gear in (0, 1))
         phase, time = (float(self.result[name].values[index]) for name in ("mesh_phase", "time"))
-        return GearsInMesh(time, phase, gears, pair, approach, coast, self.model.face is not None)
+        return GearsInMesh(time, phase, gears, pair, approach, coast)
 
     def _check_place(self, index: int) -> None:
         error, pitch = abs(float(self.result["transmission_error"].values[index])), self.model.pair.wheel.angular_pitch
@@ -173,7 +177,7 @@ class RunStresses:
 
     def _sectors(self, gear: Gear, forces: dict[int, np.ndarray]) -> range:
         """The sectors that are recovered."""
-        if self.model.face is None:
+        if self.model.face.slices == 1:
             return range(gear.teeth)
         loaded = [*forces] or [0]
         return range(min(loaded) - BESIDE, max(loaded) + BESIDE + 1)[: gear.teeth]
@@ -183,9 +187,7 @@ class RunStresses:
         places (teeth, h, n, 3), without load."""
         recovery, face, pair = self.recoveries[gear], self.model.face, self.model.pair
         centre, angles = standing(pair, gear, phase)
-        z, twist = recovery.heights, 0.0
-        if face is not None:
-            z, twist = z + face.middles[gear], (1.0, -1.0)[gear] * face.slope / recovery.gear.base_radius
+        z, twist = recovery.heights + face.middles[gear], (1.0, -1.0)[gear] * face.slope / recovery.gear.base_radius
         turns = np.stack([[rotation(angle + twist * height, 3) for height in z] for angle in angles])
         section = np.pad(recovery.points, ((0, 0), (0, 1)))
         along = z[:, None, None] * np.array([0.0, 0.0, 1.0])

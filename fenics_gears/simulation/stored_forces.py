@@ -10,12 +10,14 @@ import xarray as xr
 from fenics_gears.contact.flank_forces import flank_forces
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, ToothPair
+from fenics_gears.elasticity.slice_averages import slice_averages
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.model.model import Model
 from fenics_gears.results.pairs import contact_times
 
 # Largest difference of roll angles (rad) between a result and its scene; a file may round them.
 SAME_OFFSETS = 1e-9
+MID_WIDTH = np.zeros(1)
 
 
 @dataclass(frozen=True)
@@ -38,16 +40,12 @@ class StoredForces:
             carried[pair.place.flank] += float(force[: len(pair.offsets)].sum())
         return carried[COAST] > carried[DRIVE]
 
-    def on_flanks(self, model: Model, gear: int, heights: np.ndarray | None = None) -> dict[int, np.ndarray]:
-        """Forces on the flank nodes of a gear's loaded teeth: N/mm in the plane (`contact.flank_forces`); N over the
-        face (`contact.face_forces`), whose body has nodes at `heights`."""
+    def on_flanks(self, model: Model, gear: int, heights: np.ndarray = MID_WIDTH) -> dict[int, np.ndarray]:
+        """Forces on the flank nodes of a gear's loaded teeth, as of `contact.flank_forces`; the body has nodes at
+        `heights` (h,), mm from its mid-width."""
         data = (model.pair.pinion, model.pair.wheel)[gear]
-        if model.face is None:
-            return flank_forces(gear, data, self.pairs, self.forces, model.pair.face_width)
-        # Imported here: plane scenes have none.
-        from fenics_gears.contact.face_forces import face_forces
-
-        return face_forces(gear, data, model.face, heights, self.pairs, self.forces)
+        averages = slice_averages(heights, 2, model.face.positions - model.face.middles[gear], model.face.widths)
+        return flank_forces(gear, data, model.face, averages, self.pairs, self.forces)
 
 
 def stored_index(result: xr.Dataset, mesh_phase: float) -> int:
@@ -86,9 +84,12 @@ def stored_forces(result: xr.Dataset, model: Model, cycle: Cycle, index: int) ->
 def _forces_of(result: xr.Dataset, model: Model, pair: ToothPair, index: int, slot: int | None) -> np.ndarray:
     side = {DRIVE: "", COAST: "coast_"}[pair.place.flank]
     count = len(pair.offsets)
-    # Over a face each slice has its own nodes.
-    place = (index, slot) if model.face is None else (index, slot, pair.place.slice)
-    rolls = np.empty(0) if slot is None else result[f"{side}contact_roll_angle"].values[place]
+
+    def stored(name: str) -> np.ndarray:
+        """Values of the nodes of the pair's slice."""
+        return result[f"{side}contact_{name}"].values[index, slot].reshape(model.face.slices, -1)[pair.place.slice]
+
+    rolls = np.empty(0) if slot is None else stored("roll_angle")
     if (
         np.count_nonzero(~np.isnan(rolls)) != count
         or np.abs(rolls[:count] - pair.pinion_roll).max(initial=0.0) > SAME_OFFSETS
@@ -97,13 +98,11 @@ def _forces_of(result: xr.Dataset, model: Model, pair: ToothPair, index: int, sl
             "the stored contact nodes are not those of the scene that the result carries; stresses are recovered from"
             ' runs whose scene is the one in their file, with [accuracy] condensation = "once". Run the scene again.'
         )
-    kinds = [f"{side}contact_pressure"]
-    if model.scene.friction is not None:
-        kinds.append(f"{side}contact_traction")
-    missing = [name for name in kinds if name not in result]
+    kinds = ["pressure"] if model.scene.friction is None else ["pressure", "traction"]
+    missing = [name for kind in kinds if (name := f"{side}contact_{kind}") not in result]
     if missing:
         raise ComputationError(
             f"the result has no {', '.join(missing)}, which the stresses need; run the scene again with this version"
         )
-    area = pair.lengths * (model.pair.face_width if model.face is None else model.face.contact_widths[pair.place.slice])
-    return np.concatenate([result[name].values[place][:count] * area for name in kinds])
+    area = pair.lengths * model.face.contact_widths[pair.place.slice]
+    return np.concatenate([stored(kind)[:count] * area for kind in kinds])

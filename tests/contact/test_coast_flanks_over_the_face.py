@@ -35,7 +35,7 @@ def coasting(hand="right", more=""):
     bodies, own = on_stand_in_bodies(model), model.drivetrain.indices
     flanks, solids = Flanks(model.pair, tuple(body.section for body in bodies)), tuple(body.solid for body in bodies)
     cycle = Cycle(face_mesh(flanks, solids, model.face, ContactGrid(2.0, 13)), 16, own, False)
-    opening = opening_over_face(cycle, *model.face_openings)
+    opening = opening_over_face(cycle, model.face_opening, model.coast_face_opening)
     return model, cycle.with_gaps(Gaps(openings=(opening,)))
 
 

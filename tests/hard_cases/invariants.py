@@ -136,7 +136,7 @@ def _action_and_reaction(run: Run, operator, forces: np.ndarray) -> dict[str, fl
         "sum_of_forces": float(np.abs(on_pinion[:2] + on_wheel[:2]).max()) / total,
         "sum_of_moments": abs(couple) / (total * pair.centre_distance),
     }
-    if operator.face is not None:
+    if operator.face.slices > 1:
         axial, moments = _along_the_axes(operator, -(rows.T @ forces)[7:], on_wheel, (along, across))
         found |= {
             "sum_of_axial_forces": axial / total,

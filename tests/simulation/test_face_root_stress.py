@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from tests.over_face import root_stress_run
 
-from fenics_gears.contact.face_forces import face_forces
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH
 from fenics_gears.elasticity.face.fine_fillet import fine_over_swept
 from fenics_gears.elasticity.fillet_points import POINTS_OVER_FACE, fillet_curve, fillet_weights
@@ -28,7 +27,7 @@ def test_rows_give_what_the_recovered_sectors_have(coast):
         step = round(float(result["mesh_phase"].values[STEP]) * stresses.cycle.steps)
         for gear, recovery in enumerate(stresses.recoveries):
             data = (stresses.model.pair.pinion, stresses.model.pair.wheel)[gear]
-            forces = face_forces(gear, data, face, recovery.heights, stored.pairs, stored.forces)
+            forces = stored.on_flanks(stresses.model, gear, recovery.heights)
             averages = slice_averages(recovery.heights, 2, face.positions - face.middles[gear], face.widths)
             teeth = sorted({pair.place.index for pair in stored.pairs})
             assert len(teeth) > 1

@@ -5,7 +5,6 @@ import pytest
 from scipy.spatial import cKDTree
 from tests.over_face import helical_run
 
-from fenics_gears.contact.face_forces import face_forces
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.show.flank_pressure import STAND_OFF, pressed_tiles
@@ -38,14 +37,15 @@ def test_forces_on_the_teeth_are_those_of_the_mesh(stresses):
     normal = pair.cosine * np.array([1.0, 0.0, -pair.slope])
     for gear, (data, sense) in enumerate(((pair.pinion, -1.0), (pair.wheel, 1.0))):
         recovery = stresses.recoveries[gear]
-        on_teeth = face_forces(gear, data, model.face, recovery.heights, stored.pairs, stored.forces)
+        on_teeth = stored.on_flanks(model, gear, recovery.heights)
         angles, twist = standing(pair, gear, stored.phase)[1], -sense * pair.slope / data.base_radius
         total, torque = np.zeros(3), 0.0
         flank = recovery.sector.flank_nodes("flank")[
             : len(recovery.sector.flank_nodes("flank")) // len(recovery.heights)
         ]
         for tooth, own in on_teeth.items():
-            for height, at_height in zip(recovery.heights + model.face.middles[gear], own[DRIVE]):
+            at_heights = own[DRIVE].reshape(len(recovery.heights), -1, 3)
+            for height, at_height in zip(recovery.heights + model.face.middles[gear], at_heights):
                 total += rotation(angles[tooth % data.teeth] + twist * height, 3) @ at_height.sum(axis=0)
                 x, y = recovery.points[flank].T
                 torque += (x * at_height[:, 1] - y * at_height[:, 0]).sum()

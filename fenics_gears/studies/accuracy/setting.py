@@ -12,7 +12,7 @@ from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import CLOSEST_NODES, EVERY_STEP, ONCE
 from fenics_gears.scene.data import Accuracy, Scene
-from fenics_gears.scene.defaults import ELEMENTS_PER_HALF_WIDTH, ELEMENTS_PER_HALF_WIDTH_ON_FACE, SECTION_SIZE
+from fenics_gears.scene.defaults import SECTION_SIZE
 
 
 @dataclass(frozen=True)
@@ -91,8 +91,7 @@ def body_size(order: int, over_face: bool) -> float:
 
 def half_width(scene: Scene) -> float:
     """The contact half-width (mm) in which sizes are given: Hertz's, within bounds, for it vanishes with the load."""
-    elements = ELEMENTS_PER_HALF_WIDTH_ON_FACE if scene.three_dimensional else ELEMENTS_PER_HALF_WIDTH
-    return default_setting(scene).flank * elements
+    return default_setting(scene).flank * scene.fineness.elements_per_half_width
 
 
 @lru_cache(maxsize=4)
@@ -107,7 +106,7 @@ def own_setting(scene: Scene) -> Setting:
     resolution, slices, layers = model.resolution, None, None
     grid, size = resolution.contact_grid, resolution.body_element_size
     order = 2 if resolution.element.endswith("2") else 1
-    if model.face is not None:
+    if model.face.slices > 1:
         from fenics_gears.model.face_resolution import layers_of_common_face
 
         slices, layers = model.face.slices, layers_of_common_face(scene, model.pair, model.face.slices)

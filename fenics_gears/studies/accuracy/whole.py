@@ -103,7 +103,7 @@ def _thinned(found: list[Setting]) -> list[Setting]:
 
 def fits(scene: Scene, setting: Setting) -> bool:
     """Whether the contact operators of a mesh cycle can be held."""
-    if scene.three_dimensional:
+    if setting.slices is not None:
         return expected_cost(model_of(setting.of(scene))).operators <= MOST_BYTES
     rows = ceil(gear_pair(scene.gears).contact_ratio) * setting.grid.nodes * (1 if scene.friction is None else 2)
     return operator_bytes(setting.steps, rows, scene.friction is not None) <= MOST_BYTES
