@@ -16,7 +16,7 @@ from typing import Any
 
 from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.effects.flank_errors_rules import errors_fit_the_gears
-from fenics_gears.effects.flank_errors_sections import HELIX, LISTS, FlankErrors, GearErrors
+from fenics_gears.effects.flank_errors_sections import HELIX, FlankErrors, GearErrors, lists_of
 from fenics_gears.effects.flank_errors_tables import check, files, located
 from fenics_gears.inputs.section import tree_of
 from fenics_gears.inputs.tree import GEARS
@@ -59,10 +59,7 @@ def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
 
 def period(errors: FlankErrors, scene) -> int:
     """Mesh cycles of whole turns of the gears whose teeth differ."""
-    names, drawn = (
-        LISTS if scene.three_dimensional else [name for name in LISTS if name not in HELIX],
-        errors.tolerance_class is not None,
-    )
+    names, drawn = lists_of(scene), errors.tolerance_class is not None
     return lcm(*(getattr(scene.gears, gear).teeth for gear in GEARS if _differ(getattr(errors, gear), names, drawn)))
 
 

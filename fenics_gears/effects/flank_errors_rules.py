@@ -6,13 +6,13 @@ from collections.abc import Iterator
 
 from fenics_gears.effects.flank_errors_sections import CURVES, LISTS
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.tree import GEARS, Tree, over_the_face, quantity_at, quantity_in, table, teeth_in
+from fenics_gears.inputs.tree import GEARS, Tree, quantity_at, quantity_in, table, teeth_in
 from fenics_gears.inputs.written import as_written
 
 # Pitches of a measuring sheet are rounded to 0.1 um: their sum is off by at most half of that for each tooth.
 PITCH_ROUNDING = 0.05e-3
-# Reference diameters, modules and face widths (mm) that the tolerances of ISO 1328-1:2013 are for.
-DIAMETERS, MODULES, WIDTHS = (5.0, 15e3), (0.5, 70.0), (4.0, 1200.0)
+# Reference diameters and modules (mm) that the tolerances of ISO 1328-1:2013 are for.
+DIAMETERS, MODULES = (5.0, 15e3), (0.5, 70.0)
 
 
 def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
@@ -82,13 +82,6 @@ def _class_is_for_the_gears(tree: Tree, errors: Tree) -> Iterator[Problem]:
         )
         yield Problem(path, written, message)
     for gear in GEARS:
-        width = quantity_at(tree, "gears", gear, "face_width") or quantity_at(tree, "gears", "face_width")
-        if over_the_face(tree) and width is not None and not WIDTHS[0] <= width <= WIDTHS[1]:
-            message = (
-                f"is for face widths from {WIDTHS[0]:g} mm to {WIDTHS[1]:g} mm (ISO 1328-1), not {width:g} mm. Allowed:"
-                " lists of errors instead."
-            )
-            yield Problem(path, written, message)
         diameter = module * (teeth_in(tree, gear) or 100)
         if not DIAMETERS[0] <= diameter <= DIAMETERS[1]:
             message = (

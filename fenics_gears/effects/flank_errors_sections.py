@@ -11,6 +11,13 @@ from fenics_gears.inputs.section import Section
 REFERENCE_POINT, MEAN = "reference point", "mean"
 HELIX = ("helix_slope", "helix_form")
 LISTS = ("pitch", "profile_slope", "profile_form", *HELIX)
+
+
+def lists_of(scene) -> tuple[str, ...]:
+    """The deviations that teeth of a scene have."""
+    return LISTS if scene.three_dimensional else tuple(name for name in LISTS if name not in HELIX)
+
+
 # Tables of curves: the field of their data, and the name of the columns that say where a point lies.
 CURVES = {"profile_curves": ("measured_profile", "ALONG_PROFILE"), "helix_curves": ("measured_helix", "ALONG_FACE")}
 REPLACED = {"profile_curves": ("profile_slope", "profile_form"), "helix_curves": HELIX}

@@ -8,7 +8,15 @@ from hashlib import sha256
 from pathlib import Path
 
 from fenics_gears.effects.flank_errors_rules import PITCH_ROUNDING, not_closed
-from fenics_gears.effects.flank_errors_sections import CURVES, HELIX, LISTS, REPLACED, TABLES, FlankErrors, GearErrors
+from fenics_gears.effects.flank_errors_sections import (
+    CURVES,
+    LISTS,
+    REPLACED,
+    TABLES,
+    FlankErrors,
+    GearErrors,
+    lists_of,
+)
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.tree import GEARS, LARGEST_ERROR, NOT_IN_THE_PLANE
 from fenics_gears.inputs.written import as_written
@@ -74,8 +82,8 @@ def check(errors: FlankErrors, scene, pair) -> None:
                 f"flank_errors.{gear}.{name} = {as_written(getattr(own, name))}: {problem}\nNothing was computed or"
                 " written."
             )
-        in_table = [name for name in HELIX if own.file is not None and getattr(own, name) is not None]
-        if in_table and not scene.three_dimensional:
+        in_table = [name for name in own.columns if name not in lists_of(scene)]
+        if in_table:
             raise SceneError(
                 f"flank_errors.{gear}.file = {as_written(own.file)}: the column {in_table[0]}"
                 f" {NOT_IN_THE_PLANE}\nNothing was computed or written."

@@ -20,6 +20,7 @@ from fenics_gears.geometry.gear_data import Material
 
 # Right-hand sides in memory at once.
 COLUMNS = 64
+ONE_SLICE = np.zeros(1), np.ones(1)
 
 
 @dataclass(frozen=True)
@@ -49,22 +50,23 @@ def root_stress_rows(
     reach: int,
     coast_flank: bool = False,
     cache: Cache | None = None,
-    slices: tuple[np.ndarray, np.ndarray] | None = None,
+    slices: tuple[np.ndarray, np.ndarray] = ONE_SLICE,
 ) -> RootStressRows:
     """The rows of a gear, or of its transverse section over the face, from the cache or by solving, on the mesh of its
     compliance. Stress does not depend on Young's modulus.
 
     discretisation: of the plane section (Discretisation), or of the body over the face (FaceDiscretisation), which
-    takes slices. slices: of the face, middles from the gear's mid-width and widths (S,), mm; stress is averaged over a
-    slice, and its force spreads over it.
+    takes many slices. slices: of the face, middles from the gear's mid-width and widths (S,), mm; stress is averaged
+    over a slice, and its force spreads over it.
     """
+    over_face = len(slices[0]) > 1
     inputs = similar_inputs("root stress", gear, material, discretisation, coast_flank) | {
-        "slices": [gear.in_modules(*each.tolist()) for each in slices or ()],
+        "slices": [gear.in_modules(*each.tolist()) for each in (slices if over_face else ())],
         "reach": reach,
         "both flanks": coast_flank,
     }
     averages = np.ones((1, 1))
-    if slices is not None:
+    if over_face:
         # Imported here: plane scenes have none.
         from fenics_gears.elasticity.slice_averages import slice_averages
 
@@ -75,7 +77,7 @@ def root_stress_rows(
         lambda: (_computed(gear, discretisation, material.poissons_ratio, averages, reach, coast_flank), {}),
     )
     # A stress is a force over a length or an area, which is in modules there.
-    unit = gear.module if slices is None else gear.module**2
+    unit = gear.module**2 if over_face else gear.module
     return RootStressRows(arrays["unit_rows"] / unit, arrays["tangent_angle"])
 
 

@@ -26,6 +26,8 @@ from fenics_gears.scene.schema import SceneText
 NOT_EFFECTS = (("gears", "helix_angle"), ("bearings", "places"))
 # Layers of elements thinner than this, in modules, are needles.
 THINNEST_LAYER = 0.02
+# Face widths (mm) that the tolerances of ISO 1328-1:2013 are for.
+WIDTHS = (4.0, 1200.0)
 # A number with hundreds of digits is more than a float holds.
 MOST_LAYERS = 10**9
 PLANE_ONLY = {
@@ -88,6 +90,19 @@ def fields_of_faces_have_a_face(tree: Tree) -> Iterator[Problem]:
         yield Problem(("gears", "helix_angle"), None, message)
     if reasons:
         yield from _layers_are_no_needles(tree)
+        yield from _class_is_for_the_faces(tree)
+
+
+def _class_is_for_the_faces(tree: Tree) -> Iterator[Problem]:
+    drawn = value_at(tree, "flank_errors", "tolerance_class")
+    for gear in GEARS if drawn is not None else ():
+        width = quantity_at(tree, "gears", gear, "face_width") or quantity_at(tree, "gears", "face_width")
+        if width is not None and not WIDTHS[0] <= width <= WIDTHS[1]:
+            message = (
+                f"is for face widths from {WIDTHS[0]:g} mm to {WIDTHS[1]:g} mm (ISO 1328-1), not {width:g} mm. Allowed:"
+                " lists of errors instead."
+            )
+            yield Problem(("flank_errors", "tolerance_class"), as_written(drawn), message)
 
 
 def _layers_are_no_needles(tree: Tree) -> Iterator[Problem]:

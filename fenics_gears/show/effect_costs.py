@@ -19,7 +19,7 @@ from fenics_gears.studies.machine import in_words
 COLOURS = {BARE: DARK, ALONE: PALETTE[2], LEFT_OUT: PALETTE[1], ALL: DARK}
 WORDS = {ALONE: "bare scene and one effect (change from bare)", LEFT_OUT: "all effects but one (change from all)"}
 LINE_HEIGHT = 0.36
-OF_FACE = (("face_load_factor", "K$_{Hβ}$"), ("peak_pressure", "Peak pressure (MPa)"))
+OF_FACE = {"face_load_factor": "K$_{Hβ}$", "peak_pressure": "Peak pressure (MPa)"}
 LABEL = {
     "xytext": (5, 0),
     "textcoords": "offset points",
@@ -39,7 +39,7 @@ def effect_costs(report: EffectReport) -> Figure:
     figure = Figure(figsize=(15.0, height), layout="constrained")
     # Room for three lines below.
     figure.get_layout_engine().set(w_pad=0.1, h_pad=0.1, rect=(0, 0.6 / height, 1, 1 - 0.6 / height))
-    panels = OF_FACE if report.over_face else ()
+    panels = [(name, OF_FACE[name]) for name in report.of_face]
     figure.set_figwidth(15.0 + 3.4 * len(panels))
     axes = figure.subplots(
         1, 4 + len(panels), sharey=True, gridspec_kw={"width_ratios": (1.0, *[1.1] * (3 + len(panels)))}

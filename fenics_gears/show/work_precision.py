@@ -13,7 +13,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator
 from fenics_gears.show.effect_costs import measured_heading
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from fenics_gears.studies.accuracy.measures import judged
-from fenics_gears.studies.accuracy.refinement import CONDENSATION
+from fenics_gears.studies.accuracy.refinement import CONDENSATION, plan_of
 from fenics_gears.studies.accuracy.report import DEFAULTS, OWN, AccuracyReport, WholeResult
 from fenics_gears.studies.accuracy.table import in_one_sentence, limits_it
 from fenics_gears.studies.machine import in_words
@@ -157,8 +157,8 @@ def _alone(axes: Axes, report: AccuracyReport) -> None:
 
 
 def _columns(report: AccuracyReport) -> int:
-    """Of either legend: over a face all settings on the right have an order in words, too long for two."""
-    return 1 if report.scene.three_dimensional else 2
+    """Of either legend."""
+    return plan_of(report.scene).columns
 
 
 def _percent_over_seconds(axes: Axes) -> None:

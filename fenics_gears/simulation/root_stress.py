@@ -33,5 +33,5 @@ def rows_of(model: Model, name: str, cache: Cache | None) -> RootStressRows:
         reach=model.touching.reach.farthest + (1 if coast else 0),
         coast_flank=coast,
         cache=cache,
-        slices=(face.positions - face.middles[gear], face.widths) if face.slices > 1 else None,
+        slices=(face.positions - face.middles[gear], face.widths),
     )

@@ -17,7 +17,7 @@ from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy import refinement, setting_runs, table
 from fenics_gears.studies.accuracy import report as reports
 from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, ROOT, SPAN, judged
-from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, FLANK, LENGTH, NODES, STEPS
+from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, FLANK, IN_THE_PLANE, LENGTH, NODES, STEPS
 from fenics_gears.studies.accuracy.setting import own_setting
 
 TEETH = "tooth_elasticity"
@@ -99,7 +99,7 @@ def test_cheaper_models_stand_beside_them(report):
     """Authority: rigid teeth without errors of form have no transmission error: all of it is lost, and there is no
     pressure."""
     models = {each.name: each for each in report.models}
-    assert set(models) == set(reports.MODELS)
+    assert set(models) == set(IN_THE_PLANE.models)
     rigid = models[RIGID_TEETH]
     assert rigid.errors[SPAN] == pytest.approx(1.0, abs=1e-6) and np.isnan(rigid.errors["pressure"]) and not rigid.parts
     assert all(each not in report.front for each in report.models)

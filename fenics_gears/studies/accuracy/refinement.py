@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import isclose
 
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
-from fenics_gears.scene.data import Scene
+from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Scene
 from fenics_gears.scene.defaults import NODE_SPACING
 from fenics_gears.studies.accuracy import over_face
 from fenics_gears.studies.accuracy.over_face import BODY, FAMILY, FLANK, LAYERS, LENGTH, SLICES, STEPS
@@ -44,6 +44,52 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "interpolation": ("collocated", AVERAGED),
 }
 QUICK_CHOICES: dict[str, tuple[str, ...]] = {"element": ("P1", "P2"), "interpolation": CHOICES["interpolation"]}
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is refined and compared: `values` of the settings that are numbers, `choices` of the others, all settings
+    when another one is refined (`fine`, changed `beside` some) and the same in a quick study; `elastic_teeth` that are
+    compared; whether gears `remeshed` at every step and `root_stress` are; `models`: cheaper ones; `rounds` of timing;
+    `columns` of a legend."""
+
+    values: dict[str, tuple[float, ...]]
+    quick_values: dict[str, tuple[float, ...]]
+    fine: dict[str, float]
+    quick_fine: dict[str, float]
+    models: tuple[str, ...]
+    rounds: int
+    columns: int
+    choices: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    quick_choices: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    beside: dict[str, dict[str, float]] = field(default_factory=dict)
+    elastic_teeth: tuple[int | None, ...] = ()
+    remeshed: bool = False
+    root_stress: bool = False
+
+
+IN_THE_PLANE = Plan(
+    FULL, QUICK, FINE, QUICK_FINE, models=(STIFFNESS_TABLE, ISO_6336, RIGID_TEETH), rounds=5, columns=2,
+    choices=CHOICES, quick_choices=QUICK_CHOICES, beside=BESIDE, elastic_teeth=(1, None), remeshed=True,
+    root_stress=True,
+)  # fmt: skip
+# The legend has all settings with an order in words, too long for two columns.
+OVER_THE_FACE = Plan(
+    over_face.FULL,
+    over_face.QUICK,
+    over_face.FINE,
+    over_face.QUICK_FINE,
+    models=(over_face.PLANE,),
+    rounds=1,
+    columns=1,
+)
+
+
+def plan_of(scene: Scene) -> Plan:
+    """What is refined of a scene."""
+    return OVER_THE_FACE if scene.three_dimensional else IN_THE_PLANE
+
+
 # Settings that are numbers, whose inverse is a size.
 COUNTED = ("steps", SLICES, LAYERS)
 # Whose value a level has that stands between the others.
@@ -126,9 +172,8 @@ def expected_orders(scene: Scene) -> dict[str, tuple[float, str]]:
 
 def fine(scene: Scene, quick: bool = False) -> Setting:
     """The setting in which one at a time is refined."""
-    if scene.three_dimensional:
-        return _setting(scene, over_face.QUICK_FINE if quick else over_face.FINE)
-    return _setting(scene, QUICK_FINE if quick else FINE)
+    plan = plan_of(scene)
+    return _setting(scene, plan.quick_fine if quick else plan.fine)
 
 
 def _setting(scene: Scene, values: dict[str, float]) -> Setting:
@@ -138,7 +183,7 @@ def _setting(scene: Scene, values: dict[str, float]) -> Setting:
     flank = unit / values[FLANK]
     spacing = unit / values[NODES] if NODES in values else NODE_SPACING * flank
     found = Setting("P2", flank, spacing, values.get(LENGTH, 1.0) * default.length, values[BODY], values[STEPS])
-    if not scene.three_dimensional:
+    if default.slices is None:
         return found
     return replace(found, slices=_whole(values[SLICES], default.slices), layers=_whole(values[LAYERS], default.layers))
 
@@ -150,11 +195,8 @@ def _whole(part: float, default: int) -> int:
 
 def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
     """All settings with their levels, the values of the scene and of the program's defaults among them."""
-    choices = QUICK_CHOICES if quick else CHOICES
-    if scene.three_dimensional:
-        values, choices = over_face.QUICK if quick else over_face.FULL, {}
-    else:
-        values = QUICK if quick else FULL
+    plan = plan_of(scene)
+    values, choices = (plan.quick_values, plan.quick_choices) if quick else (plan.values, plan.choices)
     unit, orders, default = half_width(scene), expected_orders(scene), default_setting(scene)
     orders[LENGTH] = (None, "nothing, once all that touches is inside")
     whole_length = fine(scene, quick).length
@@ -170,21 +212,17 @@ def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
     }
     sizes: dict[str, list[dict]] = {name: [of_value[name](each) for each in levels] for name, levels in values.items()}
     sizes |= {field: [{field: each} for each in options] for field, options in choices.items()}
-    if not scene.three_dimensional:
-        sizes["elastic teeth"] = [{"elastic_teeth": each} for each in (1, None)]
+    if plan.elastic_teeth:
+        sizes["elastic teeth"] = [{"elastic_teeth": each} for each in plan.elastic_teeth]
     found = []
     for name, levels in sizes.items():
-        base = (
-            fine(scene, quick)
-            if quick or scene.three_dimensional
-            else _setting(scene, {**FINE, **BESIDE.get(name, {})})
-        )
+        base = fine(scene, quick) if quick else _setting(scene, {**plan.fine, **plan.beside.get(name, {})})
         expected = orders.get(name, (None, "a choice"))
         found.append(
             Refinement(name, tuple(levels[0]), tuple(_level(base, each, unit) for each in levels), *expected, base)
         )
     # The remeshed route has nodes on the drive flanks and on the path of contact alone.
-    if not quick and not scene.three_dimensional and scene.coast_flanks is None and scene.corner_contact is None:
+    if not quick and plan.remeshed and scene.coast_flanks is None and scene.corner_contact is None:
         found.append(condensation(scene))
     mine = {SCENE: own_setting(scene), DEFAULT: default_setting(scene)}
     return tuple(_with_own(each, mine, unit) for each in found)

@@ -13,7 +13,7 @@ from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.runs.timed import Times, run_sharing, shared_gears
-from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy, Output, Scene
+from fenics_gears.scene.data import STIFFNESS_TABLE, Accuracy, Output, Scene
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.studies.accuracy import whole
 from fenics_gears.studies.accuracy.convergence import Limit, error_from, limit_of, together
@@ -27,6 +27,7 @@ from fenics_gears.studies.accuracy.refinement import (
     Refinement,
     check_measurable,
     fine,
+    plan_of,
     refinements,
 )
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
@@ -35,9 +36,6 @@ from fenics_gears.studies.accuracy.setting_runs import SettingRuns
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
 
-ROUNDS, QUICK_ROUNDS = 5, 1
-# Cheaper models; of flanks resolved over the face there is one, the plane.
-MODELS = (STIFFNESS_TABLE, ISO_6336, RIGID_TEETH)
 OWN, DEFAULTS = "the scene's own", "the program's defaults"
 
 
@@ -129,7 +127,7 @@ def measure(
 
     Raises SceneError, GeometryError, ComputationError.
     """
-    usual = QUICK_ROUNDS if quick or scene.three_dimensional else ROUNDS
+    usual = 1 if quick else plan_of(scene).rounds
     study = AccuracyStudy(scene, progress or SilentProgress(), quick, rounds or usual)
     results = study.refine()
     reference, uncertainty = study.reference(results)
@@ -202,7 +200,7 @@ class AccuracyStudy:
             self.base, ran, errors, lambda setting: whole.fits(self.scene, setting), whole.ENOUGH
         ):
             chosen[setting.words] = setting
-        chosen |= dict.fromkeys((PLANE,) if self.scene.three_dimensional else MODELS)
+        chosen |= dict.fromkeys(plan_of(self.scene).models)
         answers, times = self._in_turns({name: scene_of(self.scene, name, setting) for name, setting in chosen.items()})
         found = []
         for name in answers:
@@ -229,7 +227,7 @@ class AccuracyStudy:
     def _answer(self, run: xr.Dataset, model: Model, cycle: Cycle) -> Answer:
         """All measures; root stress only where contact is resolved on one mesh. Its time is not counted."""
         scene = model.scene
-        recovered = scene.resolves_contact and not scene.three_dimensional and scene.accuracy.condensation != EVERY_STEP
+        recovered = scene.resolves_contact and plan_of(scene).root_stress and scene.accuracy.condensation != EVERY_STEP
         return answer(run, self.window, peak_root_stress(run, model, cycle) if recovered else None)
 
     def _in_turns(self, scenes: dict[str, Scene]) -> tuple[dict[str, Answer], dict[str, Times]]:

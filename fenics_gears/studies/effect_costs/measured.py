@@ -82,9 +82,9 @@ class EffectReport:
     machine: dict[str, str]
 
     @property
-    def over_face(self) -> bool:
-        """Whether the scene's flanks are resolved over the face."""
-        return self.scene.three_dimensional
+    def of_face(self) -> tuple[str, ...]:
+        """The numbers of a row that a report over the face tells beside the others."""
+        return ("face_load_factor", "peak_pressure") if self.scene.three_dimensional else ()
 
     def row(self, kind: str, effect: str = "") -> Row | None:
         """The row of that kind of subset; None where it is not there."""

@@ -20,15 +20,14 @@ HEADINGS = (
 UNITS = ("", "centre + contact", "mean (most)", "", "us", "s", "s", "um", "N", "remark")
 
 
-# Of scenes over the face, before the remarks.
-FACE_HEADINGS, FACE_UNITS = ("K_Hbeta", "peak pressure"), ("", "MPa")
+# Of scenes over the face, before the remarks: heading, unit, digits.
+OF_FACE = {"face_load_factor": ("K_Hbeta", "", 2), "peak_pressure": ("peak pressure", "MPa", 0)}
 
 
 def headings(report: EffectReport) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """The table's headings and their units."""
-    if not report.over_face:
-        return HEADINGS, UNITS
-    return (*HEADINGS[:-1], *FACE_HEADINGS, HEADINGS[-1]), (*UNITS[:-1], *FACE_UNITS, UNITS[-1])
+    words, units = zip(*(OF_FACE[name][:2] for name in report.of_face)) if report.of_face else ((), ())
+    return (*HEADINGS[:-1], *words, HEADINGS[-1]), (*UNITS[:-1], *units, UNITS[-1])
 
 
 def table_rows(report: EffectReport) -> list[tuple[str, ...]]:
@@ -49,16 +48,8 @@ def _cells(report: EffectReport, row: Row, numbers: dict[str, int]) -> tuple[str
         f"{row.condense:.2f}" if row.elastic else "none",
         _with_change(row.transmission_error * MILLI, report, row, "transmission_error", 3),
         _with_change(row.peak_force, report, row, "peak_force", 0),
-        *_face_cells(report, row),
+        *(_with_change(getattr(row, name), report, row, name, OF_FACE[name][2]) for name in report.of_face),
         " ".join(f"[{numbers[_words(remark)]}]" for remark in row.remarks),
-    )
-
-
-def _face_cells(report: EffectReport, row: Row) -> tuple[str, ...]:
-    if not report.over_face:
-        return ()
-    return _with_change(row.face_load_factor, report, row, "face_load_factor", 2), _with_change(
-        row.peak_pressure, report, row, "peak_pressure", 0
     )
 
 
