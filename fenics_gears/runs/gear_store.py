@@ -7,7 +7,7 @@ import functools
 from dataclasses import replace
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.effects import EFFECTS
+from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model.model import Model
@@ -104,7 +104,8 @@ def own_gear_store() -> GearStore:
 
 def gear_key(model: Model, name: str, reach: Reach) -> tuple:
     """What a gear's flank compliance depends on."""
-    own = tuple(getattr(getattr(model.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
+    sections = (getattr(model.scene, effect.section) for effect in effects_on(model.scene) if effect.elasticity)
+    own = tuple(found for each in sections if (found := getattr(each, name, None)) is not None)
     return (
         getattr(model.pair, name),
         model.scene.gears.material_of(name),
@@ -133,7 +134,7 @@ def differs_in_gaps_alone(model: Model) -> bool:
     scene = model.scene
     others = (
         scene.corner_contact,
-        *(getattr(scene, effect.section) for effect in EFFECTS if effect.gaps or effect.elasticity),
+        *(getattr(scene, effect.section) for effect in effects_on(scene) if effect.gaps or effect.elasticity),
     )
     return model.removal != (None, None) and route_of(model) is CONDENSED and all(each is None for each in others)
 
@@ -157,7 +158,7 @@ def operators_key(model: Model) -> tuple:
     )
     in_operators = (
         scene.corner_contact,
-        *(getattr(scene, effect.section) for effect in EFFECTS if effect.gaps or effect.elasticity),
+        *(getattr(scene, effect.section) for effect in effects_on(scene) if effect.gaps or effect.elasticity),
     )
     apart = model.removal == (None, None) or differs_in_gaps_alone(model)
     springs = scene.accuracy.model, None if scene.resolves_contact else scene.load
@@ -189,4 +190,4 @@ def cycle_key(model: Model) -> tuple:
 
 
 def _reliefs(scene: Scene) -> tuple:
-    return tuple(getattr(scene, effect.section) for effect in EFFECTS if effect.removal)
+    return tuple(getattr(scene, effect.section) for effect in effects_on(scene) if effect.removal)
