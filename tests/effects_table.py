@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tests.effects.examples import EXAMPLES
 
-from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, effect_named
+from fenics_gears.effects import COMMON_VARIABLES, effect_named, every_effect
 from fenics_gears.effects.effect import Effect
 
 PAGE = Path(__file__).parents[1] / "docs" / "effects.md"
@@ -15,20 +15,20 @@ HEADING = """# Effects
 Each section below switches on one effect. If a scene leaves the section out, the effect is not there: no unknowns, no terms, no result variables, and its physics is not imported.
 `gears check SCENE` lists the effects that are on and off. `gears effects SCENE` measures what each costs and how it changes the result. [Adding an effect](adding_an_effect.md) shows how to write one.
 
-This page is written by `python -m tests.effects_table` from `fenics_gears.effects.EFFECTS`; a test says when it is out of date.
+This page is written by `python -m tests.effects_table` from `fenics_gears.effects`; a test says when it is out of date.
 """
 
 
 def page() -> str:
     """The whole page."""
     lines = [HEADING, "| section | effect | without it | adds | needs | excludes |", "|---|---|---|---|---|---|"]
-    lines += [_row(each) for each in EFFECTS]
+    lines += [_row(each) for each in every_effect()]
     lines += ["", "## Examples", ""]
-    for each in EFFECTS:
+    for each in every_effect():
         lines += ["```toml", EXAMPLES[each.section].strip(), "```", ""]
     lines += ["## Result variables of each effect", "", "Every run has " + _names(COMMON_VARIABLES) + ".", ""]
     lines += ["| variable | units | meaning | effect |", "|---|---|---|---|"]
-    for each in EFFECTS:
+    for each in every_effect():
         for found in each.variables:
             beside = f", only with `[{effect_named(found.needs).written}]`" if found.needs else ""
             beside += f", only with `{found.field}`" if found.field else ""

@@ -1,4 +1,5 @@
-"""``gears accuracy SCENE``: error against time, for the user's own scene."""
+"""``gears accuracy SCENE``: measure error and time of each accuracy setting of a scene; print and write a table and a
+picture of error against time."""
 
 from __future__ import annotations
 
@@ -10,11 +11,7 @@ from fenics_gears.commands.shared import add_memory_argument, add_output_argumen
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    words = (
-        "measure error and time of each accuracy setting of a scene; print and write a table and a picture of error"
-        " against time"
-    )
-    command = commands.add_parser("accuracy", parents=[shared], help=words)
+    command = commands.add_parser("accuracy", parents=[shared])
     add_scene_argument(command)
     add_output_argument(command)
     command.add_argument("--quick", action="store_true", help="few, coarse values of each setting, each timed once")

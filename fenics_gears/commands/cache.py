@@ -1,4 +1,4 @@
-"""``gears cache``: where the condensed gears are kept and how large they are; it can be emptied."""
+"""``gears cache``: show what the cache of condensed gears holds, or empty it."""
 
 from __future__ import annotations
 
@@ -8,9 +8,7 @@ from datetime import datetime
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser(
-        "cache", parents=[shared], help="show what the cache of condensed gears holds, or empty it"
-    )
+    command = commands.add_parser("cache", parents=[shared])
     command.add_argument(
         "--clear", action="store_true", help="remove all entries; gears are condensed again when they are needed"
     )

@@ -1,4 +1,4 @@
-"""``gears check SCENE``: what the scene is, what it would cost and whether it fits into memory; computes nothing."""
+"""``gears check SCENE``: check a scene; print its geometry, effects, accuracy and expected cost; compute nothing."""
 
 from __future__ import annotations
 
@@ -11,11 +11,7 @@ from fenics_gears.system.memory import allowed_memory
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser(
-        "check",
-        parents=[shared],
-        help="check a scene; print its geometry, effects, accuracy and expected cost; compute nothing",
-    )
+    command = commands.add_parser("check", parents=[shared])
     add_scene_argument(command)
     add_memory_argument(command)
     command.set_defaults(command=check)

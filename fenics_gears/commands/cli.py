@@ -15,21 +15,7 @@ import sys
 from collections.abc import Callable, Sequence
 
 from fenics_gears import __version__
-from fenics_gears.commands import (
-    accuracy,
-    cache,
-    check,
-    effects,
-    export,
-    extensions,
-    picture,
-    plot,
-    python,
-    report,
-    run,
-    study,
-    tests,
-)
+from fenics_gears.commands import found
 from fenics_gears.commands.shared import INTERRUPTED, NOBODY_READS
 from fenics_gears.errors import GearsError
 from fenics_gears.system import environment
@@ -56,12 +42,16 @@ def _command(arguments: list[str]) -> int:
 
 
 def _carried_out(arguments: Sequence[str]) -> int:
-    if arguments[:1] == ["test"]:
-        # pytest's options are not ours to parse.
-        return tests.run_tests(arguments[1:])
-    if arguments[:1] == ["python"]:
-        return python.run_python(arguments[1:])
-    options = _parser().parse_args(arguments)
+    called = next((word for word in arguments if not word.startswith("-")), "")
+    if called in found.UNPARSED:
+        before, rest = arguments[: arguments.index(called) + 1], arguments[arguments.index(called) + 1 :]
+        _parser().parse_args(before)
+        if called == "test":
+            from fenics_gears.commands.test import run_tests as carry_out
+        else:
+            from fenics_gears.commands.python import run_python as carry_out
+        return carry_out(rest)
+    options = _parser(called).parse_args(arguments)
     _configure_logging(options.verbose)
     if "memory" in options:
         os.environ[MEMORY_VARIABLE] = options.memory
@@ -120,7 +110,8 @@ def _configure_logging(verbose: bool) -> None:
     logging.getLogger("py.warnings").setLevel(logging.WARNING if verbose else logging.ERROR)
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser(called: str = "") -> argparse.ArgumentParser:
+    """The parser of all commands; only the one that is called has arguments."""
     shared = argparse.ArgumentParser(add_help=False)
     loudness = shared.add_mutually_exclusive_group()
     loudness.add_argument(
@@ -141,8 +132,5 @@ def _parser() -> argparse.ArgumentParser:
     parser.set_defaults(verbose=False, quiet=False)
     parser.add_argument("--version", action="version", version=f"gears {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in (check, run, study, effects, accuracy, plot, picture, report, export, cache, extensions):
-        command.add(commands, shared)
-    python.add(commands)
-    tests.add(commands)
+    found.add(commands, shared, called)
     return parser

@@ -1,4 +1,5 @@
-"""``gears effects SCENE``: what each effect of a scene costs, and what it changes in the answer."""
+"""``gears effects SCENE``: run a scene with subsets of its effects; print and write, as table and picture, the time
+each effect takes and how it changes the result."""
 
 from __future__ import annotations
 
@@ -10,11 +11,7 @@ from fenics_gears.commands.shared import add_memory_argument, add_output_argumen
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    words = (
-        "run a scene with subsets of its effects; print and write, as table and picture, the time each effect takes and"
-        " how it changes the result"
-    )
-    command = commands.add_parser("effects", parents=[shared], help=words)
+    command = commands.add_parser("effects", parents=[shared])
     add_scene_argument(command)
     add_output_argument(command)
     add_memory_argument(command)

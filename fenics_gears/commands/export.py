@@ -1,4 +1,4 @@
-"""``gears export RUN``: the curves of a run as a table for spreadsheets."""
+"""``gears export RUN``: write the curves of a run as a table (CSV) for spreadsheets."""
 
 from __future__ import annotations
 
@@ -12,9 +12,7 @@ CURVES_FILE = "curves.csv"
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser(
-        "export", parents=[shared], help="write the curves of a run as a table (CSV) for spreadsheets"
-    )
+    command = commands.add_parser("export", parents=[shared])
     add_run_argument(command)
     add_output_argument(command, f"{CURVES_FILE} beside run.nc", "file to write", "FILE")
     command.set_defaults(command=export)

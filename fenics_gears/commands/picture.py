@@ -1,5 +1,4 @@
-"""``gears picture RUN``: the gears of a run in mesh, deformed and coloured by stress; as a moving picture; as a file
-for ParaView."""
+"""``gears picture RUN``: draw the gears of a run in mesh with their stresses; write them for ParaView."""
 
 from __future__ import annotations
 
@@ -23,9 +22,7 @@ PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser(
-        "picture", parents=[shared], help="draw the gears of a run in mesh with their stresses; write them for ParaView"
-    )
+    command = commands.add_parser("picture", parents=[shared])
     add_run_argument(command)
     command.add_argument(
         "--at",

@@ -10,7 +10,7 @@ from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("plot", parents=[shared], help="draw the pictures of a run again")
+    command = commands.add_parser("plot", parents=[shared])
     add_run_argument(command)
     add_output_argument(command, "beside run.nc")
     command.set_defaults(command=plot)

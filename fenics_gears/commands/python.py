@@ -1,4 +1,5 @@
-"""``gears python ...``: the Python that the program runs in, with the program to be imported."""
+"""``gears python ...``: run a Python script that imports fenics_gears, or a module such as `-m jupyter lab`, in the
+program's own Python."""
 
 from __future__ import annotations
 
@@ -6,18 +7,6 @@ import os
 import sys
 from collections.abc import Sequence
 from typing import NoReturn
-
-
-def add(commands) -> None:
-    """Add the command to the parser, for its help only: Python's options are not ours to parse."""
-    commands.add_parser(
-        "python",
-        help=(
-            "run a Python script that imports fenics_gears, or a module such as `-m jupyter lab`, in the program's own"
-            " Python"
-        ),
-        add_help=False,
-    )
 
 
 def run_python(options: Sequence[str]) -> NoReturn:

@@ -1,4 +1,4 @@
-"""``gears report RUN``: one HTML page on a run or a study, complete in itself."""
+"""``gears report RUN``: write one HTML page on a run or a study, readable without a network."""
 
 from __future__ import annotations
 
@@ -26,9 +26,7 @@ ENDINGS = (".html", ".htm")
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser(
-        "report", parents=[shared], help="write one HTML page on a run or a study, readable without a network"
-    )
+    command = commands.add_parser("report", parents=[shared])
     command.add_argument(
         "run",
         type=Path,

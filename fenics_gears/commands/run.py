@@ -1,4 +1,4 @@
-"""``gears run SCENE``: simulate, write the result and its pictures, print a summary."""
+"""``gears run SCENE``: run a scene; write run.nc and pictures."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from fenics_gears.system.job import Job, led
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("run", parents=[shared], help="run a scene; write run.nc and pictures")
+    command = commands.add_parser("run", parents=[shared])
     add_scene_argument(command)
     add_output_argument(command)
     command.add_argument(

@@ -1,5 +1,4 @@
-"""``gears study STUDY``: run what is missing of a parameter study, alone or as one of the processes that mpirun
-started."""
+"""``gears study STUDY``: run a parameter study and draw it, alone or under mpirun; a stopped study is continued."""
 
 from __future__ import annotations
 
@@ -21,11 +20,7 @@ from fenics_gears.errors import ComputationError
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser(
-        "study",
-        parents=[shared],
-        help="run a parameter study and draw it, alone or under mpirun; a stopped study is continued",
-    )
+    command = commands.add_parser("study", parents=[shared])
     command.add_argument("study", type=Path, metavar="STUDY", help="a study file (TOML)")
     add_output_argument(command, "results/<name of the study file>")
     add_processes_argument(command)

@@ -1,59 +1,42 @@
 """The one list of effects; a scene switches an effect on by naming its section.
 
 An effect whose section is absent is not constructed: none of its unknowns, terms or result variables exist, and its
-physics is not imported. The scene's sections, the output of ``gears check``, the result's variables and the
+module is not imported. The scene's sections, the output of ``gears check``, the result's variables and the
 documentation's table follow from this list.
 """
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Collection
 from dataclasses import replace
+from importlib import import_module
 from math import inf, lcm
 from typing import Any
 
-from fenics_gears.effects import (
-    bearings,
-    body_meshes,
-    coast_flanks,
-    corner_contact,
-    damping,
-    eccentricity,
-    flank_errors,
-    friction,
-    inertia,
-    lead_modifications,
-    misalignment,
-    profile_modifications,
-    root_relief,
-    shafts,
-    speed_ramp,
-    tip_relief,
-    tooth_elasticity,
-    torque_ripple,
-)
 from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, OF_POINTS, OF_SLICES, Effect, ResultVariable
 
-EFFECTS: tuple[Effect, ...] = (
-    tooth_elasticity.EFFECT,
-    body_meshes.EFFECT,
-    shafts.EFFECT,
-    bearings.EFFECT,
-    inertia.EFFECT,
-    damping.EFFECT,
-    friction.EFFECT,
-    tip_relief.EFFECT,
-    root_relief.EFFECT,
-    lead_modifications.EFFECT,
-    misalignment.EFFECT,
-    flank_errors.EFFECT,
-    eccentricity.EFFECT,
-    coast_flanks.EFFECT,
-    corner_contact.EFFECT,
-    torque_ripple.EFFECT,
-    speed_ramp.EFFECT,
-    profile_modifications.EFFECT,
+# Effects by their sections, which are their modules' names: those at the top of a scene, and all.
+AT_THE_TOP = (
+    "body_meshes",
+    "shafts",
+    "bearings",
+    "inertia",
+    "damping",
+    "friction",
+    "tip_relief",
+    "root_relief",
+    "lead_modifications",
+    "misalignment",
+    "flank_errors",
+    "eccentricity",
+    "coast_flanks",
+    "corner_contact",
+    "torque_ripple",
+    "speed_ramp",
+    "profile_modifications",
 )
+SECTIONS = ("tooth_elasticity", *AT_THE_TOP)
 
 # What every run has, whatever its effects.
 COMMON_VARIABLES: tuple[ResultVariable, ...] = (
@@ -137,14 +120,22 @@ OVER_CONTACT_NODES = tuple(
 )
 
 
+@functools.cache
 def effect_named(section: str) -> Effect:
     """The effect of that section; raises KeyError for a name that is not in the list."""
-    return {each.section: each for each in EFFECTS}[section]
+    if section not in SECTIONS:
+        raise KeyError(section)
+    return import_module(f"{__name__}.{section}").EFFECT
+
+
+def every_effect() -> tuple[Effect, ...]:
+    """All effects, in the order of the list."""
+    return tuple(map(effect_named, SECTIONS))
 
 
 def effects_on(scene) -> tuple[Effect, ...]:
     """The effects that a scene (``scene.data.Scene``) switches on, in the order of the list."""
-    return tuple(each for each in EFFECTS if getattr(scene, each.section) is not None)
+    return tuple(effect_named(each) for each in SECTIONS if getattr(scene, each, None) is not None)
 
 
 def from_effects(scene, hook: str, *arguments) -> list[Any]:
@@ -194,14 +185,9 @@ def common_period(scene) -> float:
     return inf if inf in periods else lcm(*periods)
 
 
-def top_level() -> tuple[Effect, ...]:
-    """The effects whose section stands at the top of a scene."""
-    return tuple(each for each in EFFECTS if not each.within)
-
-
 def without(scene, *sections: str):
     """The scene less some effects; what needs them is left in and may then not be valid."""
-    changed = replace(scene, **{name: None for name in sections if not effect_named(name).within})
+    changed = replace(scene, **{name: None for name in sections if name in AT_THE_TOP})
     if "tooth_elasticity" not in sections:
         return changed
     pinion, wheel = (replace(gear, material=None) for gear in (scene.gears.pinion, scene.gears.wheel))
@@ -210,11 +196,13 @@ def without(scene, *sections: str):
 
 def missing_needs(sections: Collection[str]) -> list[tuple[Effect, str]]:
     """Pairs of an effect among the named sections and a section that it needs and that is not among them."""
-    return [(each, need) for each in EFFECTS if each.section in sections for need in each.needs if need not in sections]
+    return [(each, need) for each in _among(sections) for need in each.needs if need not in sections]
 
 
 def conflicts(sections: Collection[str]) -> list[tuple[Effect, str]]:
     """Pairs of an effect among the named sections and a section beside it that it excludes."""
-    return [
-        (each, other) for each in EFFECTS if each.section in sections for other in each.excludes if other in sections
-    ]
+    return [(each, other) for each in _among(sections) for other in each.excludes if other in sections]
+
+
+def _among(sections: Collection[str]) -> tuple[Effect, ...]:
+    return tuple(effect_named(each) for each in SECTIONS if each in sections)

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, OF_SLICES, Effect, ResultVariable
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.section import Section
-from fenics_gears.inputs.tree import Tree, load_in, value_at
-from fenics_gears.inputs.written import as_written
+from fenics_gears.inputs.tree import Tree, value_at
 
 
 @dataclass(frozen=True)
@@ -18,15 +17,7 @@ class CoastFlanks(Section):
 
 
 def flanks_are_there(tree: Tree) -> Iterator[Problem]:
-    """A negative torque needs the coast flanks; remeshing at every step does not have them."""
-    load = load_in(tree)
-    if load is not None and load[1] < 0.0 and "coast_flanks" not in tree:
-        unit = "kW" if load[0][-1] == "power" else "N m"
-        message = (
-            "is negative: it drives the pair from the wheel, on its coast flanks. Allowed: with the section"
-            f" [coast_flanks] any sign, without it 0 {unit} and above."
-        )
-        yield Problem(load[0], as_written(value_at(tree, *load[0])), message)
+    """Remeshing at every step does not have the coast flanks."""
     if value_at(tree, "accuracy", "condensation") == "every step" and "coast_flanks" in tree:
         message = 'has no contact on the coast flanks. Take "once", or leave the section [coast_flanks] out.'
         yield Problem(("accuracy", "condensation"), '"every step"', message)

@@ -92,11 +92,9 @@ def coefficient_or_formula(tree: Tree) -> Iterator[Problem]:
         )
 
 
-def coefficient_of(friction: Friction | None, scene, pair) -> float:
-    """The coefficient of a scene's friction; 0 without friction. Raises SceneError for a formula that is not for the
+def coefficient_of(friction: Friction, scene, pair) -> float:
+    """The coefficient of a scene's friction. Raises SceneError for a formula that is not for the
     scene's load and speed."""
-    if friction is None:
-        return 0.0
     if friction.formula is None:
         return friction.coefficient
     from fenics_gears.geometry.friction_formulas import FORMULAS, OutOfRange

@@ -13,7 +13,7 @@ from math import lcm
 import numpy as np
 
 from fenics_gears.contact.places import pair_places
-from fenics_gears.effects import body_meshes, effects_on
+from fenics_gears.effects import effects_on
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP
@@ -197,7 +197,11 @@ def _condensed(model: Model, name: str) -> _Gear:
 def _meshed(model: Model, name: str) -> int | None:
     """Unknowns of a gear with a mesh of its own; None for a ring of sectors."""
     given = model.scene.body_meshes
-    return None if given is None else body_meshes.unknowns_of(given, model, name)
+    if given is None:
+        return None
+    from fenics_gears.effects.body_meshes import unknowns_of
+
+    return unknowns_of(given, model, name)
 
 
 def _positions(model: Model) -> int:

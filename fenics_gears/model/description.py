@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia
-from fenics_gears.effects import EFFECTS, Effect, result_variables
+from fenics_gears.effects import Effect, every_effect, result_variables
 from fenics_gears.effects.flank_errors_sections import MEAN
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.flank_deviations import v_roll_angle
@@ -31,7 +31,7 @@ class EffectState:
 def effect_states(scene: Scene) -> list[EffectState]:
     """Every effect, on or off, for a scene."""
     states, there = [], {variable.name for variable in result_variables(scene)}
-    for effect in EFFECTS:
+    for effect in every_effect():
         if getattr(scene, effect.section) is None:
             states.append(EffectState(effect, False, effect.absent))
             continue

@@ -17,7 +17,6 @@ from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales, time_scales
 from fenics_gears.effects import check_files, common_period, from_effects
-from fenics_gears.effects.friction import coefficient_of
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
@@ -67,6 +66,10 @@ class Model:
     @cached_property
     def friction_coefficient(self) -> float:
         """Coefficient of friction, given or by a formula; 0 without friction."""
+        if self.scene.friction is None:
+            return 0.0
+        from fenics_gears.effects.friction import coefficient_of
+
         return coefficient_of(self.scene.friction, self.scene, self.pair)
 
     @property

@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 import xarray as xr
 
-from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, FACE_VARIABLES
+from fenics_gears.effects import COMMON_VARIABLES, FACE_VARIABLES, every_effect
 from fenics_gears.effects.effect import OF_NODES, OF_SLICES
 from fenics_gears.model.storage import CONTACT_COORDINATES, COORDINATES, ROOT_STRESS, ROOT_STRESS_OVER_FACE
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
@@ -54,7 +54,11 @@ def _mistakes(result: xr.Dataset) -> Iterator[str]:
 def _known_dims() -> dict[str, list[tuple[str, ...]]]:
     """Dimensions that variables of numbers may have, by name; those of contact nodes are of slices too where the flanks
     are resolved over the face."""
-    variables = [*COMMON_VARIABLES, *FACE_VARIABLES, *(variable for effect in EFFECTS for variable in effect.variables)]
+    variables = [
+        *COMMON_VARIABLES,
+        *FACE_VARIABLES,
+        *(variable for effect in every_effect() for variable in effect.variables),
+    ]
     found = {
         each.name: [each.dims, *([(*OF_SLICES, "contact_node")] if each.dims == OF_NODES else [])] for each in variables
     }

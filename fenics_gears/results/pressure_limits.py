@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.effects.relief import PARABOLIC, Reliefs
 from fenics_gears.scene.data import Scene
+
+if TYPE_CHECKING:
+    from fenics_gears.effects.relief import Reliefs
 
 # Peak pressure of a line contact over yield strength at which the material below yields by Tresca's criterion,
 # whose largest shear stress is 0.300 of the pressure (Johnson, Contact Mechanics, 1985, eq. 6.4).
@@ -78,7 +81,7 @@ def _kink(scene: Scene, numbers: Mapping) -> list[str]:
     linear = {section: _linear(getattr(scene, section)) for section in ("tip_relief", "root_relief")}
     named = ((section.replace("_", " "), gears) for section, gears in linear.items() if gears)
     starts = " or ".join(f"the linear {words} of the {' or the '.join(gears)}" for words, gears in named)
-    remedies = ", ".join(f'{section}.shape = "{PARABOLIC}"' for section, gears in linear.items() if gears)
+    remedies = ", ".join(f'{section}.shape = "parabolic"' for section, gears in linear.items() if gears)
     return [
         f"beside the kink where {starts} starts the pressure reaches {largest:.4g} MPa and does not converge with the"
         f" mesh; forces and transmission error do. The peak contact pressure, {elsewhere:.4g} MPa, is without it;"
@@ -102,7 +105,7 @@ def _off_the_edge(scene: Scene, gears: list[str]) -> str:
     elif reliefs:
         ways = ["a deeper or longer tip relief takes more load off the edge"]
         ways += (
-            [f'tip_relief.shape = "{PARABOLIC}" is steeper at the tip']
+            ['tip_relief.shape = "parabolic" is steeper at the tip']
             if any(relief.power == 1 for relief in reliefs)
             else []
         )

@@ -7,7 +7,7 @@ import functools
 from dataclasses import replace
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.effects import EFFECTS
+from fenics_gears.effects import effects_on
 from fenics_gears.elasticity.body import Bodies, Body
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.inputs.tree import GEARS
@@ -89,7 +89,7 @@ def differs_in_gaps_alone(model: Model) -> bool:
     scene = model.scene
     others = (
         scene.corner_contact,
-        *(getattr(scene, effect.section) for effect in EFFECTS if effect.gaps or effect.elasticity),
+        *(getattr(scene, effect.section) for effect in effects_on(scene) if effect.gaps or effect.elasticity),
     )
     plane = model.face.slices == 1 and route_of(model) is CONDENSED
     return plane and model.removal != (None, None) and all(each is None for each in others)
@@ -114,7 +114,7 @@ def operators_key(model: Model) -> tuple:
     )
     in_operators = (
         scene.corner_contact,
-        *(getattr(scene, effect.section) for effect in EFFECTS if effect.gaps or effect.elasticity),
+        *(getattr(scene, effect.section) for effect in effects_on(scene) if effect.gaps or effect.elasticity),
     )
     apart = model.removal == (None, None) or differs_in_gaps_alone(model)
     springs = scene.accuracy.model, None if scene.resolves_contact else scene.load
@@ -136,4 +136,4 @@ def cycle_key(model: Model) -> tuple:
 
 
 def _reliefs(scene: Scene) -> tuple:
-    return tuple(getattr(scene, effect.section) for effect in EFFECTS if effect.removal)
+    return tuple(getattr(scene, effect.section) for effect in effects_on(scene) if effect.removal)

@@ -7,24 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
-from fenics_gears.effects.bearings import Bearings
-from fenics_gears.effects.body_meshes import BodyMeshes
-from fenics_gears.effects.coast_flanks import CoastFlanks
-from fenics_gears.effects.corner_contact import CornerContact
-from fenics_gears.effects.damping import Damping
-from fenics_gears.effects.eccentricity import Eccentricity
-from fenics_gears.effects.flank_errors_sections import FlankErrors
-from fenics_gears.effects.friction import Friction
-from fenics_gears.effects.inertia import Inertia
-from fenics_gears.effects.lead_modifications import LeadModifications
-from fenics_gears.effects.misalignment import Misalignment
-from fenics_gears.effects.profile_modifications import ProfileModifications
-from fenics_gears.effects.root_relief import RootRelief
-from fenics_gears.effects.shafts import Shafts
-from fenics_gears.effects.speed_ramp import SpeedRamp
-from fenics_gears.effects.tip_relief import TipRelief
-from fenics_gears.effects.torque_ripple import TorqueRipple
 from fenics_gears.geometry.gear_data import GearData as GearData
 from fenics_gears.geometry.gear_data import GearPairData, Material
 from fenics_gears.inputs.tree import wheel_torque
@@ -35,6 +19,25 @@ from fenics_gears.scene.accuracy import STIFFNESS_TABLE as STIFFNESS_TABLE
 from fenics_gears.scene.accuracy import Accuracy as Accuracy
 from fenics_gears.scene.defaults import IN_THE_PLANE, OVER_THE_FACE, Fineness
 from fenics_gears.scene.output import Output as Output
+
+if TYPE_CHECKING:
+    from fenics_gears.effects.bearings import Bearings
+    from fenics_gears.effects.body_meshes import BodyMeshes
+    from fenics_gears.effects.coast_flanks import CoastFlanks
+    from fenics_gears.effects.corner_contact import CornerContact
+    from fenics_gears.effects.damping import Damping
+    from fenics_gears.effects.eccentricity import Eccentricity
+    from fenics_gears.effects.flank_errors_sections import FlankErrors
+    from fenics_gears.effects.friction import Friction
+    from fenics_gears.effects.inertia import Inertia
+    from fenics_gears.effects.lead_modifications import LeadModifications
+    from fenics_gears.effects.misalignment import Misalignment
+    from fenics_gears.effects.profile_modifications import ProfileModifications
+    from fenics_gears.effects.root_relief import RootRelief
+    from fenics_gears.effects.shafts import Shafts
+    from fenics_gears.effects.speed_ramp import SpeedRamp
+    from fenics_gears.effects.tip_relief import TipRelief
+    from fenics_gears.effects.torque_ripple import TorqueRipple
 
 
 @dataclass(frozen=True)
@@ -97,7 +100,7 @@ class Scene:
     """All input of a run. Its `text` always says what its data are, also of a scene that ``dataclasses.replace``
     changed.
 
-    One field for each effect of `effects.EFFECTS` whose section is at the top of a scene file, in the same order; an
+    One field for each effect of `effects.AT_THE_TOP`, in the same order; an
     effect that the scene does not name is None; `derived`: what the scene leaves out of gears and load; `written`: the
     text that it was read from, before any change; `folder`:
     from which files are looked for that it names. (Elastic teeth are an effect too: they are there where `gears` have a

@@ -20,7 +20,7 @@ from fenics_gears.inputs.tree import (
     value_at,
 )
 from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.schema import SceneText
+from fenics_gears.scene.schema import scene_text
 
 # Effects say themselves what they need.
 NOT_EFFECTS = (("gears", "helix_angle"), ("bearings", "places"))
@@ -79,7 +79,7 @@ def fields_of_faces_have_a_face(tree: Tree) -> Iterator[Problem]:
     """Fields of faces belong to three-dimensional scenes, a hand to a helix, and layers have a thickness."""
     gears, reasons = table(tree, "gears") or {}, over_the_face(tree)
     if not reasons:
-        for path, allowed, written in given(SceneText, tree):
+        for path, allowed, written in given(scene_text(tree), tree):
             if allowed.over_face:
                 yield Problem(path, as_written(written), NOT_IN_THE_PLANE)
     if "pinion_hand" in gears and "helix_angle" not in gears:

@@ -10,12 +10,12 @@ from fenics_gears.inputs.names import did_you_mean, nearest
 from fenics_gears.inputs.problem import MOST_TOLD, Path, Problem
 from fenics_gears.inputs.section import read
 from fenics_gears.inputs.synonyms import meant
-from fenics_gears.scene.schema import SceneText, known_paths
+from fenics_gears.scene.schema import known_paths, scene_text
 
 
 def checked(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:
-    """The ``SceneText`` of a parsed TOML file, None where it is wrong, and all that is wrong with it."""
-    section, problems = read(SceneText, tree)
+    """The sections of a parsed TOML file, None where it is wrong, and all that is wrong with it."""
+    section, problems = read(scene_text(tree), tree)
     return section, list(_explained(problems))
 
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from fenics_gears.effects import top_level
+from fenics_gears.effects import effects_on
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.problem import Problem, line_numbers, listed
@@ -172,7 +172,7 @@ def scene_of(tree: Mapping[str, Any], text: str, name: str, directory: Path) -> 
         derived=(*derived, *of_load),
         written=text,
         folder=str(directory.absolute()),
-        **{effect.section: effect.data_of(getattr(checked, effect.section), directory) for effect in top_level()},
+        **{each.section: each.data_of(getattr(checked, each.section), directory) for each in effects_on(checked)},
     )
     # Known already; a scene that is made of this one has to find its own.
     scene.__dict__["text"] = text
@@ -200,9 +200,7 @@ def _motion(checked) -> data.Motion:
     if motion.mesh_cycles is None:
         least = 1 if motion.settling_time is None else data.LAST_CYCLES
         wanted = recorded or (least if asked in (None, math.inf) else asked)
-        whole = any(
-            effect.period is not None and getattr(checked, effect.section) is not None for effect in top_level()
-        )
+        whole = any(effect.period is not None for effect in effects_on(checked))
         # Rounded, so that 25 ms at 40 Hz are one cycle in spite of round-off.
         settling = math.ceil(round((motion.settling_time or 0.0) * frequency, 9))
         cycles = settling + max(whole_period if whole else 1, wanted)

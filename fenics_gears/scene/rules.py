@@ -21,6 +21,7 @@ from fenics_gears.inputs.tree import (
     LARGEST_ERROR,
     Tree,
     given_for,
+    load_in,
     material_sections,
     quantity_at,
     quantity_in,
@@ -34,19 +35,20 @@ from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
 from fenics_gears.scene.drawing_rules import DRAWING_RULES
 from fenics_gears.scene.face_rules import faces_are_resolved_by_elastic_contact, fields_of_faces_have_a_face
 from fenics_gears.scene.gear_schema import Gears
-from fenics_gears.scene.schema import MotionText, SceneText
+from fenics_gears.scene.schema import MotionText, scene_text
 
 TEETH = "tooth_elasticity"
 
 
 def broken_rules(tree: Tree) -> list[Problem]:
     """All rules that the parsed file breaks."""
-    rules = (*_RULES, *(effect.rules for effect in effects.EFFECTS if effect.rules is not None))
+    named = (effects.effect_named(each) for each in effects.SECTIONS if each in (TEETH, *tree))
+    rules = (*_RULES, *(effect.rules for effect in named if effect.rules is not None))
     return [problem for rule in rules for problem in rule(tree)]
 
 
 def _effects_fit_together(tree: Tree) -> Iterator[Problem]:
-    known = [effect.section for effect in effects.top_level()]
+    known = effects.AT_THE_TOP
     sections = {
         nearest(name, known) or meant((), name, known) or name for name in tree
     }  # a misspelt section is another problem
@@ -76,13 +78,11 @@ def _both_gears_have_a_width(tree: Tree) -> Iterator[Problem]:
     )
 
 
-# Only with these does time matter; without them a scene is a sequence of positions, each in equilibrium.
-NEED_A_SPEED = ("inertia", *(effect.section for effect in effects.EFFECTS if "inertia" in effect.needs))
-
-
 def _a_speed_where_time_matters(tree: Tree) -> Iterator[Problem]:
     motion = table(tree, "motion") or {}
-    needing = next((section for section in NEED_A_SPEED if section in tree), None)
+    # Without these a scene is a sequence of positions, each in equilibrium.
+    named = (each for each in effects.AT_THE_TOP if each in tree)
+    needing = next((each for each in named if "inertia" in (each, *effects.effect_named(each).needs)), None)
     if needing is None or not isinstance(tree.get("motion", {}), Mapping):
         return
     if "motion" not in tree:
@@ -108,6 +108,17 @@ def _a_speed_where_time_matters(tree: Tree) -> Iterator[Problem]:
             ' settling_time, such as "25 ms".'
         )
         yield Problem(("motion", "mesh_cycles"), None, message)
+
+
+def _a_wheel_that_drives_has_coast_flanks(tree: Tree) -> Iterator[Problem]:
+    load = load_in(tree)
+    if load is not None and load[1] < 0.0 and "coast_flanks" not in tree:
+        unit = "kW" if load[0][-1] == "power" else "N m"
+        message = (
+            "is negative: it drives the pair from the wheel, on its coast flanks. Allowed: with the section"
+            f" [coast_flanks] any sign, without it 0 {unit} and above."
+        )
+        yield Problem(load[0], as_written(value_at(tree, *load[0])), message)
 
 
 def _settling_is_of_vibrations(tree: Tree) -> Iterator[Problem]:
@@ -173,7 +184,7 @@ def _errors_are_small(tree: Tree) -> Iterator[Problem]:
     """Errors of manufacture and modifications are small against the tooth, whose place and shape stay what they are."""
     module = quantity_at(tree, "gears", "module")
     largest = LARGEST_ERROR * (module or 0.0)
-    for path, allowed, written in given(SceneText, tree):
+    for path, allowed, written in given(scene_text(tree), tree):
         values = written if isinstance(written, list) else [written]
         size = max((abs(quantity_in(value) or 0.0) for value in values), default=0.0)
         if allowed.small and size > largest > 0.0:
@@ -185,6 +196,7 @@ _RULES = (
     _effects_fit_together,
     _both_gears_have_a_width,
     _a_speed_where_time_matters,
+    _a_wheel_that_drives_has_coast_flanks,
     _settling_is_of_vibrations,
     _recorded_cycles_are_run,
     _contact_fields_are_of_cycles_that_run,

@@ -8,9 +8,10 @@ gear.
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterable
 from dataclasses import dataclass, field, make_dataclass
 
-from fenics_gears.effects import top_level
+from fenics_gears.effects import AT_THE_TOP, effect_named
 from fenics_gears.inputs.fields import quantity, text, whole_number
 from fenics_gears.inputs.section import Section, names_in, section_within
 from fenics_gears.inputs.tree import LOADS
@@ -120,23 +121,33 @@ class _AlwaysThere(Section):
     output: Output = Output()
 
 
-SceneText = make_dataclass(
-    "SceneText",
-    [(effect.section, effect.fields | None, field(default=None)) for effect in top_level()],
-    bases=(_AlwaysThere,),
-    namespace={
-        "__doc__": "A whole scene file: the sections that are always there, and one optional section for each effect."
-    },
-    frozen=True,
-    kw_only=True,
-)
+def scene_text(named: Iterable[str] = AT_THE_TOP) -> type[Section]:
+    """A whole scene file: the sections that are always there, and an optional one for each effect, or for those that
+    are named; the others are None."""
+    return _scene_text(tuple(each for each in AT_THE_TOP if each in named))
 
 
 @functools.cache
-def known_paths(section: type[Section] = SceneText, home: tuple[str, ...] = ()) -> dict[tuple[str, ...], bool]:
+def _scene_text(effects: tuple[str, ...]) -> type[Section]:
+    return make_dataclass(
+        "SceneText",
+        [(each, effect_named(each).fields | None, field(default=None)) for each in effects],
+        bases=(_AlwaysThere,),
+        namespace={each: None for each in AT_THE_TOP if each not in effects},
+        frozen=True,
+        kw_only=True,
+    )
+
+
+def known_paths() -> dict[tuple[str, ...], bool]:
     """Every path of a scene; True for a section, False for a field."""
+    return _paths(scene_text(), ())
+
+
+@functools.cache
+def _paths(section: type[Section], home: tuple[str, ...]) -> dict[tuple[str, ...], bool]:
     found: dict[tuple[str, ...], bool] = {}
     for name in names_in(section):
         inner, path = section_within(section, name), (*home, name)
-        found |= {path: inner is not None} | (known_paths(inner, path) if inner is not None else {})
+        found |= {path: inner is not None} | (_paths(inner, path) if inner is not None else {})
     return found

@@ -9,7 +9,7 @@ from typing import Any
 from fenics_gears.inputs.section import allowed_in, section_within
 from fenics_gears.inputs.written import toml_value
 from fenics_gears.scene.data import Scene
-from fenics_gears.scene.schema import SceneText
+from fenics_gears.scene.schema import scene_text
 from fenics_gears.scene.write import section_trees
 
 MOST_LETTERS = 80
@@ -20,7 +20,7 @@ def html(scene: Scene) -> str:
     """The fields that are not at their defaults, as a scene file has them, and what each of them is."""
     rows = "".join(
         f"<tr>{''.join(CELL.format(escape(cell)) for cell in row)}</tr>"
-        for row in rows_of(section_trees(scene), SceneText)
+        for row in rows_of(section_trees(scene), scene_text())
     )
     head = "".join(f'<th style="text-align: left">{word}</th>' for word in ("field", "value", "meaning"))
     return f"<table><caption>{escape(scene.title)}</caption><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"

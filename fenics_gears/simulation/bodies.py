@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fenics_gears.effects import EFFECTS, from_effects
+from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.elasticity.body import Bodies, Body
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.element_sizes import Discretisation
@@ -34,7 +34,8 @@ def gear_body(model: Model, name: str, cache: Cache | None, job: Job | None = No
 
 def body_key(model: Model, name: str) -> tuple:
     """What the body of the "pinion" or the "wheel" depends on."""
-    own = tuple(getattr(getattr(model.scene, effect.section), name, None) for effect in EFFECTS if effect.elasticity)
+    sections = (getattr(model.scene, effect.section) for effect in effects_on(model.scene) if effect.elasticity)
+    own = tuple(found for each in sections if (found := getattr(each, name, None)) is not None)
     number = GEARS.index(name)
     return (
         getattr(model.pair, name),

@@ -11,7 +11,7 @@ from fenics_gears.inputs.allowed import Allowed, AllowedEither, AllowedList, All
 from fenics_gears.inputs.names import did_you_mean
 from fenics_gears.inputs.section import allowed_in, section_within
 from fenics_gears.inputs.tree import LOADS
-from fenics_gears.scene.schema import SceneText, known_paths
+from fenics_gears.scene.schema import known_paths, scene_text
 
 Path = tuple[str, ...]
 ABSENT = "absent"
@@ -72,7 +72,7 @@ def with_section(tree: Mapping[str, Any], path: Path) -> dict[str, Any]:
 def allowed_at(path: Path) -> tuple[Allowed | None, float, float]:
     """What a field allows and its least and largest number in N, mm, s, rad; None for a section. Fields without bounds
     have infinite ones."""
-    section: Any = SceneText
+    section: Any = scene_text()
     for name in path[:-1]:
         section = section_within(section, name)
     allowed = allowed_in(section, path[-1])

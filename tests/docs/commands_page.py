@@ -19,16 +19,20 @@ This page is written by `python -m tests.docs.write` from the program's argument
 """
 
 
-def parser() -> argparse.ArgumentParser:
-    """The program's argument parser."""
-    return cli._parser()
+def parser(called: str = "") -> argparse.ArgumentParser:
+    """The program's argument parser, with the arguments of the command that is called."""
+    return cli._parser(called)
+
+
+def _choices(called: str = "") -> argparse._SubParsersAction:
+    """The parser's commands."""
+    return next(each for each in parser(called)._actions if isinstance(each, argparse._SubParsersAction))
 
 
 def commands() -> dict[str, tuple[str, argparse.ArgumentParser]]:
     """Each command's help and parser, by its name."""
-    choices = next(action for action in parser()._actions if isinstance(action, argparse._SubParsersAction))
-    helps = {action.dest: action.help for action in choices._choices_actions}
-    return {name: (helps[name], command) for name, command in choices.choices.items()}
+    helps = {action.dest: action.help for action in _choices()._choices_actions}
+    return {name: (words, _choices(name).choices[name]) for name, words in helps.items()}
 
 
 def page() -> str:

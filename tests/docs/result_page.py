@@ -10,7 +10,7 @@ from tests.docs.markdown import table
 from tests.effects.examples import EXAMPLES, text_of
 
 from fenics_gears.contact.step_solver import METHODS
-from fenics_gears.effects import COMMON_VARIABLES, EFFECTS, FACE_VARIABLES, conflicts, effect_named
+from fenics_gears.effects import COMMON_VARIABLES, FACE_VARIABLES, conflicts, effect_named, every_effect
 from fenics_gears.effects.effect import ResultVariable
 from fenics_gears.results.attributes import ESTIMATED, RESULT_ATTRIBUTES, RUNG
 from fenics_gears.scene.read import scene_from_text
@@ -100,7 +100,7 @@ ROOT_STRESS = "`[output] root_stress`"
 # gives fields another dimension.
 ROOT_STRESS_OVER_FACE = """In three-dimensional scenes root stress is averaged over each slice of the face and acts across the tooth's trace. `root_stress` has the further dimension `face_position`, `root_stress_over_face` (contact_time, gear, slot, fillet,
 face_position), MPa, is the stress at the 30 degree tangent, and the other two are the largest over the face."""
-NOT_IN_THE_RUN = {each.section for each in EFFECTS if each.excludes} | {"lead_modifications", "misalignment"}
+NOT_IN_THE_RUN = {each.section for each in every_effect() if each.excludes} | {"lead_modifications", "misalignment"}
 
 
 def run_with_everything() -> xr.Dataset:
@@ -116,7 +116,7 @@ def page(result: xr.Dataset | None = None) -> str:
     lines = [HEADING, "## Dimensions and coordinates", "", *_dimensions(result), "", *_coordinates(result), ""]
     lines += [PAIRS, "## Variables of every run", "", *_variables(result, COMMON_VARIABLES), ""]
     lines += ["## Variables of effects", ""]
-    for each in EFFECTS:
+    for each in every_effect():
         if each.variables:
             lines += [f"### `[{each.written}]`", "", *_variables(result, each.variables), ""]
     lines += [f"### {ROOT_STRESS}", "", *_root_stress(result), "", ROOT_STRESS_OVER_FACE, ""]
@@ -179,7 +179,9 @@ def _root_stress(result: xr.Dataset) -> list[str]:
 
 def undeclared_variables(result: xr.Dataset) -> list[str]:
     """Variables that neither every run nor an effect has: those of the output that was asked for."""
-    declared = {each.name for each in COMMON_VARIABLES} | {each.name for found in EFFECTS for each in found.variables}
+    declared = {each.name for each in COMMON_VARIABLES} | {
+        each.name for found in every_effect() for each in found.variables
+    }
     return [name for name in result.data_vars if name not in declared]
 
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 from tests.docs.markdown import capital, from_docstring, table
 
-from fenics_gears.effects import EFFECTS, effect_named
+from fenics_gears.effects import effect_named, every_effect
 from fenics_gears.inputs import units
 from fenics_gears.inputs.allowed import Allowed
 from fenics_gears.inputs.section import Section, allowed_in, names_in, required_in, section_within
-from fenics_gears.scene.schema import SceneText
+from fenics_gears.scene.schema import scene_text
 
 HEADING = """# The scene
 
@@ -43,7 +43,7 @@ class SectionOfScene:
 
 def page() -> str:
     """The whole page."""
-    lines = [HEADING, *_units(), "## Top of the file", "", *fields(SceneText, "the top")]
+    lines = [HEADING, *_units(), "## Top of the file", "", *fields(scene_text(), "the top")]
     lines += ["## Gears, load and motion", ""]
     for name in ALWAYS:
         lines += _with_parts(name)
@@ -51,7 +51,7 @@ def page() -> str:
     for name in ("accuracy", "output"):
         lines += _with_parts(name)
     lines += ["## Effects", "", "[Effects](effects.md#examples) has an example of each.", ""]
-    for each in EFFECTS:
+    for each in every_effect():
         if not each.within:
             lines += _effect(each.section)
     return "\n".join(lines).rstrip() + "\n"
@@ -77,7 +77,7 @@ def _effect(name: str) -> list[str]:
 
 
 def _with_parts(name: str) -> list[str]:
-    section = SectionOfScene((name,), section_within(SceneText, name))
+    section = SectionOfScene((name,), section_within(scene_text(), name))
     return [f"### `[{name}]`", "", *_body(section), *_parts(section)]
 
 

@@ -164,7 +164,7 @@ def test_commands_are_the_programs(page):
         said = io.StringIO()
         with contextlib.redirect_stderr(said):
             try:
-                parser().parse_args(call)
+                parser(call[0]).parse_args(call)
             except SystemExit:
                 wrong.append(f"{' '.join(call)}: {said.getvalue()}")
     assert not wrong

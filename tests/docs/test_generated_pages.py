@@ -11,7 +11,7 @@ from fenics_gears.inputs.fields import declared, quantity
 from fenics_gears.inputs.section import Section, names_in, section_within
 from fenics_gears.results.attributes import ESTIMATED, RESULT_ATTRIBUTES, RUNG
 from fenics_gears.scene.data import Motion
-from fenics_gears.scene.schema import SceneText
+from fenics_gears.scene.schema import scene_text
 from fenics_gears.simulation.simulate import simulate
 
 
@@ -53,7 +53,7 @@ def test_every_field_has_its_line():
         return found
 
     lines = [line for line in kept("scene.md").splitlines() if line.startswith("| `")]
-    assert len(lines) == count(SceneText) > 50
+    assert len(lines) == count(scene_text()) > 50
 
 
 def test_a_field_without_meaning_is_refused():

@@ -3,7 +3,7 @@ here."""
 
 from pathlib import Path
 
-from fenics_gears.effects import EFFECTS, effect_named
+from fenics_gears.effects import SECTIONS, effect_named
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
 
@@ -134,7 +134,7 @@ def with_needs(*sections: str) -> tuple[str, ...]:
     closed = set(sections)
     while more := {need for each in closed for need in effect_named(each).needs} - closed:
         closed |= more
-    return tuple(each.section for each in EFFECTS if each.section in closed)
+    return tuple(each for each in SECTIONS if each in closed)
 
 
 OVER_FACE = {"lead_modifications", "misalignment"}

@@ -14,11 +14,10 @@ from tests.effects.examples import EXAMPLES, scene_of, text_of, with_needs
 from tests.programs import python
 
 from fenics_gears.commands.cli import main
-from fenics_gears.effects import EFFECTS, effect_named, effects_on, result_variables
+from fenics_gears.effects import SECTIONS, effect_named, effects_on, result_variables
 from fenics_gears.simulation.simulate import simulate
 
 CHECKOUT = Path(__file__).parents[2]
-SECTIONS = [each.section for each in EFFECTS]
 TEETH = "tooth_elasticity"
 RUN_HOOKS = ("removal", "gaps", "load", "clock", "results")
 

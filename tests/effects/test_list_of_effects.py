@@ -10,11 +10,10 @@ from fenics_gears import effects
 from fenics_gears.inputs.section import names_in
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.scene.schema import SceneText
+from fenics_gears.scene.schema import scene_text
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
-SECTIONS = [effect.section for effect in effects.EFFECTS]
-AT_THE_TOP = [effect.section for effect in effects.top_level()]
+SECTIONS, AT_THE_TOP = effects.SECTIONS, effects.AT_THE_TOP
 
 
 def without(*sections):
@@ -28,13 +27,19 @@ def without(*sections):
 def test_schema_data_and_list_know_the_same_sections():
     """Authority: identity; what is not one of the four sections that are always there, is an effect."""
     always = {"title", "gears", "load", "motion", "accuracy", "output"}
-    assert set(names_in(SceneText)) - always == set(AT_THE_TOP)
+    assert set(names_in(scene_text())) - always == set(AT_THE_TOP)
     assert {field.name for field in dataclasses.fields(Scene)} - always - {
         "name",
         "derived",
         "written",
         "folder",
     } == set(AT_THE_TOP)
+
+
+def test_a_module_has_the_effect_of_its_name():
+    """Authority: identity of the list and of what the modules say of themselves."""
+    assert tuple(each.section for each in effects.every_effect()) == SECTIONS
+    assert tuple(each.section for each in effects.every_effect() if not each.within) == AT_THE_TOP
 
 
 @pytest.mark.parametrize("section", ["shafts", "bearings", "damping", "friction"])
@@ -57,9 +62,9 @@ def test_an_absent_section_takes_its_effect_and_variables_away(section):
 def test_names_in_the_list_are_consistent():
     """Authority: identity; needs and excludes name sections of the list, variables of one name are one and the same,
     such as the pressure at kinks of either relief."""
-    named = [name for effect in effects.EFFECTS for name in (*effect.needs, *effect.excludes)]
+    named = [name for effect in effects.every_effect() for name in (*effect.needs, *effect.excludes)]
     assert set(named) <= set(SECTIONS)
-    variables = {variable for effect in effects.EFFECTS for variable in effect.variables} | set(
+    variables = {variable for effect in effects.every_effect() for variable in effect.variables} | set(
         effects.COMMON_VARIABLES
     )
     assert len({variable.name for variable in variables}) == len(variables)

@@ -13,7 +13,7 @@ from fenics_gears.inputs import units
 from fenics_gears.inputs.allowed import Allowed, AllowedEither, AllowedList
 from fenics_gears.inputs.section import allowed_in, required_in, section_within
 from fenics_gears.inputs.written import as_toml
-from fenics_gears.scene.schema import SceneText, known_paths
+from fenics_gears.scene.schema import known_paths, scene_text
 from fenics_gears.studies.fields import ABSENT, changed
 
 DEMO = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
@@ -103,7 +103,7 @@ def _fields() -> Iterator[Field]:
     for path, is_section in known_paths().items():
         if is_section:
             continue
-        section: Any = SceneText
+        section: Any = scene_text()
         for name in path[:-1]:
             section = section_within(section, name)
         allowed = allowed_in(section, path[-1])

@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields, replace
 import pytest
 from tests.effects.examples import EXAMPLES, scene_of, with_needs
 
-from fenics_gears.effects import EFFECTS, effect_named
+from fenics_gears.effects import AT_THE_TOP, effect_named
 from fenics_gears.inputs.allowed import Refused
 from fenics_gears.inputs.fields import quantity, whole_number
 from fenics_gears.inputs.section import Section, allowed_in, read, tree_of
@@ -56,7 +56,7 @@ def test_a_refused_value_says_why_in_a_sentence():
         allowed_in(Spring, "length").convert("-1 mm")
 
 
-@pytest.mark.parametrize("section", [each.section for each in EFFECTS if not each.within])
+@pytest.mark.parametrize("section", AT_THE_TOP)
 def test_data_are_plain_values(section):
     """Authority: what a study does with scenes: it compares them, sends them to other processes and changes a field."""
     data = getattr(scene_of(*with_needs(section)), section)

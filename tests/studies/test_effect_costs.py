@@ -9,7 +9,7 @@ import pytest
 from tests.effects.examples import scene_of, text_of
 
 from fenics_gears.commands.cli import main
-from fenics_gears.effects import EFFECTS
+from fenics_gears.effects import SECTIONS
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.runs import runs
@@ -79,7 +79,7 @@ def test_every_row_answers_as_the_scene_itself_does(report):
     rows = [(BARE, "", {TEETH}), (ALONE, "friction", {TEETH, "friction"}), (LEFT_OUT, "shafts", {*PAPER} - {"shafts"})]
     for kind, section, sections in rows:
         row = report.row(kind, section)
-        run = simulate(scene_of(*(each.section for each in EFFECTS if each.section in sections)))
+        run = simulate(scene_of(*(each for each in SECTIONS if each in sections)))
         error = run.attrs["peak_to_peak_transmission_error"] * run.attrs["base_radius_wheel"]
         assert row.transmission_error == pytest.approx(error, rel=1e-9)
         assert row.peak_force == pytest.approx(float(run.normal_force.max()), rel=1e-9)

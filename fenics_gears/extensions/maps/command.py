@@ -1,5 +1,5 @@
-"""``gears map SCENE``: transmission error, mesh stiffness and vibration of a pair over loads and speeds, as pictures
-and tables."""
+"""``gears map SCENE``: run a scene over loads and speeds; draw its Harris map, Campbell diagram and waterfalls, alone
+or under mpirun; a stopped map is continued."""
 
 from __future__ import annotations
 
@@ -29,11 +29,7 @@ MOST_RUNS = 1000
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser(
-        "map", parents=[shared],
-        help="run a scene over loads and speeds; draw its Harris map, Campbell diagram and waterfalls, alone or under "
-            "mpirun; a stopped map is continued",
-    )  # fmt: skip
+    command = commands.add_parser("map", parents=[shared])
     add_scene_argument(command)
     command.add_argument(
         "--loads", nargs="+", metavar="TORQUE", default=[],

@@ -1,5 +1,4 @@
-"""``gears listen RUN``: a curve of a run as an audio file; an engineer hears orders. ``gears plot RUN --spectrum``: its
-noise figures."""
+"""``gears listen RUN``: write a curve of a run as sound (WAV). ``gears plot RUN --spectrum``: its noise figures."""
 
 from __future__ import annotations
 
@@ -27,7 +26,7 @@ AUTOMATIC, WINDOWS = "auto", ("auto", "none", "hann", "flat-top")
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser, and an option to the core's ``plot``."""
-    command = commands.add_parser("listen", parents=[shared], help="write a curve of a run as sound (WAV)")
+    command = commands.add_parser("listen", parents=[shared])
     add_run_argument(command)
     command.add_argument(
         "--curve",

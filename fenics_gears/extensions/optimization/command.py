@@ -1,4 +1,5 @@
-"""``gears optimize DESIGN``: the modification of a pair that makes its results best over loads and tolerances."""
+"""``gears optimize DESIGN``: search the best modification of a pair over loads and tolerances, alone or under mpirun; a
+stopped search is continued."""
 
 from __future__ import annotations
 
@@ -18,14 +19,7 @@ from fenics_gears.command_line import (
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser(
-        "optimize",
-        parents=[shared],
-        help=(
-            "search the best modification of a pair over loads and tolerances, alone or under mpirun; a stopped search"
-            " is continued"
-        ),
-    )
+    command = commands.add_parser("optimize", parents=[shared])
     command.add_argument("design", type=Path, metavar="DESIGN", help="a design file (TOML)")
     add_output_argument(command, "results/<name of the design file>")
     command.add_argument(

@@ -1,4 +1,4 @@
-"""``gears rate RUN``: load capacity by ISO 6336 and by the computed loads, side by side."""
+"""``gears rate RUN``: rate a run by ISO 6336, beside its computed loads and stresses."""
 
 from __future__ import annotations
 
@@ -38,9 +38,7 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     from .finish import Finish
 
     defaults = {each.name: each.default for each in fields(Finish)}
-    command = commands.add_parser(
-        "rate", parents=[shared], help="rate a run by ISO 6336, beside its computed loads and stresses"
-    )
+    command = commands.add_parser("rate", parents=[shared])
     add_run_argument(command)
     for name, (unit, *_, meaning) in _QUANTITIES.items():
         command.add_argument(

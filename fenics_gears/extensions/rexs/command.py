@@ -1,4 +1,5 @@
-"""``gears import FILE.rexs``: a pair of a REXS file, written as a scene that names the origin of every value."""
+"""``gears import FILE.rexs``: write a gear pair of a REXS file as a scene. The scene names the origin of every
+value."""
 
 from __future__ import annotations
 
@@ -11,7 +12,7 @@ from fenics_gears.command_line import add_output_argument, check_writable, write
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser."""
-    command = commands.add_parser("import", parents=[shared], help="write a gear pair of a REXS file as a scene")
+    command = commands.add_parser("import", parents=[shared])
     command.add_argument("file", type=Path, metavar="FILE", help="a REXS file: .rexs, .rexsj or .rexsz")
     add_output_argument(command, "name of FILE with .toml, in the current folder", "scene file to write", "SCENE")
     command.add_argument(

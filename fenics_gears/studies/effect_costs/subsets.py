@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import combinations
 
-from fenics_gears.effects import EFFECTS, effect_named, effects_on, without
+from fenics_gears.effects import SECTIONS, effect_named, effects_on, every_effect, without
 from fenics_gears.inputs.tree import over_the_face
 from fenics_gears.inputs.written import WrittenFloat
 from fenics_gears.scene.data import Scene
@@ -131,7 +131,7 @@ def largest_valid(left: Sections, problem: Valid) -> Sections | None:
 def _problem(scene: Scene, sections: Sections) -> str:
     """What is wrong with the scene's text when only those effects are left in it; empty where nothing is."""
     tree = tomllib.loads(scene.text, parse_float=WrittenFloat)
-    for each in EFFECTS:
+    for each in every_effect():
         if each.section not in sections:
             *homes, name = each.within or (each.section,)
             functools.reduce(lambda table, home: table.get(home, {}), homes, tree).pop(name, None)
@@ -144,4 +144,4 @@ def _problem(scene: Scene, sections: Sections) -> str:
 
 def in_order(sections: Iterable[str]) -> list[str]:
     """Sections in the order of the list of effects."""
-    return [each.section for each in EFFECTS if each.section in sections]
+    return [each for each in SECTIONS if each in sections]

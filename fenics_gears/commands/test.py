@@ -1,4 +1,4 @@
-"""``gears test ...``: pytest on the checkout's tests."""
+"""``gears test ...``: run the tests of the checkout; options are those of pytest."""
 
 from __future__ import annotations
 
@@ -8,11 +8,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fenics_gears.errors import SceneError
-
-
-def add(commands) -> None:
-    """Add the command to the parser, for its help only: pytest's options are not ours to parse."""
-    commands.add_parser("test", help="run the tests of the checkout; options are those of pytest", add_help=False)
 
 
 def run_tests(options: Sequence[str]) -> int:

@@ -1,0 +1,116 @@
+"""Finds the commands: those of this folder, then extensions, which are in the folder ``fenics_gears/extensions`` or in
+installed packages that name themselves in the entry point group of the same name.
+
+Each is a module with a function ``add(commands, shared)``: `commands` takes parsers of commands by
+`commands.add_parser`, `shared` is the parser of -v and -q (docs/adding_an_extension.md). Its docstring begins with
+"``gears NAME ...``: summary." and names all commands that the module adds or changes, its own first; so a call imports
+only what has the command that is called, and modules whose docstrings name none.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import sys
+from collections.abc import Callable, Iterator
+from functools import partial
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from typing import NamedTuple
+
+GROUP = "fenics_gears.extensions"
+HERE = Path(__file__).parent
+# Their options are those of Python and pytest.
+UNPARSED = ("python", "test")
+# In the order of their use.
+CORE = ("check", "run", "study", "effects", "accuracy", "plot", "picture", "report", "export", "cache", *UNPARSED)
+
+
+class Found(NamedTuple):
+    """A module of commands: what messages call it, what imports it, its commands, and its summary."""
+
+    label: str
+    load: Callable
+    names: list[str]
+    summary: str
+
+
+def add(commands, shared: argparse.ArgumentParser, called: str) -> None:
+    """Add all commands, with arguments only those of modules that have the one that is called.
+
+    An extension that fails is left out, which the standard error says: no other command needs it.
+    """
+    modules = [*_of_the_core(), *_of_the_folder(), *_of_installed_packages()]
+    # One module may add an option to a command of another.
+    needed = {called}.union(*(each.names for each in modules if called in each.names))
+    for label, load, names, summary in modules:
+        try:
+            if names and (needed.isdisjoint(names) or label in UNPARSED):
+                commands.add_parser(names[0], help=summary, add_help=False)
+            else:
+                load().add(commands, shared)
+        except Exception as error:
+            if label in CORE:
+                raise
+            print(
+                f"The extension {label} cannot be loaded and is left out: {type(error).__name__}: {error}. Mend, update"
+                " or uninstall it.",
+                file=sys.stderr,
+            )
+
+
+def _of_the_core() -> Iterator[Found]:
+    for name in CORE:
+        yield _found(name, partial(import_module, f"{__package__}.{name}"), HERE / f"{name}.py")
+
+
+def _of_the_folder() -> Iterator[Found]:
+    for file in sorted(HERE.parent.glob("extensions/*/command.py")):
+        name = file.parent.name
+        yield _found(name, partial(import_module, f"{GROUP}.{name}.command"), file)
+
+
+def _of_installed_packages() -> Iterator[Found]:
+    if not any(map(_names_the_group, sys.path)):
+        return
+    from importlib.metadata import entry_points
+
+    for each in sorted(entry_points(group=GROUP), key=lambda each: each.name):
+        yield _found(f"{each.name} ({each.value})", each.load, _file(each.module))
+
+
+def _found(label: str, load: Callable, file: str | Path) -> Found:
+    """The module by its docstring, which is read, not imported."""
+    docstring = re.match(rb'"""(.*?)"""', _content(file), re.DOTALL)
+    words = " ".join(docstring[1].decode(errors="replace").split()) if docstring else ""
+    first = re.match(r"``gears [^`]+``: (.+?)\.(?: |$)", words)
+    return Found(label, load, re.findall(r"``gears ([\w-]+)", words) if first else [], first[1] if first else "")
+
+
+def _file(module: str) -> str:
+    """The file of a module, empty where there is none."""
+    try:
+        return getattr(find_spec(module), "origin", None) or ""
+    except Exception:
+        # To find a module imports the package that it is in.
+        return ""
+
+
+def _names_the_group(folder: str) -> bool:
+    """Whether a package that is installed in a folder may have an extension: to load importlib.metadata takes 25 ms,
+    to look into these files 2 ms, and every call of the program does it."""
+    try:
+        names = [name for name in os.listdir(folder or ".") if name.endswith((".dist-info", ".egg-info"))]
+    except OSError:
+        return False
+    return any(GROUP.encode() in _content(f"{folder or '.'}/{name}/entry_points.txt") for name in names)
+
+
+def _content(file: str | Path) -> bytes:
+    try:
+        with open(file, "rb") as opened:
+            return opened.read()
+    except OSError:
+        return b""
