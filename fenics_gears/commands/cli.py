@@ -61,6 +61,8 @@ def _carried_out(arguments: Sequence[str]) -> int:
         return tests.run_tests(arguments[1:])
     if arguments[:1] == ["python"]:
         return python.run_python(arguments[1:])
+    if set(arguments) in ({"--version", "-v"}, {"--version", "--verbose"}):
+        return _print_versions()
     options = _parser().parse_args(arguments)
     _configure_logging(options.verbose)
     if "memory" in options:
@@ -69,6 +71,20 @@ def _carried_out(arguments: Sequence[str]) -> int:
     os.environ["MPLBACKEND"] = "agg"
     check_working_folder()
     return options.command(options)
+
+
+def _print_versions() -> int:
+    """Print the version, those of the libraries that compute, and the kernels of each OpenBLAS."""
+    from fenics_gears.studies.machine import processor, versions
+    from fenics_gears.system import blas
+
+    print(versions().removeprefix("fenics_"), processor(), sep="\n")
+    for each in blas.libraries():
+        wrong = "" if each["exact"] else ", WRONG: products of integers are not exact"
+        words = f"kernels for {each['kernels']}, threads {each['threads']}{wrong}"
+        print(f"OpenBLAS {each['version']} ({each['file']}): {words}")
+    print(f"kernels: {blas.said()}")
+    return 0
 
 
 def _in_words(command: Callable[[], int]) -> int:
@@ -139,7 +155,12 @@ def _parser() -> argparse.ArgumentParser:
         parents=[shared],
     )
     parser.set_defaults(verbose=False, quiet=False)
-    parser.add_argument("--version", action="version", version=f"gears {__version__}")
+    parser.add_argument(
+        "--version",
+        action="version",
+        version=f"gears {__version__}",
+        help="print the version; with -v also those of libraries, and the kernels of BLAS",
+    )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for command in (check, run, study, effects, accuracy, plot, picture, report, export, cache, extensions):
         command.add(commands, shared)
