@@ -42,6 +42,8 @@ def _command(arguments: list[str]) -> int:
 
 
 def _carried_out(arguments: Sequence[str]) -> int:
+    if set(arguments) in ({"--version", "-v"}, {"--version", "--verbose"}):
+        return _print_versions()
     called = next((word for word in arguments if not word.startswith("-")), "")
     if called in found.UNPARSED:
         before, rest = arguments[: arguments.index(called) + 1], arguments[arguments.index(called) + 1 :]
@@ -59,6 +61,20 @@ def _carried_out(arguments: Sequence[str]) -> int:
     os.environ["MPLBACKEND"] = "agg"
     check_working_folder()
     return options.command(options)
+
+
+def _print_versions() -> int:
+    """Print the version, those of the libraries that compute, and the kernels of each OpenBLAS."""
+    from fenics_gears.studies.machine import processor, versions
+    from fenics_gears.system import blas
+
+    print(versions().removeprefix("fenics_"), processor(), sep="\n")
+    for each in blas.libraries():
+        wrong = "" if each["exact"] else ", WRONG: products of integers are not exact"
+        words = f"kernels for {each['kernels']}, threads {each['threads']}{wrong}"
+        print(f"OpenBLAS {each['version']} ({each['file']}): {words}")
+    print(f"kernels: {blas.said()}")
+    return 0
 
 
 def _in_words(command: Callable[[], int]) -> int:
@@ -130,7 +146,12 @@ def _parser(called: str = "") -> argparse.ArgumentParser:
         parents=[shared],
     )
     parser.set_defaults(verbose=False, quiet=False)
-    parser.add_argument("--version", action="version", version=f"gears {__version__}")
+    parser.add_argument(
+        "--version",
+        action="version",
+        version=f"gears {__version__}",
+        help="print the version; with -v also those of libraries, and the kernels of BLAS",
+    )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     found.add(commands, shared, called)
     return parser

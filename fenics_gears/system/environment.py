@@ -6,7 +6,7 @@ A variable the user has set is never changed, unless it names a folder that cann
 import os
 import re
 
-from fenics_gears.system import folders
+from fenics_gears.system import blas, folders
 
 RANK_COUNTS = ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS")
 """Where Open MPI, MPICH and Slurm say how many processes run together."""
@@ -24,6 +24,7 @@ def prepare(environment=os.environ):
     for name, value in defaults(environment).items():
         environment.setdefault(name, value)
     folders.have_folders(environment, aloud=started_ranks(environment) == 1)
+    blas.choose(environment)
 
 
 def defaults(environment):
