@@ -11,18 +11,15 @@ from scipy.integrate import solve_ivp
 from tests.coarse import COARSE, frictionless
 from tests.frozen_gears import frozen_marcher
 
+from fenics_gears import Load, SceneError, model_of, scene_from_text, simulate
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.speed_ramp import RampClock, inertia_forces
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.errors import SceneError
 from fenics_gears.model.drivetrain import drivetrain
-from fenics_gears.model.model import model_of
-from fenics_gears.scene.data import Load, Motion
-from fenics_gears.scene.read import scene_from_text
+from fenics_gears.scene.data import Motion
 from fenics_gears.simulation.routes import prepared
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")

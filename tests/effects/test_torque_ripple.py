@@ -8,16 +8,14 @@ import pytest
 from tests.coarse import COARSE, frictionless, quasi_static
 from tests.frozen_gears import frozen_marcher
 
+from fenics_gears import SceneError, scene_from_text, simulate
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.dynamics.torque_ripple import varying_load
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
-from fenics_gears.errors import SceneError
 from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.scene.data import Motion
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 ORDER = 24.0  # of the wheel's turn: once a mesh cycle

@@ -7,6 +7,7 @@ import pytest
 from tests.coarse import COARSE
 from tests.frozen_gears import frozen_marcher
 
+from fenics_gears import simulate
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.energy_account import account
@@ -14,7 +15,6 @@ from fenics_gears.dynamics.steps import Record, Steps
 from fenics_gears.effects.friction import Friction
 from fenics_gears.results.energy_variables import energy_variables
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation.simulate import simulate
 
 
 def march(marcher, record, steps):

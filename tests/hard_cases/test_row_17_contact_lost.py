@@ -9,17 +9,16 @@ from scipy.linalg import expm
 from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
 from tests.frozen_gears import frozen_marcher
 
+from fenics_gears import model_of, simulate
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.model.model import model_of
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion
 from fenics_gears.show.forces import pair_forces
 from fenics_gears.show.run import Run
 from fenics_gears.simulation.routes import prepared
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
 FINE = replace(COARSE, steps_per_mesh_cycle=100)

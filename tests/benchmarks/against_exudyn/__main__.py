@@ -24,7 +24,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fenics_gears import load_scene
+from fenics_gears import gear_pair, load_scene, lumped_gears
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.spring_mesh import PairSprings, spring_mesh
 from fenics_gears.contact.tooth_pair import DRIVE
@@ -34,8 +34,7 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.effects.bearings import Bearings, Support
 from fenics_gears.effects.shafts import Shaft, Shafts
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.model.drivetrain import drivetrain, lumped_gears
+from fenics_gears.model.drivetrain import drivetrain
 
 HERE = Path(__file__).parent
 SCENE = HERE / "pair_19_48.toml"

@@ -26,11 +26,11 @@ from pathlib import Path
 import numpy as np
 from tests.benchmarks.against_exudyn.__main__ import BEARINGS, MESH, SHAFTS, scene
 
+from fenics_gears import gear_pair, lumped_gears
 from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.effects.bearings import BearingPlaces
 from fenics_gears.geometry.helix import Helix
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.model.drivetrain import drivetrain, lumped_gears
+from fenics_gears.model.drivetrain import drivetrain
 
 HERE = Path(__file__).parent
 # N mm: small, the program being of small displacements.

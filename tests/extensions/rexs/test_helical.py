@@ -11,8 +11,8 @@ import pytest
 from tests.extensions.rexs import paper_model as rexs
 from tests.extensions.rexs.test_lookups import assumed_fields, refused, scene_of
 
+from fenics_gears import gear_pair
 from fenics_gears.effects.lead_modifications import EndRelief, LeadModification
-from fenics_gears.geometry.pair import gear_pair
 
 STRETCH = 1.0 / cos(radians(20.0))
 

@@ -6,8 +6,8 @@ import pytest
 from tests.conftest import DEMOS
 from tests.extensions.rexs import paper_model as rexs
 
+from fenics_gears import load_scene
 from fenics_gears.commands.cli import main
-from fenics_gears.scene.read import load_scene
 
 
 @pytest.fixture

@@ -9,9 +9,8 @@ import pytest
 from tests.extensions.rexs import paper_model as rexs
 from tests.extensions.rexs.test_paper_pair import imported
 
-from fenics_gears.errors import SceneError
+from fenics_gears import SceneError, gear_pair
 from fenics_gears.extensions.rexs.imported import Choice
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.modification import removals
 from fenics_gears.scene.data import Motion
 

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from tests.extensions.rexs import paper_model as rexs
 from tests.random_pairs import valid_pairs
 
+from fenics_gears import scene_from_text
 from fenics_gears.extensions.rexs.imported import Choice, imported_scene
-from fenics_gears.scene.read import scene_from_text
 
 
 def imported(tmp_path, content, name="file.rexs", choice=Choice()):

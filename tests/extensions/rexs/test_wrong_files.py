@@ -10,7 +10,7 @@ from tests.extensions.rexs import paper_model as rexs
 from tests.extensions.rexs.test_lookups import changed, refused, with_relief
 from tests.extensions.rexs.test_paper_pair import imported
 
-from fenics_gears.errors import SceneError
+from fenics_gears import SceneError
 from fenics_gears.extensions.rexs import read
 from fenics_gears.extensions.rexs.imported import Choice
 
