@@ -88,24 +88,27 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
     return natural_frequencies(shafts, MESH), rotations, given
 
 
-def main() -> None:
-    """Print both side by side."""
-    parser = argparse.ArgumentParser(
-        prog="python -m tests.benchmarks.against_exudyn", description=__doc__.splitlines()[0]
-    )
+def by_exudyn(script: str, words: str, frequencies: np.ndarray, given: dict) -> dict:
+    """What a script of this folder finds in Exudyn; prints the frequencies of both programs."""
+    parser = argparse.ArgumentParser(description=words.splitlines()[0])
     parser.add_argument(
         "python", nargs="?", default=sys.executable, help="a Python that has Exudyn (default: this one)"
     )
-    frequencies, rotations, given = by_this_program()
-    done = subprocess.run(
-        [parser.parse_args().python, HERE / "exudyn_pair.py"], input=json.dumps(given), capture_output=True, text=True
-    )
+    call = [parser.parse_args().python, HERE / script]
+    done = subprocess.run(call, input=json.dumps(given), capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"Exudyn failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}")
     found = json.loads(done.stdout[done.stdout.index('{"version"') :])
     print(f"Exudyn {found['version']}\nmode   this program, Hz   Exudyn, Hz      difference")
     for number, (own, other) in enumerate(zip(frequencies, found["frequencies"]), 1):
         print(f"{number:<6} {own:<18.6f} {other:<15.6f} {own / other - 1.0:.1e}")
+    return found
+
+
+def main() -> None:
+    """Print both side by side."""
+    frequencies, rotations, given = by_this_program()
+    found = by_exudyn("exudyn_pair.py", __doc__, frequencies, given)
     for name, own, other in zip(("pinion", "wheel"), rotations, np.array(found["rotations"])):
         own, other = own[: len(other)], other[: len(own)]
         print(
