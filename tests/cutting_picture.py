@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from tests.geometry.test_cutting_simulation import rack_profile
 
-from fenics_gears.geometry.gear import Gear
+from fenics_gears import Gear
 from fenics_gears.geometry.outline import tooth_outline
 
 FILE = Path(__file__).parent.parent / "docs/pictures/cutting.png"

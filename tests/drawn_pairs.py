@@ -9,10 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import cos, radians
 
+from fenics_gears import Scene, build_scene, gear_pair
 from fenics_gears.geometry.characteristics import characteristics
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.scene.data import Scene
-from fenics_gears.scene.read import build_scene
 
 
 @dataclass(frozen=True)

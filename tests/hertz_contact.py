@@ -11,22 +11,20 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from tests.contact.problems import pressed
 
-from fenics_gears.contact.laws import Tolerance
+from fenics_gears import Gear, Scene, model_of
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.contact.pressure import without_oscillation
-from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.elasticity.gear_compliance import flank_compliance
-from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, canonical_normal, roll_angle_at_arc_length
-from fenics_gears.model.model import Model, model_of
+from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import hertz_half_width, plane_contact_modulus, relative_radius
-from fenics_gears.scene.data import Scene
 
 # The smaller load, in parts of the larger: half its half-width.
 SMALLER = 0.25
@@ -104,13 +102,7 @@ class HertzContact:
         )
         phase = (self.pair.pitch_point - self.pair.path_start) / self.pair.base_pitch % 1.0
         operator = cycle.between(phase, phase).operator
-        load = line_load * self.pair.face_width
-        problem = StepProblem(
-            stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=operator.compliance,
-            jacobian=np.abs(operator.jacobian), gap=operator.gap,
-            slip_before=np.empty(0), friction=0.0, free_motion=np.ones(1), tolerance=Tolerance.of_load(load),
-        )  # fmt: skip
-        solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
+        solution = pressed(operator, line_load * self.pair.face_width, np.abs(operator.jacobian))
         forces, (loaded,) = solution.forces, np.unique(operator.node_pair[solution.forces > 0.0])
         own = operator.node_pair == loaded
         tooth_pair = operator.pairs[loaded]

@@ -5,9 +5,7 @@ from math import cos, radians, sqrt
 
 import pytest
 
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.tooth_thickness import base_helix_angle
+from fenics_gears import Gear, GearPair, base_helix_angle
 
 
 def rated():

@@ -5,9 +5,9 @@ from functools import lru_cache
 
 from tests.helical import wide_pair
 
+from fenics_gears import Load, simulate
 from fenics_gears.effects.coast_flanks import CoastFlanks
-from fenics_gears.scene.data import Load, Output
-from fenics_gears.simulation.simulate import simulate
+from fenics_gears.scene.data import Output
 
 MORE = """
 [misalignment]

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from fenics_gears import simulate
 from fenics_gears.simulation.routes import prepared
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
 

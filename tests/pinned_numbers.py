@@ -18,17 +18,15 @@ from tests.coarse import coarse_scene, frictionless, quasi_static
 from tests.helical import helical_scene, on_stand_in_bodies
 from tests.stand_in import stand_in_compliance
 
+from fenics_gears import load_scene, model_of, simulate
 from fenics_gears.elasticity.body import Body
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.face_resolution import face_discretisation
-from fenics_gears.model.model import model_of
 from fenics_gears.numbers_version import NUMBERS_VERSION
-from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.elastic_route import mesh_cycle
-from fenics_gears.simulation.simulate import simulate
 
 FILE = Path(__file__).with_suffix(".json")
 DEMO = Path(__file__).parents[1] / "demos" / "lundvall2004.toml"

@@ -5,11 +5,9 @@ from math import atan, cos, radians, tan
 from hypothesis import assume
 from hypothesis import strategies as st
 
-from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.gear import Gear
+from fenics_gears import Gear, GearPair, GeometryError
 from fenics_gears.geometry.gear_checks import check_gear
 from fenics_gears.geometry.helix import Helix
-from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.pair_checks import check_pair
 
 

@@ -5,14 +5,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from fenics_gears import Gear, Material
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense
 from fenics_gears.elasticity.element_nodes import node_roll_angles
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import centre_motion, check_congruent, rotation, turned_nodes
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.gear_data import Material
 from meshes.root_crack import joined_sectors
 
 

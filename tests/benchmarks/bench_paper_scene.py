@@ -12,9 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from fenics_gears import load_scene, model_of
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.model.model import model_of
-from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.bodies import gear_bodies
 from fenics_gears.simulation.elastic_route import mesh_cycle
 from fenics_gears.simulation.warm_up import compile_kernels

@@ -14,8 +14,8 @@ import numpy as np
 from tests.benchmarks.marked_section import write_section
 from tests.hertz_contact import QUANTITIES, SMALLER, HertzContact
 
-from fenics_gears.scene.data import Accuracy, Scene
-from fenics_gears.scene.read import load_scene
+from fenics_gears import Scene, load_scene
+from fenics_gears.scene.data import Accuracy
 from fenics_gears.simulation.warm_up import compile_kernels
 
 ROOT = Path(__file__).parents[2]

@@ -19,9 +19,8 @@ import xarray as xr
 from tests.programs import DEMO, command, ended, environment, python
 
 import fenics_gears
-from fenics_gears import results
+from fenics_gears import ComputationError, results
 from fenics_gears.commands.cli import main
-from fenics_gears.errors import ComputationError
 from fenics_gears.results.validity import NO_MEANING
 
 

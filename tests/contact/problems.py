@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.step_solver import StepProblem
+from fenics_gears.contact.operator import ContactOperator
+from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start, solve_step
 
 
 def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4, free=False) -> StepProblem:
@@ -39,3 +40,25 @@ def random_problem(seed, nodes=8, friction=0.0, coordinates=3, load_scale=1e4, f
 def all_open(problem: StepProblem) -> np.ndarray:
     """Sets to start from (n,): nothing touches."""
     return np.full(len(problem.gap), OPEN, dtype=np.int8)
+
+
+def only_one_moves(compliance, jacobian, gap, force: float) -> StepProblem:
+    """Without friction or springs, a force (N) on the one coordinate."""
+    return StepProblem(
+        np.zeros((1, 1)),
+        np.array([force]),
+        compliance,
+        jacobian,
+        gap,
+        np.empty(0),
+        0.0,
+        np.array([np.sign(force)]),
+        Tolerance.of_load(abs(force)),
+    )
+
+
+def pressed(operator: ContactOperator, force: float, jacobian=None) -> StepSolution:
+    """The solution of that on an operator of one coordinate, or with another `jacobian`."""
+    jacobian = operator.jacobian if jacobian is None else jacobian
+    problem = only_one_moves(operator.compliance, jacobian, operator.gap, force)
+    return solve_step(problem, cold_start(operator.gap, operator.node_pair))

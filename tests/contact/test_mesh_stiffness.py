@@ -4,27 +4,16 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from tests.contact.problems import pressed
 
 from fenics_gears.contact.addresses import Arrays
-from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.mesh_stiffness import mesh_stiffness
-from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.window import ContactGrid
 
 ROTATION_OF_THE_WHEEL = 5
 LOAD = 7e3
-
-
-def statics(operator, load):
-    """The static solution under a force (N) along the line of action on the wheel, which turns freely."""
-    problem = StepProblem(
-        stiffness=np.zeros((1, 1)), load=np.array([load]), compliance=operator.compliance, jacobian=operator.jacobian,
-        gap=operator.gap,
-        slip_before=np.empty(0), friction=0.0, free_motion=np.ones(1), tolerance=Tolerance.of_load(load),
-    )  # fmt: skip
-    return solve_step(problem, cold_start(operator.gap, operator.node_pair))
 
 
 def stiffness(operator, solution):
@@ -49,10 +38,10 @@ def test_tangent_is_the_finite_difference_of_load_over_rotation(cycle, step):
     """Brute force: two static solutions at loads a millionth apart, dF over the difference of the wheel's arc rb2
     phi2."""
     operator = cycle.position(step).operator
-    softer, harder = (statics(operator, LOAD * (1.0 + part)) for part in (-1e-6, 1e-6))
+    softer, harder = (pressed(operator, LOAD * (1.0 + part)) for part in (-1e-6, 1e-6))
     assert np.array_equal(softer.status, harder.status)
     difference = 2e-6 * LOAD / float(harder.coordinates[0] - softer.coordinates[0])
-    assert stiffness(operator, statics(operator, LOAD)).tangent == pytest.approx(difference, rel=1e-6)
+    assert stiffness(operator, pressed(operator, LOAD)).tangent == pytest.approx(difference, rel=1e-6)
 
 
 @pytest.mark.parametrize("step", [0, 11])
@@ -60,15 +49,15 @@ def test_secant_is_the_mean_of_the_tangents_from_no_load_on(cycle, step):
     """Identity: F/delta is the harmonic mean over the load of dF/ddelta, delta being the integral of dF over it
     (midpoint rule)."""
     operator, parts = cycle.position(step).operator, 400
-    found = [stiffness(operator, statics(operator, LOAD * (i + 0.5) / parts)) for i in range(parts)]
+    found = [stiffness(operator, pressed(operator, LOAD * (i + 0.5) / parts)) for i in range(parts)]
     softness = np.mean([1.0 / each.tangent for each in found])
-    assert stiffness(operator, statics(operator, LOAD)).secant == pytest.approx(1.0 / softness, rel=2e-3)
+    assert stiffness(operator, pressed(operator, LOAD)).secant == pytest.approx(1.0 / softness, rel=2e-3)
     assert found[-1].secant < found[-1].tangent
 
 
 def test_pairs_that_carry(cycle):
     """Definition of the contact ratio, 1.47: half of the mesh cycle two pairs carry, then one; stiffness falls as the
     second leaves."""
-    found = [stiffness(cycle.position(step).operator, statics(cycle.position(step).operator, LOAD)) for step in (4, 15)]
+    found = [stiffness(cycle.position(step).operator, pressed(cycle.position(step).operator, LOAD)) for step in (4, 15)]
     assert [each.pairs for each in found] == [2, 1]
     assert found[0].secant > 1.2 * found[1].secant and found[0].tangent > 1.2 * found[1].tangent

@@ -14,15 +14,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 from tests.contact.laws_of_contact import law_residual
-from tests.contact.problems import all_open, random_problem
+from tests.contact.problems import all_open, only_one_moves, random_problem
 from tests.contact.sliding_block import block_at_rest
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium, SelfLocking
-from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.newton import CONVERGED
-from fenics_gears.contact.step_solver import HALVED, NEWTON_AND_FALLBACKS, StepProblem, _methods, cold_start, solve_step
+from fenics_gears.contact.step_solver import HALVED, NEWTON_AND_FALLBACKS, _methods, cold_start, solve_step
 from fenics_gears.contact.tresca import frozen_friction
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration
@@ -87,12 +86,7 @@ def close_nodes(nodes=40, elements=15):
     hats = np.maximum(0.0, 1.0 - np.abs(places[:, None] - known) * (elements - 1))
     compliance = 1e-5 * hats @ np.exp(-8.0 * np.abs(known[:, None] - known)) @ hats.T
     compliance += 1e-10 * compliance.max() * np.eye(nodes)
-    load = 3000.0
-    return StepProblem(
-        np.zeros((1, 1)), np.array([load]), compliance, np.ones((nodes, 1)), 2e-3 * (places - 0.5) ** 2, np.zeros(0),
-        0.0, np.ones(1),
-        Tolerance.of_load(load),
-    )  # fmt: skip
+    return only_one_moves(compliance, np.ones((nodes, 1)), 2e-3 * (places - 0.5) ** 2, 3000.0)
 
 
 @pytest.mark.parametrize("nodes, elements", [(40, 15), (120, 50)])

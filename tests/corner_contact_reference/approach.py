@@ -6,22 +6,19 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from tests.contact.problems import pressed
 
+from fenics_gears import GearPair, Scene, model_of
 from fenics_gears.contact.corner import CornerContact
-from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import ContactOperator
-from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.touching import touching
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.gear_compliance import flank_compliance
-from fenics_gears.geometry.pair import GearPair
-from fenics_gears.model.model import model_of
-from fenics_gears.scene.data import Accuracy, Scene
+from fenics_gears.scene.data import Accuracy
 
 WHEEL_ROTATION = 5  # in CENTRE_COORDINATES
 
@@ -54,26 +51,9 @@ def rigid_hub_cycle(flanks: Flanks, grid: ContactGrid, steps: int, corner: Corne
     return Cycle(elastic_mesh(flanks, grid, corner), steps, [WHEEL_ROTATION], tangential=False)
 
 
-def solved(operator: ContactOperator, force: float) -> StepSolution:
-    """The step's solution under a force (N) on the wheel's base circle; its coordinate is the wheel's arc, mm."""
-    load, free = np.array([force]), np.array([np.sign(force)])
-    problem = StepProblem(
-        np.zeros((1, 1)),
-        load,
-        operator.compliance,
-        operator.jacobian,
-        operator.gap,
-        np.empty(0),
-        0.0,
-        free,
-        Tolerance.of_load(force),
-    )
-    return solve_step(problem, cold_start(operator.gap, operator.node_pair))
-
-
 def transmission_error(cycle: Cycle, pair: GearPair, couple: float, phase: float) -> tuple[float, float]:
     """Transmission error (rad, of the wheel) at a phase (mesh cycles), and the pinion's couple over the wheel's."""
     operator = cycle.position(round(phase * cycle.steps)).operator
-    solution = solved(operator, couple / pair.wheel.base_radius)
+    solution = pressed(operator, couple / pair.wheel.base_radius)
     arms = [float(np.sum(arm * solution.forces)) for arm in operator.normal_lever_arms]
     return float(solution.coordinates[0]) / pair.wheel.base_radius, arms[0] / arms[1]

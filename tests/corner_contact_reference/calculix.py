@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from tests.corner_contact_reference.gear_mesh import GearMesh, rotation
 
-from fenics_gears.geometry.pair import GearPair
+from fenics_gears import GearPair
 from fenics_gears.scene.data import Material
 
 # MPa per mm of overlap. At a pressure of 1500 MPa that is 1.5e-5 mm, 0.04 % of the teeth's deflection.

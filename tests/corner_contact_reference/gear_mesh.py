@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial import cKDTree
+from tests.six_node_mesh import along, points_at, six_node_mesh, unit, with_middles
 
-from fenics_gears.elasticity.gmsh_session import gmsh_model
-from fenics_gears.geometry.gear import Gear
+from fenics_gears import Gear
 from fenics_gears.geometry.involute import arc_length, canonical_point, roll_angle_at_arc_length
 from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.geometry.tip_edge import tip_edge
@@ -61,22 +61,15 @@ def gear_mesh(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded: tuple[in
     doubled, touching = _outline(gear, sizes, edge_radius, loaded)
     count = max(2 * int(np.ceil(np.pi * gear.bore_radius / (0.05 * gear.bore_radius))), 40)
     angles = -2.0 * np.pi * np.arange(2 * count) / (2 * count)
-    bore = gear.bore_radius * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-    corners, triangles = _triangles(doubled, touching, bore, sizes)
-    points, cells, side_of = _six_nodes(corners, triangles)
-    outer = len(doubled) // 2
-    contact, hub = [], []
-    for first, curve, is_outline in ((0, doubled, True), (outer, bore, False)):
-        number = len(curve) // 2
-        for i in range(number):
-            a, b = first + i, first + (i + 1) % number
-            cell, side, middle = side_of[min(a, b), max(a, b)]
-            points[middle] = curve[2 * i + 1]
-            if not is_outline:
-                hub += [a, middle]
-            elif touching[i]:
-                contact.append((cell, side))
-    return GearMesh(points, cells, np.array(hub), np.array(contact))
+    bore = gear.bore_radius * unit(angles)
+    points, cells, (outline, hub) = six_node_mesh(doubled, bore, _size_function(doubled, bore, sizes))
+    middles = {
+        middle: (cell, side)
+        for cell, corners_and_middles in enumerate(cells)
+        for side, middle in enumerate(corners_and_middles[3:])
+    }
+    contact = [middles[middle] for middle in outline[1::2][touching]]
+    return GearMesh(points, cells, hub, np.array(contact))
 
 
 def _outline(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded) -> tuple[np.ndarray, np.ndarray]:
@@ -102,7 +95,7 @@ def _tooth(gear: Gear, sizes: MeshSizes, edge_radius: float, loaded: bool) -> tu
     fillet = _resampled(outline.fillet, size)
     root_angle = np.angle(complex(*outline.fillet[0]))
     root_points = _even(gear.root_radius * abs(outline.space_angle - root_angle) / size)
-    root = gear.root_radius * _unit(np.linspace(outline.space_angle, root_angle, root_points))
+    root = gear.root_radius * unit(np.linspace(outline.space_angle, root_angle, root_points))
     ends = arc_length(gear.base_radius, np.array([gear.form_roll_angle, edge.flank_roll]))
     arcs = ends[1] - _graded(ends[1] - ends[0], tip_size, flank_size, sizes.growth)[::-1]
     coast_arcs = np.linspace(*ends, _even((ends[1] - ends[0]) / (2.0 * size)))
@@ -132,11 +125,7 @@ def _land(gear: Gear, corner: np.ndarray, opposite: np.ndarray, tip_size: float,
     length = gear.tip_radius * abs(end - start)
     half = _graded(0.5 * length, tip_size, sizes.coarse, sizes.growth)[:-1] / length
     shares = np.concatenate([half, [0.5], 1.0 - half[::-1]])
-    return gear.tip_radius * _unit(start + shares * (end - start))
-
-
-def _unit(angles) -> np.ndarray:
-    return np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    return gear.tip_radius * unit(start + shares * (end - start))
 
 
 def _even(edges: float) -> int:
@@ -152,72 +141,25 @@ def _graded(length: float, first: float, last: float, growth: float) -> np.ndarr
         at += min(first + 0.5 * growth * at, last)
         ends.append(at)
     ends = np.array(ends) * length / ends[-1]
-    return np.insert(ends, np.arange(1, len(ends)), 0.5 * (ends[1:] + ends[:-1]))
+    return with_middles(ends)
 
 
 def _resampled(curve: np.ndarray, size: float) -> np.ndarray:
-    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
-    at = np.linspace(0.0, length[-1], _even(length[-1] / size))
-    return np.stack([np.interp(at, length, curve[:, i]) for i in range(2)], axis=-1)
+    length = along(curve)[-1]
+    return points_at(curve, np.linspace(0.0, length, _even(length / size)))
 
 
-def _triangles(doubled, touching, bore, sizes: MeshSizes) -> tuple[np.ndarray, np.ndarray]:
-    """Corner nodes, those of outline and bore first, and triangles of the region between outline and bore."""
-    outline, inner = doubled[::2], bore[::2]
-    with gmsh_model("gear") as gmsh:
-        loops, tags = [], []
-        for curve in (outline, inner):
-            own = [gmsh.model.geo.addPoint(x, y, 0.0) for x, y in curve]
-            loops.append([gmsh.model.geo.addLine(a, b) for a, b in zip(own, own[1:] + own[:1])])
-            tags += own
-        gmsh.model.geo.addPlaneSurface([gmsh.model.geo.addCurveLoop(loop) for loop in loops])
-        gmsh.model.geo.synchronize()
-        for loop in loops:
-            for line in loop:
-                gmsh.model.mesh.setTransfiniteCurve(line, 2)
-        everything = np.vstack([outline, inner])
-        edge = np.concatenate([np.linalg.norm(np.roll(c, -1, axis=0) - c, axis=1) for c in (outline, inner)])
-        # An edge's end takes the smaller of its two edges.
-        size = np.concatenate([np.minimum(part, np.roll(part, 1)) for part in np.split(edge, [len(outline)])])
-        tree = cKDTree(everything)
-        neighbours = min(len(everything), 400)
+def _size_function(doubled: np.ndarray, bore: np.ndarray, sizes: MeshSizes):
+    """Element size (n,), mm, wanted at points (n, 2): that of the boundary's edges, growing from there."""
+    curves = doubled[::2], bore[::2]
+    edges = [np.linalg.norm(np.roll(curve, -1, axis=0) - curve, axis=1) for curve in curves]
+    # An edge's end takes the smaller of its two edges.
+    size = np.concatenate([np.minimum(edge, np.roll(edge, 1)) for edge in edges])
+    tree = cKDTree(np.vstack(curves))
 
-        def wanted(dim, tag, x, y, z, lc):
-            distance, index = tree.query((x, y), k=neighbours)
-            return float(
-                min(sizes.body, np.min(size[index] + sizes.growth * np.maximum(distance - 2.0 * size[index], 0.0)))
-            )
+    def wanted(points: np.ndarray) -> np.ndarray:
+        distance, index = tree.query(points, k=min(len(size), 400))
+        grown = size[index] + sizes.growth * np.maximum(distance - 2.0 * size[index], 0.0)
+        return np.minimum(sizes.body, grown.min(axis=1))
 
-        gmsh.model.mesh.setSizeCallback(wanted)
-        gmsh.model.mesh.generate(2)
-        gmsh.model.mesh.removeSizeCallback()
-        node_tags, coordinates, _ = gmsh.model.mesh.getNodes()
-        cells = np.asarray(gmsh.model.mesh.getElementsByType(2)[1], dtype=int).reshape(-1, 3)
-    points = np.asarray(coordinates).reshape(-1, 3)[:, :2]
-    distance, first = cKDTree(points).query(everything)
-    if distance.max() > 1e-9 or len(set(first)) != len(everything):
-        raise RuntimeError("gmsh moved or divided the boundary")
-    order = np.concatenate([first, np.setdiff1d(np.arange(len(points)), first)])
-    index = np.empty(int(np.max(node_tags)) + 1, dtype=int)
-    index[np.asarray(node_tags, dtype=int)[order]] = np.arange(len(order))
-    corners, triangles = points[order], index[cells]
-    a, b, c = (corners[triangles[:, i]] for i in range(3))
-    clockwise = np.cross(b - a, c - a) < 0.0
-    triangles[clockwise] = triangles[clockwise][:, [0, 2, 1]]
-    return corners, triangles
-
-
-def _six_nodes(corners: np.ndarray, triangles: np.ndarray):
-    """Points and cells with the sides' middles; for each edge (smaller corner first) a cell, its side, the middle's
-    index."""
-    side_of, cells, middles = {}, np.empty((len(triangles), 6), dtype=int), []
-    cells[:, :3] = triangles
-    for number, triangle in enumerate(triangles):
-        for side in range(3):
-            a, b = triangle[side], triangle[(side + 1) % 3]
-            key = min(a, b), max(a, b)
-            if key not in side_of:
-                side_of[key] = (number, side, len(corners) + len(middles))
-                middles.append(0.5 * (corners[a] + corners[b]))
-            cells[number, 3 + side] = side_of[key][2]
-    return np.vstack([corners, middles]), cells, side_of
+    return wanted

@@ -11,9 +11,7 @@ import numpy as np
 from tests.corner_contact_reference.calculix import CalculixFailed, couples
 from tests.corner_contact_reference.gear_mesh import MeshSizes, gear_mesh
 
-from fenics_gears.geometry.pair import GearPair, gear_pair
-from fenics_gears.scene.data import Scene
-from fenics_gears.scene.read import load_scene
+from fenics_gears import GearPair, Scene, gear_pair, load_scene
 
 FILE = Path(__file__).with_name("reference.csv")
 SCENE = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"

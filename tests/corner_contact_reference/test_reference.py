@@ -10,8 +10,8 @@ import pytest
 from tests.corner_contact_reference.approach import elastic_cycle, teeth_alone, transmission_error
 from tests.corner_contact_reference.reference import LEAVING, VARIANTS, case, computed, read
 
+from fenics_gears import gear_pair
 from fenics_gears.contact.corner import corner_contact
-from fenics_gears.geometry.pair import gear_pair
 
 STEPS = 100
 ROWS = {row.case: row for row in read()}

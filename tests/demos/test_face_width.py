@@ -7,9 +7,8 @@ import pytest
 from demos.face_width import widths
 from demos.face_width.picture import picture
 
-from fenics_gears import load_scene
+from fenics_gears import gear_pair, load_scene
 from fenics_gears.commands.cli import main
-from fenics_gears.geometry.pair import gear_pair
 
 
 def test_widths_are_overlap_ratios_at_the_same_load_per_width():

@@ -6,10 +6,9 @@ import pytest
 from demos.flank_errors.order_spectrum import SCENE, named_lines
 from tests.coarse import COARSE
 
-from fenics_gears.scene.read import load_scene
+from fenics_gears import load_scene, simulate
 from fenics_gears.show.orders import order_spectrum
 from fenics_gears.show.run import Run
-from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.mark.nightly

@@ -6,8 +6,7 @@ import pytest
 from demos.helical_gearbox import gearbox
 from demos.helical_gearbox.picture import picture
 
-from fenics_gears import load_scene, simulate
-from fenics_gears.model.model import model_of
+from fenics_gears import load_scene, model_of, simulate
 from fenics_gears.scene.data import Accuracy
 
 SCENE = load_scene(gearbox.HERE / "gearbox.toml")

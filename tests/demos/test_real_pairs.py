@@ -8,9 +8,7 @@ from demos.real_pairs import pairs
 from demos.real_pairs.picture import picture
 from tests.coarse import COARSE
 
-from fenics_gears import load_scene, simulate
-from fenics_gears.model.drivetrain import lumped_gears
-from fenics_gears.model.model import model_of
+from fenics_gears import load_scene, lumped_gears, model_of, simulate
 
 SCENES = [load_scene(pairs.HERE / f"{name}.toml") for name in pairs.SCENES]
 

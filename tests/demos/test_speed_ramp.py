@@ -8,8 +8,7 @@ from demos.speed_ramp import sweeps
 from demos.speed_ramp.picture import draw
 from tests.coarse import COARSE
 
-from fenics_gears import load_scene
-from fenics_gears.model.model import model_of
+from fenics_gears import load_scene, model_of
 from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Motion
 

@@ -9,12 +9,11 @@ import xarray as xr
 from tests.docs.markdown import table
 from tests.effects.examples import EXAMPLES, text_of
 
+from fenics_gears import scene_from_text, simulate
 from fenics_gears.contact.step_solver import METHODS
 from fenics_gears.effects import COMMON_VARIABLES, FACE_VARIABLES, conflicts, effect_named, every_effect
 from fenics_gears.effects.effect import ResultVariable
 from fenics_gears.results.attributes import ESTIMATED, RESULT_ATTRIBUTES, RUNG
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 
 HEADING = """# The result
 

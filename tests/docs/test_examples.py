@@ -15,12 +15,9 @@ import pytest
 from tests.docs.blocks import PAGES, ROOT, blocks, in_text, name_of
 from tests.docs.commands_page import commands, parser
 
-from fenics_gears import results
+from fenics_gears import as_toml, results, scene_from_text, simulate
 from fenics_gears.extensions.optimization.design_file import load_design
-from fenics_gears.inputs.written import as_toml
 from fenics_gears.results.summary import summary_rows
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.study_file import load_study
 
 matplotlib.use("Agg")

@@ -6,13 +6,13 @@ import pytest
 from tests.coarse import coarse_scene
 from tests.docs import commands_page, result_page, scene_page, write
 
+from fenics_gears import simulate
 from fenics_gears.inputs.allowed import Allowed
 from fenics_gears.inputs.fields import declared, quantity
 from fenics_gears.inputs.section import Section, names_in, section_within
 from fenics_gears.results.attributes import ESTIMATED, RESULT_ATTRIBUTES, RUNG
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.schema import scene_text
-from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")

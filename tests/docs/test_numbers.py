@@ -10,11 +10,9 @@ from tests.benchmarks.third_dimension.table import read_rows
 from tests.docs.blocks import ROOT
 from tests.docs.kept_numbers import SCENES, rows
 
-from fenics_gears import build_scene
+from fenics_gears import build_scene, gear_pair, simulate
 from fenics_gears.commands import cli
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.rim import too_stiff
-from fenics_gears.simulation.simulate import simulate
 
 
 def told(page, words):

@@ -3,9 +3,8 @@ here."""
 
 from pathlib import Path
 
+from fenics_gears import Scene, scene_from_text
 from fenics_gears.effects import SECTIONS, effect_named
-from fenics_gears.scene.data import Scene
-from fenics_gears.scene.read import scene_from_text
 
 MESHES = Path(__file__).parents[2] / "meshes"
 

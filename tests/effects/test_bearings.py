@@ -7,10 +7,8 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
 
+from fenics_gears import SceneError, scene_from_text, simulate
 from fenics_gears.effects.bearings import BearingPlaces, Bearings, Support
-from fenics_gears.errors import SceneError
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 ISOTROPIC = 'stiffness = "0.155e6 N/mm"'

@@ -8,14 +8,11 @@ import numpy as np
 import pytest
 from tests.effects.examples import MESHES, text_of
 
+from fenics_gears import SceneError, model_of, scene_from_text, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.errors import SceneError
-from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Motion
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 from meshes.root_crack import cracked_gear_mesh
 
 TEETH = "tooth_elasticity"

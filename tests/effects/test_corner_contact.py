@@ -7,13 +7,10 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, teeth_alone
 
+from fenics_gears import GeometryError, SceneError, model_of, scene_from_text, simulate
 from fenics_gears.effects.corner_contact import CornerContact, Edge
-from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.model.model import model_of
 from fenics_gears.model.modification import corner
 from fenics_gears.scene.data import Motion
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")

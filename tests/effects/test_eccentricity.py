@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene
 
+from fenics_gears import simulate
 from fenics_gears.contact.places import pair_places
 from fenics_gears.contact.run_out import RunOut
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
@@ -14,7 +15,6 @@ from fenics_gears.contact.window import ContactGrid
 from fenics_gears.effects import without
 from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.scene.data import Accuracy, Motion
-from fenics_gears.simulation.simulate import simulate
 
 DISTANCE, PHASE = 0.01, 0.7
 PERIOD = 48  # mesh cycles until 16 and 24 teeth meet again: three turns of the pinion, two of the wheel

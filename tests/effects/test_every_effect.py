@@ -13,9 +13,9 @@ import pytest
 from tests.effects.examples import EXAMPLES, scene_of, text_of, with_needs
 from tests.programs import python
 
+from fenics_gears import simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.effects import SECTIONS, effect_named, effects_on, result_variables
-from fenics_gears.simulation.simulate import simulate
 
 CHECKOUT = Path(__file__).parents[2]
 TEETH = "tooth_elasticity"
@@ -125,8 +125,6 @@ def imports_of_hooks(section):
 
 PROGRAM = """
 import json, sys
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 loaded = []
 for text in json.load(sys.stdin):
     simulate(scene_from_text(text))

@@ -9,6 +9,7 @@ from tests.coarse import frictionless, quasi_static
 from tests.effects.hats import hat_mean
 from tests.stand_in import stand_in_compliance
 
+from fenics_gears import Load, SceneError, simulate
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.flank_gaps import flank_gaps
 from fenics_gears.contact.mesh import elastic_mesh
@@ -19,10 +20,8 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.effects import without
 from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors, Waviness
-from fenics_gears.errors import SceneError
 from fenics_gears.model.drivetrain import drivetrain
-from fenics_gears.scene.data import Accuracy, Load, Motion
-from fenics_gears.simulation.simulate import simulate
+from fenics_gears.scene.data import Accuracy, Motion
 
 STEPS, PERIOD = 20, 48
 ERROR = 0.01

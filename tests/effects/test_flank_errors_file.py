@@ -6,12 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fenics_gears import SceneError, gear_pair, load_scene, scene_from_text
 from fenics_gears.commands.shared import checked_model
 from fenics_gears.effects.flank_errors_sections import GearErrors
-from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import flank_deviations
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.scene.read import load_scene, scene_from_text
 
 DEMOS = Path(__file__).parents[2] / "demos"
 PAPER = (DEMOS / "lundvall2004.toml").read_text(encoding="utf-8")

@@ -3,11 +3,9 @@
 import pytest
 from tests.effects.examples import text_of
 
+from fenics_gears import SceneError, model_of, scene_from_text
 from fenics_gears.commands.shared import checked_model
-from fenics_gears.errors import SceneError
 from fenics_gears.geometry.friction_formulas import schlenk
-from fenics_gears.model.model import model_of
-from fenics_gears.scene.read import scene_from_text
 
 ELASTIC = text_of("tooth_elasticity")
 SPEED = '[motion]\nmesh_frequency = "400 Hz"\n'

@@ -6,10 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from fenics_gears import effects
+from fenics_gears import Scene, effects, scene_from_text
 from fenics_gears.inputs.section import names_in
-from fenics_gears.scene.data import Scene
-from fenics_gears.scene.read import scene_from_text
 from fenics_gears.scene.schema import scene_text
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")

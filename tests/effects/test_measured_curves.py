@@ -6,6 +6,7 @@ import pytest
 from tests.effects.examples import text_of
 from tests.stand_in import stand_in_compliance
 
+from fenics_gears import SceneError
 from fenics_gears.commands.shared import checked_model
 from fenics_gears.contact.flank_gaps import flank_gaps
 from fenics_gears.contact.mesh import elastic_mesh
@@ -14,7 +15,6 @@ from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.effects.flank_errors_sections import MEAN, REFERENCE_POINT, FlankErrors, GearErrors
 from fenics_gears.effects.flank_errors_tables import located
-from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import flank_deviations, slope_and_form
 
 STEPS = 20

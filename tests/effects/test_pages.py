@@ -11,9 +11,7 @@ from tests.effects.examples import scene_of, text_of
 from tests.programs import python
 
 import fenics_gears
-from fenics_gears.scene.data import Scene
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
+from fenics_gears import Scene, scene_from_text, simulate
 
 PACKAGE = Path(fenics_gears.__file__).parent
 GUIDE = effects_table.PAGE.with_name("adding_an_effect.md")
@@ -75,8 +73,6 @@ def run(folder, *arguments, given=None):
 
 PROGRAM = """
 import json, sys
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 found = []
 for text in json.load(sys.stdin):
     run = simulate(scene_from_text(text))

@@ -5,14 +5,12 @@ import numpy as np
 import pytest
 from tests.effects.examples import BASE, EXAMPLES
 
+from fenics_gears import SceneError, scene_from_text, simulate
 from fenics_gears.effects.profile_modifications import ProfileModification, ProfileModifications
 from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.tip_relief import TipRelief
-from fenics_gears.errors import SceneError
 from fenics_gears.geometry.profile_modification import profile_curves
 from fenics_gears.geometry.relief import tip_reliefs
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 
 ELASTIC = BASE + EXAMPLES["tooth_elasticity"]
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from tests.effects.hats import hat_mean
 
+from fenics_gears import GeometryError, SceneError, scene_from_text
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
@@ -15,12 +16,10 @@ from fenics_gears.contact.window import ContactGrid
 from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.root_relief import RootRelief
 from fenics_gears.effects.tip_relief import TipRelief
-from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.relief import root_reliefs, tip_reliefs
 from fenics_gears.inputs.allowed import Measured
 from fenics_gears.model.modification import removals
-from fenics_gears.scene.read import scene_from_text
 
 DEPTH = 0.02
 KINDS = {"tip_relief": (TipRelief, tip_reliefs), "root_relief": (RootRelief, root_reliefs)}

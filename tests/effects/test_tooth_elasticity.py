@@ -5,15 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fenics_gears import SceneError, scene_from_text, simulate
 from fenics_gears.contact.rigid_mesh import SAME_GAP
 from fenics_gears.effects import without
 from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
-from fenics_gears.errors import SceneError
 from fenics_gears.model.modification import removals
 from fenics_gears.scene.data import Accuracy, Motion
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 
 DEPTH = 0.031
 

@@ -7,14 +7,12 @@ import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, teeth_alone
 from tests.effects.examples import text_of
 
+from fenics_gears import Load, SceneError, scene_from_text, simulate
 from fenics_gears.effects import result_variables
 from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors
 from fenics_gears.effects.misalignment import Misalignment
-from fenics_gears.errors import SceneError
-from fenics_gears.scene.data import Load, Motion
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
+from fenics_gears.scene.data import Motion
 
 FACE = '[misalignment]\nin_plane = "0 um"\n'
 ELASTIC = text_of("tooth_elasticity")

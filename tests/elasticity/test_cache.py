@@ -6,6 +6,7 @@ import time
 import numpy as np
 import pytest
 
+from fenics_gears import SceneError
 from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import (
     DIRECTORY_VARIABLE,
@@ -15,7 +16,6 @@ from fenics_gears.elasticity.cache import (
     content_key,
     user_cache,
 )
-from fenics_gears.errors import SceneError
 
 KEY = content_key({"gear": {"teeth": 16}, "size": 0.06})
 ARRAYS = {"blocks": np.arange(24.0).reshape(2, 3, 4) / 7.0, "unknowns": np.array(17)}

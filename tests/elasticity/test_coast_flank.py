@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fenics_gears import ComputationError
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import by_radius
 from fenics_gears.elasticity.element_sizes import Discretisation, element_sizes
@@ -15,7 +16,6 @@ from fenics_gears.elasticity.mesh_data import corner_areas
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
 from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.elasticity.sector_mesh import half_sector_mesh, sector_mesh
-from fenics_gears.errors import ComputationError
 
 BOTH = Reach(2, (-2, 2))
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from tests.coarse_sector import relative
 
+from fenics_gears import ComputationError
 from fenics_gears.elasticity.cut_chain import chain_is_quicker, chain_response, joined, run_of
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.ring import condensed_sector, cut_response, fourier_response, ring_compliance
-from fenics_gears.errors import ComputationError
 
 
 def link_of(seed, size=4):

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from tests.manufactured import l2_error
 
+from fenics_gears import SceneError
 from fenics_gears.elasticity.elements import ELEMENTS, element_named
-from fenics_gears.errors import SceneError
 
 ORDERS = {"P1": 2, "P2": 3, "Q1": 2, "Q1 incompatible": 2, "Q2": 3}
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
+from fenics_gears import ComputationError, SceneError
 from fenics_gears.elasticity.body_mesh_file import read_body_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
@@ -15,7 +16,6 @@ from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
 from fenics_gears.elasticity.sector_mesh import sector_mesh
-from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.geometry.involute import arc_length, canonical_normal
 
 COARSE, REACH = Discretisation("P2", 0.5, 2.5), Reach(1)

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from tests.stand_in import stand_in_compliance
 
+from fenics_gears import Material
 from fenics_gears.elasticity.compliance import BothFlanksCompliance
 from fenics_gears.elasticity.overhang import NEAR_DEPTH, near_field, with_overhang
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
-from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.involute import arc_length
 
 STEEL, SHARE = Material(206e3, 0.3), 0.7

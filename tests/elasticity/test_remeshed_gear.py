@@ -6,6 +6,7 @@ from math import radians
 import numpy as np
 import pytest
 
+from fenics_gears import Gear
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import condense
 from fenics_gears.elasticity.element_sizes import Discretisation, ElementSizes, element_sizes
@@ -16,7 +17,6 @@ from fenics_gears.elasticity.remeshed_gear import LoadedTooth, RemeshedGear
 from fenics_gears.elasticity.ring import centre_motion, rotation
 from fenics_gears.elasticity.sector_boundary import flank_roll_angles, flank_through
 from fenics_gears.elasticity.sector_mesh import sector_mesh
-from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length
 from fenics_gears.scene.data import Material
 from meshes.root_crack import joined_sectors

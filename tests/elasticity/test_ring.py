@@ -8,9 +8,9 @@ import pytest
 from tests.coarse_sector import flank_motion, relative
 from tests.whole_gear import ring_stiffness, whole_gear_compliance, whole_gear_mesh
 
+from fenics_gears import ComputationError
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.ring import centre_motion, condensed_sector, ring_compliance
-from fenics_gears.errors import ComputationError
 
 
 def test_every_tooth_is_the_same_and_teeth_behind_are_the_transpose(pinion, steel, coarse_sector):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from tests.whole_gear import whole_gear_mesh
 
+from fenics_gears import ComputationError, Gear
 from fenics_gears.elasticity.condensation import by_radius
 from fenics_gears.elasticity.element_nodes import node_roll_angles
 from fenics_gears.elasticity.element_sizes import ElementSizes, element_sizes
@@ -15,8 +16,6 @@ from fenics_gears.elasticity.mesh_data import corner_areas, oriented
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.elasticity.sector_mesh import filled, sector_mesh
-from fenics_gears.errors import ComputationError
-from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, canonical_point
 
 

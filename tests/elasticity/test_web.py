@@ -10,14 +10,12 @@ from tests.coarse_sector import COARSE, PINION, STEEL
 from tests.scene.test_cut_away import SCENE
 from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
+from fenics_gears import SceneError, gear_pair, scene_from_text
 from fenics_gears.elasticity.condensation import condense
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
 from fenics_gears.elasticity.sector_mesh import sector_mesh
-from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear_data import Web
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.scene.read import scene_from_text
 
 POISSON = 0.3
 SHEAR, LAME = 0.5 / (1.0 + POISSON), POISSON / ((1.0 + POISSON) * (1.0 - 2.0 * POISSON))

@@ -11,8 +11,7 @@ from tests.docs.blocks import ROOT, blocks
 from tests.studies.conftest import DEMO
 
 import fenics_gears
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.scene.read import load_scene
+from fenics_gears import gear_pair, load_scene
 
 GUIDE = ROOT / "docs" / "adding_an_extension.md"
 MODULE = next(block.code for block in blocks(GUIDE) if block.language == "python")

@@ -2,8 +2,7 @@
 
 import pytest
 
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
+from fenics_gears import scene_from_text, simulate
 
 # A gearbox pair whose wheel is narrower than the pinion, so that its ends press on the pinion's flank.
 GEARBOX = """

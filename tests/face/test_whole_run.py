@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from tests.benchmarks.third_dimension.pairs import MODULE, scene_of, standard_pair
 
+from fenics_gears import simulate
 from fenics_gears.scene.data import Accuracy
-from fenics_gears.simulation.simulate import simulate
 
 HELIX_ANGLE = radians(20.0)
 COARSE = Accuracy(

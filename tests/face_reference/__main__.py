@@ -1,10 +1,10 @@
-"""Resolved three-dimensional reference: `python -m tests.face_reference` recomputes reference.csv.
+"""Resolved three-dimensional reference: `python -m tests.face_reference` recomputes approach.csv and line_load.csv.
 
 Whole sections without the teeth far from the loaded ones, swept along the helix in eighteen-node wedges, bores held;
 contact on a grid of pressures across the line of action and along the face, frictionless, forces along n. No code of
 the program's compliance is used but its call of MUMPS. Inputs are in `cases.py`. In the plane (spur, phase 0.35) the
 small sizes give 0.03 % less approach than the program's plane route. Two levels of meshes differ by 0.1 % (plain) to
-0.5 % (misaligned) in the approach. Peak pressures are not resolved. A phase takes 25 to 120 s and 2 GB, with more
+0.5 % (misaligned) in the approach. A phase takes 25 to 120 s and 2 GB, with more
 layers 140 to 280 s and up to 4 GB.
 """
 

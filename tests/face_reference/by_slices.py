@@ -7,15 +7,14 @@ from functools import lru_cache
 from math import radians
 
 import numpy as np
+from tests.contact.problems import pressed
 from tests.face_reference.cases import FACE_WIDTH, STEEL, base_slope, reference_pair
 from tests.face_reference.reference import OPENINGS
 
 from fenics_gears.contact.face import Face, even_slices
 from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
-from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps
 from fenics_gears.contact.operator import COORDINATES, node_slices
-from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import Reach
@@ -82,19 +81,8 @@ def answer(
     mesh = face_mesh(Flanks(pair, sections), bodies, face, grid)
     cycle = Cycle(mesh, STEPS, [COORDINATES.index("rotation_2")], tangential=False)
     cycle = cycle.with_gaps(Gaps(openings=(opening_over_face(cycle, opened),)))
-    operator, load = cycle.position(round(phase * STEPS)).operator, force * face.cosine
-    problem = StepProblem(
-        np.zeros((1, 1)),
-        np.array([load]),
-        operator.compliance,
-        operator.jacobian,
-        operator.gap,
-        np.empty(0),
-        0.0,
-        np.ones(1),
-        Tolerance.of_load(load),
-    )
-    solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
+    operator = cycle.position(round(phase * STEPS)).operator
+    solution = pressed(operator, force * face.cosine)
     found: dict[int, np.ndarray] = {}
     for tooth_pair, nodes in zip(operator.pairs, node_slices(operator.pairs)):
         line = found.setdefault(tooth_pair.place.index, np.zeros(slices))

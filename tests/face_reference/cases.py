@@ -10,9 +10,7 @@ from tests.face_reference.contact_points import PairPoints, Position, compliance
 from tests.face_reference.section_mesh import SectionSizes, section_mesh
 from tests.face_reference.swept_gear import Sweep, SweptGear
 
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.gear_data import Material
-from fenics_gears.geometry.pair import GearPair
+from fenics_gears import Gear, GearPair, Material
 
 NORMAL_MODULE, NORMAL_PRESSURE_ANGLE, TEETH, FACE_WIDTH = 3.0, radians(20.0), (24, 32), 7.5
 STEEL = Material(206000.0, 0.3)
@@ -67,8 +65,6 @@ class Assembled:
     position: Position
     points: list[PairPoints]
     matrix: np.ndarray
-    unknowns: tuple[int, int]
-    gears: tuple | None = None
 
 
 def touching_pairs(position: Position, sizes: Sizes) -> list[int]:
@@ -88,7 +84,7 @@ def bands(position: Position, pairs: list[int], sizes: Sizes) -> tuple[dict, dic
     return found
 
 
-def assembled(helix_angle: float, phase: float, sizes: Sizes = Sizes(), plane: bool = False, report=print) -> Assembled:
+def assembled(helix_angle: float, phase: float, sizes: Sizes = Sizes(), plane: bool = False) -> Assembled:
     """Mesh, factorise, and find the compliance between contact nodes at a phase."""
     position = Position(reference_pair(helix_angle), base_slope(helix_angle), phase)
     pairs = touching_pairs(position, sizes)
@@ -98,9 +94,8 @@ def assembled(helix_angle: float, phase: float, sizes: Sizes = Sizes(), plane: b
     ):
         section = section_mesh(gear, band, sizes.section)
         gears.append(SweptGear(section, Sweep(sizes.heights, twist, plane), STEEL))
-        report(f"  {len(section.cells)} triangles, {gears[-1].unknowns} unknowns", flush=True)
+        print(f"  {len(section.cells)} triangles, {gears[-1].unknowns} unknowns", flush=True)
     points = [pair_points(position, index, sizes.offsets, tuple(gears), np.zeros_like) for index in pairs]
     points = [each for each in points if each is not None]
     matrix = compliance(position, points, tuple(gears), mirrored=helix_angle == 0.0)
-    unknowns = tuple(gear.unknowns for gear in gears)
-    return Assembled(position, points, matrix, unknowns)
+    return Assembled(position, points, matrix)

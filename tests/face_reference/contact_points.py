@@ -15,7 +15,7 @@ import numpy as np
 from scipy import sparse
 from tests.face_reference.swept_gear import SweptGear, line_shapes
 
-from fenics_gears.geometry.pair import GearPair
+from fenics_gears import GearPair
 
 # Gauss points of a cell across the contact line and along the face.
 ACROSS, ALONG = 4, 3

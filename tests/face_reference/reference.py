@@ -1,9 +1,10 @@
-"""Results of the resolved model as rows of reference.csv, and how they are found."""
+"""Results of the resolved model as rows of approach.csv and line_load.csv, and how they are found."""
 
 from __future__ import annotations
 
 import csv
 from dataclasses import dataclass, replace
+from itertools import groupby
 from math import radians
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from tests.face_reference.cases import FACE_WIDTH, Assembled, Sizes, assembled
 from tests.face_reference.section_mesh import SectionSizes
 from tests.face_reference.unilateral import pressed
 
-FILE = Path(__file__).with_name("reference.csv")
+APPROACH, LINE_LOAD = (Path(__file__).with_name(name) for name in ("approach.csv", "line_load.csv"))
 FORCE = 1500.0
 # What opens the flanks along n (mm) at heights z (mm).
 OPENINGS = {
@@ -32,40 +33,30 @@ THIN_MIDDLE = replace(SMALL, layers=(0.3, 0.75, 1.0, 0.7, 0.4, 0.3, 0.3))
 @dataclass(frozen=True)
 class Row:
     """Line load (N per mm of face, along n) of a tooth pair at height `z` (mm); `approach` (mm, along the transverse
-    line of action), `force` (N, of all pairs, along n) and `peak_pressure` (MPa) of the analysis."""
+    line of action) of the analysis."""
 
     helix_angle: float
     phase: float
     opening: str
     approach: float
-    force: float
-    peak_pressure: float
     pair: int
     z: float
     line_load: float
 
 
-def rows(found: Assembled, helix_angle: float, opening: str, force: float = FORCE) -> list[Row]:
+def rows(found: Assembled, helix_angle: float, opening: str) -> list[Row]:
     """All line loads of one analysis; helix angle in deg."""
     areas, heights = np.concatenate([each.areas for each in found.points]), found.points[0].z
     z = np.concatenate([each.z[each.level] for each in found.points])
     gaps = np.concatenate([each.gaps for each in found.points]) + OPENINGS[opening](z) * areas
-    pressure, approach = pressed(found.matrix, gaps, areas, force)
+    pressure, approach = pressed(found.matrix, gaps, areas, FORCE)
     share, result, first = np.zeros(len(heights)), [], 0
     share[:-1] += 0.5 * np.diff(heights)
     share[1:] += 0.5 * np.diff(heights)
     for each in found.points:
         part = slice(first, first + len(each.chosen))
         load = np.bincount(each.level, (pressure * areas)[part], minlength=len(heights)) / share
-        head = (
-            helix_angle,
-            found.position.phase,
-            opening,
-            approach / found.position.cosine,
-            force,
-            float(pressure.max()),
-            each.index,
-        )
+        head = (helix_angle, found.position.phase, opening, approach / found.position.cosine, each.index)
         result += [Row(*head, float(height), float(value)) for height, value in zip(heights, load)]
         first = part.stop
     return result
@@ -78,10 +69,16 @@ def computed(helix_angle: float, phase: float, sizes: Sizes = SMALL) -> list[Row
 
 
 def reference() -> list[Row]:
-    """The rows of the file."""
-    kinds = {name: str if name == "opening" else int if name == "pair" else float for name in Row.__annotations__}
-    with FILE.open() as lines:
-        return [Row(**{name: kinds[name](value) for name, value in line.items()}) for line in csv.DictReader(lines)]
+    """The rows of the files."""
+    approach, line_load = (list(csv.DictReader(file.open())) for file in (APPROACH, LINE_LOAD))
+    approaches = {(line["helix_angle"], line["phase"]): line for line in approach}
+    result = []
+    for key, lines in groupby(line_load, key=lambda line: (line["helix_angle"], line["phase"])):
+        here = list(lines)
+        for opening in OPENINGS:
+            head = (*map(float, key), opening, float(approaches[key][opening]))
+            result += [Row(*head, int(line["pair"]), float(line["z"]), float(line[opening])) for line in here]
+    return result
 
 
 def over_slices(found: list[Row], positions: np.ndarray) -> np.ndarray:
@@ -93,11 +90,17 @@ def over_slices(found: list[Row], positions: np.ndarray) -> np.ndarray:
     return np.interp(positions[:, None] + (positions[1] - positions[0]) * parts, z, load).mean(axis=1)
 
 
-def write(found: list[Row], file: Path = FILE) -> None:
-    """Write rows to a file, numbers to seven digits: meshes differ in the fourth."""
-    with file.open("w", newline="") as lines:
-        writer = csv.writer(lines, lineterminator="\n")
-        writer.writerow(Row.__annotations__)
-        for row in found:
-            values = (getattr(row, name) for name in Row.__annotations__)
-            writer.writerow([value if isinstance(value, str) else f"{value:.7g}" for value in values])
+def write(found: list[Row]) -> None:
+    """Write rows to the files, a column for each opening, numbers to five digits: meshes differ in the fourth."""
+    of = {opening: [row for row in found if row.opening == opening] for opening in OPENINGS}
+    with APPROACH.open("w", newline="") as approach, LINE_LOAD.open("w", newline="") as line_load:
+        writers = [csv.writer(lines, lineterminator="\n") for lines in (approach, line_load)]
+        for writer, names in zip(writers, (("helix_angle", "phase"), ("helix_angle", "phase", "pair", "z"))):
+            writer.writerow([*names, *OPENINGS])
+        last = None
+        for rows in zip(*of.values()):
+            case = (rows[0].helix_angle, rows[0].phase)
+            if case != last:
+                writers[0].writerow(f"{value:.5g}" for value in (*case, *(row.approach for row in rows)))
+            last, values = case, (*case, rows[0].pair, round(rows[0].z, 9), *(row.line_load for row in rows))
+            writers[1].writerow(f"{value:.5g}" for value in values)

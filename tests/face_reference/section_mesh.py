@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial import cKDTree
+from tests.six_node_mesh import along, points_at, six_node_mesh, unit, with_middles
 
-from fenics_gears.elasticity.gmsh_session import gmsh_model
-from fenics_gears.geometry.gear import Gear
+from fenics_gears import Gear
 from fenics_gears.geometry.involute import arc_length, canonical_point, roll_angle_at_arc_length
 from fenics_gears.geometry.outline import tooth_outline
 
@@ -32,11 +32,6 @@ class SectionSizes:
     body: float = 3.5
     growth: float = 0.4
     teeth_beside: int = 2
-
-    def scaled(self, factor: float) -> SectionSizes:
-        """All sizes times a factor."""
-        sizes = (factor * size for size in (self.band, self.depth, self.fillet, self.tooth, self.body))
-        return SectionSizes(*sizes, self.growth, self.teeth_beside)
 
 
 @dataclass(frozen=True)
@@ -75,31 +70,18 @@ def section_mesh(gear: Gear, bands: dict[int, tuple[float, float]], sizes: Secti
         doubled.append(nodes[:-1])
     lengths = [len(piece) for piece in doubled]
     outline = np.vstack(doubled)
-    bore = _divided(gear.bore_radius * _unit(np.linspace(0.0, -2.0 * np.pi, CURVE_SAMPLES)), size)[:-1]
+    bore = _divided(gear.bore_radius * unit(np.linspace(0.0, -2.0 * np.pi, CURVE_SAMPLES)), size)[:-1]
     bore *= gear.bore_radius / np.linalg.norm(bore, axis=1)[:, None]
-    corners, triangles = _triangles(outline[::2], bore[::2], size)
-    points, cells, middle_of = _six_nodes(corners, triangles)
-    nodes_of = [_put_on(points, middle_of, curve, first) for curve, first in ((outline, 0), (bore, len(outline) // 2))]
+    points, cells, (on_outline, held) = six_node_mesh(outline, bore, size)
     flanks = {}
     for (tooth, name, _), length in zip(curves, lengths):
         if name == "flank" and tooth in bands:
-            nodes = nodes_of[0][flank_starts[tooth] + np.arange(length + 1)]
+            nodes = on_outline[flank_starts[tooth] + np.arange(length + 1)]
             flanks[tooth] = (
                 np.sqrt(np.maximum(np.sum(points[nodes] ** 2, axis=1) / gear.base_radius**2 - 1.0, 0.0)),
                 nodes,
             )
-    return Section(points, cells, nodes_of[1], flanks)
-
-
-def _put_on(points, middle_of, curve, first) -> np.ndarray:
-    """Nodes along a closed curve given with its edges' middles; the middles are moved onto it."""
-    number = len(curve) // 2
-    nodes = np.empty(len(curve), dtype=int)
-    for i in range(number):
-        a, b = first + i, first + (i + 1) % number
-        nodes[2 * i : 2 * i + 2] = a, middle_of[min(a, b), max(a, b)]
-    points[nodes[1::2]] = curve[1::2]
-    return nodes
+    return Section(points, cells, held, flanks)
 
 
 def _size_function(gear: Gear, bands, sizes: SectionSizes):
@@ -140,9 +122,7 @@ def _outline_curves(gear: Gear, bands, beside: int) -> list[tuple[int, str, np.n
     land = _arc(gear.tip_radius, np.angle(complex(*flank[-1])), outline.coast(flank[-1]))
     whole = [("root", root), ("fillet", outline.fillet), ("flank", flank), ("land", land)]
     whole += [(f"coast {name}", outline.coast(curve)[::-1]) for name, curve in whole[2::-1]]
-    missing = [
-        ("root", gear.root_radius * _unit(outline.space_angle - gear.angular_pitch * np.linspace(0.0, 1.0, 401)))
-    ]
+    missing = [("root", gear.root_radius * unit(outline.space_angle - gear.angular_pitch * np.linspace(0.0, 1.0, 401)))]
     kept = {(tooth + step) % gear.teeth for tooth in bands for step in range(-beside, beside + 1)}
     named = {tooth % gear.teeth: tooth for tooth in bands}
     curves = []
@@ -154,21 +134,16 @@ def _outline_curves(gear: Gear, bands, beside: int) -> list[tuple[int, str, np.n
 
 def _arc(radius: float, start: float, end: np.ndarray) -> np.ndarray:
     turn = np.angle(complex(*end) / np.exp(1j * start))
-    return radius * _unit(start + turn * np.linspace(0.0, 1.0, 401))
-
-
-def _unit(angles) -> np.ndarray:
-    return np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    return radius * unit(start + turn * np.linspace(0.0, 1.0, 401))
 
 
 def _divided(curve: np.ndarray, size) -> np.ndarray:
     """Vertices of edges as long as `size` asks for, and their middles, along a curve (k, 2), both ends included."""
-    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
+    length = along(curve)
     wanted = 1.0 / size(curve)
     edges = np.concatenate([[0.0], np.cumsum(0.5 * (wanted[1:] + wanted[:-1]) * np.diff(length))])
     ends = np.interp(np.linspace(0.0, edges[-1], max(int(np.ceil(edges[-1])), 1) + 1), edges, length)
-    at = np.insert(ends, np.arange(1, len(ends)), 0.5 * (ends[1:] + ends[:-1]))
-    return np.stack([np.interp(at, length, curve[:, i]) for i in range(2)], axis=-1)
+    return points_at(curve, with_middles(ends))
 
 
 def _on_involute(gear: Gear, nodes: np.ndarray, tooth: int) -> np.ndarray:
@@ -176,43 +151,3 @@ def _on_involute(gear: Gear, nodes: np.ndarray, tooth: int) -> np.ndarray:
     return rotated(
         canonical_point(gear.base_radius, gear.roll_angle(np.linalg.norm(nodes, axis=1))), tooth * gear.angular_pitch
     )
-
-
-def _triangles(outline: np.ndarray, bore: np.ndarray, size) -> tuple[np.ndarray, np.ndarray]:
-    """Corner nodes, those of outline and bore first, and triangles of the region between the two polygons."""
-    with gmsh_model("section") as gmsh:
-        loops, tags = [], []
-        for curve in (outline, bore):
-            own = [gmsh.model.geo.addPoint(x, y, 0.0) for x, y in curve]
-            loops.append([gmsh.model.geo.addLine(a, b) for a, b in zip(own, own[1:] + own[:1])])
-            tags += own
-        gmsh.model.geo.addPlaneSurface([gmsh.model.geo.addCurveLoop(loop) for loop in loops])
-        gmsh.model.geo.synchronize()
-        for loop in loops:
-            for line in loop:
-                gmsh.model.mesh.setTransfiniteCurve(line, 2)
-        gmsh.model.mesh.setSizeCallback(lambda dim, tag, x, y, z, lc: float(size(np.array([[x, y]]))[0]))
-        gmsh.model.mesh.generate(2)
-        gmsh.model.mesh.removeSizeCallback()
-        numbers, coordinates, _ = gmsh.model.mesh.getNodes()
-        _, _, cells = gmsh.model.mesh.getElements(2)
-        ends = [int(gmsh.model.mesh.getNodes(0, tag)[0][0]) for tag in tags]
-    order = {tag: i for i, tag in enumerate(ends)}
-    for tag in numbers:
-        order.setdefault(int(tag), len(order))
-    corners = np.empty((len(order), 2))
-    corners[[order[int(tag)] for tag in numbers]] = np.reshape(coordinates, (-1, 3))[:, :2]
-    triangles = np.array([order[int(tag)] for tag in cells[0]]).reshape(-1, 3)
-    a, b, c = (corners[triangles[:, i]] for i in range(3))
-    clockwise = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0] < 0.0
-    triangles[clockwise] = triangles[clockwise][:, [0, 2, 1]]
-    return corners, triangles
-
-
-def _six_nodes(corners, triangles) -> tuple[np.ndarray, np.ndarray, dict[tuple[int, int], int]]:
-    """Nodes with the sides' middles, cells (m, 6), and the middle of every side by its ends."""
-    sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    ends, place = np.unique(sides, axis=0, return_inverse=True)
-    points = np.vstack([corners, corners[ends].mean(axis=1)])
-    cells = np.hstack([triangles, len(corners) + place.reshape(-1, 3)])
-    return points, cells, {(int(a), int(b)): len(corners) + i for i, (a, b) in enumerate(ends)}

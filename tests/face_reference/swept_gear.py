@@ -13,8 +13,8 @@ import numpy as np
 from scipy import sparse
 from tests.face_reference.section_mesh import Section, rotated
 
+from fenics_gears import Material
 from fenics_gears.elasticity.mumps import Factor
-from fenics_gears.geometry.gear_data import Material
 
 # Six points of degree 4 on the triangle (Dunavant 1985) and three of Gauss.
 _A, _B, _WA, _WB = 0.445948490915965, 0.091576213509771, 0.223381589678011, 0.109951743655322

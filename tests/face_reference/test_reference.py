@@ -1,7 +1,7 @@
 """Deflection and line load over the face against fully resolved three-dimensional models, which share no code with the
 split.
 
-Their results are in reference.csv; `python -m tests.face_reference` computes them again.
+Their results are in approach.csv and line_load.csv; `python -m tests.face_reference` computes them again.
 """
 
 from itertools import groupby
@@ -9,7 +9,7 @@ from itertools import groupby
 import numpy as np
 import pytest
 from tests.face_reference.by_slices import answer
-from tests.face_reference.reference import over_slices, reference
+from tests.face_reference.reference import FORCE, over_slices, reference
 
 ANALYSES = {
     key: list(rows) for key, rows in groupby(reference(), key=lambda row: (row.helix_angle, row.phase, row.opening))
@@ -30,13 +30,13 @@ def test_deflection_and_line_load_are_those_of_the_resolved_model(key, suite_cac
     """Fully resolved model: approach within 1 % (measured: 0.4 %, where tip edges touch 0.8 %), the forces of the tooth
     pairs within 2 % of all."""
     rows = ANALYSES[key]
-    found = answer(*key, rows[0].force, suite_cache)
+    found = answer(*key, FORCE, suite_cache)
     record_property("relative difference", found.approach / rows[0].approach - 1.0)
     assert found.approach == pytest.approx(rows[0].approach, rel=0.01)
     for pair, of_pair in groupby(rows, key=lambda row: row.pair):
         z, load = np.array([(row.z, row.line_load) for row in of_pair]).T
         width = found.positions[1] - found.positions[0]
-        assert np.trapz(load, z) == pytest.approx(found.line_loads[pair].sum() * width, abs=0.02 * rows[0].force)
+        assert np.trapz(load, z) == pytest.approx(found.line_loads[pair].sum() * width, abs=0.02 * FORCE)
 
 
 @pytest.mark.parametrize("key", [key for key in ANALYSES if key[1] == 0.35 and key in BY_DAY])
@@ -44,7 +44,7 @@ def test_line_load_is_that_of_the_resolved_model(key, suite_cache):
     """Fully resolved model with thin layers: line load of all pairs within 3 % of the largest, the free ends included
     (measured: 2.7 %)."""
     rows = ANALYSES[key]
-    found = answer(*key, rows[0].force, suite_cache)
+    found = answer(*key, FORCE, suite_cache)
     exact = over_slices(rows, found.positions)
     assert np.abs(sum(found.line_loads.values()) - exact).max() < 0.03 * exact.max()
 

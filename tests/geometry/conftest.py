@@ -4,8 +4,7 @@ from math import atan, cos, radians, tan
 
 import pytest
 
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.pair import gear_pair
+from fenics_gears import Gear, gear_pair
 from fenics_gears.scene.data import GearData, GearPairData, Material
 
 

@@ -6,7 +6,6 @@ from math import cos, pi, radians, tan
 
 import numpy as np
 import pytest
-from tests.geometry.test_outline import UNDERCUT
 
 from fenics_gears.geometry.outline import tooth_outline
 
@@ -88,13 +87,6 @@ def check(gear):
     # The edge between fillet and involute is on both.
     edge = tooth_outline(gear).fillet[-1]
     assert deepest_cut(gear, edge[None])[0] == pytest.approx(0.0, abs=MICROMETRE)
-
-
-@pytest.mark.parametrize("name", UNDERCUT)
-def test_an_undercut_tooth_is_what_the_rolling_rack_leaves(cut_gear, name):
-    """Cutting simulation: the rack's polygon rolls past; a micrometre inside the outline nothing is ever cut, a
-    micrometre outside all is."""
-    check(cut_gear(**UNDERCUT[name] | dict(module=MODULE)))
 
 
 @pytest.mark.parametrize("name", PROTUBERANCES)

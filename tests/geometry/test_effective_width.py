@@ -8,8 +8,8 @@ import pytest
 from tests.benchmarks.third_dimension.face_widths import NAME, quotients
 from tests.benchmarks.third_dimension.table import read_rows
 
+from fenics_gears import gear_pair
 from fenics_gears.geometry.gear_data import Web
-from fenics_gears.geometry.pair import gear_pair
 
 
 def counts(pair, widths, offsets=(0.0, 0.0), common=15.0):

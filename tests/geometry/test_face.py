@@ -7,10 +7,9 @@ import pytest
 from scipy.optimize import fsolve
 from scipy.spatial.transform import Rotation
 
+from fenics_gears import face_opening, gear_pair
 from fenics_gears.effects.lead_modifications import EndRelief, LeadModification, LeadModifications
 from fenics_gears.effects.misalignment import Misalignment
-from fenics_gears.geometry.face import face_opening
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import GearData, GearPairData
 
 

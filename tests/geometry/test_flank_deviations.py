@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from fenics_gears import flank_tolerance, helix_tolerance
 from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors
 from fenics_gears.geometry.flank_deviations import flank_deviations
-from fenics_gears.geometry.flank_tolerance import flank_tolerance, helix_tolerance
 
 EVERY_CLASS = range(1, 12)
 

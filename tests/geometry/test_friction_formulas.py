@@ -4,8 +4,8 @@ from math import cos, log10, pi, radians
 
 import pytest
 
+from fenics_gears import gear_pair
 from fenics_gears.geometry.friction_formulas import benedict_kelley, schlenk
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import GearData, GearPairData, Material
 
 

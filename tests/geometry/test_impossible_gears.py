@@ -5,8 +5,7 @@ from math import nan
 
 import pytest
 
-from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.geometry.pair import gear_pair
+from fenics_gears import GeometryError, SceneError, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
 
 

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fenics_gears import involute_function
 from fenics_gears.geometry.fillet import fillet_point
 from fenics_gears.geometry.interference import fillet_clearance
-from fenics_gears.geometry.involute import involute_function
 from fenics_gears.geometry.outline import tooth_outline
 
 

@@ -5,9 +5,9 @@ from math import radians
 import numpy as np
 import pytest
 
+from fenics_gears import GeometryError
 from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
-from fenics_gears.errors import GeometryError
 from fenics_gears.geometry.relief import tip_reliefs
 
 

@@ -5,7 +5,7 @@ from math import atan, cos, pi, radians, sin, tan
 import numpy as np
 import pytest
 
-from fenics_gears.errors import GeometryError
+from fenics_gears import GeometryError
 from fenics_gears.geometry.fillet import fillet_tangent
 from fenics_gears.geometry.involute import canonical_normal
 from fenics_gears.geometry.outline import tooth_outline

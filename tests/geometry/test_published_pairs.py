@@ -6,12 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from fenics_gears import GearPair, gear_pair, involute_function, load_scene, mesh_factor, single_stiffness
 from fenics_gears.geometry.characteristics import characteristics
-from fenics_gears.geometry.involute import involute_function
-from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
-from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.scene.data import GearData, GearPairData, Material
-from fenics_gears.scene.read import load_scene
 
 PROFILE_ENDS = "start of active profile (SAP)", "end of active profile (EAP)"
 SCENES = Path(__file__).parents[1] / "benchmarks" / "third_dimension" / "cited"

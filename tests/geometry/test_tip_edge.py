@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.random_pairs import valid_pairs
 
-from fenics_gears.errors import GeometryError
+from fenics_gears import GeometryError
 from fenics_gears.geometry.involute import canonical_normal, canonical_point
 from fenics_gears.geometry.tip_edge import tip_edge
 

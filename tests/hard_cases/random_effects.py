@@ -12,7 +12,7 @@ import numpy as np
 from hypothesis import assume
 from hypothesis import strategies as st
 
-from fenics_gears.errors import GeometryError
+from fenics_gears import GeometryError
 from fenics_gears.geometry.tip_edge import tip_edge
 
 # Of steel teeth: stiffness of a pair (N/mm^2), density.

@@ -9,10 +9,7 @@ from hypothesis import strategies as st
 from tests.hard_cases.random_effects import decades, random_effects
 from tests.random_pairs import valid_pairs
 
-from fenics_gears.errors import GeometryError
-from fenics_gears.model.model import model_of
-from fenics_gears.scene.data import Scene
-from fenics_gears.scene.read import scene_from_text
+from fenics_gears import GeometryError, Scene, model_of, scene_from_text
 
 CONTACT_RATIOS = (1.05, 2.3)
 # Of steel teeth: stress-like load at which they are used (N/mm of face width and mm of module).

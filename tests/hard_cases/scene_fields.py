@@ -9,10 +9,10 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
+from fenics_gears import as_toml
 from fenics_gears.inputs import units
 from fenics_gears.inputs.allowed import Allowed, AllowedEither, AllowedList
 from fenics_gears.inputs.section import allowed_in, required_in, section_within
-from fenics_gears.inputs.written import as_toml
 from fenics_gears.scene.schema import known_paths, scene_text
 from fenics_gears.studies.fields import ABSENT, changed
 

@@ -7,8 +7,7 @@ import pytest
 from tests.hard_cases.invariants import run_of, worst_of
 from tests.hard_cases.test_any_scene import LAWS, on_elements
 
-from fenics_gears.model.model import model_of
-from fenics_gears.scene.read import load_scene
+from fenics_gears import load_scene, model_of
 
 FOUND = sorted(Path(__file__).with_name("found_scenes").glob("*.toml"))
 

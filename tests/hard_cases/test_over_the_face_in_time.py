@@ -9,8 +9,8 @@ from tests.hard_cases.invariants import Run, cycle_of, run_of, worst_of
 from tests.hard_cases.test_any_scene import LAWS
 from tests.helical import BEARINGS, CROWNED, FRICTION, INERTIA, SHAFTS, helical_scene, on_stand_in_bodies
 
+from fenics_gears import model_of
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.model.model import model_of
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
 

@@ -6,7 +6,7 @@ from tests.hard_cases.invariants import run_of, worst_of
 from tests.hard_cases.test_any_scene import LAWS
 from tests.helical import CROWNED, helical_scene
 
-from fenics_gears.model.model import model_of
+from fenics_gears import model_of
 from fenics_gears.simulation.bodies import gear_bodies
 from fenics_gears.system.progress import SilentProgress
 

@@ -5,8 +5,8 @@ import pytest
 from tests.hard_cases.invariants import cycle_of, run_of
 from tests.helical import BEARINGS, CROWNED, FRICTION, helical_scene, on_stand_in_bodies
 
+from fenics_gears import model_of
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.model.model import model_of
 
 FEW = "slices = 5\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8"
 BY_NIGHT = pytest.mark.nightly

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
 
+from fenics_gears import simulate
 from fenics_gears.effects.coast_flanks import CoastFlanks
-from fenics_gears.simulation.simulate import simulate
 
 SCENES = {
     "quasi-static, friction": quasi_static,

@@ -7,14 +7,16 @@ import pytest
 from tests.coarse import COARSE
 from tests.frozen_gears import frozen_marcher
 
+from fenics_gears import gear_pair, simulate
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.energy_account import account
 from fenics_gears.dynamics.steps import Record, Steps
 from fenics_gears.effects.friction import Friction
+from fenics_gears.effects.speed_ramp import SpeedRamp
+from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.results.energy_variables import energy_variables
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation.simulate import simulate
 
 
 def march(marcher, record, steps):
@@ -115,18 +117,29 @@ def total_energy(record, shafts):
     return 0.5 * v @ shafts.mass @ v + teeth - shafts.load @ x
 
 
-@pytest.mark.parametrize(
-    "absent", [(), ("friction",), ("damping",), ("inertia", "damping"), ("shafts", "bearings", "friction")]
-)
-def test_account_of_a_run_closes(paper_scene, measured, absent):
-    """Exact identity, the geometry moving: energy gained = input - output - damping - friction + changes of contact, to
-    round-off."""
-    result = simulate(replace(paper_scene, accuracy=COARSE, motion=Motion(200.0, 3, 2), **dict.fromkeys(absent)))
+RIPPLE = TorqueRipple((Harmonic(24.0, 30e3, 0.4), Harmonic(2.5, 10e3)))
+RUNS = {
+    "all effects": {},
+    **{
+        f"without {', '.join(absent)}": dict.fromkeys(absent)
+        for absent in (("friction",), ("damping",), ("inertia", "damping"), ("shafts", "bearings", "friction"))
+    },
+    "torque ripple": {"torque_ripple": RIPPLE},
+    "torque ripple, quasi-static": {"torque_ripple": RIPPLE, "inertia": None, "damping": None},
+    "falling speed": {"speed_ramp": SpeedRamp(150.0)},
+    "rising speed, rigid shafts": {"speed_ramp": SpeedRamp(600.0, hold_cycles=1), "shafts": None, "bearings": None},
+}
+
+
+@pytest.mark.parametrize("name", RUNS)
+def test_account_of_a_run_closes(paper_scene, measured, name):
+    """Exact identity, the geometry moving, also under a couple that varies and with steps of unequal length: energy
+    gained = input - output - damping - friction + changes of contact, to round-off."""
+    result = simulate(replace(paper_scene, accuracy=COARSE, motion=Motion(200.0, 3, 2), **RUNS[name]))
     gained = result.energy - result.energy[0]
     taken = result.work_output + result.get("work_damping", 0.0) + result.get("work_friction", 0.0)
     defect = gained - (result.work_input - taken + result.work_contact_changes)
     done = float(result.work_input[-1])
-    name = "without " + ", ".join(absent) if absent else "all effects"
     measured(f"rotating gears, {name}: defect / work of the drive", float(np.abs(defect).max()) / done, "1e-9")
     assert float(np.abs(defect).max()) <= 1e-9 * done
     assert result.energy_defect.values == pytest.approx(defect.values, abs=1e-9 * done)
@@ -149,8 +162,6 @@ def test_friction_loss_is_that_of_the_literature(paper_scene, measured):
 
 
 def loss_factor(scene):
-    from fenics_gears.geometry.pair import gear_pair
-
     pair = gear_pair(scene.gears)
     z_1, ratio = scene.gears.pinion.teeth, scene.gears.wheel.teeth / scene.gears.pinion.teeth
     pitch_point = (

@@ -10,6 +10,7 @@ from scipy.sparse.linalg import splu
 from tests.coarse_sector import PINION, STEEL, coarse_condensed_sector, coarse_sector_mesh, relative
 from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
+from fenics_gears import Gear
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.condensation import by_radius
 from fenics_gears.elasticity.element_sizes import ElementSizes
@@ -17,7 +18,6 @@ from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance, rotation
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.elasticity.stiffness import displacement_space, nodes_at, stiffness_matrix
-from fenics_gears.geometry.gear import Gear
 
 
 @pytest.mark.parametrize("name", ELEMENTS)

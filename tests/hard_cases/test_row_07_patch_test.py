@@ -4,13 +4,16 @@ Exact solution: both are in uniform uniaxial stress, the pressure is the same at
 approach by F/W (H1 + H2)(1 - nu^2)/E, which every element holds.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from tests.contact.problems import only_one_moves
 from tests.two_blocks import block_mesh, collocation, flank_of, straight_interpolation
 
 from fenics_gears.contact.interpolation import hat_integrals
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
+from fenics_gears.contact.step_solver import cold_start, solve_step
 from fenics_gears.elasticity.elements import ELEMENTS
 
 POISSONS_RATIO, FORCE, HEIGHTS = 0.3, 1e-3, (1.0, 0.6)
@@ -29,11 +32,10 @@ def pressed(name: str, along, offsets, interpolation):
         places, flank = flank_of(block_mesh(name, cells, max(cells // 2, 2), height), name, POISSONS_RATIO)
         weights = interpolation(offsets, places, order, sense)
         compliance += weights @ flank @ weights.T
-    problem = StepProblem(
-        stiffness=np.zeros((1, 1)), load=np.array([FORCE]), compliance=compliance, jacobian=np.ones((len(offsets), 1)),
-        gap=np.zeros(len(offsets)), slip_before=np.empty(0), friction=0.0, free_motion=np.ones(1),
-        tolerance=Tolerance(1e-12, 1e-12),
-    )  # fmt: skip
+    ones = np.ones((len(offsets), 1))
+    problem = replace(
+        only_one_moves(compliance, ones, np.zeros(len(offsets)), FORCE), tolerance=Tolerance(1e-12, 1e-12)
+    )
     solution = solve_step(problem, cold_start(problem.gap, np.zeros(len(offsets), dtype=int)))
     approach = FORCE * sum(HEIGHTS) * (1.0 - POISSONS_RATIO**2)
     pressure = solution.forces / hat_integrals(offsets)

@@ -11,18 +11,17 @@ from functools import lru_cache
 import numpy as np
 import pytest
 from tests.coarse import teeth_alone
+from tests.contact.problems import pressed as under
 
-from fenics_gears.contact.laws import Tolerance
+from fenics_gears import model_of
 from fenics_gears.contact.operator import Passage, contact_operator
 from fenics_gears.contact.pairing import CompliancePairing
 from fenics_gears.contact.pressure import without_oscillation
-from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import Flanks, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.gear_compliance import flank_compliance
-from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import hertz_half_width, plane_contact_modulus, relative_radius
 from fenics_gears.scene.defaults import NODE_SPACING
 
@@ -76,12 +75,7 @@ def pressed(flanks, xi, force, spacing, length):
     nodes = tooth_pair(flanks, ContactGrid(cells * spacing, cells + 1), drive_place(flanks.pair, 0, xi))
     passage = Passage((nodes,))
     operator = contact_operator(flanks.pair, passage, [5], CompliancePairing(flanks).response(passage))
-    problem = StepProblem(
-        np.zeros((1, 1)), np.array([force]), operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0,
-        np.ones(1),
-        Tolerance.of_load(force),
-    )  # fmt: skip
-    solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
+    solution = under(operator, force)
     return nodes.offsets, solution.forces / (nodes.lengths * flanks.pair.face_width)
 
 

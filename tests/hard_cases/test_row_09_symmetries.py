@@ -6,19 +6,17 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
 from tests.coarse_sector import relative
+from tests.contact.problems import pressed
 
-from fenics_gears.contact.laws import Tolerance
+from fenics_gears import model_of, simulate
 from fenics_gears.contact.operator import Passage, contact_operator
 from fenics_gears.contact.pairing import CompliancePairing
 from fenics_gears.contact.places import pair_places
-from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, tooth_pair
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.gear_compliance import flank_compliance
-from fenics_gears.model.model import model_of
 from fenics_gears.simulation.routes import prepared
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
 PHASES = np.linspace(0.013, 0.987, 25)
@@ -47,19 +45,7 @@ def approach(flanks, pairing, grid, phase, force, flank=DRIVE):
     pairs = tuple(tooth_pair(flanks, grid, place) for place in places if place.flank == flank)
     passage = Passage(pairs)
     operator = contact_operator(flanks.pair, passage, [5], pairing.response(passage))
-    load, free = np.array([force]), np.array([np.sign(force)])
-    problem = StepProblem(
-        np.zeros((1, 1)),
-        load,
-        operator.compliance,
-        operator.jacobian,
-        operator.gap,
-        np.empty(0),
-        0.0,
-        free,
-        Tolerance.of_load(abs(force)),
-    )
-    solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
+    solution = pressed(operator, force)
     return solution.coordinates[0], solution.forces
 
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
 
+from fenics_gears import simulate
 from fenics_gears.effects.friction import Friction
 from fenics_gears.simulation.routes import prepared
-from fenics_gears.simulation.simulate import simulate
 
 SCENES = {"quasi-static": quasi_static, "200 Hz": lambda scene: scene}
 COEFFICIENTS = (1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)

@@ -8,10 +8,10 @@ from tests.coarse import coarse_scene, frictionless, quasi_static
 from tests.coarse_sector import PINION, coarse_condensed_sector, coarse_sector_mesh, relative
 from tests.permuted_cycle import solved_in_other_order
 
+from fenics_gears import simulate
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
-from fenics_gears.simulation.simulate import simulate
 
 SCENES = {
     "quasi-static, friction": quasi_static,

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
 
+from fenics_gears import simulate
 from fenics_gears.scene.data import Accuracy
-from fenics_gears.simulation.simulate import simulate
 
 
 def in_units(scene, length, force, time):

@@ -8,13 +8,12 @@ from tests.annulus import TOLERANCE, error_under_pressure
 from tests.coarse import coarse_scene, frictionless, teeth_alone
 from tests.coarse_sector import PINION
 
+from fenics_gears import model_of, simulate
 from fenics_gears.elasticity.element_sizes import element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.involute import canonical_normal
-from fenics_gears.model.model import model_of
-from fenics_gears.simulation.simulate import simulate
 
 ALLOWED = {"Q2": "0.1 %", "Q1 incompatible": "0.5 %"}
 SECOND_ORDER, FIRST_ORDER = ("P2", "Q2"), ("P1", "Q1")

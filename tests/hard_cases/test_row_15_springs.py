@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
 
-from fenics_gears.simulation.simulate import simulate
+from fenics_gears import simulate
 
 
 @pytest.fixture(scope="module")

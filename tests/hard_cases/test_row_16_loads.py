@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
 
-from fenics_gears.model.model import model_of
-from fenics_gears.simulation.simulate import simulate
+from fenics_gears import model_of, simulate
 
 
 @pytest.fixture(scope="module")

@@ -14,10 +14,8 @@ from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.contact.step_solver import solve_step
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
-from fenics_gears.dynamics.steps import Record
 from fenics_gears.model.drivetrain import drivetrain
 
 
@@ -31,34 +29,6 @@ def test_a_step_without_contact_is_the_drivetrain_alone(friction, measured):
     measured(f"coordinates, relative difference from K^-1 F, friction {friction:g}", error, "1e-13")
     assert np.all(solution.forces == 0.0)
     assert error <= 1e-13
-
-
-def thrown_apart(start, position, velocity, acceleration):
-    """A record with every gap open and nothing touching."""
-    nothing = replace(
-        start.solution, status=np.zeros_like(start.solution.status), forces=np.zeros_like(start.solution.forces)
-    )
-    return Record(0, State(position, velocity, acceleration), start.position, nothing)
-
-
-def test_free_flight_of_the_whole_drivetrain(paper_scene, paper_pair, stand_in_flanks, measured):
-    """Exact identity: apart, with friction, springs and damping in the scene, each step is that of the drivetrain
-    without any gears."""
-    marcher, shafts = frozen_marcher(paper_scene, paper_pair, stand_in_flanks, 1e-5)
-    start = marcher.start()
-    away = np.zeros(len(shafts.coordinates))
-    away[shafts.coordinates.index("rotation_2")] = -1.0
-    record = thrown_apart(start, start.state.position + 0.5 * away, 50.0 * away, np.zeros(len(away)))
-    state, worst, scheme = record.state, 0.0, marcher.dynamic
-    for step in range(1, 101):
-        record = marcher.step(scheme, record, step)
-        state = scheme.advance(state, np.linalg.solve(scheme.stiffness, scheme.load(state, shafts.load)))
-        assert np.all(record.solution.forces == 0.0)
-        worst = max(worst, float(np.abs(record.state.position - state.position).max() / np.abs(state.position).max()))
-    measured(
-        "flight of the drivetrain, 100 steps: relative difference from the drivetrain without gears", worst, "1e-11"
-    )
-    assert worst <= 1e-11
 
 
 ABSENT = [(), ("bearings",), ("shafts",), ("shafts", "bearings")]

@@ -5,15 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, teeth_alone
+from tests.contact.problems import pressed
 
-from fenics_gears.contact.laws import Tolerance
+from fenics_gears import model_of, simulate
 from fenics_gears.contact.operator import Passage, contact_operator
 from fenics_gears.contact.pairing import CompliancePairing
-from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.contact.tooth_pair import drive_place, tooth_pair
-from fenics_gears.model.model import model_of
 from fenics_gears.simulation.routes import prepared
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
 ROTATION_2 = [5]
@@ -32,16 +30,6 @@ def model(scene):
 @pytest.fixture(scope="module")
 def flanks(model):
     return prepared(model, SilentProgress(), None)[1].mesh.response.__self__.flanks
-
-
-def pressed(operator, force):
-    """Only the wheel turns, under `force` (N)."""
-    problem = StepProblem(
-        np.zeros((1, 1)), np.array([force]), operator.compliance, operator.jacobian, operator.gap, np.empty(0), 0.0,
-        np.ones(1),
-        Tolerance.of_load(force),
-    )  # fmt: skip
-    return solve_step(problem, cold_start(operator.gap, operator.node_pair))
 
 
 def operator_of(flanks, pairs):

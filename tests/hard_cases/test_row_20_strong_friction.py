@@ -7,11 +7,10 @@ import pytest
 from tests.coarse import coarse_scene, quasi_static
 from tests.hard_cases.invariants import run_of, worst_of
 
+from fenics_gears import model_of, simulate
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.model.model import model_of
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.simulation.bodies import gear_bodies
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
 WORDS = ("self-locking", "more than one solution")

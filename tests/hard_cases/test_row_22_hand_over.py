@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static, teeth_alone
 
+from fenics_gears import simulate
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
 
+from fenics_gears import simulate
 from fenics_gears.contact.step_solver import NEWTON
 from fenics_gears.effects.friction import Friction
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation.simulate import simulate
 
 CYCLES = 3
 

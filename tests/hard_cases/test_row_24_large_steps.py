@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, quasi_static
 
+from fenics_gears import model_of, simulate
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import resolved_frequency, steps_to_resolve
 from fenics_gears.model.description import describe
-from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")

@@ -26,10 +26,8 @@ from tests.hard_cases.scene_fields import (
 from tests.studies.conftest import ACCURACY
 
 import fenics_gears.simulation.simulate
+from fenics_gears import GeometryError, Scene, SceneError, scene_from_text
 from fenics_gears.commands.cli import main
-from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.scene.data import Scene
-from fenics_gears.scene.read import scene_from_text
 
 WRONG_TYPES = ("true", "[1, 2]", "{ a = 1 }", "1979-05-27", '""')
 

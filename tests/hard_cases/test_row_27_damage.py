@@ -19,10 +19,9 @@ from tests.hard_cases.kept_files import ARRAYS, KEY
 from tests.studies.conftest import folder, stamps, undrawn, write_study  # noqa: F401
 from tests.studies.test_run_study import TWO, load
 
-from fenics_gears import results
+from fenics_gears import ComputationError, results
 from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.errors import ComputationError
 
 
 @pytest.fixture

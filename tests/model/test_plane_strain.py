@@ -6,7 +6,7 @@ import pytest
 from tests.benchmarks.third_dimension import plane_limits
 from tests.benchmarks.third_dimension.table import read_rows
 
-from fenics_gears.geometry.gear_data import Material
+from fenics_gears import Material
 from fenics_gears.model.description import describe
 from fenics_gears.model.plane_strain import SOFTER, too_stiff
 

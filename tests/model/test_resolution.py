@@ -5,9 +5,9 @@ from math import pi, sqrt
 
 import pytest
 
+from fenics_gears import mesh_stiffness, model_of
 from fenics_gears.dynamics.frequencies import natural_frequencies, vibrations
-from fenics_gears.model.drivetrain import drivetrain, mesh_stiffness
-from fenics_gears.model.model import model_of
+from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.model.resolution import (
     COARSEST_ELEMENT,
     FINEST_ELEMENT,

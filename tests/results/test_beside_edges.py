@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, teeth_alone
 
+from fenics_gears import model_of, simulate
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.pressure import read_off
 from fenics_gears.effects.relief import LINEAR, PARABOLIC, Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.geometry.relief import tip_reliefs
-from fenics_gears.model.model import model_of
-from fenics_gears.simulation.simulate import simulate
 
 ACCURACY = replace(COARSE, contact_length=2.0, contact_nodes=41, steps_per_mesh_cycle=20)
 

@@ -8,12 +8,9 @@ import pytest
 import xarray as xr
 from tests.effects.examples import MESHES, scene_of
 
+from fenics_gears import Load, Material, SceneError, carried_scene, load_scene
 from fenics_gears.effects.body_meshes import BodyMeshes, MeshFile
-from fenics_gears.errors import SceneError
-from fenics_gears.geometry.gear_data import Material
-from fenics_gears.results.carried_scene import carried_scene, scene_attributes
-from fenics_gears.scene.data import Load
-from fenics_gears.scene.read import load_scene
+from fenics_gears.results.carried_scene import scene_attributes
 from fenics_gears.show.run import scene_of as scene_for_pictures
 
 MEASURED = Path(__file__).parents[2] / "demos" / "flank_errors"

@@ -7,17 +7,16 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
 
+from fenics_gears import model_of, simulate
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.spring_mesh import PairSprings, spring_mesh
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.model.model import model_of
 from fenics_gears.results.attributes import SOLVED
 from fenics_gears.results.crests import MOST_SOLVED, highest
 from fenics_gears.scene.data import ISO_6336, Accuracy
-from fenics_gears.simulation.simulate import simulate
 
 CREST = 7.3137
 CURVES = {

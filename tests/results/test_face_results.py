@@ -7,13 +7,12 @@ from tests.hard_cases.invariants import run_of
 from tests.helical import helical_scene, on_stand_in_bodies, wide_pair
 from tests.over_face import MORE, helical_run
 
+from fenics_gears import model_of, simulate
 from fenics_gears.contact.pressure import read_off
-from fenics_gears.model.model import model_of
 from fenics_gears.results import journal
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.pairs import in_middle_slice
 from fenics_gears.runs.record import record_of
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.measures import OVER_FACE, answer
 
 OF_FACE = {

@@ -7,8 +7,7 @@ import pytest
 import xarray as xr
 from tests.show.synthetic import made_up_run
 
-from fenics_gears import results
-from fenics_gears.errors import ComputationError
+from fenics_gears import ComputationError, results
 from fenics_gears.results import netcdf
 from fenics_gears.results.netcdf import read_netcdf, write_netcdf
 

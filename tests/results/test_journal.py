@@ -11,12 +11,10 @@ from tests.coarse import coarse_scene
 from tests.programs import DEMO
 
 import fenics_gears
+from fenics_gears import ComputationError, load_scene, simulate
 from fenics_gears.dynamics.march import LONGEST_BLOCK
-from fenics_gears.errors import ComputationError
 from fenics_gears.results import journal
 from fenics_gears.results.journal import COUNTS, HEADER, SPARE, Journal, Place, read
-from fenics_gears.scene.read import load_scene
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.sealed import seal
 
 LAST, STEPS = 300, 4 * SPARE

@@ -6,15 +6,12 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static, teeth_alone
 
+from fenics_gears import HARMONIC_NAMES, mesh_factor, model_of, simulate, single_stiffness
 from fenics_gears.effects.profile_modifications import ProfileModification, ProfileModifications
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
-from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
-from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import plane_contact_modulus
-from fenics_gears.results.key_numbers import HARMONIC_NAMES
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Motion
-from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")

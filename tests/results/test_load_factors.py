@@ -7,8 +7,8 @@ import pytest
 import xarray as xr
 from tests.helical import wide_pair
 
+from fenics_gears import gear_pair
 from fenics_gears.contact.window import coast_roll_angles
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.results.face_ends import end_depth, inner_face, slice_ends, windows
 from fenics_gears.results.load_factors import load_factors
 

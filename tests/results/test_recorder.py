@@ -8,19 +8,17 @@ import xarray as xr
 from tests.coarse import coarse_scene, frictionless, quasi_static
 from tests.dynamics.contact_work_by_numpy import contact_work as by_numpy
 
-from fenics_gears import results
+from fenics_gears import model_of, results, simulate
 from fenics_gears.dynamics import march as march_module
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.model.model import model_of
 from fenics_gears.results.energy_variables import energy_variables, work_variables
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion, Output
 from fenics_gears.simulation.routes import prepared
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system.progress import SilentProgress
 
 FIELDS = ("contact_pressure", "contact_traction", "contact_offset", "contact_roll_angle")

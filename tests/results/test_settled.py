@@ -8,13 +8,11 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene
 
+from fenics_gears import model_of, scene_from_text, simulate
 from fenics_gears.effects import common_period
 from fenics_gears.model.description import describe
-from fenics_gears.model.model import model_of
 from fenics_gears.results.settled import settled
 from fenics_gears.results.summary import summary_rows
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 
 # z = 23 and 47, no common factor: every tooth has met every other after 1081 mesh cycles.
 PAIR = """

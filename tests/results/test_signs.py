@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, teeth_alone
 
-from fenics_gears.model.model import model_of
-from fenics_gears.simulation.simulate import simulate
+from fenics_gears import model_of, simulate
 
 
 def test_signs_of_forces_torques_and_rotations(paper_scene):

@@ -9,9 +9,7 @@ import pytest
 from tests.programs import python
 
 import fenics_gears
-from fenics_gears import build_scene, load_scene
-from fenics_gears.errors import SceneError
-from fenics_gears.scene.read import scene_from_text
+from fenics_gears import SceneError, build_scene, load_scene, scene_from_text
 
 DEMOS = sorted((Path(__file__).parents[2] / "demos").glob("*.toml"))
 SCENES = [path for path in DEMOS if "sweep" not in tomllib.loads(path.read_text(encoding="utf-8"))]

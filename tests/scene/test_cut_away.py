@@ -4,9 +4,7 @@ from math import radians
 
 import pytest
 
-from fenics_gears.errors import SceneError
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.scene.read import scene_from_text
+from fenics_gears import SceneError, gear_pair, scene_from_text
 
 SCENE = """
 [gears]

@@ -9,9 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from fenics_gears import SceneError, scene_from_text
 from fenics_gears.effects.flank_errors_sections import GearErrors
-from fenics_gears.errors import SceneError
-from fenics_gears.scene.read import scene_from_text
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 PERIOD = '"hunting tooth period"'

@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 from tests.stand_in import stand_in_compliance
 
+from fenics_gears import scene_from_text, simulate
 from fenics_gears.elasticity.body import Body
 from fenics_gears.results import shown
 from fenics_gears.scene.data import Motion
-from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.elastic_route import mesh_cycle
-from fenics_gears.simulation.simulate import simulate
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 

@@ -6,12 +6,10 @@ from pathlib import Path
 import pytest
 
 import fenics_gears
+from fenics_gears import SceneError, load_scene, model_of, scene_from_text
 from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
-from fenics_gears.errors import SceneError
-from fenics_gears.model.model import model_of
 from fenics_gears.scene import data
-from fenics_gears.scene.read import load_scene, scene_from_text
 
 DEMO_FILE = Path(__file__).parents[2] / "demos" / "lundvall2004.toml"
 DEMO = DEMO_FILE.read_text(encoding="utf-8")

@@ -6,12 +6,10 @@ from math import cos, radians
 
 import pytest
 
+from fenics_gears import GeometryError, SceneError, gear_pair, scene_from_text
 from fenics_gears.commands.cli import main
 from fenics_gears.effects.lead_modifications import EndRelief, LeadModification, LeadModifications
 from fenics_gears.effects.misalignment import Misalignment
-from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.scene.read import scene_from_text
 
 STRETCH = 1.0 / cos(radians(15.0))
 TIPS, ROOTS = [[f"{3.0 * (z * STRETCH + 2.0 * height):.6f}" for z in (20, 33)] for height in (1.0, -1.25)]

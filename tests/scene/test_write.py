@@ -10,11 +10,8 @@ from hypothesis import given, settings
 from tests.effects.examples import EXAMPLES, scene_of, with_needs
 from tests.hard_cases.random_scenes import valid_scenes
 
-from fenics_gears.errors import SceneError
-from fenics_gears.geometry.gear_data import Material
-from fenics_gears.inputs.written import as_toml
-from fenics_gears.scene.data import Accuracy, Load, Motion, Scene
-from fenics_gears.scene.read import load_scene, scene_from_text
+from fenics_gears import Load, Material, Scene, SceneError, as_toml, load_scene, scene_from_text
+from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.scene.write import NO_FILE, WORDS, section_trees, text_of
 
 DEMOS = Path(__file__).parents[2] / "demos"

@@ -9,9 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from fenics_gears import SceneError, scene_from_text
 from fenics_gears.commands.cli import main
-from fenics_gears.errors import SceneError
-from fenics_gears.scene.read import scene_from_text
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 UNTITLED = DEMO[DEMO.index("[gears]") :]
@@ -53,12 +52,10 @@ def refusal(tmp_path, monkeypatch, capsys):
 MUTATIONS = [
     ("teeth = 16", "teeth = 16.5", "gears.pinion.teeth = 16.5", ["is not a whole number", "from 5 to 1000"]),
     ("teeth = 16", "teeth = 4", "gears.pinion.teeth = 4", ["is too small", "from 5 to 1000"]),
-    ("teeth = 16", "teeth = 1001", "gears.pinion.teeth = 1001", ["is too large", "from 5 to 1000"]),
     ("teeth = 16", "module = 16", "gears.pinion.module = 16", ['"module" belongs to [gears]', "teeth, profile_shift"]),
     ('module = "4.5 mm"', 'module = "4.5 Mm"', 'gears.module = "4.5 Mm"', ['unknown unit "Mm". Did you mean "mm"?']),
     ('module = "4.5 mm"', "module = 4.5", "gears.module = 4.5", ['In mm it is written "4.5 mm"']),
     ('"20 deg"', '"0.35"', 'gears.pressure_angle = "0.35"', ["not an angle", "from 10 deg to 35 deg"]),
-    ('"20 deg"', '"9 deg"', 'gears.pressure_angle = "9 deg"', ["is too small", "from 10 deg to 35 deg"]),
     ('"20 deg"', '"20 rad"', 'gears.pressure_angle = "20 rad"', ["is too large", "from 10 deg to 35 deg"]),
     (
         "poissons_ratio = 0.3",
@@ -67,18 +64,11 @@ MUTATIONS = [
         ["is too large", "above -1 and below 0.5"],
     ),
     (
-        "poissons_ratio = 0.3",
-        "poissons_ratio = -1",
-        "gears.material.poissons_ratio = -1",
-        ["is too small", "above -1 and below 0.5"],
-    ),
-    (
         '"437 N m"',
         '"-437 N m"',
         'load.wheel_torque = "-437 N m"',
         ["is negative", "coast flanks", "with the section [coast_flanks] any sign"],
     ),
-    ('"437 N m"', '"437 N m/rad"', 'load.wheel_torque = "437 N m/rad"', ["is a torsional stiffness, not a torque"]),
     (
         'mesh_frequency = "200 Hz"',
         'mesh_frequency = "200 rpm"',
@@ -93,32 +83,17 @@ MUTATIONS = [
     ),
     (
         'mesh_frequency = "200 Hz"',
-        'pinion_speed = "nan rpm"',
-        'motion.pinion_speed = "nan rpm"',
-        ["is not a finite number"],
-    ),
-    (
-        'mesh_frequency = "200 Hz"',
-        'pinion_speed = "-5 rpm"',
-        'motion.pinion_speed = "-5 rpm"',
-        ["is negative", "1e6 rpm"],
-    ),
-    (
-        'mesh_frequency = "200 Hz"',
         'mesh_frequency = "200 Hz"\npinion_speed = "750 rpm"',
         'motion.pinion_speed = "750 rpm"',
         ["one of the two"],
     ),
     ("recorded_cycles = 2", "recorded_cycles = 31", "motion.recorded_cycles = 31", ["is more than mesh_cycles = 30"]),
-    ("mesh_cycles = 30", "mesh_cycles = 30.0", "motion.mesh_cycles = 30.0", ["is not a whole number"]),
     (
         "coefficient = 0.1",
         "coefficient = 0",
         "friction.coefficient = 0",
         ["is zero", "leave the section [friction] out", "up to 5"],
     ),
-    ("coefficient = 0.1", "coefficient = -0.1", "friction.coefficient = -0.1", ["is negative", "up to 5"]),
-    ("coefficient = 0.1", "coefficient = 5.01", "friction.coefficient = 5.01", ["is too large", "up to 5"]),
     ("coefficient = 0.1", "", "friction.coefficient", ["is missing", "above 0 and up to 5"]),
     (
         "[inertia]",
@@ -139,27 +114,18 @@ MUTATIONS = [
         ["is not known", '"P1", "P2", "Q1", "Q1 incompatible", "Q2"'],
     ),
     ('element = "P2"', 'element = "p2"', 'accuracy.element = "p2"', ['Did you mean "P2"?']),
-    ('element = "P2"', "element = 2", "accuracy.element = 2", ['"P1", "P2", "Q1", "Q1 incompatible", "Q2"']),
     (
         'element = "P2"',
         'element = "Q1 compatible"',
         'accuracy.element = "Q1 compatible"',
         ["Did you mean", '"Q1 incompatible"'],
     ),
-    ('"once"', '"onse"', 'accuracy.condensation = "onse"', ['Did you mean "once"?']),
     (
         '"0.08 mm"',
         '"5 mm"',
         'accuracy.flank_element_size = "5 mm"',
         ["too large for a module of 4.5 mm", "up to 4.5 mm"],
     ),
-    (
-        '"0.08 mm"',
-        '"4 um"',
-        'accuracy.flank_element_size = "4 um"',
-        ["too small for a module of 4.5 mm", "from 0.0045 mm"],
-    ),
-    ("contact_nodes = 20", "contact_nodes = 1001", "accuracy.contact_nodes = 1001", ["is too large", "from 2 to 1000"]),
     ('"1.5 mm"', '"15 mm"', 'accuracy.contact_length = "15 mm"', ["too large for a module of 4.5 mm", "up to 13.5 mm"]),
     ("[load]", "[[load]]", "load = a list", ["is not a section", "Write a line [load]"]),
     (

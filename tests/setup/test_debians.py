@@ -1,11 +1,8 @@
 """tests/debians/run without making a system: what it reads, counts and calls green. It itself is tried by being run."""
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
-from tests.debians.command import main
 from tests.debians.dockerfile import read_dockerfile
 from tests.debians.root import Call
 from tests.debians.trial import OF_RANKS, QUICK, QUICK_OF_RANKS, RANKS, SUITES, Counts, Trial, counted
@@ -72,39 +69,3 @@ def test_outcomes_of_all_ranks_count(tmp_path):
     assert counted([tmp_path / "1.xml"]).is_green
     assert not counted([tmp_path / "1.xml", tmp_path / "2.xml"]).is_green
     assert not counted([]).is_green
-
-
-def test_counts_are_pytests_own(tmp_path):
-    """The file that this pytest writes is read as it reports: one passes, one fails, one is skipped, one breaks off in
-    its fixture."""
-    (tmp_path / "test_four.py").write_text(
-        "import pytest\n"
-        "def test_passes(): pass\n"
-        "def test_fails(): assert False\n"
-        "@pytest.mark.skip(reason='no browser')\ndef test_skips(): pass\n"
-        "@pytest.fixture\ndef broken(): raise OSError\n"
-        "def test_breaks_off(broken): pass\n"
-    )
-    subprocess.run([sys.executable, "-m", "pytest", "-q", "--junitxml=out.xml", "."], cwd=tmp_path, capture_output=True)
-    found = counted([tmp_path / "out.xml"])
-    assert (found.passed, found.failed, found.skipped, found.reasons) == (1, 2, 1, ("no browser",))
-
-
-def test_without_root_nothing_is_tried(monkeypatch, capsys, tmp_path):
-    """Exit code 2 and the remedy, before anything is made."""
-    monkeypatch.setattr("os.geteuid", lambda: 1000)
-    assert main(["trixie", "--roots", str(tmp_path / "roots"), "--logs", str(tmp_path / "logs")], "") == 2
-    assert "sudo" in capsys.readouterr().err
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize("wrong", [["buster"], ["--fast"], ["trixie", "--"]])
-def test_a_wrong_call_is_told_before_anything_is_made(capsys, tmp_path, wrong):
-    """Exit code 2 with the word that is wrong."""
-    try:
-        code = main([*wrong[:1], "--logs", str(tmp_path / "logs"), "--roots", str(tmp_path / "roots"), *wrong[1:]], "")
-    except SystemExit as ended:
-        code = ended.code
-    told = capsys.readouterr().err
-    assert code == 2 and wrong[-1] in told
-    assert not list(tmp_path.iterdir())

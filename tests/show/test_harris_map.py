@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from fenics_gears.errors import ComputationError
+from fenics_gears import ComputationError
 from fenics_gears.show.chart import WORDS
 from fenics_gears.show.drawing import picture
 from fenics_gears.show.harris_map import harris_map

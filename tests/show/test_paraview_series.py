@@ -9,10 +9,9 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from fenics_gears import results
+from fenics_gears import results, scene_from_text
 from fenics_gears.commands.cli import main
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.scene.read import scene_from_text
 from fenics_gears.show.stress_animation import frame_steps
 from fenics_gears.show.stress_grid import PLANE_STRESSES, in_plane, in_tooth_order
 from fenics_gears.simulation.run_stresses import RunStresses

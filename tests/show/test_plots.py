@@ -7,7 +7,7 @@ from matplotlib.image import imread
 from tests.programs import python
 from tests.show.synthetic import BARE, made_up_run
 
-from fenics_gears.errors import ComputationError
+from fenics_gears import ComputationError
 from fenics_gears.show.plots import PICTURES, draw_run, run_figures
 
 # Of a run shorter than a turn of the pinion, as the made-up one is; orders are drawn in test_spectrum.py.

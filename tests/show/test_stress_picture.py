@@ -6,9 +6,8 @@ from matplotlib.image import imread
 from tests.coarse import coarse_scene
 from tests.programs import python
 
-from fenics_gears import results
+from fenics_gears import results, scene_from_text
 from fenics_gears.commands.cli import main
-from fenics_gears.scene.read import scene_from_text
 from fenics_gears.system import environment
 
 environment.prepare()

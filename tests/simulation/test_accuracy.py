@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fenics_gears.model.model import model_of
+from fenics_gears import model_of, simulate
 from fenics_gears.scene.data import Accuracy
-from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")

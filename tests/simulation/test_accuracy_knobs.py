@@ -6,15 +6,12 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, teeth_alone
 
+from fenics_gears import SceneError, model_of, scene_from_text, simulate
 from fenics_gears.contact.interpolation import AVERAGED, COLLOCATED, INTERPOLATIONS
 from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES
-from fenics_gears.errors import SceneError
-from fenics_gears.model.model import model_of
 from fenics_gears.runs.gear_store import cycle_key
 from fenics_gears.scene.data import GearData, Motion
-from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.bodies import body_key
-from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ from math import radians
 import numpy as np
 import pytest
 
+from fenics_gears import simulate
 from fenics_gears.contact.tooth_pair import coast_place, drive_place
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.eccentricity import Eccentricity, Offset
@@ -15,7 +16,6 @@ from fenics_gears.geometry.involute import canonical_point
 from fenics_gears.geometry.outline import tooth_outline
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.data import Accuracy, Motion
-from fenics_gears.simulation.simulate import simulate
 
 COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
 

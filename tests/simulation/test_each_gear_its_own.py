@@ -7,14 +7,11 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene
 
-from fenics_gears import simulate
+from fenics_gears import gear_pair, model_of, scene_from_text, simulate
 from fenics_gears.elasticity.body import Body
 from fenics_gears.elasticity.overhang import near_field
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.model.model import model_of
 from fenics_gears.model.plane_strain import too_stiff
 from fenics_gears.scene.data import Material
-from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.elastic_route import flanks_of
 
 STEEL, BRONZE = Material(206e3, 0.3), Material(103e3, 0.35)

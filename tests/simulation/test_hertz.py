@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from tests.benchmarks.hertz import pressed_scene
-from tests.hertz_contact import QUANTITIES, HertzContact, Pressed
+from tests.hertz_contact import QUANTITIES, HertzContact
 
 FLANK_ELEMENTS = (1, 2, 4, 8)
 
@@ -50,11 +50,3 @@ def test_flank_elements_converge_to_the_half_plane(hertz, gears, gear):
     errors = [hertz.flank_error(body, gears[n][gear]) for n in (1, 2, 4)]
     assert (np.abs(observed(errors) - 2.0) < 0.5).all()
     assert abs(errors[-1]) < 0.01
-
-
-def test_the_approach_of_the_exact_pressure_has_no_error():
-    """Exact: half-width and peak of an ellipse read off finely, by the same formulas."""
-    offsets = np.linspace(-2.0, 2.0, 4001)
-    pressure = 100.0 * np.sqrt(np.maximum(1.0 - offsets**2, 0.0))
-    found = Pressed(0.0, offsets, pressure)
-    assert found.half_width == pytest.approx(1.0, rel=1e-4) and found.peak == pytest.approx(100.0, rel=1e-6)

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fenics_gears.geometry.pair import gear_pair
+from fenics_gears import gear_pair, simulate
 from fenics_gears.scene.data import Accuracy, GearData, GearPairData, Material
-from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")

@@ -11,10 +11,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
-from fenics_gears.geometry.pair import gear_pair
+from fenics_gears import gear_pair, mesh_factor, simulate, single_stiffness
 from fenics_gears.scene.data import Accuracy, GearData, GearPairData, Material
-from fenics_gears.simulation.simulate import simulate
 
 BORE = 0.7
 

@@ -10,10 +10,9 @@ from tests.helical import helical_scene
 from tests.pinned_numbers import in_the_plane, over_the_face
 from tests.programs import python
 
+from fenics_gears import Load, simulate
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.corner_contact import CornerContact
-from fenics_gears.scene.data import Load
-from fenics_gears.simulation.simulate import simulate
 
 # Bytes beside what is held after the first pair; when operators stayed, five pairs took half a gigabyte more.
 MOST_MORE = 150e6

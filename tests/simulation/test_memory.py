@@ -10,17 +10,14 @@ from tests.coarse import coarse_scene
 from tests.helical import helical_scene
 from tests.programs import DEMO
 
+from fenics_gears import ComputationError, SceneError, expected_cost, model_of, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.elasticity.face.cost import expected_memory, expected_size
-from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.face_resolution import face_discretisation
-from fenics_gears.model.model import model_of
 from fenics_gears.simulation import bodies
 from fenics_gears.simulation import simulate as simulation
 from fenics_gears.simulation.routes import prepared
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.system import memory
 from fenics_gears.system.memory import MEMORY_VARIABLE, SHARE, allowed_memory, size_in_bytes, usual_memory
 from fenics_gears.system.progress import SilentProgress

@@ -6,15 +6,12 @@ import numpy as np
 import pytest
 from tests.coarse import coarse_scene, frictionless, quasi_static
 
+from fenics_gears import SceneError, mesh_factor, model_of, scene_from_text, simulate
 from fenics_gears.effects import OVER_CONTACT_NODES
-from fenics_gears.errors import SceneError
-from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
-from fenics_gears.model.model import model_of
+from fenics_gears.geometry.iso_6336 import pair_stiffness
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Motion
-from fenics_gears.scene.read import scene_from_text
 from fenics_gears.simulation.bodies import gear_bodies
 from fenics_gears.simulation.elastic_route import mesh_cycle
-from fenics_gears.simulation.simulate import simulate
 
 MODELS = (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336)
 

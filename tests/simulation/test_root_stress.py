@@ -10,20 +10,18 @@ from tests.coarse_sector import PINION, STEEL
 from tests.elasticity.flank_pressure import pressed
 from tests.iso_tooth_root import nominal_root_stress, standard_gear
 
+from fenics_gears import Load, SceneError, scene_from_text, simulate
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.fillet_points import POINTS, fillet_curve, fillet_rows
 from fenics_gears.elasticity.recovery import gear_recovery
 from fenics_gears.elasticity.root_stress import root_stress_rows
-from fenics_gears.errors import SceneError
 from fenics_gears.geometry.involute import arc_length
 from fenics_gears.results.settled import settled_steps
-from fenics_gears.scene.data import Load, Motion, Output
-from fenics_gears.scene.read import scene_from_text
+from fenics_gears.scene.data import Motion, Output
 from fenics_gears.simulation.dynamic_factor import quasi_static as without_inertia
 from fenics_gears.simulation.run_stresses import RunStresses
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.stored_forces import stored_forces
 
 FACTORS = ("dynamic_factor_by_force", "dynamic_factor_by_stress")

@@ -8,19 +8,17 @@ import pytest
 from scipy.spatial import cKDTree
 from tests.coarse import coarse_scene, frictionless, quasi_static
 
+from fenics_gears import Load, SceneError, simulate
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.flank_forces import sector_of, unmirrored
 from fenics_gears.contact.operator import displacement_jacobian
 from fenics_gears.contact.tooth_pair import COAST
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.errors import SceneError
-from fenics_gears.scene.data import Load
 from fenics_gears.show.drawn_scale import overlap
 from fenics_gears.show.loaded_contact import loaded_contact
 from fenics_gears.show.stress_grid import in_plane, upright
 from fenics_gears.simulation.run_stresses import RunStresses, hub_motion
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.simulation.stored_forces import stored_forces, stored_index
 
 

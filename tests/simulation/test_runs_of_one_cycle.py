@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 from tests.coarse import coarse_scene
 
+from fenics_gears import simulate
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Motion
 from fenics_gears.simulation import dynamic_factor
-from fenics_gears.simulation.simulate import simulate
 
 
 def variants(paper_scene) -> list:

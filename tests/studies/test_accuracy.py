@@ -8,12 +8,10 @@ import numpy as np
 import pytest
 from tests.effects.examples import scene_of, text_of
 
+from fenics_gears import ComputationError, SceneError, model_of, simulate
 from fenics_gears.commands.cli import main
-from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.model.model import model_of
 from fenics_gears.runs.timed import run_sharing
 from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy import refinement, setting_runs, table
 from fenics_gears.studies.accuracy import report as reports
 from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, ROOT, SPAN, judged

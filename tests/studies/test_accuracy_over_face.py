@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from tests.helical import wide_pair
 
+from fenics_gears import model_of
 from fenics_gears.model.face_resolution import face_discretisation
-from fenics_gears.model.model import model_of
 from fenics_gears.studies.accuracy import report as reports
 from fenics_gears.studies.accuracy.measures import (
     CURVE,

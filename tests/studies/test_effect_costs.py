@@ -8,13 +8,10 @@ import numpy as np
 import pytest
 from tests.effects.examples import scene_of, text_of
 
+from fenics_gears import SceneError, model_of, scene_from_text, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.effects import SECTIONS
-from fenics_gears.errors import SceneError
-from fenics_gears.model.model import model_of
 from fenics_gears.runs import runs
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.effect_costs import measured, table
 from fenics_gears.studies.effect_costs.subsets import ALONE, BARE, LEFT_OUT, subsets_of
 

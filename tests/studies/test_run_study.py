@@ -8,15 +8,12 @@ import pytest
 from tests.programs import command, ended
 from tests.studies.conftest import stamps, write_study
 
-from fenics_gears import results
+from fenics_gears import load_scene, model_of, results, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.model.model import model_of
 from fenics_gears.runs import runs
-from fenics_gears.scene.read import load_scene
 from fenics_gears.simulation.bodies import gear_bodies
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.study_file import load_study
 from fenics_gears.system.progress import SilentProgress
 

@@ -10,8 +10,8 @@ import signal
 import sys
 from pathlib import Path
 
+from fenics_gears import ComputationError, SceneError
 from fenics_gears.commands import cli
-from fenics_gears.errors import ComputationError, SceneError
 
 OWN = int(os.environ.get("OMPI_COMM_WORLD_RANK") or os.environ.get("PMI_RANK", 0))
 WORDS = "no more chalk"

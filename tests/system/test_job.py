@@ -7,7 +7,7 @@ pytestmark = pytest.mark.ranks
 
 PROGRAM = """
 import sys
-from fenics_gears.errors import GearsError, SceneError
+from fenics_gears import GearsError, SceneError
 from fenics_gears.system import environment, job
 environment.prepare()
 job.PATIENCE = 0.2

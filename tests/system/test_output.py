@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-from fenics_gears.errors import SceneError
+from fenics_gears import SceneError
 from fenics_gears.system import output
 
 

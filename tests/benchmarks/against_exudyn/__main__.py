@@ -24,7 +24,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fenics_gears import load_scene
+from fenics_gears import gear_pair, load_scene, lumped_gears
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.spring_mesh import PairSprings, spring_mesh
 from fenics_gears.contact.tooth_pair import DRIVE
@@ -34,8 +34,7 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.effects.bearings import Bearings, Support
 from fenics_gears.effects.shafts import Shaft, Shafts
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.model.drivetrain import drivetrain, lumped_gears
+from fenics_gears.model.drivetrain import drivetrain
 
 HERE = Path(__file__).parent
 SCENE = HERE / "pair_19_48.toml"
@@ -89,24 +88,27 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
     return natural_frequencies(shafts, MESH), rotations, given
 
 
-def main() -> None:
-    """Print both side by side."""
-    parser = argparse.ArgumentParser(
-        prog="python -m tests.benchmarks.against_exudyn", description=__doc__.splitlines()[0]
-    )
+def by_exudyn(script: str, words: str, frequencies: np.ndarray, given: dict) -> dict:
+    """What a script of this folder finds in Exudyn; prints the frequencies of both programs."""
+    parser = argparse.ArgumentParser(description=words.splitlines()[0])
     parser.add_argument(
         "python", nargs="?", default=sys.executable, help="a Python that has Exudyn (default: this one)"
     )
-    frequencies, rotations, given = by_this_program()
-    done = subprocess.run(
-        [parser.parse_args().python, HERE / "exudyn_pair.py"], input=json.dumps(given), capture_output=True, text=True
-    )
+    call = [parser.parse_args().python, HERE / script]
+    done = subprocess.run(call, input=json.dumps(given), capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"Exudyn failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}")
     found = json.loads(done.stdout[done.stdout.index('{"version"') :])
     print(f"Exudyn {found['version']}\nmode   this program, Hz   Exudyn, Hz      difference")
     for number, (own, other) in enumerate(zip(frequencies, found["frequencies"]), 1):
         print(f"{number:<6} {own:<18.6f} {other:<15.6f} {own / other - 1.0:.1e}")
+    return found
+
+
+def main() -> None:
+    """Print both side by side."""
+    frequencies, rotations, given = by_this_program()
+    found = by_exudyn("exudyn_pair.py", __doc__, frequencies, given)
     for name, own, other in zip(("pinion", "wheel"), rotations, np.array(found["rotations"])):
         own, other = own[: len(other)], other[: len(own)]
         print(

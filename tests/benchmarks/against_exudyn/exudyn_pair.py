@@ -49,10 +49,7 @@ def assembled(given):
         marks.append(system.AddMarker(MarkerBodyRigid(bodyNumber=body, localPosition=points[number])))
     system.AddObject(SpringDamper(markerNumbers=marks, stiffness=given["mesh"], damping=0.0, referenceLength=length))
     spring(system, ground, at(system, nodes[0], 2), given["shaft"][0])
-    rotor = system.AddNode(Node1D(referenceCoordinates=[0.0]))
-    system.AddObject(Mass1D(mass=given["load"], nodeNumber=rotor))
-    end = at(system, rotor, 0)
-    spring(system, at(system, nodes[1], 2), end, given["shaft"][1])
+    end = rotor(system, at(system, nodes[1], 2), given)
     # A couple against the wheel's rotation turns it by a positive angle.
     couple = system.AddLoad(LoadCoordinate(markerNumber=end, load=given["couple"]))
     return container, system, nodes, couple
@@ -66,15 +63,37 @@ def spring(system, first, second, stiffness):
     system.AddObject(CoordinateSpringDamper(markerNumbers=[first, second], stiffness=stiffness, damping=0.0))
 
 
+def rotor(system, shaft, given):
+    """The load on the output shaft's end; its marker."""
+    node = system.AddNode(Node1D(referenceCoordinates=[0.0]))
+    system.AddObject(Mass1D(mass=given["load"], nodeNumber=node))
+    spring(system, shaft, end := at(system, node, 0), given["shaft"][1])
+    return end
+
+
+def frequencies_of(system):
+    """Hz, about the unloaded position."""
+    system.Assemble()
+    squares = np.asarray(system.ComputeODE2Eigenvalues()[0], float)
+    return sorted(np.sqrt(np.maximum(squares, 0.0)) / (2.0 * np.pi))
+
+
+def at_rest(system, tolerance=1e-10):
+    """Moves the system into static equilibrium; the settings."""
+    system.Assemble()
+    settings = exu.SimulationSettings()
+    settings.solutionSettings.writeSolutionToFile = False
+    settings.staticSolver.newton.relativeTolerance = tolerance
+    system.SolveStatic(settings, updateInitialValues=True)
+    return settings
+
+
 def main():
     """Frequencies about the unloaded position; static equilibrium, then the response of both gears' rotations to the
     added couple."""
     given = json.load(sys.stdin)
     container, system, *_ = assembled({**given, "couple": 0.0})
-    system.Assemble()
-    frequencies = system.ComputeODE2Eigenvalues()[0]
-    frequencies = np.sqrt(np.maximum(np.asarray(frequencies, float), 0.0)) / (2.0 * np.pi)
-
+    frequencies = frequencies_of(system)
     container, system, nodes, couple = assembled(given)
     sensors = [
         system.AddSensor(
@@ -82,11 +101,7 @@ def main():
         )
         for node in nodes
     ]
-    system.Assemble()
-    settings = exu.SimulationSettings()
-    settings.solutionSettings.writeSolutionToFile = False
-    settings.staticSolver.newton.relativeTolerance = 1e-10
-    system.SolveStatic(settings, updateInitialValues=True)
+    settings = at_rest(system)
     system.SetLoadParameter(couple, "load", given["couple"] + given["couple_after"])
     settings.timeIntegration.numberOfSteps, settings.timeIntegration.endTime = (
         given["steps"],
@@ -99,11 +114,7 @@ def main():
     system.SolveDynamic(settings)
     stored = [system.GetSensorStoredData(sensor)[:, 3] for sensor in sensors]
     json.dump(
-        {
-            "version": exu.GetVersionString(),
-            "frequencies": sorted(frequencies),
-            "rotations": [list(each) for each in stored],
-        },
+        {"version": exu.GetVersionString(), "frequencies": frequencies, "rotations": [list(each) for each in stored]},
         sys.stdout,
     )
 

@@ -16,18 +16,16 @@ import exudyn as exu
 import numpy as np
 from exudyn.itemInterface import (
     CartesianSpringDamper,
-    CoordinateSpringDamper,
     LoadCoordinate,
     MarkerBodyPosition,
     MarkerNodeCoordinate,
-    Mass1D,
-    Node1D,
     NodePointGround,
     NodeRigidBodyRxyz,
     ObjectGround,
     ObjectRigidBody,
     SpringDamper,
 )  # fmt: skip
+from exudyn_pair import at, at_rest, frequencies_of, rotor, spring
 
 # Half of the distance between the ends of a mesh spring, mm.
 HALF = 20.0
@@ -67,10 +65,7 @@ def assembled(given):
             SpringDamper(markerNumbers=ends, stiffness=0.5 * given["mesh"], damping=0.0, referenceLength=2.0 * HALF)
         )
     spring(system, fixed, at(system, nodes[0], TURN), given["shaft"][0])
-    rotor = system.AddNode(Node1D(referenceCoordinates=[0.0]))
-    system.AddObject(Mass1D(mass=given["load"], nodeNumber=rotor))
-    end = at(system, rotor, 0)
-    spring(system, at(system, nodes[1], TURN), end, given["shaft"][1])
+    end = rotor(system, at(system, nodes[1], TURN), given)
     return container, system, nodes, end
 
 
@@ -82,30 +77,16 @@ def spring_in_space(system, base, body, centre, place, stiffness):
     system.AddObject(CartesianSpringDamper(markerNumbers=marks, stiffness=stiffness, damping=[0.0] * 3))
 
 
-def at(system, node, coordinate):
-    return system.AddMarker(MarkerNodeCoordinate(nodeNumber=node, coordinate=coordinate))
-
-
-def spring(system, first, second, stiffness):
-    system.AddObject(CoordinateSpringDamper(markerNumbers=[first, second], stiffness=stiffness, damping=0.0))
-
-
 def main():
     """Frequencies about the unloaded position; displacements of both gears, x, y, z and about x, y, z, under the
     torque."""
     given = json.load(sys.stdin)
     container, system, *_ = assembled(given)
-    system.Assemble()
-    squares = np.asarray(system.ComputeODE2Eigenvalues()[0], float)
+    frequencies = frequencies_of(system)
     container, system, nodes, end = assembled(given)
     system.AddLoad(LoadCoordinate(markerNumber=end, load=given["torque"]))
-    system.Assemble()
-    settings = exu.SimulationSettings()
-    settings.solutionSettings.writeSolutionToFile = False
-    settings.staticSolver.newton.relativeTolerance = 1e-9
-    system.SolveStatic(settings, updateInitialValues=True)
+    at_rest(system, 1e-9)
     moved = [list(np.asarray(system.GetNodeOutput(node, exu.OutputVariableType.Coordinates), float)) for node in nodes]
-    frequencies = sorted(np.sqrt(np.maximum(squares, 0.0)) / (2.0 * np.pi))
     json.dump({"version": exu.GetVersionString(), "frequencies": frequencies, "moved": moved}, sys.stdout)
 
 

@@ -15,24 +15,18 @@ proportion to the torque.
 
 from __future__ import annotations
 
-import argparse
-import json
-import subprocess
-import sys
 from dataclasses import replace
 from math import radians, sqrt
-from pathlib import Path
 
 import numpy as np
-from tests.benchmarks.against_exudyn.__main__ import BEARINGS, MESH, SHAFTS, scene
+from tests.benchmarks.against_exudyn.__main__ import BEARINGS, MESH, SHAFTS, by_exudyn, scene
 
+from fenics_gears import gear_pair, lumped_gears
 from fenics_gears.dynamics.frequencies import natural_frequencies
 from fenics_gears.effects.bearings import BearingPlaces
 from fenics_gears.geometry.helix import Helix
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.model.drivetrain import drivetrain, lumped_gears
+from fenics_gears.model.drivetrain import drivetrain
 
-HERE = Path(__file__).parent
 # N mm: small, the program being of small displacements.
 TORQUE = 30.0
 PLACES = BearingPlaces((-30.0, 55.0), (-70.0, 25.0))
@@ -78,25 +72,8 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
 
 def main() -> None:
     """Print both side by side."""
-    parser = argparse.ArgumentParser(
-        prog="python -m tests.benchmarks.against_exudyn.tilting", description=__doc__.splitlines()[0]
-    )
-    parser.add_argument(
-        "python", nargs="?", default=sys.executable, help="a Python that has Exudyn (default: this one)"
-    )
     frequencies, moved, given = by_this_program()
-    done = subprocess.run(
-        [parser.parse_args().python, HERE / "exudyn_tilting_pair.py"],
-        input=json.dumps(given),
-        capture_output=True,
-        text=True,
-    )
-    if done.returncode:
-        sys.exit(f"Exudyn failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}")
-    found = json.loads(done.stdout[done.stdout.index('{"version"') :])
-    print(f"Exudyn {found['version']}\nmode   this program, Hz   Exudyn, Hz      difference")
-    for number, (own, other) in enumerate(zip(frequencies, found["frequencies"]), 1):
-        print(f"{number:<6} {own:<18.6f} {other:<15.6f} {own / other - 1.0:.1e}")
+    found = by_exudyn("exudyn_tilting_pair.py", __doc__, frequencies, given)
     print("motion         this program     Exudyn           difference")
     for name, own, other in zip(np.ravel(MOTIONS), moved.ravel(), np.ravel(found["moved"])):
         print(f"{name:<14} {own:<16.9e} {other:<16.9e} {own / other - 1.0:.1e}")

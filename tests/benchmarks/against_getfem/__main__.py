@@ -25,11 +25,9 @@ import numpy as np
 from tests.corner_contact_reference.calculix import placed, wheel_centre
 from tests.corner_contact_reference.gear_mesh import MeshSizes, gear_mesh
 
+from fenics_gears import gear_pair, load_scene, simulate
 from fenics_gears.effects import without
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.scene.read import load_scene
-from fenics_gears.simulation.simulate import simulate
 
 SCENE = Path(__file__).parents[3] / "demos" / "lundvall2004.toml"
 PHASES = (0.2, 0.3, 0.6, 0.7)

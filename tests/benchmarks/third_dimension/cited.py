@@ -12,12 +12,9 @@ from pathlib import Path
 from tests.benchmarks.third_dimension.table import Row, read_rows, table, write_rows
 from tests.iso_tooth_root import helical_form_and_stress_correction, helix_angle_factor
 
+from fenics_gears import gear_pair, load_scene, mesh_factor, simulate, single_stiffness
 from fenics_gears.geometry.characteristics import characteristics
-from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Accuracy
-from fenics_gears.scene.read import load_scene
-from fenics_gears.simulation.simulate import simulate
 
 NAME = "cited"
 CITED = Path(__file__).parent / "cited"

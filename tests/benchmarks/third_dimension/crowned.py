@@ -13,16 +13,14 @@ from math import ceil, sqrt
 import numpy as np
 from tests.benchmarks.third_dimension.pairs import MODULE, scene_of, standard_pair
 from tests.benchmarks.third_dimension.table import Row, read_rows, table, write_rows
+from tests.contact.problems import pressed
 from tests.hertz_point_contact import PointContact
 
-from fenics_gears.contact.laws import Tolerance
+from fenics_gears import gear_pair, model_of
 from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.contact.pressure import without_oscillation
-from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
 from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.geometry.pair import gear_pair
-from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import plane_contact_modulus, relative_radius
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.simulation.elastic_route import elastic_route
@@ -76,12 +74,7 @@ class CrownedFlanks:
         """Under a part of the load."""
         operator, exact = self.operator, self.exact.under(part)
         rotation = np.abs(operator.jacobian[:, [self.cycle._coordinates.index(CENTRE_COORDINATES.index("rotation_2"))]])
-        problem = StepProblem(
-            stiffness=np.zeros((1, 1)), load=np.array([exact.load]), compliance=operator.compliance, jacobian=rotation,
-            gap=operator.gap,
-            slip_before=np.empty(0), friction=0.0, free_motion=np.ones(1), tolerance=Tolerance.of_load(exact.load),
-        )  # fmt: skip
-        solution = solve_step(problem, cold_start(operator.gap, operator.node_pair))
+        solution = pressed(operator, exact.load, rotation)
         return Pressed(float(solution.coordinates[0]), self._errors(solution.forces, exact))
 
     def _errors(self, forces: np.ndarray, exact: PointContact) -> dict[str, float]:

@@ -8,10 +8,9 @@ from dataclasses import replace
 from tests.benchmarks.third_dimension.pairs import MODULE, STEEL, in_plane, scene_of, standard_gear, standard_pair
 from tests.benchmarks.third_dimension.table import Row, read_rows, table, write_rows
 
+from fenics_gears import gear_pair, simulate
 from fenics_gears.geometry.gear_data import GearPairData
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Accuracy
-from fenics_gears.simulation.simulate import simulate
 
 NAME = "face_widths"
 # Coarser than the default: the quotient of two widths hardly depends on it.

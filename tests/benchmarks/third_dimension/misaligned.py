@@ -16,12 +16,10 @@ from matplotlib.figure import Figure
 from tests.benchmarks.third_dimension.pairs import LINE_LOAD, MODULE, scene_of, standard_pair
 from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
 
+from fenics_gears import gear_pair, mesh_factor, simulate, single_stiffness
 from fenics_gears.effects.misalignment import Misalignment
-from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
-from fenics_gears.simulation.simulate import simulate
 
 NAME, LINES = "misaligned", "misaligned_lines"
 WIDTH, MISALIGNMENTS = 8.0, (0.0, 5.0, 10.0, 20.0, 40.0, 80.0)

@@ -14,9 +14,9 @@ from matplotlib.figure import Figure
 from tests.benchmarks.third_dimension.pairs import MODULE, in_plane, scene_of, standard_pair, width_of_overlap
 from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
 
+from fenics_gears import simulate
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
-from fenics_gears.simulation.simulate import simulate
 
 NAME = "overlap"
 HELIX_ANGLE = radians(20.0)

@@ -10,10 +10,9 @@ from matplotlib.figure import Figure
 from tests.benchmarks.third_dimension.pairs import MODULE, STEEL, in_plane, scene_of, standard_pair
 from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
 
-from fenics_gears.geometry.gear_data import Material
+from fenics_gears import Material, simulate
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
-from fenics_gears.simulation.simulate import simulate
 
 NAME = "plane_limits"
 WIDTHS = (0.5, 1.0, 2.0, 4.0, 8.0, 15.0, 30.0, 60.0)

@@ -7,7 +7,7 @@ from itertools import groupby
 import numpy as np
 from tests.benchmarks.third_dimension.table import Row, read_rows, table, write_rows
 from tests.face_reference.by_slices import answer
-from tests.face_reference.reference import OPENINGS, over_slices, reference
+from tests.face_reference.reference import FORCE, OPENINGS, over_slices, reference
 
 from fenics_gears.elasticity.cache import user_cache
 
@@ -21,7 +21,7 @@ def measure() -> list[Row]:
         reference(), key=lambda row: (row.helix_angle, row.phase, row.opening)
     ):
         resolved = list(found)
-        own = answer(helix, phase, opening, resolved[0].force, user_cache(), layers=LAYERS, slices=SLICES)
+        own = answer(helix, phase, opening, FORCE, user_cache(), layers=LAYERS, slices=SLICES)
         load, exact = sum(own.line_loads.values()), over_slices(resolved, own.positions)
         rows += [
             {

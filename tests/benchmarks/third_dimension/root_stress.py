@@ -13,9 +13,8 @@ from tests.benchmarks.third_dimension.pairs import LINE_LOAD, MODULE, scene_of, 
 from tests.benchmarks.third_dimension.table import Row, read_rows, table, write_rows
 from tests.iso_tooth_root import helical_form_and_stress_correction, helix_angle_factor, load_sharing_factor
 
-from fenics_gears.geometry.pair import gear_pair
+from fenics_gears import gear_pair, simulate
 from fenics_gears.scene.data import Accuracy, Output
-from fenics_gears.simulation.simulate import simulate
 
 NAME = "root_stress"
 HELIX_ANGLES, WIDTH, BORE = (0.0, 10.0, 20.0, 30.0), 8.0, 0.5

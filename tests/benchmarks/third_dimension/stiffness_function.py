@@ -18,11 +18,10 @@ from matplotlib.figure import Figure
 from tests.benchmarks.third_dimension import pairs
 from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
 
+from fenics_gears import gear_pair, simulate
 from fenics_gears.geometry.gear_data import GearPairData
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.show.panels import DARK, PALETTE, styled
-from fenics_gears.simulation.simulate import simulate
 
 NAME = "stiffness_function"
 # As printed in the figure, read off it: smallest and largest over the mean.

@@ -13,11 +13,9 @@ from matplotlib.figure import Figure
 from tests.benchmarks.third_dimension.pairs import LINE_LOAD, MODULE, scene_of, standard_pair
 from tests.benchmarks.third_dimension.table import PICTURES, Row, read_rows, table, write_rows
 
-from fenics_gears.geometry.iso_6336 import mesh_factor, single_stiffness
-from fenics_gears.geometry.pair import gear_pair
+from fenics_gears import gear_pair, mesh_factor, simulate, single_stiffness
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.show.panels import DARK, PALETTE, styled
-from fenics_gears.simulation.simulate import simulate
 
 NAME = "tooth_stiffness"
 HELIX_ANGLES, WIDTH, BORE = (0.0, 10.0, 20.0, 30.0), 8.0, 0.7

@@ -11,6 +11,7 @@ from tests.coarse_sector import PINION, STEEL
 from tests.elasticity.face.swept import GEAR, TWISTED, condense_swept, mesh
 from tests.whole_gear import whole_gear_mesh
 
+from fenics_gears import ComputationError, SceneError
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import by_radius, dofs_of
@@ -23,7 +24,6 @@ from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_re
 from fenics_gears.elasticity.face.layers import swept_nodes
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 from fenics_gears.elasticity.ring import rotation
-from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.geometry.outline import centreline_angle
 from fenics_gears.system.memory import MEMORY_VARIABLE
 

@@ -6,12 +6,12 @@ import pytest
 from tests.coarse_sector import COARSE, PINION, STEEL, coarse_condensed_sector, coarse_sector_mesh, relative
 from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
+from fenics_gears import ComputationError
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import ring_compliance, rotation
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 from fenics_gears.elasticity.whole_body.outline import whole_body
-from fenics_gears.errors import ComputationError
 from meshes.root_crack import RootCrack, cracked_gear_mesh
 
 

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 from tests.coarse_sector import COARSE, PINION, coarse_sector_mesh
 
+from fenics_gears import SceneError
 from fenics_gears.elasticity.condensation import condense
 from fenics_gears.elasticity.element_sizes import SizeField, SizeSource, along, divided
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import BodyMesh, boundary_sides, corner_areas, joined_cells, oriented
 from fenics_gears.elasticity.sector_mesh import filled
-from fenics_gears.errors import SceneError
 from fenics_gears.geometry.outline import tooth_outline
 from meshes.root_crack import RootCrack, crack_line, cracked_gear_mesh, cracked_sector_mesh, opened
 

@@ -11,19 +11,15 @@ import pytest
 import xarray as xr
 from tests.studies.conftest import DEMO, stamps
 
-from fenics_gears import results
+from fenics_gears import Load, SceneError, load_scene, model_of, results, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.effects.inertia import Inertia
 from fenics_gears.effects.shafts import Shafts
-from fenics_gears.errors import SceneError
 from fenics_gears.extensions.maps.load_map import OVER_SPEED, QUASI_STATIC, load_map, shared_accuracy
 from fenics_gears.extensions.maps.map_results import frequencies_over_load
-from fenics_gears.model.model import model_of
 from fenics_gears.results.settled import settling_time
-from fenics_gears.scene.data import Accuracy, Load, Motion
-from fenics_gears.scene.read import load_scene
+from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.simulation.dynamic_factor import quasi_static
-from fenics_gears.simulation.simulate import simulate
 
 
 def mapped(loads=(), speeds=(), most=1000, **changes):

@@ -5,8 +5,8 @@ import pytest
 import scipy.signal
 import xarray as xr
 
+from fenics_gears import ComputationError
 from fenics_gears.commands.cli import main
-from fenics_gears.errors import ComputationError
 from fenics_gears.extensions.noise.charts import noise_charts
 from fenics_gears.extensions.noise.figures import noise_figures
 from fenics_gears.results import save

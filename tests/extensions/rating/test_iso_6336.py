@@ -5,6 +5,7 @@ from math import cos, hypot, radians, sqrt
 
 import pytest
 
+from fenics_gears import gear_pair
 from fenics_gears.extensions.rating.finish import Finish
 from fenics_gears.extensions.rating.flank import elasticity_factor, flank_stress, single_pair_factors, zone_factor
 from fenics_gears.extensions.rating.load_factors import (
@@ -15,7 +16,6 @@ from fenics_gears.extensions.rating.load_factors import (
 )
 from fenics_gears.extensions.rating.operation import Operation, solid_reduced_mass
 from fenics_gears.extensions.rating.root import form_at_outer_point, helix_angle_factor, root_stresses
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import GearData, GearPairData, Material
 
 STEEL = Material(206e3, 0.3)

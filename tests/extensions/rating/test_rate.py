@@ -7,10 +7,8 @@ from tests.coarse import COARSE, coarse_scene
 from tests.hard_cases.invariants import run_of
 from tests.helical import CROWNED, helical_scene, on_stand_in_bodies
 
-from fenics_gears import results
+from fenics_gears import model_of, results, simulate
 from fenics_gears.commands.cli import main
-from fenics_gears.model.model import model_of
-from fenics_gears.simulation.simulate import simulate
 
 
 @pytest.fixture(scope="module")

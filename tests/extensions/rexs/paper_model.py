@@ -1,5 +1,5 @@
-"""The paper's pair as a REXS model, and models as files of each form, written here from the specification's description
-of them.
+"""The paper's pair as a REXS model, read here from the demo's file, and models as files of each form, written from the
+specification's description of them.
 
 A model is the JSON tree of REXS 1.7; `as_xml` writes the same in the XML form.
 """
@@ -9,6 +9,8 @@ import io
 import json
 import zipfile
 from xml.etree import ElementTree
+
+from tests.conftest import DEMOS
 
 KINDS = {bool: "boolean", int: "integer", float: "floating_point", str: "string", list: "floating_point_array"}
 
@@ -34,8 +36,9 @@ def _component(number, kind, *attributes, name=""):
     return {"id": number, "type": kind, **named, "attributes": [attribute(*each) for each in attributes]}
 
 
-def _relation(number, kind, order=None, **roles):
-    ordered = {"order": order} if order else {}
+def relation(number, kind, order=None, **roles):
+    """A relation of components, given by their roles."""
+    ordered = {"order": int(order)} if order else {}
     return {
         "id": number,
         "type": kind,
@@ -44,88 +47,36 @@ def _relation(number, kind, order=None, **roles):
     }
 
 
-def _gear(number, name, teeth, tip, root, bore):
-    return _component(
-        number, "cylindrical_gear", ("normal_module", 4.5, "mm"), ("number_of_teeth", teeth),
-        ("helix_angle_reference_diameter", 0.0, "deg"),
-        ("face_width", 15.0, "mm"), ("tip_diameter", tip, "mm"), ("root_diameter", root, "mm"),
-        ("inner_diameter", bore, "mm"), name=name,
-    )  # fmt: skip
-
-
-def _flank(number, shift):
-    return _component(
-        number,
-        "cylindrical_gear_flank",
-        ("normal_pressure_angle", 20.0, "deg"),
-        ("addendum_modification_coefficient", shift),
-    )
-
-
-def _tool(number):
-    return _component(
-        number, "rack_shaped_tool", ("addendum_coefficient_reference_profile", 1.25), ("tip_radius_factor", 0.38)
-    )
-
-
 def paper_model():
-    """The pair of demos/lundvall2004.toml between two shafts, with the torque on the output shaft and the speed of the
+    """The pair of demos/lundvall2004.rexs between two shafts, with the torque on the output shaft and the speed of the
     input shaft."""
-    components = [
-        _component(1, "gear_unit", ("support_vector", [0.0, 0.0, 0.0], "mm")),
-        _component(SHAFT, "shaft", ("rotational_speed", 750.0, "1 / min"), name="input shaft"),
-        _component(OUTPUT_SHAFT, "shaft", name="output shaft"),
-        _component(STAGE, "cylindrical_stage", ("center_distance", 91.5, "mm"), name="test stage"),
-        _gear(PINION, "pinion", 16, 82.64, 62.50, 30.0),
-        _gear(WHEEL, "wheel", 24, 118.64, 98.37, 40.0),
-        *(_flank(number, 0.196) for number in PINION_FLANKS),
-        *(_flank(number, 0.125) for number in WHEEL_FLANKS),
-        _component(
-            MATERIAL,
-            "material",
-            ("elastic_modulus", 206000.0, "N / mm^2"),
-            ("poisson_ratio", 0.3),
-            ("density", 7.85, "kg / dm^3"),
-            name="steel",
-        ),
-        _component(PINION_DATA, "cylindrical_stage_gear_data"),
-        _component(WHEEL_DATA, "cylindrical_stage_gear_data"),
-        _component(
-            LOAD, "external_load", ("torque_around_u_axis", -437.0, "N m"), ("transmits_torque", True), name="brake"
-        ),
-        _tool(PINION_TOOL),
-        _tool(WHEEL_TOOL),
-        _component(SETTINGS, "cylindrical_gear_manufacturing_settings"),
-    ]
+    root = ElementTree.parse(DEMOS / "lundvall2004.rexs").getroot()
     relations = [
-        _relation(1, "assembly", assembly=1, part=SHAFT),
-        _relation(2, "assembly", assembly=1, part=OUTPUT_SHAFT),
-        _relation(3, "assembly", assembly=1, part=STAGE),
-        _relation(4, "assembly", assembly=SHAFT, part=PINION),
-        _relation(5, "assembly", assembly=OUTPUT_SHAFT, part=WHEEL),
-        _relation(6, "assembly", assembly=OUTPUT_SHAFT, part=LOAD),
-        _relation(7, "stage", stage=STAGE, gear_1=PINION, gear_2=WHEEL),
-        _relation(8, "stage_gear_data", stage=STAGE, gear=PINION, stage_gear_data=PINION_DATA),
-        _relation(9, "stage_gear_data", stage=STAGE, gear=WHEEL, stage_gear_data=WHEEL_DATA),
-        _relation(10, "flank", gear=PINION, left=PINION_FLANKS[0], right=PINION_FLANKS[1]),
-        _relation(11, "flank", gear=WHEEL, left=WHEEL_FLANKS[0], right=WHEEL_FLANKS[1]),
-        _relation(12, "reference", origin=PINION, referenced=MATERIAL),
-        _relation(13, "reference", origin=WHEEL, referenced=MATERIAL),
+        relation(
+            int(each.get("id")),
+            each.get("type"),
+            each.get("order"),
+            **{ref.get("role"): int(ref.get("id")) for ref in each},
+        )
+        for each in root.find("relations")
     ]
-    for tool, flanks in ((PINION_TOOL, PINION_FLANKS), (WHEEL_TOOL, WHEEL_FLANKS)):
-        relations += [
-            _relation(
-                20 + flank, "manufacturing_step", order=1, workpiece=flank, tool=tool, manufacturing_settings=SETTINGS
-            )
-            for flank in flanks
-        ]
-    return {
-        "model": {
-            "version": "1.7", "applicationId": "fenics_gears tests", "applicationVersion": "1",
-            "date": "2026-01-01T00:00:00+00:00",
-            "relations": relations, "components": components,
-        }
-    }  # fmt: skip
+    components = [
+        _component(int(each.get("id")), each.get("type"), *map(_read_attribute, each), name=each.get("name"))
+        for each in root.find("components")
+    ]
+    head = {
+        "version": "1.7",
+        "applicationId": "fenics_gears tests",
+        "applicationVersion": "1",
+        "date": root.get("date"),
+    }
+    return {"model": {**head, "relations": relations, "components": components}}
+
+
+def _read_attribute(element):
+    array = element.find("array")
+    value = json.loads(element.text) if array is None else [json.loads(number.text) for number in array]
+    return element.get("id"), value, element.get("unit")
 
 
 def component(model, number):
@@ -153,8 +104,17 @@ def with_component(model, number, kind, *attributes, **relations):
     """The model with one more component, in relations given by their type as dictionaries of roles."""
     changed = copy.deepcopy(model)
     changed["model"]["components"].append(_component(number, kind, *attributes))
-    for place, (relation, roles) in enumerate(relations.items()):
-        changed["model"]["relations"].append(_relation(1000 * number + place, relation.rstrip("_"), **roles))
+    for place, (kind, roles) in enumerate(relations.items()):
+        changed["model"]["relations"].append(relation(1000 * number + place, kind, **roles))
+    return changed
+
+
+def on_flanks(model, number, flanks):
+    """The model whose `flanks` have the component of a number as their modification."""
+    changed = copy.deepcopy(model)
+    for flank in flanks:
+        given = relation(10 * number + flank, "reference", origin=flank, referenced=number)
+        changed["model"]["relations"].append(given)
     return changed
 
 
@@ -173,11 +133,11 @@ def as_xml(model, namespace=""):
         root.set("xmlns", namespace)
     relations = ElementTree.SubElement(root, "relations")
     for each in tree["relations"]:
-        relation = ElementTree.SubElement(
+        holder = ElementTree.SubElement(
             relations, "relation", {key: str(each[key]) for key in ("id", "type", "order") if key in each}
         )
         for reference in each["refs"]:
-            ElementTree.SubElement(relation, "ref", {key: str(value) for key, value in reference.items()})
+            ElementTree.SubElement(holder, "ref", {key: str(value) for key, value in reference.items()})
     components = ElementTree.SubElement(root, "components")
     for each in tree["components"]:
         _xml_component(components, each)

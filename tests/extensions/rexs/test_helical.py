@@ -11,8 +11,8 @@ import pytest
 from tests.extensions.rexs import paper_model as rexs
 from tests.extensions.rexs.test_lookups import assumed_fields, refused, scene_of
 
+from fenics_gears import gear_pair
 from fenics_gears.effects.lead_modifications import EndRelief, LeadModification
-from fenics_gears.geometry.pair import gear_pair
 
 STRETCH = 1.0 / cos(radians(20.0))
 
@@ -78,13 +78,10 @@ def test_helices_that_do_not_mesh_are_refused(tmp_path, angles):
     assert "helix_angle_reference_diameter of component 5 is 20.0 deg" in said and "opposite signs" in said
 
 
-def with_modification(kind, *attributes, model=None, sides=(0, 1), number=40, flanks=rexs.PINION_FLANKS):
-    """A model, the paper's spur pair unless given, with a component that modifies flanks of a gear."""
-    model = rexs.with_component(model or rexs.paper_model(), number, kind, *attributes)
-    for side in sides:
-        refs = [{"id": flanks[side], "role": "origin"}, {"id": number, "role": "referenced"}]
-        model["model"]["relations"].append({"id": 10 * number + side, "type": "reference", "refs": refs})
-    return model
+def with_modification(kind, *attributes):
+    """The paper's spur pair with a component that modifies the pinion's flanks."""
+    model = rexs.with_component(rexs.paper_model(), 40, kind, *attributes)
+    return rexs.on_flanks(model, 40, rexs.PINION_FLANKS)
 
 
 def crowning(datum=6.0, other=6.0, at=None):

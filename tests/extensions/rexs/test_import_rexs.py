@@ -6,8 +6,8 @@ import pytest
 from tests.conftest import DEMOS
 from tests.extensions.rexs import paper_model as rexs
 
+from fenics_gears import load_scene
 from fenics_gears.commands.cli import main
-from fenics_gears.scene.read import load_scene
 
 
 @pytest.fixture
@@ -37,22 +37,8 @@ def test_scene_is_written_beside_nothing_else_and_can_be_checked(here, paper_sce
 
 def test_options(here, capsys):
     """Another name, another load; --quiet tells nothing."""
-    assert (
-        main(
-            [
-                "import",
-                "lundvall2004.rexs",
-                "-o",
-                "new/pair.toml",
-                "--wheel-torque",
-                "500 N m",
-                "--pinion-speed",
-                "3000 rpm",
-                "--quiet",
-            ]
-        )
-        == 0
-    )
+    load = ["--wheel-torque", "500 N m", "--pinion-speed", "3000 rpm"]
+    assert main(["import", "lundvall2004.rexs", "-o", "new/pair.toml", *load, "--quiet"]) == 0
     scene = load_scene("new/pair.toml")
     assert (
         scene.load.wheel_torque == 500e3

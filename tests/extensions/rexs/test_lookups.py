@@ -9,9 +9,8 @@ import pytest
 from tests.extensions.rexs import paper_model as rexs
 from tests.extensions.rexs.test_paper_pair import imported
 
-from fenics_gears.errors import SceneError
+from fenics_gears import SceneError, gear_pair
 from fenics_gears.extensions.rexs.imported import Choice
-from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.modification import removals
 from fenics_gears.scene.data import Motion
 
@@ -130,12 +129,7 @@ def test_older_versions_name_parts_otherwise(paper_scene, tmp_path, version):
         }.get(each["type"], each["type"])
     kept = [each for each in model["model"]["relations"] if each["type"] != "manufacturing_step"]
     tools = [
-        {
-            "id": 90 + tool,
-            "type": "ordered_reference",
-            "order": 1,
-            "refs": [{"id": gear, "role": "origin"}, {"id": tool, "role": "referenced"}],
-        }
+        rexs.relation(90 + tool, "ordered_reference", 1, origin=gear, referenced=tool)
         for gear, tool in ((rexs.PINION, rexs.PINION_TOOL), (rexs.WHEEL, rexs.WHEEL_TOOL))
     ]
     model["model"]["relations"] = kept + tools
@@ -231,15 +225,7 @@ def with_relief(kind="tip_relief", sides=(0, 1), gear_flanks=rexs.PINION_FLANKS,
         for name, value in attributes.items()
     ]
     model = rexs.with_component(rexs.paper_model(), 40, kind, *given)
-    for side in sides:
-        model["model"]["relations"].append(
-            {
-                "id": 400 + side,
-                "type": "reference",
-                "refs": [{"id": gear_flanks[side], "role": "origin"}, {"id": 40, "role": "referenced"}],
-            }
-        )
-    return model
+    return rexs.on_flanks(model, 40, [gear_flanks[side] for side in sides])
 
 
 def test_reliefs(tmp_path):

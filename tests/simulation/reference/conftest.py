@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
+from fenics_gears import simulate
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
 from fenics_gears.scene.data import Accuracy, Motion
-from fenics_gears.simulation.simulate import simulate
 
 WINDOW = 1.5
 STEPS = 12

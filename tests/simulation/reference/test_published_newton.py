@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fenics_gears import model_of
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.published_newton import Equations, iterates, merit
 from fenics_gears.contact.step_solver import PUBLISHED, StepProblem, cold_start, solve_step
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
-from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.simulation.reference_route import reference_route

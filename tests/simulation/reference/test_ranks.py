@@ -4,10 +4,8 @@ import numpy as np
 import pytest
 from tests.programs import CHECKOUT, gears
 
-from fenics_gears import results
+from fenics_gears import load_scene, results, simulate
 from fenics_gears.elasticity.cache import Cache
-from fenics_gears.scene.read import load_scene
-from fenics_gears.simulation.simulate import simulate
 
 pytestmark = pytest.mark.ranks
 

@@ -8,16 +8,12 @@ import numpy as np
 import pytest
 from tests.coarse import teeth_alone
 
+from fenics_gears import SceneError, expected_cost, model_of, scene_from_text, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.effects.friction import Friction
-from fenics_gears.errors import SceneError
-from fenics_gears.model.cost import expected_cost
-from fenics_gears.model.model import model_of
 from fenics_gears.results.validity import WINDOW_REACHED
 from fenics_gears.runs.timed import run_sharing
 from fenics_gears.scene.data import Accuracy, Motion
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy import setting_runs, trial_runs
 from fenics_gears.studies.accuracy.measures import JUDGED, distance, judged_answer
 from fenics_gears.studies.accuracy.target import choose

@@ -6,11 +6,9 @@ from dataclasses import replace
 import pytest
 from tests.helical import helical_scene
 
+from fenics_gears import model_of, scene_from_text, simulate
 from fenics_gears.model.face_resolution import face_warnings
-from fenics_gears.model.model import model_of
 from fenics_gears.results.summary import summary_rows
-from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.simulate import simulate
 from fenics_gears.studies.accuracy.measures import JUDGED, OVER_FACE, distance, judged_answer
 
 TARGET = 0.03
