@@ -7,7 +7,7 @@ from math import cos, radians
 
 from tests.stand_in import stand_in_body, stand_in_compliance
 
-from fenics_gears.elasticity.body import Bodies, Body
+from fenics_gears.elasticity.compliance import Bodies, Body
 from fenics_gears.model.model import Model
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text

@@ -14,7 +14,6 @@ import numpy as np
 from fenics_gears.geometry.modification import kinks
 from fenics_gears.model.model import Model
 from fenics_gears.model.modification import removals
-from fenics_gears.results.face_ends import in_end_zone
 from fenics_gears.results.side_by_side import SideBySide
 
 # What a node is beside; where it is beside several, the last.
@@ -52,5 +51,9 @@ class EdgesAndKinks:
         for place in self._places:
             near = np.abs(arcs[place.gear] - place.arc) <= REACH[place.kind] * self.half_width
             found[near & nodes.drive if place.kind == KINK else near] = place.kind
-        found[in_end_zone(nodes.cycle.pair, nodes.cycle.face.positions)[nodes.of("slice")]] = EDGE
+        if nodes.cycle.face.slices > 1:
+            # Imported here: plane scenes have none.
+            from fenics_gears.results.face_ends import in_end_zone
+
+            found[in_end_zone(nodes.cycle.pair, nodes.cycle.face.positions)[nodes.of("slice")]] = EDGE
         return found

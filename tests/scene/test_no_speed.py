@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from tests.stand_in import stand_in_compliance
 
-from fenics_gears.elasticity.body import Body
+from fenics_gears.elasticity.compliance import Body
 from fenics_gears.results import shown
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.read import scene_from_text

@@ -8,7 +8,7 @@ import pytest
 from tests.coarse import coarse_scene
 
 from fenics_gears import simulate
-from fenics_gears.elasticity.body import Body
+from fenics_gears.elasticity.compliance import Body
 from fenics_gears.elasticity.overhang import near_field
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.model import model_of
