@@ -8,7 +8,7 @@ from math import cos, radians
 from tests.stand_in import stand_in_body, stand_in_compliance
 
 from fenics_gears import Scene, scene_from_text
-from fenics_gears.elasticity.body import Bodies, Body
+from fenics_gears.elasticity.compliance import Bodies, Body
 from fenics_gears.model.model import Model
 
 MODULE = 3.0

@@ -19,7 +19,7 @@ from tests.helical import helical_scene, on_stand_in_bodies
 from tests.stand_in import stand_in_compliance
 
 from fenics_gears import load_scene, model_of, simulate
-from fenics_gears.elasticity.body import Body
+from fenics_gears.elasticity.compliance import Body
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance

@@ -18,8 +18,9 @@ def test_imports_point_one_way(monkeypatch):
     assert cli.lint_imports(no_cache=True) == 0
 
 
-# What a scene may have, how it is read and refused; effects say for themselves what they import.
-DECLARED = {"effects.lead_modifications", "effects.misalignment", "scene.face_rules"}
+# What a scene may have, how it is read and refused; effects say for themselves what they import. And slices, of which
+# the plane is one.
+DECLARED = {"contact.face", "effects.lead_modifications", "effects.misalignment", "scene.face_rules"}
 PLANE_RUN = """
 import sys
 from fenics_gears.commands.cli import main

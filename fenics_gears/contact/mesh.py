@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from fenics_gears.contact.face import Face, one_slice
 from fenics_gears.contact.operator import Passage, Response
 from fenics_gears.contact.pairing import CompliancePairing
 from fenics_gears.contact.places import pair_places
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from fenics_gears.contact.corner import CornerContact
+    from fenics_gears.contact.face import Face
     from fenics_gears.contact.mesh_cycle import Position
 
 # Contact nodes of the tooth pairs that can touch at a phase (0 <= phase < 1).
@@ -74,11 +74,6 @@ class Mesh:
     corner: CornerContact | None = None
     face: Face | None = None
     of_cycle: Callable[[int], Mesh] | None = None
-
-    @property
-    def on_face(self) -> Face:
-        """The face with its slices."""
-        return self.face or one_slice(self.pair.face_width)
 
 
 def nodes_at(places: Iterable[Place], nodes_of: Callable[[Place], PairNodes | None]) -> tuple[PairNodes, ...]:

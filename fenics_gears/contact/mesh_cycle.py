@@ -17,6 +17,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 
 from fenics_gears.contact.addresses import row_of
+from fenics_gears.contact.face import one_slice
 from fenics_gears.contact.mesh import Mesh, Nodes
 from fenics_gears.contact.node_before import nodes_before
 from fenics_gears.contact.operator import ContactOperator, Passage, contact_operator, over_nodes
@@ -128,12 +129,8 @@ class Cycle:
     def __init__(self, mesh: Mesh, steps: int, coordinates: list[int], tangential: bool):
         self.mesh, self.steps, self.coordinates, self.tangential = mesh, steps, coordinates, tangential
         self.pair, self.grid, self.traits = mesh.pair, mesh.grid, mesh.traits
-        self.bodies, self.coast_flanks, self.corner, self.face = (
-            mesh.bodies,
-            mesh.coast_flanks,
-            mesh.corner,
-            mesh.on_face,
-        )
+        self.bodies, self.coast_flanks, self.corner = mesh.bodies, mesh.coast_flanks, mesh.corner
+        self.face = mesh.face or one_slice(mesh.pair.face_width)
         self.gaps, self.kept = Gaps(), Kept()
         self._pairs: dict[tuple, tuple[PairNodes, ...]] = {}
         self._built: dict[tuple[Mesh, int], Position] = {}

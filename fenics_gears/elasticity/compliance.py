@@ -1,13 +1,19 @@
-"""The flank compliance of a gear: all that contact and dynamics need to know of its body."""
+"""The body of a gear as contact and dynamics know it: the compliance of its flanks."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from fenics_gears.errors import ComputationError
+
+if TYPE_CHECKING:
+    from fenics_gears.elasticity.face_compliance_data import FaceCompliance
+    from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
+
+STAGES = ("time_mesh", "time_compile", "time_condense")
 
 
 @dataclass(frozen=True)
@@ -122,3 +128,25 @@ class BothFlanksCompliance(FlankCompliance):
             self._check_known(ahead, self.first_across, self.first_across + len(self.across) - 1)
             return self.across[ahead - self.first_across]
         return super().block(ahead)
+
+
+@dataclass(frozen=True)
+class Body:
+    """A gear: flank compliance of its `section` in plane strain, and where flanks are resolved over the face that of
+    the `solid` in three dimensions, whose contact the finer section corrects.
+
+    timings: seconds that both took, by stage.
+    """
+
+    section: FlankCompliance | WholeBodyCompliance
+    solid: FaceCompliance | None = None
+    timings: dict[str, float] = field(default_factory=dict, compare=False)
+
+    @classmethod
+    def of(cls, section: FlankCompliance | WholeBodyCompliance, solid: FaceCompliance | None = None) -> Body:
+        """The gear of these, with the times of both."""
+        parts = [section.timings] if solid is None else [section.timings, solid.timings]
+        return cls(section, solid, {name: sum(part[name] for part in parts) for name in STAGES})
+
+
+Bodies = tuple[Body, Body]

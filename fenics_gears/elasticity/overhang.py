@@ -18,10 +18,10 @@ from fenics_gears.geometry.involute import arc_length
 # `geometry.pair.OVERHANG_REACH`.
 NEAR_DEPTH = 0.5
 
-Body = FlankCompliance | WholeBodyCompliance
+Section = FlankCompliance | WholeBodyCompliance
 
 
-def with_overhang(body: Body, gear: Gear, material: Material, share: float) -> Body:
+def with_overhang(body: Section, gear: Gear, material: Material, share: float) -> Section:
     """The body as a line load over the common face sees it. `share`: common width over the width that counts, 1 without
     overhang.
 

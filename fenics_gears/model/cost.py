@@ -55,10 +55,10 @@ UNLIKE_CYCLES = 5
 # For the reference route, seconds: an unknown of a remeshed sector, a step, the cube of its contact rows; matrices of a
 # position.
 REMESHED_UNKNOWN, REMESHED_STEP, ROW_CUBE, MATRICES_OF_A_POSITION = 1.2e-5, 4e-4, 1.5e-10, 7.0
-# Of root stress, seconds: an unknown for each column solved, in the plane and over the face, and a step for each stress
+# Of root stress, seconds: an unknown for each column solved, and a step for each stress
 # of a tooth per force on one (measured; several loaded teeth). Bytes for each contact row of a position: matrices from
 # its force to forces on the flank nodes of both gears (measured).
-SOLVED_UNKNOWN, SOLVED_OVER_FACE, STEP_STRESS, ON_FLANKS = 1.4e-7, 4e-7, 5e-9, 200.0
+SOLVED_UNKNOWN, STEP_STRESS, ON_FLANKS = 1.4e-7, 5e-9, 200.0
 # Bytes: the program with its libraries; the same with those that mesh and condense; one number.
 PROGRAM, CONDENSING_PROGRAM, BYTES_OF_A_NUMBER = 200e6, 300e6, 8.0
 # What a result needs to know of a contact node at a position, numbers, and their copies side by side.
@@ -257,7 +257,7 @@ def _with_root_stress(model: Model, gears: list[_Gear], sections: ExpectedCost) 
         return sections
     held, seconds, step = ON_FLANKS * _positions(model) * contact_rows(model), 0.0, 0.0
     for gear in gears:
-        own = root_stress_cost(model, gear.unknowns, UNKNOWN, gear.flank_dofs)
+        own = root_stress_cost(model, gear.unknowns, (UNKNOWN, SOLVED_UNKNOWN), gear.flank_dofs)
         seconds, held, step = seconds + own[0], held + own[1], step + own[2]
     return replace(
         sections,
@@ -267,11 +267,13 @@ def _with_root_stress(model: Model, gears: list[_Gear], sections: ExpectedCost) 
     )
 
 
-def root_stress_cost(model: Model, unknowns: float, factorised: float, flank: float) -> tuple[float, float, float]:
+def root_stress_cost(
+    model: Model, unknowns: float, seconds: tuple[float, float], flank: float
+) -> tuple[float, float, float]:
     """Of the root stress of a gear, in the plane or in slices: seconds of condensing, bytes of its rows, seconds of a
-    step. factorised: seconds of an unknown; flank: dofs of the flank or flanks."""
-    slices = model.face.slices
-    points, solved = 2.0 * (fillet_points(slices) + 1) * slices, SOLVED_UNKNOWN if slices == 1 else SOLVED_OVER_FACE
+    step. `seconds`: of an unknown, factorised and solved for once; `flank`: dofs of the flank or flanks."""
+    factorised, solved = seconds
+    points = 2.0 * (fillet_points(model.face.slices) + 1) * model.face.slices
     teeth = 2 * model.touching.reach.farthest + (3 if model.scene.coast_flanks is not None else 1)
     return (
         unknowns * (factorised + solved * (points + flank)),

@@ -13,6 +13,8 @@ from fenics_gears.system.memory import usual_memory
 # Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a
 # cut for each harmonic of the ring, of which there are half as many as teeth.
 UNKNOWN, CONDENSED_CUBE, HARMONIC_CUBE = 6e-5, 2e-10, 1e-10
+# Of a solution for one load of the root stress, an unknown.
+SOLVED_UNKNOWN = 4e-7
 # Of conjugate gradients, for each of the condensed unknowns a second time.
 SOLVED_BY_GRADIENTS = 3e-5
 # Seconds at a position of each tooth pair in a slice and of the square of contact nodes; of a step, of their square and
@@ -75,7 +77,7 @@ def face_cost(model: Model, sections: ExpectedCost, ranks: int = 1) -> ExpectedC
         on_slices = 3.0 * FLANK_NODES * finer**POWER * model.face.slices * (2 if coast else 1)
         held += 8.0 * (2 * model.touching.reach.farthest + 1) * on_slices**2
         if model.scene.output.root_stress:
-            seconds, kept, step = root_stress_cost(model, unknowns, UNKNOWN, on_slices)
+            seconds, kept, step = root_stress_cost(model, unknowns, (UNKNOWN, SOLVED_UNKNOWN), on_slices)
             condensing, held, stress_step = condensing + seconds, held + kept, stress_step + step
     pairs, nodes = contact_nodes(model)
     positions = min(model.resolution.steps_per_mesh_cycle, model.steps + 2)

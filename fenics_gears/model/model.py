@@ -127,6 +127,15 @@ class Model:
             None if self.scene.misalignment is None else partial(coast_face_opening, self.pair, self.scene.misalignment)
         )
 
+    @property
+    def slices_and_layers(self) -> tuple[int | None, int | None]:
+        """How many slices the common face has, and layers either body in it; None of a plane scene."""
+        if not self.scene.three_dimensional:
+            return None, None
+        from fenics_gears.model.face_resolution import layers_of_common_face
+
+        return self.face.slices, layers_of_common_face(self.scene, self.pair, self.face.slices)
+
     def solid_discretisation(self, gear: int) -> FaceDiscretisation | None:
         """How the body of the pinion (0) or the wheel (1) is divided over its face; None of a plane scene."""
         if not self.scene.three_dimensional:

@@ -14,7 +14,6 @@ import numpy as np
 from fenics_gears.geometry.modification import kinks
 from fenics_gears.model.model import Model
 from fenics_gears.model.modification import removals
-from fenics_gears.results.face_ends import in_end_zone
 from fenics_gears.results.side_by_side import SideBySide
 
 # What a node is beside; where it is beside several, the last.
@@ -35,10 +34,11 @@ class _Place:
 
 
 class EdgesAndKinks:
-    """The edges and kinks of a model's flanks."""
+    """The edges and kinks of a model's flanks; `end_slices` (S,): which slices are edges, none where None."""
 
-    def __init__(self, model: Model):
-        self.half_width, self._places = model.resolution.half_width, []
+    def __init__(self, model: Model, end_slices: np.ndarray | None = None):
+        self.half_width, self._end_slices = model.resolution.half_width, end_slices
+        self._places: list[_Place] = []
         gears = model.pair.pinion, model.pair.wheel
         for number, (gear, removal) in enumerate(zip(gears, removals(model.scene, model.pair))):
             rolls = [(roll, KINK) for roll in kinks(removal)] + [(gear.tip_roll_angle, EDGE)]
@@ -52,5 +52,6 @@ class EdgesAndKinks:
         for place in self._places:
             near = np.abs(arcs[place.gear] - place.arc) <= REACH[place.kind] * self.half_width
             found[near & nodes.drive if place.kind == KINK else near] = place.kind
-        found[in_end_zone(nodes.cycle.pair, nodes.cycle.face.positions)[nodes.of("slice")]] = EDGE
+        if self._end_slices is not None:
+            found[self._end_slices[nodes.of("slice")]] = EDGE
         return found

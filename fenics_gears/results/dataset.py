@@ -124,21 +124,8 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
                 numbered | {"long_name": "pair_number at the times of the contact fields"},
             ),
         }
-    if recorder.cycle.face.slices > 1:
-        words = (
-            "distance along the axes from the middle of the common face, towards the end from which the pinion is seen"
-            " to turn counter-clockwise"
-        )
-        coordinates["face_position"] = (
-            "face_position",
-            recorder.cycle.face.positions,
-            {"units": "mm", "long_name": words},
-        )
-        coordinates["face_slice_width"] = (
-            "face_position",
-            recorder.cycle.face.widths,
-            {"units": "mm", "long_name": "width of the slice along the axes"},
-        )
+    for along in recorder.along_face:
+        coordinates |= along.coordinates()
     return coordinates if recorder.stress is None else coordinates | recorder.stress.labels()[1]
 
 
@@ -203,10 +190,8 @@ def _numbers(recorder: Recorder, march: March, result: xr.Dataset, counted: xr.D
         numbers |= _friction_loss(counted)
     counted.attrs.update(numbers)
     numbers |= key_numbers(counted, recorder.model.pair, timed=recorder.model.scene.motion.speed_given)
-    if recorder.cycle.face.slices > 1:
-        from fenics_gears.results.load_factors import load_factors
-
-        numbers |= load_factors(counted, recorder.model.pair)
+    for along in recorder.along_face:
+        numbers |= along.numbers(counted)
     return numbers | (largest_pair_force(extrema, counted) if "largest_pair_force" in numbers else {})
 
 

@@ -10,6 +10,9 @@ import xarray as xr
 
 from fenics_gears.contact.face import Face
 from fenics_gears.contact.laws import NO_FORCE
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.results.face_ends import in_end_zone
+from fenics_gears.results.load_factors import load_factors
 from fenics_gears.results.pairs import carrying_side
 from fenics_gears.results.side_by_side import SideBySide
 
@@ -19,24 +22,57 @@ NOTABLE_PART = 0.75
 FEWEST_TOUCHING = 3
 
 
-def face_variables(nodes: SideBySide) -> dict[str, np.ndarray]:
-    """Line load of each tooth pair on its drive flanks, and on its coast flanks where they can touch, over the slices
-    of the face (steps, slots, slices), N/mm."""
-    sides = {"line_load": nodes.drive} | ({"coast_line_load": ~nodes.drive} if nodes.cycle.coast_flanks else {})
-    return {name: nodes.by_slice(nodes.normal * side) / nodes.cycle.face.widths for name, side in sides.items()}
+class AlongTheFace:
+    """What the result of a mesh cycle over a face of many slices has beside that of one slice."""
 
+    def __init__(self, cycle: Cycle):
+        self.face, self.pair, self.coast_flanks = cycle.face, cycle.pair, cycle.coast_flanks
 
-def in_transverse_plane(curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:
-    """Mesh stiffness in the transverse plane, as ISO 6336-1 has it, from that along the contact normal; and the loaded
-    tooth pairs, not their slices.
+    @property
+    def end_slices(self) -> np.ndarray:
+        """Whether each slice (S,) is an edge of the flanks."""
+        return in_end_zone(self.pair, self.face.positions)
 
-    A transverse approach of 1 mm is one of the cosine of the base helix angle along the normal, and of the force the
-    transverse part is as large.
-    """
-    share = nodes.cycle.face.cosine**2
-    loaded = [(nodes.by_slot(nodes.normal * (nodes.drive == drive)) > NO_FORCE).sum(axis=1) for drive in (True, False)]
-    stiffness = {name: share * curves[name] for name in ("mesh_stiffness", "mesh_stiffness_tangent")}
-    return stiffness | {"loaded_pairs": np.maximum(*loaded).astype(float)}
+    def fields(self, nodes: SideBySide) -> dict[str, np.ndarray]:
+        """Line load of each tooth pair on its drive flanks, and on its coast flanks where they can touch, over the
+        slices of the face (steps, slots, slices), N/mm."""
+        sides = {"line_load": nodes.drive} | ({"coast_line_load": ~nodes.drive} if self.coast_flanks else {})
+        return {name: nodes.by_slice(nodes.normal * side) / self.face.widths for name, side in sides.items()}
+
+    def curves(self, curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:
+        """Mesh stiffness in the transverse plane, as ISO 6336-1 has it, from that along the contact normal; and the
+        loaded tooth pairs, not their slices.
+
+        A transverse approach of 1 mm is one of the cosine of the base helix angle along the normal, and of the force
+        the transverse part is as large.
+        """
+        share, sides = self.face.cosine**2, (True, False)
+        loaded = [(nodes.by_slot(nodes.normal * (nodes.drive == side)) > NO_FORCE).sum(axis=1) for side in sides]
+        stiffness = {name: share * curves[name] for name in ("mesh_stiffness", "mesh_stiffness_tangent")}
+        return stiffness | {"loaded_pairs": np.maximum(*loaded).astype(float)}
+
+    def coordinates(self) -> dict[str, tuple]:
+        """Where the slices are, and how wide."""
+        words = (
+            "distance along the axes from the middle of the common face, towards the end from which the pinion is seen"
+            " to turn counter-clockwise"
+        )
+        return {
+            "face_position": ("face_position", self.face.positions, {"units": "mm", "long_name": words}),
+            "face_slice_width": (
+                "face_position",
+                self.face.widths,
+                {"units": "mm", "long_name": "width of the slice along the axes"},
+            ),
+        }
+
+    def numbers(self, counted: xr.Dataset) -> dict[str, float]:
+        """Of the settled steps of a result."""
+        return load_factors(counted, self.pair)
+
+    def warnings(self, result: xr.Dataset) -> list[str]:
+        """As `warnings_of_face`."""
+        return warnings_of_face(self.face, result)
 
 
 def warnings_of_face(face: Face, result: xr.Dataset) -> list[str]:

@@ -63,6 +63,12 @@ def in_middle_slice(result: xr.Dataset) -> xr.Dataset:
     return result.isel(face_position=result.sizes["face_position"] // 2) if "face_position" in result.sizes else result
 
 
+def words_of_slice(result: xr.Dataset) -> str:
+    """Where that slice is; empty where the face has none."""
+    middle = in_middle_slice(result).coords.get("face_position")
+    return "" if middle is None else f", in the slice at {float(middle):.2f} mm from the middle of the face"
+
+
 def lives(numbers: np.ndarray) -> Iterator[Life]:
     """Every tooth pair of pair numbers (time, slot), in the order in which they enter."""
     found = []

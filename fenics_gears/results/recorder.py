@@ -27,11 +27,22 @@ from fenics_gears.results.mesh_curves import pressure_curves, stiffness_curves
 from fenics_gears.results.side_by_side import KnownLayouts, SideBySide
 
 if TYPE_CHECKING:
+    from fenics_gears.results.face_variables import AlongTheFace
     from fenics_gears.results.journal import Place, Recorded
     from fenics_gears.results.root_stress_variables import RootStress
 
 # How the names of what the warnings need begin, beside those of the result.
 WATCHED = "watched: "
+
+
+def _along_face(cycle: Cycle) -> tuple[AlongTheFace, ...]:
+    """What there is beside the results of one slice; nothing in the plane."""
+    if cycle.face.slices == 1:
+        return ()
+    # Imported here: plane scenes have none.
+    from fenics_gears.results.face_variables import AlongTheFace
+
+    return (AlongTheFace(cycle),)
 
 
 class Recorder:
@@ -68,7 +79,9 @@ class Recorder:
         self._waiting: list[Steps] = []
         self._last: Steps | None = None
         self._worked: dict[str, float] = {}
-        self._layouts, self._singular = cycle.beside(KnownLayouts), EdgesAndKinks(model)
+        self.along_face = _along_face(cycle)
+        self._layouts = cycle.beside(KnownLayouts)
+        self._singular = EdgesAndKinks(model, next((along.end_slices for along in self.along_face), None))
         self._layouts.forget_beyond(cycle.steps)
 
     def _room_for(self, journal: Place | None) -> InMemory:
@@ -130,11 +143,9 @@ class Recorder:
         watched = watched_contact(nodes)
         if scene.resolves_contact:
             fields |= node_variables(scene, nodes)
-            if cycle.face.slices > 1:
-                from fenics_gears.results.face_variables import face_variables, in_transverse_plane
-
-                fields |= face_variables(nodes)
-                values |= in_transverse_plane(values, nodes)
+            for along in self.along_face:
+                fields |= along.fields(nodes)
+                values |= along.curves(values, nodes)
             values |= pressure_curves(nodes, fields, self._singular)
         if self.stress is not None:
             fields |= self.stress.values(nodes)

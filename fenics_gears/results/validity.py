@@ -74,11 +74,8 @@ def warnings_of(recorder: Recorder, march: March, result: xr.Dataset) -> list[st
     of_flanks = [*_window(cycle, watched), *_rank(watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
     if cycle.traits.has_pressure and recorder.steps:
         of_flanks += warnings_of_pressure(recorder.model.scene, watched, result.attrs)
-    if "line_load" in result:
-        # Imported here: plane scenes have none.
-        from fenics_gears.results.face_variables import warnings_of_face
-
-        of_flanks += warnings_of_face(cycle.face, result)
+    for along in recorder.along_face:
+        of_flanks += along.warnings(result)
     return [
         *_passed_through(cycle, result), *of_flanks, *_rotation(result), *_wedged(cycle, result),
         *_separation(cycle, drivetrain, march, clock, result), *_locking(cycle, march), *_uniqueness(march),

@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.effects import effects_on
-from fenics_gears.elasticity.body import Bodies, Body
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.compliance import Bodies, Body
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.scene.data import Scene

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.section import allowed_in, names_in
-from fenics_gears.inputs.tree import GEARS, Tree, load_in, material_sections, quantity_at, quantity_in, table, value_at
+from fenics_gears.inputs.tree import Tree, load_in, material_sections, quantity_at, quantity_in, table, value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.accuracy import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy
 from fenics_gears.scene.gear_schema import Gears
@@ -60,18 +60,6 @@ def _remeshing_has_its_own_nodes(tree: Tree) -> Iterator[Problem]:
                 " meshed. Leave one of the two out."
             )
             yield Problem(("accuracy", name), as_written(accuracy[name]), message)
-
-
-def _remeshed_gears_have_one_width(tree: Tree) -> Iterator[Problem]:
-    """What stands out beyond the mate helps to carry, by a law for flanks that are condensed once."""
-    asked = value_at(tree, "accuracy", "condensation")
-    common = quantity_at(tree, "gears", "face_width")
-    widths = {quantity_at(tree, "gears", gear, "face_width") or common for gear in GEARS}
-    offsets = {quantity_at(tree, "gears", gear, "axial_offset") or 0.0 for gear in GEARS}
-    if asked == EVERY_STEP and (len(widths) > 1 or len(offsets) > 1):
-        remedy = 'Give both gears the width that they have in common, or take condensation = "once".'
-        message = f"is for gears of one face width without axial_offset. {remedy}"
-        yield Problem(("accuracy", "condensation"), as_written(asked), message)
 
 
 def _cheaper_models_have_what_they_need(tree: Tree) -> Iterator[Problem]:
@@ -163,7 +151,6 @@ ACCURACY_RULES = (
     _resolution_fits_the_teeth,
     _body_is_no_finer_than_the_flank,
     _remeshing_has_its_own_nodes,
-    _remeshed_gears_have_one_width,
     _root_stress_has_its_teeth,
     _cheaper_models_have_what_they_need,
     _a_target_chooses_alone,

@@ -20,6 +20,7 @@ from fenics_gears.inputs.tree import (
     value_at,
 )
 from fenics_gears.inputs.written import as_written
+from fenics_gears.scene.accuracy_rules import EVERY_STEP
 from fenics_gears.scene.schema import scene_text
 
 # Effects say themselves what they need.
@@ -32,7 +33,7 @@ WIDTHS = (4.0, 1200.0)
 MOST_LAYERS = 10**9
 PLANE_ONLY = {
     "element": ("Q1 incompatible",),
-    "condensation": ("every step",),
+    "condensation": (EVERY_STEP,),
     "model": ("rigid teeth", "stiffness table", "ISO 6336-1"),
 }
 INSTEAD = {"element": "P2", "condensation": "once", "model": "elastic"}
@@ -82,6 +83,7 @@ def fields_of_faces_have_a_face(tree: Tree) -> Iterator[Problem]:
         for path, allowed, written in given(scene_text(tree), tree):
             if allowed.over_face:
                 yield Problem(path, as_written(written), NOT_IN_THE_PLANE)
+        yield from _remeshed_gears_have_one_width(tree)
     if "pinion_hand" in gears and "helix_angle" not in gears:
         message = (
             'is missing. Allowed: such as "15 deg"; pinion_hand has no meaning without it. Add it, or leave pinion_hand'
@@ -91,6 +93,18 @@ def fields_of_faces_have_a_face(tree: Tree) -> Iterator[Problem]:
     if reasons:
         yield from _layers_are_no_needles(tree)
         yield from _class_is_for_the_faces(tree)
+
+
+def _remeshed_gears_have_one_width(tree: Tree) -> Iterator[Problem]:
+    """What stands out beyond the mate helps to carry, by a law for flanks that are condensed once."""
+    asked = value_at(tree, "accuracy", "condensation")
+    common = quantity_at(tree, "gears", "face_width")
+    widths = {quantity_at(tree, "gears", gear, "face_width") or common for gear in GEARS}
+    offsets = {quantity_at(tree, "gears", gear, "axial_offset") or 0.0 for gear in GEARS}
+    if asked == EVERY_STEP and (len(widths) > 1 or len(offsets) > 1):
+        remedy = 'Give both gears the width that they have in common, or take condensation = "once".'
+        message = f"is for gears of one face width without axial_offset. {remedy}"
+        yield Problem(("accuracy", "condensation"), as_written(asked), message)
 
 
 def _class_is_for_the_faces(tree: Tree) -> Iterator[Problem]:

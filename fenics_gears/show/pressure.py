@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.results.pairs import in_middle_slice
+from fenics_gears.results.pairs import words_of_slice
 from fenics_gears.show.chart import MESH_CYCLES, TIME, WORDS, Chart, Curve, Field, Second, of_variables
 from fenics_gears.show.panels import DARK
 from fenics_gears.show.run import Run
@@ -66,11 +66,7 @@ def _map(
     field = pressure_field(pressure, place, phase)
     highest = float(np.nanmax(field.values, initial=0.0))
     caption = "Contact pressure of single nodes" + (f" on the {SIDES[side]}" if named else "")
-    if run.is_over_face:
-        caption += (
-            f", in the slice at {float(in_middle_slice(run.dataset)['face_position']):.2f} mm from the middle of the"
-            " face"
-        )
+    caption += words_of_slice(run.dataset)
     if highest > field.limit * (1 + 1e-9):
         # Of cycles that repeat, the last.
         step = np.flatnonzero(pressure.max(axis=(1, 2)) >= highest * (1.0 - SAME))[-1]

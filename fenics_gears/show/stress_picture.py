@@ -18,6 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 
 from fenics_gears.results.pairs import contact_times
+from fenics_gears.show.chart import Chart
 from fenics_gears.show.drawn_scale import automatic_scale
 from fenics_gears.show.loaded_contact import LoadedContact, loaded_contact, stored_place
 from fenics_gears.show.panels import DARK, WARNING, styled
@@ -75,6 +76,16 @@ def still(mesh: GearsInMesh, dataset: xr.Dataset, scale: float | None = None) ->
     """The picture of one time; `scale` of the displacements: unless given the largest suitable one, in three dimensions
     true."""
     return frames(dataset, scale, [mesh], moving=False)(mesh)
+
+
+def charts_of(mesh: GearsInMesh) -> tuple[str, list[Chart]]:
+    """What the picture of one time shows, in words, and charts beside it: over the face the tension of the roots along
+    it."""
+    if not mesh.over_face:
+        return "Von Mises stress", []
+    from fenics_gears.show.face_picture import root_tension
+
+    return "Contact pressure and von Mises stress", [root_tension(mesh)]
 
 
 def frames(

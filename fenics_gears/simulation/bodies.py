@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fenics_gears.effects import effects_on, from_effects
-from fenics_gears.elasticity.body import Bodies, Body
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.compliance import Bodies, Body
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model

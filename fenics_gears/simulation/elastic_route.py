@@ -8,8 +8,8 @@ from fenics_gears.contact.mesh import Mesh, elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps, Opening
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.effects import from_effects
-from fenics_gears.elasticity.body import Bodies
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.compliance import Bodies
 from fenics_gears.model.model import Model
 from fenics_gears.simulation.bodies import gear_bodies
 from fenics_gears.system.job import Job

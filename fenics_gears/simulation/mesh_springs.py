@@ -14,8 +14,8 @@ from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.contact.spring_mesh import PairSprings, Springs, spring_mesh
 from fenics_gears.contact.stiffness_table import LOADS, stiffness_table
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, coast_place, drive_place, facing_points
-from fenics_gears.elasticity.body import Bodies
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.compliance import Bodies
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
 from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.model.model import Model

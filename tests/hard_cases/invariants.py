@@ -13,7 +13,7 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import displacement_jacobian
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.elasticity.body import Bodies
+from fenics_gears.elasticity.compliance import Bodies
 from fenics_gears.model.model import Model
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder

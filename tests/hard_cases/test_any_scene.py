@@ -16,8 +16,8 @@ from tests.stand_in import stand_in_compliance
 
 from fenics_gears import model_of
 from fenics_gears.contact.errors import MoreThanOneSolution, NoStaticEquilibrium, SelfLocking
-from fenics_gears.elasticity.body import Body
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.elasticity.compliance import Body
 from fenics_gears.simulation.bodies import gear_bodies
 from fenics_gears.system.progress import SilentProgress
 

@@ -9,7 +9,7 @@ import pytest
 from tests.stand_in import stand_in_compliance
 
 from fenics_gears import scene_from_text, simulate
-from fenics_gears.elasticity.body import Body
+from fenics_gears.elasticity.compliance import Body
 from fenics_gears.results import shown
 from fenics_gears.scene.data import Motion
 from fenics_gears.simulation.elastic_route import mesh_cycle

@@ -73,10 +73,12 @@ def _along_fillets(run: Run) -> list[Chart]:
             continue
         time, slot = np.unravel_index(np.nanargmax(stress), stress.shape)
         along = in_unit(own["root_stress"].transpose("contact_time", "slot", "fillet_point", ...)[time, slot], "MPa")
-        if run.is_over_face:
+        where = ""
+        if along.ndim > 1:
             largest = along.max(axis=0)
             plots.append(_over_face(run, gear, largest))
-            along = along[:, largest.argmax()]
+            z = run.dataset["face_position"].values[largest.argmax()]
+            along, where = along[:, largest.argmax()], f", {z:.2f} mm from the middle of the face"
         angle, side = own["fillet_tangent_angle"].values * factor("rad", "deg"), own["fillet_side"].values
         curves = [
             Curve(f"{name} side", angle[side == name], along[side == name], colour, mode=MARKED_LINES)
@@ -85,10 +87,8 @@ def _along_fillets(run: Run) -> list[Chart]:
         phase = float(own["mesh_phase"].values[time])
         caption = (
             f"Along the fillets of the {gear}, where its tension is largest: pair"
-            f" {int(own['pair_number'].values[time, slot])}, mesh cycle {phase:.3f}"
+            f" {int(own['pair_number'].values[time, slot])}, mesh cycle {phase:.3f}{where}"
         )
-        if run.is_over_face:
-            caption += f", {run.dataset['face_position'].values[largest.argmax()]:.2f} mm from the middle of the face"
         note = (
             "From the form circle, left, to the root circle, right, where the tangent lies across the tooth; tension"
             " positive."

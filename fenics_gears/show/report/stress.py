@@ -24,14 +24,13 @@ def stress(run: Run) -> Section:
     dataset = contact_times(run.dataset)
     index = _most_loaded(dataset) if run.at is None else stored_index(dataset, run.at)
     try:
-        content, charts = _drawn(run, index)
+        content, shown, charts = _drawn(run, index)
     except GearsError as error:
         return sentence("stress", HEADING, f"It could not be drawn: {error}", True)
     when = "where the force of the mesh is largest" if run.at is None else "as asked for"
     since = float(dataset["mesh_phase"].values[index] - dataset["mesh_phase"].values[0])
     others = "`gears picture RUN --at PHASE` draws other times, `--animate` a turn."
     note = f"{since:.4g} mesh cycles after the first step with contact fields, {when}; {others}"
-    shown = "Contact pressure and von Mises stress" if run.is_over_face else "Von Mises stress"
     return Section("stress", HEADING, [Picture(f"{shown} of both gears in mesh", content, note), *charts])
 
 
@@ -56,17 +55,13 @@ def _most_loaded(dataset: xr.Dataset) -> int:
     return int(np.argmax(np.max(forces, axis=0)))
 
 
-def _drawn(run: Run, index: int) -> tuple[bytes, list[Chart]]:
-    """The picture, and over a face the tension of the roots along it at that time."""
-    from fenics_gears.show.stress_picture import save_picture, still
+def _drawn(run: Run, index: int) -> tuple[bytes, str, list[Chart]]:
+    """The picture, what it shows, and the charts that go with it."""
+    from fenics_gears.show.stress_picture import charts_of, save_picture, still
     from fenics_gears.simulation.run_stresses import RunStresses
 
     with RunStresses(run.dataset, run.scene) as stresses:
         mesh = stresses.at(index)
     content = io.BytesIO()
     save_picture(still(mesh, run.dataset), content)
-    if not run.is_over_face:
-        return content.getvalue(), []
-    from fenics_gears.show.face_picture import root_tension
-
-    return content.getvalue(), [root_tension(mesh)]
+    return content.getvalue(), *charts_of(mesh)

@@ -103,13 +103,9 @@ def default_setting(scene: Scene) -> Setting:
 def own_setting(scene: Scene) -> Setting:
     """The setting that the scene has, its defaults included."""
     model = model_of(scene)
-    resolution, slices, layers = model.resolution, None, None
+    resolution, (slices, layers) = model.resolution, model.slices_and_layers
     grid, size = resolution.contact_grid, resolution.body_element_size
     order = 2 if resolution.element.endswith("2") else 1
-    if model.face.slices > 1:
-        from fenics_gears.model.face_resolution import layers_of_common_face
-
-        slices, layers = model.face.slices, layers_of_common_face(scene, model.pair, model.face.slices)
     body = 1.0 if size is None else size / (body_size(order, slices is not None) * scene.gears.module)
     return Setting(
         resolution.element, resolution.flank_element_size, grid.spacing, grid.length, body,
