@@ -15,9 +15,8 @@ from pathlib import Path
 from types import ModuleType
 
 from fenics_gears.errors import ComputationError, GeometryError, SceneError
-from fenics_gears.system.console import on_terminal
+from fenics_gears.system.console import on_terminal, printable
 from fenics_gears.system.memory import size_in_bytes
-from fenics_gears.system.printable import printable
 from fenics_gears.system.progress import BarProgress, LineProgress, Progress, SilentProgress
 
 # Exit codes that no error carries itself (`errors` has those). The run came to its end, but jammed or came apart: its

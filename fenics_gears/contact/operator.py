@@ -45,7 +45,7 @@ class ContactOperator:
     tangential displacement that the material points touching now had at the end of the step before is
     `previous_jacobian q - E p`. The last three are None without friction.
 
-    `dependent_rows`: rows of the compliance that are combinations of others, see `contact.rank`. `face`: of pairs in
+    `dependent_rows`: rows of the compliance that are combinations of others, see `contact.pairing`. `face`: of pairs in
     slices; None in the plane.
     """
 

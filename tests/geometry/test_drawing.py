@@ -9,8 +9,7 @@ from tests.drawn_pairs import PAIRS, figures, table
 
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.characteristics import characteristics
-from fenics_gears.geometry.gear_data import RACKS
-from fenics_gears.geometry.materials import MATERIALS
+from fenics_gears.geometry.gear_data import MATERIALS, RACKS
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.scene.data import Material
 from fenics_gears.scene.read import build_scene, load_scene

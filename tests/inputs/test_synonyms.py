@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from fenics_gears.errors import SceneError
-from fenics_gears.inputs.synonyms import SYNONYMS, meant
+from fenics_gears.inputs.names import meant
+from fenics_gears.inputs.synonyms import SYNONYMS
 from fenics_gears.scene.read import scene_from_text
 from fenics_gears.scene.schema import known_paths
 

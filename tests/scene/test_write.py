@@ -14,8 +14,8 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.scene.data import Accuracy, Load, Motion, Scene
-from fenics_gears.scene.read import load_scene, scene_from_text
-from fenics_gears.scene.write import NO_FILE, WORDS, section_trees, text_of
+from fenics_gears.scene.read import NO_FILE, load_scene, scene_from_text
+from fenics_gears.scene.write import WORDS, section_trees, text_of
 
 DEMOS = Path(__file__).parents[2] / "demos"
 SCENES = [
