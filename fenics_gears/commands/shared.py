@@ -224,6 +224,18 @@ def plots() -> ModuleType:
         artist.kwdoc = properties
 
 
+def file_to_write(options: argparse.Namespace, default: Path, what: str) -> Path:
+    """The file of --output, or the default, which can be written; `what`: "the table", say. Raises SceneError for one
+    of another ending than the default's, or that cannot be written."""
+    from fenics_gears.system.output import check_writable
+
+    output = options.output or default
+    if output.suffix != default.suffix:
+        raise SceneError(f"{output}: {what} is a {default.suffix} file; give --output such a name.")
+    check_writable(output.parent, output.name)
+    return output
+
+
 def print_files(files: Iterable[Path], quiet: bool) -> None:
     """Print the files that a command wrote, a line each, unless `quiet`."""
     if not quiet:
