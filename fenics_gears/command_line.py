@@ -12,6 +12,7 @@ from fenics_gears.commands.shared import (
     add_run_argument,
     add_scene_argument,
     checked_model,
+    file_to_write,
     loaded_run,
     number_of_option,
     positive_count,
@@ -26,6 +27,7 @@ from fenics_gears.system.progress import seconds_in_words
 
 __all__ = [
     "INTERRUPTED", "add_memory_argument", "add_output_argument", "add_processes_argument", "add_run_argument",
-    "add_scene_argument", "check_writable", "checked_model", "loaded_run", "number_of_option", "positive_count",
-    "print_files", "print_rows", "run_file", "seconds_in_words", "shown_progress", "under_mpirun", "write_whole",
+    "add_scene_argument", "check_writable", "checked_model", "file_to_write", "loaded_run", "number_of_option",
+    "positive_count", "print_files", "print_rows", "run_file", "seconds_in_words", "shown_progress",
+    "under_mpirun", "write_whole",
 ]  # fmt: skip

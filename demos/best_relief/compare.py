@@ -15,7 +15,7 @@ from fenics_gears.extensions.optimization.conditions import samples
 from fenics_gears.extensions.optimization.evaluations import Evaluation, Evaluator
 from fenics_gears.extensions.optimization.optimize import Outcome, optimize
 from fenics_gears.runs.team import Alone
-from fenics_gears.system.interruption import Interruption
+from fenics_gears.system.progress import Interruption
 from fenics_gears.system.progress import LineProgress
 
 HERE = Path(__file__).parent

@@ -9,21 +9,21 @@ when the program that reads it closed the pipe.
 from __future__ import annotations
 
 import argparse
+import gc
 import logging
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 
 from fenics_gears import __version__
 from fenics_gears.commands import found
 from fenics_gears.commands.shared import INTERRUPTED, NOBODY_READS
 from fenics_gears.errors import GearsError
 from fenics_gears.system import environment
-from fenics_gears.system.console import prepare_streams
+from fenics_gears.system.console import prepare_streams, printable
 from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.output import check_working_folder
-from fenics_gears.system.printable import printable
-from fenics_gears.system.settings import settings_of_a_command
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -37,8 +37,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _command(arguments: list[str]) -> int:
     environment.prepare()
-    with settings_of_a_command():
+    with _settings_of_a_command():
         return _carried_out(arguments)
+
+
+@contextmanager
+def _settings_of_a_command() -> Iterator[None]:
+    """Look for garbage rarely; afterwards, since a notebook or a test suite goes on in the same process,
+    put back what this changes, what the command freezes and what it sets FENICS_GEARS_MEMORY to."""
+    thresholds, frozen, memory = gc.get_threshold(), gc.get_freeze_count(), os.environ.get(MEMORY_VARIABLE)
+    # Libraries make a million objects that stay; Python's usual search for garbage among them takes a tenth of a short
+    # run.
+    gc.set_threshold(200_000, 50, 100)
+    try:
+        yield
+    finally:
+        gc.set_threshold(*thresholds)
+        if not frozen:
+            gc.unfreeze()
+        if memory is None:
+            os.environ.pop(MEMORY_VARIABLE, None)
+        else:
+            os.environ[MEMORY_VARIABLE] = memory
 
 
 def _carried_out(arguments: Sequence[str]) -> int:

@@ -4,8 +4,14 @@ from __future__ import annotations
 
 import argparse
 
-from fenics_gears.commands.shared import add_output_argument, add_run_argument, loaded_run, print_files, run_file
-from fenics_gears.errors import SceneError
+from fenics_gears.commands.shared import (
+    add_output_argument,
+    add_run_argument,
+    file_to_write,
+    loaded_run,
+    print_files,
+    run_file,
+)
 
 CURVES_FILE = "curves.csv"
 
@@ -20,14 +26,10 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 def export(options: argparse.Namespace) -> int:
     """Write a run's table of curves."""
-    from fenics_gears.system.output import check_writable, write_whole
-
     file = run_file(options.run)
-    output = options.output or file.parent / CURVES_FILE
-    if output.suffix != ".csv":
-        raise SceneError(f"{output}: the table is a .csv file; give --output such a name.")
-    check_writable(output.parent, output.name)
+    output = file_to_write(options, file.parent / CURVES_FILE, "the table")
     from fenics_gears.results.curves_table import save_curves
+    from fenics_gears.system.output import write_whole
 
     dataset = loaded_run(file)
     print_files([write_whole(output, lambda path: save_curves(dataset, path))], options.quiet)

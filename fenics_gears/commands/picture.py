@@ -15,7 +15,7 @@ from fenics_gears.commands.shared import (
     shown_progress,
 )
 from fenics_gears.errors import SceneError
-from fenics_gears.system.printable import printable
+from fenics_gears.system.console import printable
 
 PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
 

@@ -22,8 +22,8 @@ from fenics_gears.commands.shared import (
 )
 from fenics_gears.errors import ComputationError
 from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
-from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.job import Job, led
+from fenics_gears.system.progress import Interruption
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:

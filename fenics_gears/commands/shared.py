@@ -15,9 +15,8 @@ from pathlib import Path
 from types import ModuleType
 
 from fenics_gears.errors import ComputationError, GeometryError, SceneError
-from fenics_gears.system.console import on_terminal
+from fenics_gears.system.console import on_terminal, printable
 from fenics_gears.system.memory import size_in_bytes
-from fenics_gears.system.printable import printable
 from fenics_gears.system.progress import BarProgress, LineProgress, Progress, SilentProgress
 
 # Exit codes that no error carries itself (`errors` has those). The run came to its end, but jammed or came apart: its
@@ -223,6 +222,18 @@ def plots() -> ModuleType:
         return import_module("fenics_gears.show.plots")
     finally:
         artist.kwdoc = properties
+
+
+def file_to_write(options: argparse.Namespace, default: Path, what: str) -> Path:
+    """The file of --output, or the default, which can be written; `what`: "the table", say. Raises SceneError for one
+    of another ending than the default's, or that cannot be written."""
+    from fenics_gears.system.output import check_writable
+
+    output = options.output or default
+    if output.suffix != default.suffix:
+        raise SceneError(f"{output}: {what} is a {default.suffix} file; give --output such a name.")
+    check_writable(output.parent, output.name)
+    return output
 
 
 def print_files(files: Iterable[Path], quiet: bool) -> None:

@@ -19,8 +19,7 @@ from fenics_gears.contact.face import Face
 from fenics_gears.contact.face_product import Groups, OnGear, Side, face_product
 from fenics_gears.contact.interpolation import FlankInterpolation
 from fenics_gears.contact.operator import Passage, Response, count_of, node_slices, turned
-from fenics_gears.contact.pairing import CompliancePairing
-from fenics_gears.contact.rank import of_full_rank
+from fenics_gears.contact.pairing import CompliancePairing, of_full_rank
 from fenics_gears.contact.tooth_pair import Flanks, Place, ToothPair
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.elasticity.slice_averages import on_slices, slice_averages
@@ -59,7 +58,7 @@ class FacePairing:
         )
 
     def response(self, passage: Passage) -> Response:
-        """How the contact nodes of a passage yield; dependent rows have a thin layer each (`contact.rank`)."""
+        """How the contact nodes of a passage yield; dependent rows have a thin layer each (`contact.pairing`)."""
         pairs: Sequence[FacePair] = passage.pairs
         previous: Sequence[FacePair] | None = passage.previous
         angles = turned(self.sections.pair, passage.advance)

@@ -44,8 +44,8 @@ class ContactOperator:
     tangential displacement that the material points touching now had at the end of the step before is
     `previous_jacobian q - E p`. The last three are None without friction.
 
-    `dependent_rows`: rows of the compliance that are combinations of others, see `contact.rank`. `face`: whose slices
-    the pairs are in.
+    `dependent_rows`: rows of the compliance that are combinations of others, see `contact.pairing`. `face`: whose
+    slices the pairs are in.
     """
 
     pairs: tuple[PairNodes, ...]

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.existence import explained
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, Tolerance
 from fenics_gears.contact.mixed_form import Equations, Iterate
 from fenics_gears.contact.newton import (
@@ -108,6 +107,8 @@ def solve_step(
         if result[0] == CONVERGED:
             outcome, iterations, forces, coordinates, displacement, sets = result
             return StepSolution(forces, coordinates, displacement, sets, spent, method)
+    from fenics_gears.contact.existence import explained
+
     raise explained(problem, attempts)
 
 

@@ -14,7 +14,6 @@ import numpy as np
 from threadpoolctl import ThreadpoolController
 
 from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.existence import locked_nodes, working
 from fenics_gears.contact.mesh_cycle import SHARE_OF_A_BLOCK, Cycle
 from fenics_gears.contact.step_solver import METHODS, NEWTON
 from fenics_gears.contact.tooth_pair import DRIVE
@@ -259,6 +258,8 @@ class Marcher(Stepper):
         motion = np.zeros(len(self.drivetrain.coordinates))
         wheel = self.drivetrain.coordinates.index("rotation_2")
         motion[wheel] = np.sign(self.load(record.step)[wheel])
+        from fenics_gears.contact.existence import locked_nodes, working
+
         return bool(locked_nodes(working(record.position.operator.jacobian, motion, record.solution.forces)).any())
 
     def _judge(self, march: March, steps: Steps) -> None:

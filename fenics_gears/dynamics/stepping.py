@@ -14,11 +14,10 @@ from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.contact.step_solver import HALVED, StepProblem, StepSolution, cold_start
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
-from fenics_gears.dynamics.clock import Clock, SteadyClock
+from fenics_gears.dynamics.clock import FOLLOWING, Clock, SteadyClock, TimeScales
 from fenics_gears.dynamics.compiled_march import NO_SETS, begin, slip_at_start
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.steps import Record
-from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.backward_euler import BackwardEuler

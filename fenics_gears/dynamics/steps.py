@@ -181,16 +181,6 @@ class Steps:
             yield position.operator, self.status[first:end], self.forces[kinds * first : kinds * end]
 
     @property
-    def largest_forces(self) -> np.ndarray:
-        """The largest normal force of a contact node at each step (s,), N; zero where there is no node."""
-        first, nodes = self.starts[:-1], np.diff(self.starts)
-        # A step's tangential forces come after its normal ones.
-        normal = self.forces[np.arange(len(self.status)) + (self.kinds - 1) * np.repeat(first, nodes)]
-        found, some = np.zeros(len(self)), nodes > 0
-        found[some] = np.maximum.reduceat(normal, first[some]) if some.any() else 0.0
-        return np.maximum(found, 0.0)
-
-    @property
     def kinds(self) -> int:
         """Forces of a contact node: 2 with friction, else 1."""
         return 2 if len(self.forces) > len(self.status) else 1

@@ -7,8 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable
-from fenics_gears.geometry.gear_data import Material
-from fenics_gears.geometry.materials import MATERIALS
+from fenics_gears.geometry.gear_data import MATERIALS, Material
 from fenics_gears.inputs.fields import choice, number, quantity
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.section import Section, allowed_in

@@ -1,4 +1,5 @@
-"""Dimensions, width and material of a gear pair, as on its drawing; in N, mm and rad."""
+"""Dimensions, width and material of a gear pair, as on its drawing, materials by name, and a rough stiffness of a tooth
+pair, for natural frequencies and defaults; in N, mm and rad."""
 
 from __future__ import annotations
 
@@ -97,3 +98,41 @@ class GearPairData:
     def face_widths(self) -> tuple[float, float]:
         """Width (mm) of the pinion and of the wheel."""
         return self.pinion.face_width or self.face_width, self.wheel.face_width or self.face_width
+
+
+_ISO_6336 = "ISO 6336-2, table of the elasticity factor"
+# The table has moduli alone; Poisson's ratios are common ones.
+_PLASTICS = (
+    "Encyclopedia of Physical Science and Technology, Plastics Engineering, Table I: short term, room temperature"
+)
+# Young's modulus, MPa, Poisson's ratio, yield strength, MPa, of named grades alone, and where they are from. The least
+# yield strengths are of quenched and tempered steel more than 40 and up to 100 mm thick; those of case-hardened steels
+# would be the core's, not the flanks'.
+MATERIALS: dict[str, tuple[Material, str]] = {
+    "steel": (Material(206e3, 0.3), "ISO 6336-1"),
+    "C45 QT": (Material(206e3, 0.3, 370.0), "ISO 6336-1; yield strength EN ISO 683-1"),
+    "42CrMo4 QT": (Material(206e3, 0.3, 650.0), "ISO 6336-1; yield strength EN ISO 683-2"),
+    "34CrNiMo6 QT": (Material(206e3, 0.3, 800.0), "ISO 6336-1; yield strength EN ISO 683-2"),
+    "cast steel": (Material(202e3, 0.3), _ISO_6336),
+    "ductile cast iron": (Material(173e3, 0.3), _ISO_6336),
+    "grey cast iron": (Material(118e3, 0.3), _ISO_6336),
+    "tin bronze": (Material(113e3, 0.3), _ISO_6336),
+    "cast tin bronze": (Material(103e3, 0.3), _ISO_6336),
+    "POM": (Material(2.9e3, 0.35), _PLASTICS),
+    "PA66": (Material(3.0e3, 0.39), _PLASTICS),
+}
+
+
+# ISO 6336-1 puts the stiffness of a steel tooth pair near 14 N/(mm um); in parts of Young's modulus.
+PAIR_STIFFNESS = 14e3 / 206e3
+
+
+def mean_youngs_modulus(materials: tuple[Material, Material]) -> float:
+    """E (MPa) of a pair of two materials as ISO 6336-1 takes it: 2 E1 E2/(E1 + E2)."""
+    first, second = (material.youngs_modulus for material in materials)
+    return 2.0 * first * second / (first + second) if first != second else first
+
+
+def rough_pair_stiffness(materials: tuple[Material, Material], face_width: float) -> float:
+    """Stiffness (N/mm) of one tooth pair along the line of action, about 14 N/(mm um) for steel; `face_width` in mm."""
+    return PAIR_STIFFNESS * mean_youngs_modulus(materials) * face_width

@@ -1,4 +1,4 @@
-"""The nearest known name for a misspelt one."""
+"""The nearest known name for a misspelt one, and the one that a synonym stands for."""
 
 from __future__ import annotations
 
@@ -25,3 +25,20 @@ def did_you_mean(word: str, names: Iterable[str], likeness: float = 0.6) -> str:
     """A question naming the nearest known name, with a blank before it; empty where none is alike."""
     name = nearest(word, names, likeness)
     return f' Did you mean "{name}"?' if name else ""
+
+
+def meant(section: Iterable[str], word: str, known: Iterable[str]) -> str | None:
+    """The one of the known names of a section (its path) that engineers also call `word`; None where none is.
+
+    >>> meant(["tip_relief", "pinion"], "amount", ["depth", "start"])
+    'depth'
+    """
+    # A scene without misspelt names does not load it.
+    from fenics_gears.inputs.synonyms import SYNONYMS
+
+    section, known = tuple(section), tuple(known)
+    homes = [section, *([section[:-1], (*section[:-1], "pinion")] if section[-1:] in (("pinion",), ("wheel",)) else [])]
+    found = (
+        name for home in homes for name in known if word.lower() in SYNONYMS.get(".".join((*home, name)), "").split()
+    )
+    return next(found, None)

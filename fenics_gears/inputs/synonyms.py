@@ -6,8 +6,6 @@ Only what no likeness of spelling finds: the standards' symbols, and the commone
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 # A gear's own section also has the names of the section above.
 SYNONYMS = {
     "gears": "pair stage geometry",
@@ -101,17 +99,3 @@ SYNONYMS = {
     "accuracy.target": "tolerance error rtol",
     "accuracy.element": "order degree",
 }
-
-
-def meant(section: Iterable[str], word: str, known: Iterable[str]) -> str | None:
-    """The one of the known names of a section (its path) that engineers also call `word`; None where none is.
-
-    >>> meant(["tip_relief", "pinion"], "amount", ["depth", "start"])
-    'depth'
-    """
-    section, known = tuple(section), tuple(known)
-    homes = [section, *([section[:-1], (*section[:-1], "pinion")] if section[-1:] in (("pinion",), ("wheel",)) else [])]
-    found = (
-        name for home in homes for name in known if word.lower() in SYNONYMS.get(".".join((*home, name)), "").split()
-    )
-    return next(found, None)

@@ -6,12 +6,12 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from fenics_gears.dynamics.drivetrain import Drivetrain, Supports, assembled
+from fenics_gears.geometry.gear_data import rough_pair_stiffness
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.rough_stiffness import rough_pair_stiffness
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
-    from fenics_gears.dynamics.gear_inertia import LumpedGear
+    from fenics_gears.dynamics.drivetrain import LumpedGear
     from fenics_gears.geometry.section import CrossSection
 
 
@@ -45,7 +45,7 @@ def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:
     >>> lumped_gears(scene, gear_pair(scene.gears))["wheel"].moment_of_inertia  # N mm s^2
     24.5
     """
-    from fenics_gears.dynamics.gear_inertia import lumped
+    from fenics_gears.dynamics.drivetrain import lumped
 
     return lumped(scene.inertia, pair, lambda name: _section(scene, pair, name))
 

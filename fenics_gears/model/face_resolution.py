@@ -11,8 +11,8 @@ import numpy as np
 from fenics_gears.contact.face import Face, even_slices
 from fenics_gears.effects import from_effects
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+from fenics_gears.geometry.gear_data import mean_youngs_modulus
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.rough_stiffness import mean_youngs_modulus
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.defaults import (
     FEWEST_LAYERS,

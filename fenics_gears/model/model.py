@@ -12,10 +12,9 @@ import numpy as np
 
 from fenics_gears.contact.face import Face, one_slice
 from fenics_gears.contact.touching import Touching, touching
-from fenics_gears.dynamics.clock import Clock, SteadyClock
+from fenics_gears.dynamics.clock import FOLLOWING, Clock, SteadyClock, TimeScales, time_scales
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.stepping import EquationsOfMotion
-from fenics_gears.dynamics.time_scales import FOLLOWING, TimeScales, time_scales
 from fenics_gears.effects import check_files, common_period, from_effects
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair

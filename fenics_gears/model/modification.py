@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
+import numpy as np
+
 from fenics_gears.effects import from_effects
-from fenics_gears.geometry.modification import Removals
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.scene.data import Scene
 
@@ -44,3 +47,24 @@ def removals(scene: Scene, pair: GearPair) -> tuple:
     found = from_effects(scene, "removal", pair)
     parts = [tuple(part for part in of_gear if part is not None) for of_gear in zip(*found)] or [(), ()]
     return tuple(Removals(of_gear) if len(of_gear) > 1 else (of_gear[0] if of_gear else None) for of_gear in parts)
+
+
+@dataclass(frozen=True)
+class Removals:
+    """The removals of several effects from one flank."""
+
+    parts: tuple
+
+    def __call__(self, roll_angle) -> np.ndarray:
+        """Removal (mm) at roll angles (rad, any shape) by all of them together."""
+        return sum(part(roll_angle) for part in self.parts)
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """Those of all parts."""
+        return tuple(roll for part in self.parts for roll in part.kinks)
+
+
+def kinks(removal) -> tuple[float, ...]:
+    """Roll angles (rad) at which a removal, None for no removal, leaves the flank with a kink."""
+    return () if removal is None else removal.kinks

@@ -19,9 +19,9 @@ from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.elasticity.element_sizes import Discretisation
+from fenics_gears.geometry.gear_data import PAIR_STIFFNESS, mean_youngs_modulus
 from fenics_gears.geometry.involute import arc_length, roll_angle_at_arc_length
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.rough_stiffness import PAIR_STIFFNESS, mean_youngs_modulus
 from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.scene.data import ISO_6336, Material, Scene
 from fenics_gears.scene.defaults import (

@@ -11,9 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.geometry.modification import kinks
 from fenics_gears.model.model import Model
-from fenics_gears.model.modification import removals
+from fenics_gears.model.modification import kinks, removals
 from fenics_gears.results.side_by_side import SideBySide
 
 # What a node is beside; where it is beside several, the last.

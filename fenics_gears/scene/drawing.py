@@ -18,11 +18,9 @@ from typing import Any
 from fenics_gears.effects.tooth_elasticity import material_of
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse, tip_radius_with_room
-from fenics_gears.geometry.gear_data import RACKS, GearData, GearPairData, Web
-from fenics_gears.geometry.materials import MATERIALS
+from fenics_gears.geometry.gear_data import MATERIALS, RACKS, GearData, GearPairData, Web
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, LOADS, table, wheel_torque
-from fenics_gears.scene import unusual
 from fenics_gears.scene.data import Derived, Load, Motion
 from fenics_gears.scene.gear_schema import Gear as GearText
 from fenics_gears.scene.gear_schema import Gears
@@ -202,6 +200,8 @@ def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequen
             f"half by each gear of the backlash and of {overlap:.4g} mm by which teeth with the given profile shifts"
             " would overlap at this centre distance"
         )
+    from fenics_gears.scene import unusual
+
     odd = (unusual.of_thinning(pair, overlap, distance, nominal, thinner), "")
     return lowered, [
         Derived(f"{name} profile shift of its tooth thickness", shift, "modules", words, remark)
@@ -217,6 +217,8 @@ def _tip_shortening(
         return pair.tip_shortening, []
     if all(gear.tip_diameter is not None for gear in drawn):
         return 0.0, []
+    from fenics_gears.scene import unusual
+
     reference = 0.5 * pair.module * sum(gear.teeth for gear in drawn) / cos(pair.helix_angle or 0.0)
     shortening = max(0.0, round(sum(shifts) - (distance - reference) / pair.module, DECIMALS_IN_MODULES))
     formula = "k m_n = a - a_d - (x1 + x2) m_n, not above 0"

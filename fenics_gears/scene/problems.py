@@ -6,10 +6,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from fenics_gears.inputs.names import did_you_mean, nearest
+from fenics_gears.inputs.names import did_you_mean, meant, nearest
 from fenics_gears.inputs.problem import MOST_TOLD, Path, Problem
 from fenics_gears.inputs.section import read
-from fenics_gears.inputs.synonyms import meant
 from fenics_gears.scene.schema import known_paths, scene_text
 
 

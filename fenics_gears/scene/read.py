@@ -20,7 +20,10 @@ from fenics_gears.scene import problems as problems_of
 from fenics_gears.scene.drawing import gear_pair_data, load_data, with_material_sections
 from fenics_gears.scene.rules import broken_rules
 from fenics_gears.system import user_file
-from fenics_gears.system.printable import control_character, printable
+from fenics_gears.system.console import control_character, printable
+
+# The text of a scene that no file gives (`scene.write`).
+NO_FILE = "# No scene file gives this scene, which was made or changed in Python"
 
 
 def load_scene(path: str | os.PathLike) -> data.Scene:

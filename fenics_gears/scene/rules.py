@@ -12,10 +12,9 @@ from collections.abc import Iterator, Mapping
 from math import lcm
 
 from fenics_gears import effects
-from fenics_gears.inputs.names import nearest
+from fenics_gears.inputs.names import meant, nearest
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.section import allowed_in, given, names_in
-from fenics_gears.inputs.synonyms import meant
 from fenics_gears.inputs.tree import (
     GEARS,
     LARGEST_ERROR,
@@ -48,9 +47,9 @@ def broken_rules(tree: Tree) -> list[Problem]:
 
 
 def _effects_fit_together(tree: Tree) -> Iterator[Problem]:
-    known = effects.AT_THE_TOP
+    known, always = effects.AT_THE_TOP, names_in(scene_text(()))
     sections = {
-        nearest(name, known) or meant((), name, known) or name for name in tree
+        name if name in always else nearest(name, known) or meant((), name, known) or name for name in tree
     }  # a misspelt section is another problem
     # Without [gears] the teeth are unknown.
     if table(tree, "gears") is None or material_sections(tree):
@@ -92,10 +91,9 @@ def _a_speed_where_time_matters(tree: Tree) -> Iterator[Problem]:
         )
         yield Problem(("motion",), None, message)
         return
-    if not any(
-        nearest(name, names) or meant(("motion",), name, names)
-        for name in motion
-        for names in [("mesh_frequency", "pinion_speed")]
+    names = ("mesh_frequency", "pinion_speed")
+    if not any(name in motion for name in names) and not any(
+        nearest(name, names) or meant(("motion",), name, names) for name in motion
     ):
         message = (
             f'is missing. Allowed: mesh_frequency, such as "200 Hz", or pinion_speed, such as "750 rpm"; [{needing}]'

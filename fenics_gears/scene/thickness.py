@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fenics_gears.geometry import tooth_thickness
 from fenics_gears.geometry.gear import Gear, transverse_gear
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse
 from fenics_gears.geometry.gear_data import GearData
-from fenics_gears.scene import unusual
 from fenics_gears.scene.data import Derived
 from fenics_gears.scene.gear_schema import MEASURES, Gears
 from fenics_gears.scene.gear_schema import Gear as GearText
@@ -43,6 +41,10 @@ def shift_of_thickness(pair: Gears, drawn: GearText, name: str) -> tuple[float, 
     gear, measure = rack_gear(pair, drawn.teeth, 0.0), measure_of(drawn)
     if measure is None:
         return drawn.profile_shift, []
+    # Here as below: most drawings give profile shifts.
+    from fenics_gears.geometry import tooth_thickness
+    from fenics_gears.scene import unusual
+
     beside = MEASURES[measure]
     written = f"gears.{name}.{measure} = {getattr(drawn, measure):.6g} mm" + (
         f" with {beside} {getattr(drawn, beside):g}" if beside else ""
@@ -74,12 +76,16 @@ def shift_of_thickness(pair: Gears, drawn: GearText, name: str) -> tuple[float, 
 def check_measure(drawn: GearText, name: str, gear: Gear) -> None:
     """Caliper and balls touch the involute, and balls stand out of the tip circle and clear of the root."""
     lowest, measure = gear.form_radius, measure_of(drawn)
+    if measure not in ("base_tangent_length", "dimension_over_balls"):
+        return
+    from fenics_gears.geometry import tooth_thickness
+
     if measure == "base_tangent_length":
         touched, better = (
             tooth_thickness.tangent_contact_radius(gear, drawn.base_tangent_length),
             tooth_thickness.spanned_teeth(gear),
         )
-    elif measure == "dimension_over_balls":
+    else:
         touched, better = (
             tooth_thickness.ball_contact_radius(gear, drawn.ball_diameter),
             f"about {tooth_thickness.ball_diameter(gear):.4g} mm",
@@ -91,8 +97,6 @@ def check_measure(drawn: GearText, name: str, gear: Gear) -> None:
                 f"gears.{name}.ball_diameter = {drawn.ball_diameter:g} mm: the balls lie within the tip circle of"
                 f" {2.0 * gear.tip_radius:.6g} mm: take {better}",
             )
-    else:
-        return
     if not lowest - ROUNDING <= touched <= gear.tip_form_radius + ROUNDING:
         refuse(
             name,
@@ -104,6 +108,10 @@ def check_measure(drawn: GearText, name: str, gear: Gear) -> None:
 
 def asked_measures(pair: Gears, drawn: GearText, name: str, cut: float) -> Iterator[Derived]:
     """What a caliper reads over the teeth, and over the balls, that a drawing names without the measure."""
+    if drawn.spanned_teeth is None and drawn.ball_diameter is None:
+        return
+    from fenics_gears.geometry import tooth_thickness
+
     gear = rack_gear(pair, drawn.teeth, cut)
     if drawn.spanned_teeth is not None and drawn.base_tangent_length is None:
         length = tooth_thickness.base_tangent_length(gear, drawn.spanned_teeth)

@@ -15,9 +15,8 @@ from fenics_gears.inputs.section import field_of, tree_of
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.scene import data, gear_schema, schema
-from fenics_gears.scene.read import parsed, scene_from_text
+from fenics_gears.scene.read import NO_FILE, parsed, scene_from_text
 
-NO_FILE = "# No scene file gives this scene, which was made or changed in Python"
 # What a scene is called, and where it was read; it has these data whatever they are.
 WORDS = ("title", "name", "derived", "written", "folder")
 

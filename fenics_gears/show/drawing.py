@@ -38,9 +38,7 @@ from fenics_gears.show.panel_sizes import (
     Panel,
     Scale,
 )
-from fenics_gears.show.panels import DARK, GRID, styled
-from fenics_gears.show.thinning import thinned
-from fenics_gears.show.ticks import ticks, written
+from fenics_gears.show.panels import DARK, GRID, styled, thinned, tick_labels, ticks
 
 DASHES = {"solid": "-", "dash": (0, (5, 2.5)), "dot": (0, (1, 1.6))}
 STILL_POINTS = 1000  # of a curve; a still image is 900 points wide
@@ -145,12 +143,12 @@ def _draw(axes: Axes, panel: Panel) -> list[Scale]:
         axis.set_minor_locator(NullLocator())
     ends, logarithmic = np.array(axes.get_ylim()), "y" in chart.logarithmic
     places = ticks(ends, panel.inside / APART_UPRIGHT, logarithmic)
-    own = Scale(axes, places, written(places, logarithmic), chart.y_title)
+    own = Scale(axes, places, tick_labels(places, logarithmic), chart.y_title)
     if chart.second is None:
         return [own, *bars]
     factor, offset = chart.second.factor, chart.second.offset
     places = ticks(offset + factor * ends, panel.inside / APART_UPRIGHT)
-    return [own, Scale(axes, (places - offset) / factor, written(places), chart.second.title), *bars]
+    return [own, Scale(axes, (places - offset) / factor, tick_labels(places), chart.second.title), *bars]
 
 
 def _set_ends(axes: Axes, chart: Chart) -> None:
@@ -178,7 +176,7 @@ def _draw_level(axes: Axes, panel: Panel, width: float) -> None:
     if panel.has_grid:
         _draw_lines(axes, [((place, 0.0), (place, 1.0)) for place in places], across, GRID)
     _draw_lines(axes, [((place, 0.0), (place, -TICK / panel.inside)) for place in places], across)
-    for place, label in zip(places, labels or written(places, logarithmic)) if panel.named else ():
+    for place, label in zip(places, labels or tick_labels(places, logarithmic)) if panel.named else ():
         axes.text(place, -2.0 * TICK / panel.inside, label, transform=across, ha="center", va="top", parse_math=False)
     axes.xaxis.set_label_coords(0.5, -TICK_ROW / panel.inside)
 
@@ -270,7 +268,7 @@ def _draw_field(axes: Axes, panel: Panel) -> Scale:
         drawn, cax=beside, extend="max" if beyond else "neither", ticks=NullLocator()
     ).outline.set_visible(False)
     places = ticks((lowest, field.limit), panel.inside / APART_UPRIGHT)
-    return Scale(beside, places, written(places), field.title)
+    return Scale(beside, places, tick_labels(places), field.title)
 
 
 def _draw_flags(axes: Axes, panel: Panel) -> None:

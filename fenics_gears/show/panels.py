@@ -1,13 +1,14 @@
-"""What all pictures share: palette, fonts and the ends of axes."""
+"""What all pictures share: palette, fonts, ends and ticks of axes, and long curves with fewer points."""
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import matplotlib
 import matplotlib.style  # `rcdefaults` needs it
 import numpy as np
+from matplotlib.ticker import LogLocator, MaxNLocator
 
 # Okabe and Ito's palette without its yellow, which is too pale for a line: told apart with any colour vision.
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
@@ -73,3 +74,49 @@ def legend(axes, columns: int, location: str = "lower right") -> None:
     axes.legend(
         loc=location, bbox_to_anchor=(side, 1.0), ncol=columns, borderaxespad=0.1, handlelength=1.6, columnspacing=1.4
     )
+
+
+def ticks(ends: Sequence[float], most: float, logarithmic: bool = False) -> np.ndarray:
+    """Round numbers (n,) between an axis' ends."""
+    low, high = sorted(ends)
+    if logarithmic:
+        places, beyond = LogLocator(subs=(1.0,) if high > 100.0 * low else (1.0, 2.0, 5.0)).tick_values(low, high), 0.0
+    else:
+        places, beyond = (
+            MaxNLocator(max(2, min(10, int(most))), steps=[1, 2, 2.5, 5, 10]).tick_values(low, high),
+            1e-9 * (high - low),
+        )
+    return places[(places >= low - beyond) & (places <= high + beyond)]
+
+
+def tick_labels(places: np.ndarray, logarithmic: bool = False) -> list[str]:
+    """Numbers with as many decimals as the finest of them needs; with powers of ten where they are large or small."""
+    if logarithmic or len(places) < 2 or not 1e-4 <= np.abs(places).max() < 1e6:
+        words = [f"{place:g}" for place in places]
+    else:
+        step = places[1] - places[0]
+        decimals = next(count for count in range(12) if np.abs(np.round(places, count) - places).max() < 1e-3 * step)
+        words = [f"{place:.{decimals}f}" for place in np.round(places, decimals) + 0.0]
+    return [each.replace("-", "−") for each in words]
+
+
+# As many as a screen tells apart, and few enough to keep some twenty curves of a page below 10 MB.
+MOST_POINTS = 2000
+
+
+def thinned(values: np.ndarray, most: int = MOST_POINTS) -> np.ndarray:
+    """Places (k,) of the values (n,) that a curve is drawn through: all of them up to `most`; beyond, of each of most/2
+    slices the smallest and the largest value, and a place that is not a number where there is one, so that gaps stay;
+    both ends of the curve."""
+    count = len(values)
+    if count <= most:
+        return np.arange(count)
+    width = -(-count // (most // 2))
+    padded = np.concatenate([values, np.full(-count % width, values[-1])]).reshape(-1, width)
+    missing = np.isnan(padded)
+    lowest = np.where(missing, np.inf, padded).argmin(axis=1)
+    highest = np.where(missing, -np.inf, padded).argmax(axis=1)
+    first = width * np.arange(len(padded))
+    gaps = (first + missing.argmax(axis=1))[missing.any(axis=1)]
+    places = np.concatenate([first + lowest, first + highest, gaps, [0, count - 1]])
+    return np.unique(np.minimum(places, count - 1))

@@ -18,9 +18,8 @@ from fenics_gears.runs.team import Alone, Together, ranks
 from fenics_gears.studies.combine import STUDY_FILE, combined, save_study
 from fenics_gears.studies.study import Study
 from fenics_gears.studies.study_file import load_study
-from fenics_gears.system.interruption import Interruption
 from fenics_gears.system.output import check_writable, write_whole
-from fenics_gears.system.progress import Progress
+from fenics_gears.system.progress import Interruption, Progress
 
 LOGGER = logging.getLogger(__name__)
 

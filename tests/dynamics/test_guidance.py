@@ -1,8 +1,8 @@
 """What is said about time steps that do not resolve the drivetrain's vibrations."""
 
+from fenics_gears.dynamics.clock import FOLLOWING
 from fenics_gears.dynamics.frequencies import Vibration
 from fenics_gears.dynamics.guidance import time_step_warnings
-from fenics_gears.dynamics.time_scales import FOLLOWING
 
 
 def test_a_frequency_of_several_vibrations_is_told_once():

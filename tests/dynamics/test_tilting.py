@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from fenics_gears.contact.operator import COORDINATES
+from fenics_gears.dynamics.drivetrain import LumpedGear
 from fenics_gears.dynamics.frequencies import Vibration, natural_frequencies, vibrations
-from fenics_gears.dynamics.gear_inertia import LumpedGear
 from fenics_gears.dynamics.tilting import gyroscopic_warnings, moved
 from fenics_gears.effects.bearings import BearingPlaces, Bearings, Support
 from fenics_gears.effects.inertia import GearInertia, Inertia, LoadInertia

@@ -9,7 +9,7 @@ from tests.drawn_pairs import PAIRS, figures, table
 
 from fenics_gears import RACKS, SceneError, build_scene, gear_pair, load_scene
 from fenics_gears.geometry.characteristics import characteristics
-from fenics_gears.geometry.materials import MATERIALS
+from fenics_gears.geometry.gear_data import MATERIALS
 from fenics_gears.scene.data import Material
 
 ROOT = Path(__file__).parents[2]

@@ -7,8 +7,8 @@ import pytest
 
 from fenics_gears import involute_function
 from fenics_gears.geometry.fillet import fillet_point
-from fenics_gears.geometry.interference import fillet_clearance
 from fenics_gears.geometry.outline import tooth_outline
+from fenics_gears.geometry.pair_checks import fillet_clearance
 
 
 def tooth_points(gear):

@@ -7,9 +7,9 @@ import pytest
 from tests.geometry.test_impossible_gears import changed
 
 from fenics_gears import GeometryError, gear_pair
-from fenics_gears.geometry.interference import fillet_clearance
 from fenics_gears.geometry.involute import canonical_normal, canonical_point
 from fenics_gears.geometry.outline import tip_corner
+from fenics_gears.geometry.pair_checks import fillet_clearance
 from fenics_gears.geometry.tip_edge import tip_edge
 
 CHAMFER = 0.4

@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from fenics_gears import SceneError, scene_from_text
-from fenics_gears.inputs.synonyms import SYNONYMS, meant
+from fenics_gears.inputs.names import meant
+from fenics_gears.inputs.synonyms import SYNONYMS
 from fenics_gears.scene.schema import known_paths
 
 DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")

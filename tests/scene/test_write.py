@@ -12,7 +12,8 @@ from tests.hard_cases.random_scenes import valid_scenes
 
 from fenics_gears import Load, Material, Scene, SceneError, as_toml, load_scene, scene_from_text
 from fenics_gears.scene.data import Accuracy, Motion
-from fenics_gears.scene.write import NO_FILE, WORDS, section_trees, text_of
+from fenics_gears.scene.read import NO_FILE
+from fenics_gears.scene.write import WORDS, section_trees, text_of
 
 DEMOS = Path(__file__).parents[2] / "demos"
 SCENES = [

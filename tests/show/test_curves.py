@@ -5,8 +5,8 @@ import pytest
 from tests.show.synthetic import made_up_run, right_scale, words
 
 from fenics_gears.results import by_pair
+from fenics_gears.show.panels import tick_labels, ticks
 from fenics_gears.show.plots import run_figures
-from fenics_gears.show.ticks import ticks, written
 
 
 def transmission_error(run):
@@ -145,5 +145,5 @@ def test_ticks_are_round_numbers_written_with_the_decimals_they_need(ends, logar
     """Arithmetic: multiples of 1, 2, 2.5 or 5 times a power of ten within the ends; what is written is the place
     itself."""
     places = ticks(ends, 5.0, logarithmic)
-    assert written(places, logarithmic) == expected
+    assert tick_labels(places, logarithmic) == expected
     np.testing.assert_allclose([float(each.replace("−", "-")) for each in expected], places, atol=1e-9 * np.ptp(ends))

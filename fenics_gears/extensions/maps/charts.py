@@ -32,6 +32,8 @@ SPEED, FREQUENCY = "Mesh frequency (Hz)", "Frequency (Hz)"
 DECIBELS, STEPS_HIGH = 40.0, 2.5
 # Room right of and above the lines of a Campbell diagram for their words, in parts of the axes.
 BESIDE = 1.12
+# A line from the first axis' zero on, in parts of its end.
+FROM_ZERO = np.array([0.0, 1.0])
 # Natural frequencies that differ by less between loads are drawn as one line.
 ALIKE = 0.005
 # Least distance of words, in parts of the second axis.
@@ -142,74 +144,42 @@ def campbell(found: xr.Dataset) -> Chart:
     top, orders = max(1.1 * fastest, min(MESH_ORDERS * fastest, 1.2 * largest)), np.arange(1, MESH_ORDERS + 1)
     ends = np.minimum(fastest, top / orders)
     curves = [
-        Curve("mesh orders", np.array([0.0, end]), np.array([0.0, order * end]), PALETTE[0], listed=order == 1)
+        Curve("mesh orders", end * FROM_ZERO, order * end * FROM_ZERO, PALETTE[0], listed=order == 1)
         for order, end in zip(orders, ends)
     ]
-    curves.append(
-        Curve(
-            "orders",
-            ends,
-            orders * ends,
-            DARK,
-            mode=WORDS,
-            listed=False,
-            words=[f"{order} ×" for order in orders],
-            beside="right",
-        )
-    )
+    named = [f"{order} ×" for order in orders]
+    curves.append(Curve("orders", ends, orders * ends, DARK, mode=WORDS, listed=False, words=named, beside="right"))
     modes = (
         found[["natural_frequency", "damping_ratio", "excited", "motion"]]
         .dropna("load")
         .isel(mode=found["natural_frequency"].min("load").values < top)
     )
-    low, high = modes["natural_frequency"].min("load").values, modes["natural_frequency"].max("load").values
-    middle, spread, excited = 0.5 * (low + high), high > (1.0 + ALIKE) * low, modes["excited"].values.astype(bool)
-    for mode in range(len(low)):
-        name, colour = ("natural frequencies", PALETTE[1]) if excited[mode] else ("not excited by contact", GREY)
-        values = np.array([[low[mode]] * 2, [high[mode]] * 2]) if spread[mode] else np.full(2, middle[mode])
-        kind, dash = (BAND, "solid") if spread[mode] else (LINES, "dash")
-        curves.append(
-            Curve(
-                name,
-                np.array([0.0, fastest]),
-                values,
-                colour,
-                dash,
-                mode=kind,
-                listed=name not in [curve.name for curve in curves],
-            )
-        )
-    words = [
-        f"{low[mode]:.0f} to {high[mode]:.0f} Hz" if spread[mode] else f"{middle[mode]:.0f} Hz"
-        for mode in range(len(low))
-    ]
-    # Modes of one frequency are named once.
-    said = {
-        each: ", ".join(
-            dict.fromkeys(
-                [each, *(motion for own, motion in zip(words, modes["motion"].values) if own == each and motion)]
-            )
-        )
-        for each in words
-    }
-    curves += (
-        [
-            words_apart(
-                [(0.0, height, said[each]) for each, height in dict(zip(words, high)).items()],
-                WORDS_APART * top,
-                "top right",
-            )
-        ]
-        if said
-        else []
-    )
-    resonant = middle[excited & (modes["damping_ratio"].min("load").values < MOST_DAMPED)]
+    low, high = (end.values for end in (modes["natural_frequency"].min("load"), modes["natural_frequency"].max("load")))
+    curves += _natural_frequencies(low, high, modes, fastest, top)
+    middle = 0.5 * (low + high)
+    resonant = middle[modes["excited"].values.astype(bool) & (modes["damping_ratio"].min("load").values < MOST_DAMPED)]
     x, y = resonant[:, None] / orders, np.outer(resonant, np.ones(len(orders)))
     if (x <= fastest).any():
         curves.append(Curve("resonances", x[x <= fastest], y[x <= fastest], PALETTE[1], mode=MARKERS))
-    return Chart(
-        "", curves, _speed(found), FREQUENCY, height=560, x_range=(0.0, BESIDE * fastest), y_range=(0.0, 1.06 * top)
-    )
+    ranges = {"x_range": (0.0, BESIDE * fastest), "y_range": (0.0, 1.06 * top)}
+    return Chart("", curves, _speed(found), FREQUENCY, height=560, **ranges)
+
+
+def _natural_frequencies(low: np.ndarray, high: np.ndarray, modes: xr.Dataset, fastest: float, top: float):
+    """A level line of each mode, or a band from its lowest to its highest frequency among the loads, and its words;
+    modes of one frequency are named once."""
+    curves: list[Curve] = []
+    said: dict[str, tuple[float, dict]] = {}
+    for least, most, excited, motion in zip(low, high, modes["excited"].values, modes["motion"].values):
+        name, colour = ("natural frequencies", PALETTE[1]) if excited else ("not excited by contact", GREY)
+        kind = {"mode": BAND} if (spread := most > (1.0 + ALIKE) * least) else {"mode": LINES, "dash": "dash"}
+        edges = np.array([[least] * 2, [most] * 2]) if spread else np.full(2, 0.5 * (least + most))
+        listed = name not in {each.name for each in curves}
+        curves.append(Curve(name, fastest * FROM_ZERO, edges, colour, listed=listed, **kind))
+        words = f"{least:.0f} to {most:.0f} Hz" if spread else f"{0.5 * (least + most):.0f} Hz"
+        said[words] = most, {**said.get(words, (0, {words: 0}))[1], **({motion: 0} if motion else {})}
+    places = [(0.0, height, ", ".join(words)) for height, words in said.values()]
+    return [*curves, words_apart(places, WORDS_APART * top, "top right")] if places else curves
 
 
 def waterfall(found: xr.Dataset) -> list[Chart]:

@@ -12,6 +12,7 @@ from fenics_gears.command_line import (
     add_output_argument,
     add_run_argument,
     check_writable,
+    file_to_write,
     loaded_run,
     number_of_option,
     print_files,
@@ -64,12 +65,9 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 def listen(options: argparse.Namespace) -> int:
     """Write the sound of a run."""
     file = run_file(options.run)
-    output = options.output or file.parent / f"{options.curve}.wav"
-    if output.suffix != ".wav":
-        raise SceneError(f"{output}: the sound is a .wav file; give --output such a name.")
+    output = file_to_write(options, file.parent / f"{options.curve}.wav", "the sound")
     if not 0.1 <= options.seconds <= LONGEST:
         raise SceneError(f"--seconds {options.seconds:g}: allowed are 0.1 to {LONGEST:g} seconds.")
-    check_writable(output.parent, output.name)
     result = loaded_run(file)
     full_scale = _checked(result, options)
     from .sound import save_sound, sound

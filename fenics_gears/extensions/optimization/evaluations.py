@@ -21,7 +21,7 @@ from fenics_gears.runs.runs import Failure, Runs
 from fenics_gears.runs.team import Alone, Together
 from fenics_gears.scene.data import Output, Scene
 from fenics_gears.studies.scenes import NoScene, model_of_tree
-from fenics_gears.system.interruption import Interruption
+from fenics_gears.system.progress import Interruption
 
 from .conditions import trees_of
 from .design import Bound, Design, Goal

@@ -18,8 +18,7 @@ from fenics_gears.runs.team import Alone, Together, ranks
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import number_in
 from fenics_gears.studies.scenes import model_of_tree
-from fenics_gears.system.interruption import Interruption
-from fenics_gears.system.progress import Progress
+from fenics_gears.system.progress import Interruption, Progress
 
 from .conditions import samples
 from .design import Design

@@ -11,7 +11,7 @@ from fenics_gears import SceneError
 from fenics_gears.command_line import (
     add_output_argument,
     add_run_argument,
-    check_writable,
+    file_to_write,
     loaded_run,
     number_of_option,
     run_file,
@@ -62,10 +62,7 @@ def rate(options: argparse.Namespace) -> int:
     from . import rating
 
     file = run_file(options.run)
-    output = options.output or file.parent / FILE
-    if output.suffix != ".csv":
-        raise SceneError(f"{output}: the table is a .csv file; give --output such a name.")
-    check_writable(output.parent, output.name)
+    output = file_to_write(options, file.parent / FILE, "the table")
     result = loaded_run(file)
     scene = carried_scene(result)
     finish = _finish(options, scene)

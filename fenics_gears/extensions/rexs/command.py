@@ -7,7 +7,7 @@ import argparse
 from pathlib import Path
 
 from fenics_gears import GeometryError, SceneError
-from fenics_gears.command_line import add_output_argument, check_writable, write_whole
+from fenics_gears.command_line import add_output_argument, file_to_write, write_whole
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -34,8 +34,12 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 def import_rexs(options: argparse.Namespace) -> int:
     """Write the scene, once it is found right, and say what was assumed and left out."""
-    output = options.output or Path((options.file.stem.removesuffix(".rexs") or "scene") + ".toml")
-    _check_output(output)
+    output = file_to_write(options, Path((options.file.stem.removesuffix(".rexs") or "scene") + ".toml"), "a scene")
+    if output.exists():
+        # A scene is the user's own work.
+        raise SceneError(
+            f"{output} exists already; nothing was written. Name another file with --output SCENE, or remove it."
+        )
     from .imported import Choice, imported_scene
 
     choice = Choice(options.stage, options.load_case, options.wheel_torque, options.pinion_speed)
@@ -45,17 +49,6 @@ def import_rexs(options: argparse.Namespace) -> int:
     if not options.quiet:
         print(_summary(imported, output))
     return 0
-
-
-def _check_output(output: Path) -> None:
-    """A scene is the user's own work: none is overwritten."""
-    check_writable(output.parent, output.name)
-    if output.suffix != ".toml":
-        raise SceneError(f"{output}: a scene is a .toml file; give --output such a name.")
-    if output.exists():
-        raise SceneError(
-            f"{output} exists already; nothing was written. Name another file with --output SCENE, or remove it."
-        )
 
 
 def _check_scene(imported, file: Path, output: Path) -> None:

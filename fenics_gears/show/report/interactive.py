@@ -12,8 +12,7 @@ import math
 import numpy as np
 
 from fenics_gears.show.chart import BAND, BARS, WORDS, Chart, Curve
-from fenics_gears.show.panels import DARK, GREY
-from fenics_gears.show.thinning import MOST_POINTS, thinned
+from fenics_gears.show.panels import DARK, GREY, MOST_POINTS, thinned
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', sans-serif"
 GRID = "#E9ECEF"

@@ -28,8 +28,7 @@ from fenics_gears.runs import runs
 from fenics_gears.runs.team import Alone
 from fenics_gears.scene.read import build_scene, load_scene
 from fenics_gears.simulation.simulate import simulate
-from fenics_gears.system.interruption import Interruption
-from fenics_gears.system.progress import SilentProgress
+from fenics_gears.system.progress import Interruption, SilentProgress
 
 ERROR = "peak_to_peak_transmission_error"
 STILL = 'scene = "pair.toml"\nwithout = ["inertia", "damping", "motion", "friction", "shafts", "bearings"]\n'

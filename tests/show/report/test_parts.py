@@ -15,6 +15,7 @@ from tests.show.synthetic import made_up_run
 
 from fenics_gears.show.chart import Chart, Curve
 from fenics_gears.show.orders import spectrum
+from fenics_gears.show.panels import thinned
 from fenics_gears.show.report.curves import spectra
 from fenics_gears.show.report.energy import energy
 from fenics_gears.show.report.overview import summary
@@ -22,7 +23,6 @@ from fenics_gears.show.report.page import Page, Section
 from fenics_gears.show.report.pair_drawing import _on_line, gear_outline
 from fenics_gears.show.report.rendering import plotly_library, rendered
 from fenics_gears.show.run import Run
-from fenics_gears.show.thinning import thinned
 
 
 @given(st.lists(st.floats(-1e6, 1e6) | st.just(float("nan")), min_size=1, max_size=400), st.sampled_from([10, 40]))
