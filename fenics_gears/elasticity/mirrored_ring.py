@@ -11,12 +11,20 @@ and ``(R_s - R_a) / 2`` across.
 from __future__ import annotations
 
 import numpy as np
+from scipy.linalg.blas import dsyrk, dtrsm
 
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense, without
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.ring import cut_response, definite_inverse, sector_response, turned_nodes
+from fenics_gears.elasticity.ring import (
+    cut_response,
+    definite_factor,
+    inverse_of_factor,
+    sector_response,
+    symmetric,
+    turned_nodes,
+)
 
 # Compliance (f, f) of the flank with the cuts held, its response (f, c) to motions of the cut, stiffness (c, c) of the
 # cut with the flank free.
@@ -58,9 +66,11 @@ def both_flanks_compliance(
     blocks, across = (np.empty((count, *held.shape)) for count in (reach.same + 1, last - first + 1))
     for offset, block in enumerate(blocks):
         np.matmul(drive @ sector_response(joint, offset), drive.T, out=block)
-    blocks[0] = _symmetric(blocks[0] + held)
+    blocks[0] += held
+    blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
     for offset, block in enumerate(across, first):
-        block[:] = _symmetric((drive @ sector_response(joint, offset)) @ coast.T)
+        across_teeth = (drive @ sector_response(joint, offset)) @ coast.T
+        block[:] = 0.5 * (across_teeth + across_teeth.T)
     if first <= 0 <= last:
         across[-first] += held_cross
     return blocks, across
@@ -105,10 +115,9 @@ def _constrained(half: CondensedBody, direction: np.ndarray) -> np.ndarray:
 def flank_free(stiffness: np.ndarray, flank: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Compliance of the flank (its `flank` dofs come first), its response to motions of the cut, stiffness of the cut:
     the flank free."""
-    compliance, coupling = definite_inverse(stiffness[:flank, :flank], "a flank"), stiffness[:flank, flank:]
-    response = compliance @ coupling
-    return compliance, response, stiffness[flank:, flank:] - coupling.T @ response
-
-
-def _symmetric(matrix: np.ndarray) -> np.ndarray:
-    return 0.5 * (matrix + matrix.T)
+    # Transposed, they are in LAPACK's order.
+    factor = definite_factor(stiffness[:flank, :flank].T, "a flank")
+    onto_cut = dtrsm(1.0, factor, stiffness[flank:, :flank].T, trans_a=1)
+    cut = stiffness[flank:, flank:] - symmetric(dsyrk(1.0, onto_cut, trans=1))
+    response = dtrsm(1.0, factor, onto_cut, overwrite_b=1)
+    return inverse_of_factor(factor, "a flank"), response, cut

@@ -90,8 +90,8 @@ class Factor:
         return result
 
     def schur(self) -> np.ndarray | None:
-        """Dense stiffness (k, k) on the Schur dofs with all others in equilibrium without load; symmetrised. None on
-        all ranks but 0."""
+        """Dense stiffness (k, k) on the Schur dofs with all others in equilibrium without load. None on all
+        ranks but 0."""
         schur, entries = ctypes.c_void_p(), ctypes.c_void_p()
         _call("MatFactorCreateSchurComplement", _handle(self._factor), ctypes.byref(schur), None)
         if self._rank > 0:
@@ -101,10 +101,11 @@ class Factor:
         values = np.ctypeslib.as_array((ctypes.c_double * self._schur_size**2).from_address(entries.value)).reshape(
             (self._schur_size,) * 2
         )
-        symmetric = 0.5 * (values + values.T)
+        # PETSc has filled in both triangles.
+        stiffness = values.copy()
         _call("MatDenseRestoreArray", schur, ctypes.byref(entries))
         _call("MatDestroy", ctypes.byref(schur))
-        return symmetric
+        return stiffness
 
     def close(self) -> None:
         """Give the factor's memory back."""

@@ -18,6 +18,9 @@ from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.errors import ComputationError
 
+# Rows that are transposed at once.
+BLOCK = 128
+
 
 def condensed_sector(
     mesh: BodyMesh, element: Element, poissons_ratio: float, flank: np.ndarray | None = None
@@ -144,16 +147,45 @@ def definite_inverse(matrix: np.ndarray, what: str) -> np.ndarray:
     """Inverse of a symmetric or Hermitian positive definite matrix, by Cholesky: three eighths of a general inverse's
     operations.
 
+    Raises ComputationError as `definite_factor`.
+    """
+    return inverse_of_factor(definite_factor(matrix, what), what)
+
+
+def inverse_of_factor(factor: np.ndarray, what: str) -> np.ndarray:
+    """Inverse of the matrix that has this factor, which is overwritten. Raises ComputationError as
+    `definite_factor`."""
+    upper, failed = get_lapack_funcs(("potri",), (factor,))[0](factor, overwrite_c=True)
+    if failed:
+        raise _not_definite(what)
+    return symmetric(upper)
+
+
+def symmetric(upper: np.ndarray) -> np.ndarray:
+    """The symmetric or Hermitian matrix whose upper triangle is given, in its place."""
+    # Block by block: a transposed copy of a large matrix takes as long as a product of smaller ones.
+    for first in range(0, len(upper), BLOCK):
+        last = first + BLOCK
+        upper[last:, first:last] = upper[first:last, last:].conj().T
+        own = upper[first:last, first:last]
+        own[:] = np.triu(own) + np.triu(own, 1).conj().T
+    return upper
+
+
+def definite_factor(matrix: np.ndarray, what: str) -> np.ndarray:
+    """Cholesky factor, upper triangle (the lower one is not zero), of a symmetric or Hermitian positive definite
+    matrix.
+
     Raises ComputationError that says the stiffness of `what` is not positive definite.
     """
-    factorised, inverted = get_lapack_funcs(("potrf", "potri"), (matrix,))
-    upper, failed = factorised(matrix, lower=False)
-    if not failed:
-        upper, failed = inverted(upper, lower=False, overwrite_c=True)
+    upper, failed = get_lapack_funcs(("potrf",), (matrix,))[0](matrix, clean=False)
     if failed:
-        raise ComputationError(f"ring of sectors: the stiffness of {what} is not positive definite; is the hub held?")
-    np.copyto(upper, upper.conj().T.copy(), where=np.tri(len(upper), k=-1, dtype=bool))
+        raise _not_definite(what)
     return upper
+
+
+def _not_definite(what: str) -> ComputationError:
+    return ComputationError(f"ring of sectors: the stiffness of {what} is not positive definite; is the hub held?")
 
 
 def centre_motion(points: np.ndarray, frame_angle: float = 0.0) -> np.ndarray:

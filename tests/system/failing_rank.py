@@ -21,7 +21,7 @@ STAGES = {
     "plane sections": "elasticity.gear_compliance:_drive_flank",
     "section mesh": "elasticity.face.condensed:SectionForms",
     "condensing": "elasticity.face.condensed:_condensed",
-    "ring": "elasticity.face.half_turn:definite_inverse",
+    "ring": "elasticity.face.half_turn:definite_factor",
     "remeshing": "elasticity.remeshed_gear:RemeshedGear.stiffness",
     "positions": "contact.mesh_cycle:Cycle.position",
     "march": "dynamics.march:Marcher.run",

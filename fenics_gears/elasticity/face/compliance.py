@@ -77,7 +77,7 @@ def _computed(
     from fenics_gears.elasticity.condensation import by_radius
     from fenics_gears.elasticity.element_nodes import node_roll_angles
     from fenics_gears.elasticity.face.condensed import condensed_swept_sector
-    from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_response, ring_blocks
+    from fenics_gears.elasticity.face.half_turn import ring_blocks
     from fenics_gears.elasticity.face.swept_stiffness import ELEMENT
     from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
     from fenics_gears.elasticity.sector_mesh import sector_mesh
@@ -89,12 +89,8 @@ def _computed(
         mesh, face.sweep, poissons_ratio, centreline_angle(gear), gear.teeth, both, comm, iterative
     )
     condensed = perf_counter()
-    basis = half_turn_basis(sector.lower, len(face.sweep.heights))
-    joint = half_turn_response(sector.link, gear.teeth, farthest + 1, basis, comm)
-    held, to_cuts, found = sector.held, sector.to_cuts, sector.timings
-    # Its link between the cuts takes as much memory as all blocks.
+    found, blocks = sector.timings, ring_blocks(sector, gear.teeth, farthest, comm)
     del sector
-    blocks = ring_blocks(held, to_cuts, joint, farthest, comm)
     if blocks is None:
         return None
     blocks = _in_mirrored_frame(blocks, gear, both)

@@ -5,15 +5,22 @@ those behind: with P what that does to a cut's dofs (an involution), the link be
 and the harmonics D of the ring (`elasticity.ring`) have ``P D P = conj(D)``. Over P's eigenvectors the blocks of D for
 equal eigenvalues are real and those for opposite ones imaginary. Multiplied by i, the eigenvectors of one sign make D
 real and symmetric, which takes a quarter of the operations of a complex matrix.
+
+Half a turn about the tooth's own centreline exchanges the cuts too. Where the cuts move by u with a phase k between
+them, the even motion of a sector is that of ``cos(k/2) u`` for eigenvectors of 1 and ``-sin(k/2) u`` for those of -1,
+the odd one i times that of ``sin(k/2) u`` and ``cos(k/2) u``: both halves of a sector (`condensed`) enter a harmonic by
+real matrices.
 """
 
 from __future__ import annotations
 
 import numpy as np
 from scipy import sparse
+from scipy.linalg.blas import dsyrk, dtrsm
 
 from fenics_gears.elasticity.cut_chain import CutResponse
-from fenics_gears.elasticity.ring import cyclic, definite_inverse, rotation
+from fenics_gears.elasticity.face.condensed import SweptSector
+from fenics_gears.elasticity.ring import cyclic, definite_factor, definite_inverse, rotation, symmetric
 from fenics_gears.errors import ComputationError
 
 # Of entries that the symmetry makes zero, in the largest entry.
@@ -45,14 +52,9 @@ def half_turn_basis(lower: np.ndarray, heights: int) -> tuple[sparse.csr_matrix,
     return sparse.hstack(halves, format="csr"), halves[0].shape[1]
 
 
-def half_turn_response(
-    link: np.ndarray, teeth: int, reach: int, basis: tuple[sparse.csr_matrix, int], comm=None
-) -> CutResponse:
+def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sparse.csr_matrix, int]) -> CutResponse:
     """As `ring.cut_response`, of a sector that half a turn maps on itself; `basis` of its lower cut. Raises
-    ComputationError where it does not.
-
-    comm: communicator over whose ranks the harmonics are shared out; every rank calls this and gets the result.
-    """
+    ComputationError where it does not."""
     vectors, even = basis
     same, ahead = (vectors.T @ (vectors.T @ part.T).T for part in cyclic(link))
     real, imaginary = ahead + ahead.T, ahead - ahead.T
@@ -61,57 +63,113 @@ def half_turn_response(
         max(abs(imaginary[:even, :even]).max(), abs(imaginary[even:, even:]).max()),
     )
     if max(off) > ROUND_OFF * abs(same).max():
-        raise ComputationError(
-            "ring of sectors: half a turn about the tooth's centreline does not map the sector on itself"
-        )
+        raise _not_mapped()
     responses = np.zeros((reach + 1, *same.shape))
-    for harmonic in range(teeth // 2 + 1) if comm is None else range(comm.rank, teeth // 2 + 1, comm.size):
-        angle = 2.0 * np.pi * harmonic / teeth
+    for harmonic in range(teeth // 2 + 1):
+        angle, weight = _harmonic(harmonic, teeth)
         stiffness = same + np.cos(angle) * real
         stiffness[:even, even:] = -np.sin(angle) * imaginary[:even, even:]
         stiffness[even:, :even] = stiffness[:even, even:].T
         inverse = definite_inverse(stiffness, "a harmonic")
-        weight = (1.0 if harmonic == 0 or 2 * harmonic == teeth else 2.0) / teeth
         for offset, response in enumerate(responses):
             cosine, sine = weight * np.cos(offset * angle), weight * np.sin(offset * angle)
             response[:even, :even] += cosine * inverse[:even, :even]
             response[even:, even:] += cosine * inverse[even:, even:]
             response[:even, even:] += sine * inverse[:even, even:]
             response[even:, :even] -= sine * inverse[even:, :even]
-    if comm is not None:
-        # Imported here: alone there is no need of it.
-        from mpi4py import MPI
-
-        comm.Allreduce(MPI.IN_PLACE, responses)
     for response in responses:
         response[:] = vectors @ (vectors @ response.T).T
     return lambda offset: responses[offset] if offset >= 0 else responses[-offset].T
 
 
-def ring_blocks(
-    held: np.ndarray, to_cuts: np.ndarray, joint: CutResponse, offsets: int, comm=None
-) -> np.ndarray | None:
-    """Flank compliance blocks (offsets + 1, f, f) of a ring, as `ring.ring_compliance`, from a `condensed.SweptSector`
-    and the response of its cuts.
+def ring_blocks(sector: SweptSector, teeth: int, offsets: int, comm=None) -> np.ndarray | None:
+    """Flank compliance blocks (offsets + 1, f, f) of a ring of swept sectors, as `ring.ring_compliance`.
 
-    comm: communicator over whose ranks the products are shared out; every rank calls this, rank 0 gets the result, the
-    others None.
+    comm: communicator over whose ranks harmonics and products are shared out; every rank calls this, rank 0 gets the
+    result, the others None. Raises ComputationError where half a turn does not map the ring on itself.
     """
-    rows = to_cuts if comm is None else np.array_split(to_cuts, comm.size)[comm.rank]
-    (own_lower, own_upper), (lower, upper) = np.hsplit(rows, 2), np.hsplit(to_cuts, 2)
-    own = np.empty((offsets + 1, len(rows), len(to_cuts)))
-    # Response of the flanks to forces on the cuts m and m - 1 pitches behind; the latter is the former of the pitch
-    # before.
-    behind = own_lower @ joint(-1) + own_upper @ joint(0)
-    for offset, block in enumerate(own):
-        ahead = own_lower @ joint(offset) + own_upper @ joint(offset + 1)
-        np.matmul(ahead, lower.T, out=block)
-        block += behind @ upper.T
-        behind = ahead
-    parts = [own] if comm is None else comm.gather(own)
-    if parts is None:
-        return None
-    blocks = np.concatenate(parts, axis=1)
-    blocks[0] += held
-    blocks[0] = 0.5 * (blocks[0] + blocks[0].T)
+    basis = half_turn_basis(sector.lower, sector.heights)
+    over_cut = _over_cut(sector, teeth, basis)
+    cuts = [over_cut.T @ (over_cut.T @ half.cut).T for half in (sector.even, sector.odd)]
+    to_cuts = [(over_cut.T @ half.to_cut.T).T for half in (sector.even, sector.odd)]
+    within = _joined_through_cuts(cuts, to_cuts, basis[1], teeth, offsets, comm)
+    shapes = np.hstack([sector.even.shapes, sector.odd.shapes])
+    if sector.coast is not None:
+        shapes = np.vstack([shapes, sector.coast @ np.hstack([sector.even.shapes, -sector.odd.shapes])])
+    own = shapes if comm is None else np.array_split(shapes, comm.size)[comm.rank]
+    blocks = np.empty((offsets + 1, len(own), len(shapes)))
+    for block, joint in zip(blocks, within):
+        np.matmul(own @ joint, shapes.T, out=block)
+    if comm is not None:
+        parts = comm.gather(blocks)
+        if parts is None:
+            return None
+        blocks = np.concatenate(parts, axis=1)
+    blocks[0] += sector.held()
+    symmetric(blocks[0])
     return blocks
+
+
+def _over_cut(sector: SweptSector, teeth: int, basis: tuple[sparse.csr_matrix, int]) -> sparse.csr_matrix:
+    """The basis of a lower cut as motions (c, c) of the upper cut, a pitch ahead, in the sector's frame. Raises
+    ComputationError where half a turn about the tooth's centreline does not bring them back."""
+    vectors, even = basis
+    pitch = sparse.kron(sparse.eye(vectors.shape[0] // 3), rotation(2.0 * np.pi / teeth, 3), format="csr")
+    over_cut = pitch @ vectors
+    signs = np.where(np.arange(vectors.shape[1]) < even, 1.0, -1.0)
+    if abs(sector.lower_of_upper @ over_cut - vectors @ sparse.diags(signs)).max() > ROUND_OFF:
+        raise _not_mapped()
+    return over_cut
+
+
+def _joined_through_cuts(
+    cuts: list[np.ndarray], to_cuts: list[np.ndarray], even: int, teeth: int, offsets: int, comm=None
+) -> np.ndarray:
+    """What the ring adds to the compliance (offsets + 1, r, r) between the shapes of the even and of the odd half.
+
+    cuts: (c, c), to_cuts: (r, c), of both halves over the basis of a cut. By block inversion (`ring.ring_compliance`),
+    with each harmonic's Cholesky factor L: ``Y^T Y`` where ``L Y`` are the halves' motions by motions of the cut.
+    """
+    same, differing = cuts[0] + cuts[1], cuts[0] - cuts[1]
+    differing[even:] *= -1.0
+    first = len(to_cuts[0])
+    motions = np.vstack(to_cuts).T
+    found = np.zeros((offsets + 1, motions.shape[1], motions.shape[1]))
+    for harmonic in range(teeth // 2 + 1) if comm is None else range(comm.rank, teeth // 2 + 1, comm.size):
+        angle, weight = _harmonic(harmonic, teeth)
+        stiffness = same + np.cos(angle) * differing
+        stiffness[:even, even:] = -np.sin(angle) * differing[:even, even:]
+        # Its transpose is in LAPACK's order, and is read from the upper triangle alone.
+        factor = definite_factor(np.asfortranarray(stiffness), "a harmonic")
+        own, across = np.cos(0.5 * angle), np.sin(0.5 * angle)
+        moved = np.array(motions, order="F")
+        moved[:even, :first] *= own
+        moved[:even, first:] *= across
+        moved[even:, :first] *= -across
+        moved[even:, first:] *= own
+        product = dsyrk(1.0, dtrsm(1.0, factor, moved, trans_a=1, overwrite_b=1), trans=1)
+        for offset, block in enumerate(found):
+            cosine, sine = weight * np.cos(offset * angle), weight * np.sin(offset * angle)
+            block[:first, :first] += cosine * product[:first, :first]
+            block[first:, first:] += cosine * product[first:, first:]
+            block[:first, first:] += sine * product[:first, first:]
+    if comm is not None:
+        # Imported here: alone there is no need of it.
+        from mpi4py import MPI
+
+        comm.Allreduce(MPI.IN_PLACE, found)
+    for block in found:
+        symmetric(block)
+        block[first:, :first] *= -1.0
+    return found
+
+
+def _harmonic(number: int, teeth: int) -> tuple[float, float]:
+    """The angle (rad) by which a harmonic turns from tooth to tooth, and its share in a sum over all of them."""
+    return 2.0 * np.pi * number / teeth, (1.0 if number == 0 or 2 * number == teeth else 2.0) / teeth
+
+
+def _not_mapped() -> ComputationError:
+    return ComputationError(
+        "ring of sectors: half a turn about the tooth's centreline does not map the sector on itself"
+    )

@@ -17,13 +17,14 @@ from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import by_radius, dofs_of
 from fenics_gears.elasticity.face import conjugate_gradients
 from fenics_gears.elasticity.face.compliance import face_compliance
-from fenics_gears.elasticity.face.condensed import SweptSector, condensed_swept_sector
+from fenics_gears.elasticity.face.condensed import SweptSector, condensed_swept_sector, spanned
 from fenics_gears.elasticity.face.cost import expected_memory, expected_size, is_iterative
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_response, ring_blocks
 from fenics_gears.elasticity.face.layers import swept_nodes
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
-from fenics_gears.elasticity.ring import rotation
+from fenics_gears.elasticity.mirrored_ring import unfolded_link
+from fenics_gears.elasticity.ring import rotation, turned_nodes
 from fenics_gears.geometry.outline import centreline_angle
 from fenics_gears.system.memory import MEMORY_VARIABLE
 
@@ -77,7 +78,25 @@ def test_condensed_is_uncondensed(sector):
     )
     loads = sparse.csc_matrix((np.ones(len(flanks)), (flanks, np.arange(len(flanks)))), shape=(len(free), len(flanks)))
     uncondensed = spsolve(swept_stiffness(forms, TWISTED)[free][:, free].tocsc(), loads).toarray()[flanks]
-    assert difference(sector.held + sector.to_cuts @ np.linalg.solve(sector.link, sector.to_cuts.T), uncondensed) < 1e-9
+    even, odd = (replace(half, flank=half.flank + with_free_cut(half)) for half in (sector.even, sector.odd))
+    assert difference(replace(sector, even=even, odd=odd).held(), uncondensed) < 1e-9
+
+
+def with_free_cut(half):
+    """What a flank yields more where the cuts are free too."""
+    to_cut = half.shapes @ half.to_cut
+    return to_cut @ np.linalg.solve(half.cut, to_cut.T)
+
+
+def test_the_shapes_of_a_flank_are_all_that_its_cuts_move():
+    """Authority: the matrix itself, of a rank that is known, and of full rank."""
+    numbers = np.random.default_rng(1)
+    low, full = numbers.normal(size=(60, 15)) @ numbers.normal(size=(15, 40)), numbers.normal(size=(60, 40))
+    for matrix, most in ((low, 25), (low.T, 25), (full, 60)):
+        columns, rows = spanned(matrix)
+        assert columns.shape[1] <= most
+        assert difference(columns.T @ columns, np.eye(columns.shape[1])) < 1e-12
+        assert difference(columns @ rows, matrix) < 1e-11
 
 
 def test_ring_of_sectors_is_the_whole_gear(sector):
@@ -87,10 +106,7 @@ def test_ring_of_sectors_is_the_whole_gear(sector):
     flanks = {f"flank {tooth}": flank_nodes(whole, f"flank {tooth}") for tooth in range(offsets + 1)}
     body = condense_swept(whole, TWISTED, 0.3, flanks, held=whole.edge_nodes("hub", ELEMENT.order))
     compliance, size = np.linalg.inv(body.stiffness), len(body.dofs("flank 0"))
-    joint = half_turn_response(
-        sector.link, GEAR.teeth, offsets + 1, half_turn_basis(sector.lower, len(TWISTED.heights))
-    )
-    for offset, block in enumerate(ring_blocks(sector.held, sector.to_cuts, joint, offsets)[:, :size, :size]):
+    for offset, block in enumerate(ring_blocks(sector, GEAR.teeth, offsets)[:, :size, :size]):
         frame = np.kron(np.eye(size // 3), rotation(offset * GEAR.angular_pitch, 3))
         assert difference(block, frame.T @ compliance[offset * size : (offset + 1) * size, :size]) < 1e-10
 
@@ -206,9 +222,13 @@ def test_sector_without_the_symmetry_is_refused(sector):
     whose cuts is stiffer."""
     with pytest.raises(ComputationError, match="not symmetric"):
         swept_sector(mesh())
-    stiffer = sector.link + np.diag(np.arange(len(sector.link)) == 0) * sector.link[0, 0]
+    cut, cross = (0.5 * (sector.even.cut + sign * sector.odd.cut) for sign in (1.0, -1.0))
+    link = unfolded_link(cut, cross, sector.lower_of_upper, turned_nodes(GEAR.teeth, len(cut) // 3, 3))
+    link[0, 0] *= 2.0
     with pytest.raises(ComputationError, match="half a turn"):
-        half_turn_response(stiffer, GEAR.teeth, 1, half_turn_basis(sector.lower, len(TWISTED.heights)))
+        half_turn_response(link, GEAR.teeth, 1, half_turn_basis(sector.lower, sector.heights))
+    with pytest.raises(ComputationError, match="half a turn"):
+        ring_blocks(replace(sector, lower_of_upper=-sector.lower_of_upper), GEAR.teeth, 1)
 
 
 @pytest.mark.parametrize("reach", [Reach(0), BOTH])
