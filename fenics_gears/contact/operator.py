@@ -46,7 +46,7 @@ class ContactOperator:
     `previous_jacobian q - E p`. The last three are None without friction.
 
     `dependent_rows`: rows of the compliance that are combinations of others, see `contact.rank`. `face`: of pairs in
-    slices; None in the plane.
+    slices; None in the plane. `sliding` (n,): sign of the nominal motion's, where friction follows it, else None.
     """
 
     pairs: tuple[PairNodes, ...]
@@ -60,6 +60,7 @@ class ContactOperator:
     previous_jacobian: np.ndarray | None
     dependent_rows: int = 0
     face: Face | None = None
+    sliding: np.ndarray | None = None
 
     @property
     def nodes(self) -> int:
@@ -178,15 +179,16 @@ class Passage(NamedTuple):
 
 
 class Response(NamedTuple):
-    """How contact nodes yield: `compliance`, `previous_compliance` (None without friction) and `dependent_rows` of a
-    ContactOperator; `normal_lever_arms` and `previous_jacobian`, over all coordinates, where they are not those of
-    flanks that slide along the line of action."""
+    """How contact nodes yield: `compliance`, `previous_compliance` (None without friction), `dependent_rows` and
+    `sliding` of a ContactOperator; `normal_lever_arms` and `previous_jacobian`, over all coordinates, where they are
+    not those of flanks that slide along the line of action."""
 
     compliance: np.ndarray
     previous_compliance: np.ndarray | None = None
     dependent_rows: int = 0
     normal_lever_arms: tuple[np.ndarray, np.ndarray] | None = None
     previous_jacobian: np.ndarray | None = None
+    sliding: np.ndarray | None = None
 
 
 def contact_operator(
@@ -218,6 +220,7 @@ def contact_operator(
         previous_jacobian=earlier,
         dependent_rows=response.dependent_rows,
         face=face,
+        sliding=response.sliding,
     )
 
 
