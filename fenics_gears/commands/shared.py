@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterable
@@ -77,14 +78,18 @@ def under_mpirun(options: argparse.Namespace, arguments: list[str]) -> int:
     command += [sys.executable, "-m", "fenics_gears", *arguments]
     command += ["--output", str(options.output)] if options.output is not None else []
     command += ["--quiet"] if options.quiet else []
-    running = subprocess.Popen(command)
+    interrupted: list[int] = []
+    # Ctrl-C is mpirun's as well, which ends its processes and itself with a code of its own; to kill it meanwhile would
+    # leave them behind. It takes Ctrl-C even where a shell has this process ignore it, as in the background.
+    before = signal.signal(signal.SIGINT, lambda number, frame: interrupted.append(number))
     try:
-        return running.wait()
-    except KeyboardInterrupt:
-        # Ctrl-C is mpirun's as well, which ends its processes; to kill it meanwhile would leave them behind.
-        running.wait()
-        print("Interrupted. The cases that were done are kept; the same command goes on from there.", file=sys.stderr)
-        return INTERRUPTED
+        code = subprocess.Popen(command).wait()
+    finally:
+        signal.signal(signal.SIGINT, before)
+    if not interrupted:
+        return code
+    print("Interrupted. The cases that were done are kept; the same command goes on from there.", file=sys.stderr)
+    return INTERRUPTED
 
 
 def positive_count(text: str) -> int:

@@ -19,7 +19,7 @@ class Arrays(NamedTuple):
     there: `on_drive_flanks` (n,), `node_pair` (n,), `node_before` (n,) as of a Position.
 
     `rigid_slip` (n,), `previous_jacobian` (n, k) and `previous_columns` (m before, n), the previous compliance by
-    columns, have no rows without friction.
+    columns, have no rows without friction; `sliding` (n,) has none unless the flanks are rigid as well.
     """
 
     compliance: np.ndarray
@@ -31,6 +31,7 @@ class Arrays(NamedTuple):
     rigid_slip: np.ndarray
     previous_jacobian: np.ndarray
     previous_columns: np.ndarray
+    sliding: np.ndarray
 
 
 # A row: how many contact nodes there are, and the address of each array, 0 where it is not there.
@@ -66,6 +67,7 @@ def arrays_of(row, kinds, coordinates, nodes_before):
         carray(_to_number(row.rigid_slip), slides),
         carray(_to_number(row.previous_jacobian), (slides, k)),
         carray(_to_number(row.previous_columns), (kinds * nodes_before, slides)),
+        carray(_to_number(row.sliding), 0 if row.sliding == 0 else n),
     )
 
 

@@ -32,14 +32,14 @@ class MeshTraits:
     `divisible`: there are positions between its steps. `nodes_on_flanks`: nodes are points of the flanks, springs are
     not. `has_pressure`: forces of nodes are a pressure on the flank, those of springs and rigid flanks are not.
     `repeats`: a step is nearer to the one a mesh cycle before than to the last one, as flanks have many slices.
-    `prescribes_friction`: it follows from the place of a tooth pair, not from the slip of its nodes. `own_solver`:
-    steps are not solved by Newton's method first.
+    `rigid`: steps are solved by `rigid_step`, and friction is that of the nominal motion. `own_solver`: steps are not
+    solved by Newton's method first.
     """
 
     divisible: bool = False
     nodes_on_flanks: bool = True
     has_pressure: bool = True
-    prescribes_friction: bool = False
+    rigid: bool = False
     own_solver: bool = False
     repeats: bool = False
 

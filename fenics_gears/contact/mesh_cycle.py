@@ -51,7 +51,7 @@ class Position:
         columns = None if operator.previous_compliance is None else operator.previous_compliance.T
         return row_of(operator.nodes, (
             operator.compliance, operator.jacobian, operator.gap, operator.on_drive_flanks, operator.node_pair,
-            self.node_before, operator.rigid_slip, operator.previous_jacobian, columns,
+            self.node_before, operator.rigid_slip, operator.previous_jacobian, columns, operator.sliding,
         ))  # fmt: skip
 
     @property

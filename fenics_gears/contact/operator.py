@@ -45,7 +45,7 @@ class ContactOperator:
     `previous_jacobian q - E p`. The last three are None without friction.
 
     `dependent_rows`: rows of the compliance that are combinations of others, see `contact.pairing`. `face`: whose
-    slices the pairs are in.
+    slices the pairs are in. `sliding` (n,): sign of the nominal motion's, where friction follows it, else None.
     """
 
     pairs: tuple[PairNodes, ...]
@@ -59,6 +59,7 @@ class ContactOperator:
     previous_jacobian: np.ndarray | None
     dependent_rows: int = 0
     face: Face = IN_THE_PLANE
+    sliding: np.ndarray | None = None
 
     @property
     def nodes(self) -> int:
@@ -177,15 +178,16 @@ class Passage(NamedTuple):
 
 
 class Response(NamedTuple):
-    """How contact nodes yield: `compliance`, `previous_compliance` (None without friction) and `dependent_rows` of a
-    ContactOperator; `normal_lever_arms` and `previous_jacobian`, over all coordinates, where they are not those of
-    flanks that slide along the line of action."""
+    """How contact nodes yield: `compliance`, `previous_compliance` (None without friction), `dependent_rows` and
+    `sliding` of a ContactOperator; `normal_lever_arms` and `previous_jacobian`, over all coordinates, where they are
+    not those of flanks that slide along the line of action."""
 
     compliance: np.ndarray
     previous_compliance: np.ndarray | None = None
     dependent_rows: int = 0
     normal_lever_arms: tuple[np.ndarray, np.ndarray] | None = None
     previous_jacobian: np.ndarray | None = None
+    sliding: np.ndarray | None = None
 
 
 def contact_operator(
@@ -217,6 +219,7 @@ def contact_operator(
         previous_jacobian=earlier,
         dependent_rows=response.dependent_rows,
         face=face,
+        sliding=response.sliding,
     )
 
 

@@ -15,6 +15,7 @@ from fenics_gears.contact.addresses import arrays_of
 from fenics_gears.contact.laws import OPEN, Tolerance
 from fenics_gears.contact.mixed_form import Equations
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton
+from fenics_gears.contact.rigid_step import Sides, rigid_step
 from fenics_gears.dynamics.average_acceleration import advanced as advanced_by_average
 from fenics_gears.dynamics.average_acceleration import history as average_history
 from fenics_gears.dynamics.average_acceleration import with_history
@@ -32,7 +33,8 @@ class Motion(NamedTuple):
     """What of the equations of motion is the same at every step: the `method` in time, matrices (k, k) of the
     drivetrain, friction, tolerance of length (mm) and force (N).
 
-    `free_motion` (k,): how a load moves the drivetrain where only contact holds it, else empty.
+    `free_motion` (k,): how a load moves the drivetrain where only contact holds it, else empty; `rigid`: steps are
+    those of `contact.rigid_step`.
     """
 
     method: int
@@ -43,9 +45,12 @@ class Motion(NamedTuple):
     friction: float
     length_tolerance: float
     force_tolerance: float
+    rigid: bool = False
 
     @classmethod
-    def of(cls, drivetrain: Drivetrain, method: int, friction: float, tolerance: Tolerance) -> Motion:
+    def of(
+        cls, drivetrain: Drivetrain, method: int, friction: float, tolerance: Tolerance, rigid: bool = False
+    ) -> Motion:
         """The motion of a drivetrain by a method of time stepping, with its matrices as compiled code takes them."""
         nothing = np.zeros_like(drivetrain.stiffness)
         stiffness, mass, damping = (
@@ -53,7 +58,7 @@ class Motion(NamedTuple):
             for matrix in (drivetrain.stiffness, drivetrain.mass, drivetrain.damping)
         )
         free = drivetrain.free_motion if method == STATIC else np.empty(0)
-        return cls(method, stiffness, mass, damping, free, float(friction), tolerance.length, tolerance.force)
+        return cls(method, stiffness, mass, damping, free, float(friction), tolerance.length, tolerance.force, rigid)
 
 
 class Course(NamedTuple):
@@ -105,8 +110,12 @@ def _solve_steps(done, end, steps, motion, course):
             effective, load, contact.compliance, contact.jacobian, contact.gap, slip_before, motion.friction,
             _turned(motion.free_motion, outer),
         )  # fmt: skip
-        residuals, sets = np.empty((MOST_ITERATIONS, 5)), np.empty((MOST_ITERATIONS, n), dtype=np.int8)
-        outcome, count, found, coordinates, moved = newton(equations, nodes, method, residuals, sets)
+        if motion.rigid:
+            sides = Sides(contact.on_drive_flanks, contact.node_pair, contact.sliding)
+            outcome, count, found, coordinates, moved = rigid_step(equations, sides, nodes, method)
+        else:
+            residuals, sets = np.empty((MOST_ITERATIONS, 5)), np.empty((MOST_ITERATIONS, n), dtype=np.int8)
+            outcome, count, found, coordinates, moved = newton(equations, nodes, method, residuals, sets)
         if outcome != CONVERGED:
             return
         both = slice(kinds * starts[s], kinds * starts[s + 1])

@@ -103,7 +103,7 @@ class Marcher(Stepper):
         self._may_lock = self.friction > 0.0 and self.friction * cycle.pair.wheel.tip_roll_angle >= 1.0
         method = AVERAGE_ACCELERATION if isinstance(self.dynamic, AverageAcceleration) else BACKWARD_EULER
         self._motion = Motion.of(
-            self.drivetrain, method if self.dynamic.inert else STATIC, self.friction, self.tolerance
+            self.drivetrain, method if self.dynamic.inert else STATIC, self.friction, self.tolerance, cycle.traits.rigid
         )
         # Steps in a call of compiled code, which lasts until the next report as soon as it is known how long a step
         # takes.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
+from functools import lru_cache
 
 
 def nearest(word: str, names: Iterable[str], likeness: float = 0.6) -> str | None:
@@ -14,6 +15,12 @@ def nearest(word: str, names: Iterable[str], likeness: float = 0.6) -> str | Non
     >>> nearest("oil", ["friction", "inertia"]) is None
     True
     """
+    return _nearest(word, tuple(names), likeness)
+
+
+@lru_cache(maxsize=1024)
+def _nearest(word: str, names: tuple[str, ...], likeness: float) -> str | None:
+    """Remembered: scenes of a study have the same names hundreds of times."""
     by_lower_case = {name.lower(): name for name in names}
     if word.lower() in by_lower_case:
         return by_lower_case[word.lower()]

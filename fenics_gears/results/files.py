@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+from collections.abc import Collection
 from pathlib import Path
 from typing import BinaryIO
 
@@ -95,14 +96,14 @@ def load(path: str | Path) -> xr.Dataset:
     return result
 
 
-def read(path: str | Path) -> xr.Dataset:
-    """Read a saved dataset, whatever it holds, into memory. Raises ComputationError when it is damaged or not written
-    by `save`."""
+def read(path: str | Path, names: Collection[str] | None = None) -> xr.Dataset:
+    """Read a saved dataset, whatever it holds, into memory, or only its variables of these names. Raises
+    ComputationError when it is damaged or not written by `save`."""
     from fenics_gears.results.netcdf import read_netcdf
 
     try:
         with unsealed(Path(path)) as content:
-            return read_netcdf(content)
+            return read_netcdf(content, names)
     # HDF5 and xarray raise whatever they meet in a damaged file: RuntimeError, KeyError, AttributeError, TypeError.
     except Exception as failure:
         raise ComputationError(f"{path}: cannot be read as a result: {failure}") from failure

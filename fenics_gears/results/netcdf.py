@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import functools
 import io
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -139,13 +139,14 @@ OF_THE_FORMAT = {
 NO_VARIABLE = "This is a netCDF dimension but not a netCDF variable"
 
 
-def read_netcdf(content) -> xr.Dataset:
-    """The dataset in an open NetCDF-4 file, in memory: as `xarray.open_dataset` by h5netcdf, in a third of the time for
-    so many variables."""
+def read_netcdf(content, names: Collection[str] | None = None) -> xr.Dataset:
+    """The dataset in an open NetCDF-4 file, in memory, or only its variables of these names: as `xarray.open_dataset`
+    by h5netcdf, in a third of the time for so many variables."""
     variables = {}
     with h5py.File(content) as file:
         # As a group the root has its names in the order in which they were written.
-        for name, held in file["/"].items():
+        for name in file["/"] if names is None else [name for name in names if name in file]:
+            held = file[name]
             attributes = dict(held.attrs)
             if _text(attributes.get("NAME", "")).startswith(NO_VARIABLE):
                 continue

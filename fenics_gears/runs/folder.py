@@ -16,7 +16,8 @@ import xarray as xr
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
-from fenics_gears.runs.record import Record, record_of
+from fenics_gears.results.files import read
+from fenics_gears.runs.record import VARIABLES, Record, record_of
 from fenics_gears.runs.run import Run
 from fenics_gears.runs.runs import Failure, failure_of
 from fenics_gears.system.output import remove_left_over, write_whole
@@ -66,7 +67,7 @@ class Folder:
 
 def _undamaged(path: Path, run: Run) -> Record | None:
     try:
-        result = results.load(path)
+        result = read(path, VARIABLES)
         if (result.attrs.get("case_key"), result.attrs.get("complete")) != (run.key, 1):
             raise ValueError("it does not hold what was written into it")
         return record_of(result)

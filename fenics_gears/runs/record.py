@@ -26,6 +26,8 @@ CURVES = (
     "transmission_error", "centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y", "shaft_end_rotation",
     "normal_force", "friction_force", "mesh_stiffness",
 )  # fmt: skip
+# What a record is made of besides attributes: a twentieth of a result, which takes so much less time to read.
+VARIABLES = ("time", "mesh_phase", "coast_normal_force", *CURVES)
 
 
 @dataclass(frozen=True)

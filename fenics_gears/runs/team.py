@@ -8,6 +8,7 @@ processes compute.
 from __future__ import annotations
 
 import contextlib
+import importlib
 import queue
 import signal
 from collections.abc import Callable, Iterator, Sequence
@@ -90,6 +91,15 @@ def _outcome(compute: Callable[[], Any]) -> Any:
         return error
 
 
+def _load_what_runs_need() -> None:
+    """Half a second of libraries and compiled code, while rank 0 reads what there is to do."""
+    from fenics_gears.simulation.warm_up import compile_kernels
+
+    for module in ("results.netcdf", "simulation.elastic_route"):
+        importlib.import_module(f"fenics_gears.{module}")
+    compile_kernels(tangential=True)
+
+
 @contextlib.contextmanager
 def ranks() -> Iterator[Alone | Together | None]:
     """The processes that work together; None on every rank but 0, once there is no more to do.
@@ -105,8 +115,10 @@ def ranks() -> Iterator[Alone | Together | None]:
     if world.rank > 0:
         # Rank 0 decides; a worker that Ctrl-C also reaches would leave it waiting.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
-        with ending_all(world), MPICommExecutor(world, root=0):
-            pass
+        with ending_all(world):
+            _load_what_runs_need()
+            with MPICommExecutor(world, root=0):
+                pass
         yield None
         return
     with MPICommExecutor(world, root=0) as executor:

@@ -13,6 +13,7 @@ import xarray as xr
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
+from fenics_gears.results.files import read
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.show.units import factor
 
@@ -172,10 +173,18 @@ class Cases:
         the same gears."""
         if not any(field.path.startswith("gears") for field in self.fields):
             done = next((case for case, state in enumerate(self.states) if state in STATES[:2]), None)
-            run = None if done is None else self.run(done)
-            if run is not None and "base_radius_wheel" in run.attrs:
-                return float(run.attrs["base_radius_wheel"]) * factor("mm", "µm"), "µm"
+            radius = None if done is None else self._base_radius(done)
+            if radius is not None:
+                return radius * factor("mm", "µm"), "µm"
         return factor("rad", "µrad"), "µrad"
+
+    def _base_radius(self, case: int) -> float | None:
+        """Of the wheel of a case, mm; None where its file is not there, damaged or without it."""
+        try:
+            radius = read(self.file.parent / self.texts("case_file")[case], ()).attrs.get("base_radius_wheel")
+        except ComputationError:
+            return None
+        return None if radius is None else float(radius)
 
     @cached_property
     def measures(self) -> dict[str, tuple[np.ndarray, str, str]]:

@@ -19,5 +19,5 @@ def rigid_route(model: Model, progress: Progress, cache: Cache | None, job: Job 
 def rigid_cycle(model: Model) -> Cycle:
     """The contact of one mesh cycle between rigid flanks."""
     scene, grid = model.scene, model.resolution.contact_grid
-    mesh = rigid_mesh(model.pair, model.removal, grid, scene.coast_flanks is not None, scene.friction is not None)
+    mesh = rigid_mesh(model.pair, model.removal, grid, scene.coast_flanks is not None)
     return cycle_of(model, mesh)

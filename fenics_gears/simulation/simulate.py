@@ -123,7 +123,7 @@ def _simulated(
     gears, cycle = (preparation or functools.partial(prepared, job=job))(model, progress, cache)
     cycle.kept.most = for_operators
     progress.stage("compile")
-    compiled = compile_kernels(tangential=model.scene.friction is not None)
+    compiled = compile_kernels(model.scene.friction is not None, cycle.traits.rigid)
     recorder = Recorder(model, cycle, stress=root_stress_of(model, cycle, progress, cache), journal=journal)
     march = _marched(recorder, gears, compiled, progress)
     result = result_of(recorder, march, gears, compiled, "interrupted" if march.interrupted else "")
@@ -155,7 +155,7 @@ def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> 
     scene = model.scene
     progress.stage("march")
     try:
-        judged = 0 if cycle.traits.prescribes_friction else min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1
+        judged = 0 if cycle.traits.rigid else min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1
         return Marcher(cycle, model.equations_of_motion).run(model.steps, 1, progress.update, recorder.take, judged)
     except ContactNotConverged as failure:
         failure.partial = result_of(recorder, failure.partial, gears, compiled, "failed")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -40,24 +39,25 @@ def why_unknown(path: Path) -> str | None:
 def changed(tree: Mapping[str, Any], path: Path, value: Any) -> dict[str, Any]:
     """A copy of a parsed scene with the value at ``path``; ABSENT removes what is there, PRESENT leaves it as it is.
 
-    A load that is given in one way takes the place of one given in another.
+    A load that is given in one way takes the place of one given in another. What does not change is the same object in
+    both.
     """
+    tree = dict(tree)
     if value == PRESENT:
-        return dict(tree)
-    tree = copy.deepcopy(dict(tree))
+        return tree
     home = tree
     for name in path[:-1]:
-        if not isinstance(home.get(name), dict):
-            if value == ABSENT:
-                return tree
-            home[name] = {}
+        inner = home.get(name)
+        if not isinstance(inner, Mapping) and value == ABSENT:
+            return tree
+        home[name] = dict(inner) if isinstance(inner, Mapping) else {}
         home = home[name]
     if value == ABSENT:
         home.pop(path[-1], None)
         return tree
     for other in LOADS if path[0] == "load" and path[-1] in LOADS else ():
         home.pop(other, None)
-    home[path[-1]] = copy.deepcopy(value)
+    home[path[-1]] = value
     return tree
 
 

@@ -215,6 +215,22 @@ def test_a_second_ctrl_c_does_not_wait(simulation, tmp_path):
     assert files(tmp_path) == []
 
 
+@pytest.mark.parametrize("before", [signal.default_int_handler, signal.SIG_IGN], ids=["terminal", "background"])
+def test_ctrl_c_that_mpirun_gets_too(tmp_path, monkeypatch, capsys, before):
+    """Authority: docs/promises.md, exit code 130; mpirun itself ends with 1. It takes Ctrl-C also as a job in a shell's
+    background, where Python ignores it."""
+    mpirun, found = tmp_path / "mpirun", signal.getsignal(signal.SIGINT)
+    mpirun.write_text("#!/bin/sh\nkill -INT $PPID\nexit 1\n")
+    mpirun.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+    signal.signal(signal.SIGINT, before)
+    try:
+        assert main(["study", "study.toml", "--processes", "2"]) == 130
+        assert signal.getsignal(signal.SIGINT) is before and "Interrupted" in capsys.readouterr().err
+    finally:
+        signal.signal(signal.SIGINT, found)
+
+
 def test_ctrl_c_before_the_recorded_cycles_says_so(simulation, capsys, tmp_path):
     """Authority: docs/promises.md; a run without a step is kept, marked incomplete, and not summed up as if it had
     some."""

@@ -21,7 +21,7 @@ from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
-from fenics_gears.scene.data import Motion
+from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion
 from fenics_gears.simulation.elastic_route import mesh_cycle
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.progress import SilentProgress
@@ -31,6 +31,7 @@ DEMOS = sorted(
     for path in (Path(__file__).parents[2] / "demos").rglob("*.toml")
     if "[gears" in path.read_text(encoding="utf-8")
 )
+RIGID = Accuracy(model=RIGID_TEETH, steps_per_mesh_cycle=20)
 SCENES = {
     "friction": lambda scene: scene,
     "quasi-static": lambda scene: frictionless(quasi_static(scene)),
@@ -41,6 +42,10 @@ SCENES = {
     "steps that change": lambda scene: replace(scene, speed_ramp=SpeedRamp(250.0), motion=Motion(150.0, 4, 1)),
     "friction beyond Newton": lambda scene: replace(quasi_static(scene), friction=Friction(2.0)),
     "springs": lambda scene: replace(scene, accuracy=replace(COARSE, model="ISO 6336-1")),
+    "rigid flanks": lambda scene: replace(scene, accuracy=RIGID),
+    "rigid flanks that rattle": lambda scene: replace(
+        scene, accuracy=RIGID, coast_flanks=CoastFlanks(), friction=None, damping=None, motion=Motion(1e3, 6, 1)
+    ),
 }
 
 

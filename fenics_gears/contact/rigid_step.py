@@ -1,0 +1,163 @@
+"""A step between rigid flanks, in compiled code: of either side only the node with the smallest gap can touch.
+
+All contact nodes of the drive flanks move alike with the gears, by the base radii and along the line of action; so do
+those of the coast flanks. Where several pairs have the same gap, as true involutes do wherever two pairs are in mesh,
+their shares of the force are not determined; without friction the whole force is put on the first of them.
+
+Nor do rigid flanks determine which way they slide at the pitch point. By common practice friction is that of the
+nominal motion: pairs that touch share the force evenly, and each has mu times its share, against the sliding of the
+nominal motion; motion of bearings and shafts does not change its sign.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
+from fenics_gears.contact.mixed_form import product, solved
+from fenics_gears.contact.newton import CONVERGED, SINGULAR
+
+# Gaps (mm) that differ by less are the same: the round-off of positions on the line of action.
+SAME_GAP = 1e-10
+# Drive and coast flanks hold the gears in different directions where their rows of G differ by more than round-off.
+SAME_DIRECTION = 1e-9
+
+
+class Sides(NamedTuple):
+    """Contact nodes (n,) as of a ContactOperator; `sliding`: empty without friction."""
+
+    on_drive_flanks: np.ndarray
+    node_pair: np.ndarray
+    sliding: np.ndarray
+
+
+@njit(cache=True)
+def rigid_step(equations, sides, status, method):
+    """Solve a step with the first that holds the load: no node touching, the leading node of a side, or of both.
+
+    Both sides touch where teeth are wider than the spaces between them and bearings let the centres move. Sets go into
+    `status` (n,). Returns what `newton.newton` does; SINGULAR where nothing holds the load.
+    """
+    m, k = len(equations.compliance), len(equations.load)
+    forces, coordinates, displacement = np.zeros(m), np.zeros(k), np.zeros(m)
+    leaders = _leaders(equations.gap, sides.on_drive_flanks)
+    candidates = 1 + len(leaders) + (1 if len(leaders) == 2 and not len(sides.sliding) else 0)
+    for candidate in range(candidates):
+        touching = leaders if candidate > 2 else leaders[max(candidate - 1, 0) : candidate]
+        unit = _unit_forces(equations, sides, touching)
+        if _solved(equations, touching, unit, forces, coordinates) and _obeys(
+            equations, leaders, touching, forces, coordinates, method
+        ):
+            for row in range(m):
+                displacement[row] = product(equations.jacobian[row], coordinates)
+            _set(status, unit)
+            return CONVERGED, candidate + 1, forces, coordinates, displacement
+    return SINGULAR, candidates, forces, coordinates, displacement
+
+
+@njit(cache=True)
+def _leaders(gap, on_drive_flanks):
+    """The node with the smallest gap of the drive and of the coast flanks, as far as there are such nodes."""
+    found = np.full(2, -1)
+    for node in range(len(gap)):
+        side = 0 if on_drive_flanks[node] else 1
+        if found[side] < 0 or gap[node] < gap[found[side]]:
+            found[side] = node
+    return found[found >= 0]
+
+
+@njit(cache=True)
+def _unit_forces(equations, sides, touching):
+    """Forces (t, m) per unit mesh force at each of the nodes `touching` (t,).
+
+    With friction even shares on the nearest node of each pair that touches with it, and their friction.
+    """
+    gap, drive, pairs = equations.gap, sides.on_drive_flanks, sides.node_pair
+    unit, n = np.zeros((len(touching), len(equations.compliance))), len(gap)
+    for row in range(len(touching)):
+        leader = touching[row]
+        if not len(sides.sliding):
+            unit[row, leader] = 1.0
+            continue
+        nearest = np.full(pairs.max() + 1, -1)
+        for node in range(n):
+            if drive[node] == drive[leader] and gap[node] <= gap[leader] + SAME_GAP:
+                other = nearest[pairs[node]]
+                if other < 0 or gap[node] < gap[other]:
+                    nearest[pairs[node]] = node
+        together = nearest[nearest >= 0]
+        for node in together:
+            unit[row, node] = 1.0 / len(together)
+            unit[row, n + node] = equations.friction * sides.sliding[node] / len(together)
+    return unit
+
+
+@njit(cache=True)
+def _solved(equations, touching, unit, forces, coordinates):
+    """Fill forces (m,) and coordinates (k,) with some nodes touching; whether the drivetrain can be solved so."""
+    stiffness, load, jacobian = equations.stiffness, equations.load, equations.jacobian
+    k, t = len(load), len(touching)
+    forces[:] = 0.0
+    if not t:
+        if len(equations.free_motion):
+            return False
+        coordinates[:] = solved(stiffness.copy(), load.copy())
+        return True
+    if t > 1 and not _independent(jacobian[touching[0]], jacobian[touching[1]]):
+        return False
+    # Forces are carried as lengths, by the largest stiffness, so that all entries of the matrix are of one size.
+    largest = np.abs(stiffness).max()
+    scale = largest if largest > 0.0 else 1.0
+    matrix, right = np.zeros((k + t, k + t)), np.empty(k + t)
+    matrix[:k, :k], right[:k] = stiffness, load
+    for a in range(t):
+        matrix[k + a, :k], right[k + a] = scale * jacobian[touching[a]], scale * equations.gap[touching[a]]
+        for row in np.flatnonzero(unit[a]):
+            matrix[:k, k + a] += scale * unit[a, row] * jacobian[row]
+    try:
+        solution = solved(matrix.copy(), right.copy())
+        # Iterative refinement: where slow masses are hardly any stiffness, load over stiffness is a length beside which
+        # the gap is round-off.
+        for a in range(k + t):
+            right[a] -= product(matrix[a], solution)
+        solution += solved(matrix, right)
+    except Exception:
+        # A singular matrix; compiled code tells no kinds of errors apart.
+        return False
+    coordinates[:] = solution[:k]
+    for a in range(t):
+        forces += scale * solution[k + a] * unit[a]
+    return True
+
+
+@njit(cache=True)
+def _independent(one, other):
+    """Whether drive and coast flanks hold the gears in different directions; with fixed centres they do not."""
+    part = product(other, one) / product(one, one)
+    return np.abs(other - part * one).max() > SAME_DIRECTION
+
+
+@njit(cache=True)
+def _obeys(equations, leaders, touching, forces, coordinates, method):
+    """Whether nothing pulls and nothing penetrates."""
+    for node in leaders:
+        if np.any(touching == node):
+            if forces[node] < -method.force_tolerance:
+                return False
+        elif product(equations.jacobian[node], coordinates) - equations.gap[node] > method.length_tolerance:
+            return False
+    return True
+
+
+@njit(cache=True)
+def _set(status, unit):
+    """The sets (n,) under forces `unit` (t, m), friction's sign being that of the slip."""
+    n, m = len(status), unit.shape[1]
+    status[:] = OPEN
+    for row in range(len(unit)):
+        for node in np.flatnonzero(unit[row, :n]):
+            sense = unit[row, n + node] if m > n else 1.0
+            status[node] = SLIP_FORWARD if sense > 0.0 else SLIP_BACKWARD if sense < 0.0 else STICK
