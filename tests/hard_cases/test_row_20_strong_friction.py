@@ -63,7 +63,9 @@ def locks_from(pair):
 
 @pytest.mark.parametrize("absent", ABSENT, ids=["all", "without bearings", "rigid"])
 @pytest.mark.parametrize("dynamic", DYNAMIC)
-@pytest.mark.parametrize("friction", [0.3, pytest.param(0.6, marks=pytest.mark.nightly), 1.0, 2.0])
+@pytest.mark.parametrize(
+    "friction", [0.3, *(pytest.param(each, marks=pytest.mark.nightly) for each in (0.6, 1.0)), 2.0]
+)
 def test_strong_friction_converges_or_says_why(friction, dynamic, absent, coarse, paper_pair, measured):
     """Authority: Coulomb's law at every step from the equations, and the moment balance of the wheel: normal force and
     friction have the lever arms rb2 and L - x, so that friction can lock from mu = rb2/(L - x) on (1.65 at the start of
