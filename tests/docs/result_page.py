@@ -18,24 +18,6 @@ from fenics_gears.effects.effect import ResultVariable
 from fenics_gears.results.attributes import ESTIMATED, RESULT_ATTRIBUTES, RUNG
 
 PAGE = ROOT / "docs" / "result.md"
-DIMENSIONS = {
-    "time": "all time steps, with the start as step 0",
-    "contact_time": "steps whose contact fields are stored, at the end of the run (`[output] contact_fields`)",
-    "gear": '"pinion", "wheel"',
-    "slot": "places for the tooth pairs that can touch at the same time; a pair keeps its slot as long as it can touch",
-    "path_point": (
-        "points of the path of contact: A start of contact, B LPSTC of the pinion, C pitch point, D HPSTC of the"
-        " pinion, E end of contact"
-    ),
-    "contact_node": "contact nodes of a pair, in the order of their offset from the line of action",
-    "pinion_tooth": "teeth of the pinion, in the order in which they mesh",
-    "wheel_tooth": "teeth of the wheel, in the order in which they mesh",
-    "fillet_point": (
-        "points along both fillets of a tooth, from the root circle to the form circle, first on the drive side, then"
-        " on the coast side"
-    ),
-    "fillet": '"drive", "coast": the two sides of a tooth',
-}
 # Bodies read from meshes exclude other effects and have no variables of their own; what makes a scene three-dimensional
 # gives fields another dimension.
 NOT_IN_THE_RUN = {each.section for each in EFFECTS if each.excludes} | {"lead_modifications", "misalignment"}
@@ -56,7 +38,7 @@ def page(result: xr.Dataset | None = None) -> str:
         if each.variables:
             of_effects += [f"### `[{each.written}]`", "", *_variables(result, each.variables), ""]
     tables = {
-        "dimensions": [*_dimensions(result), "", *_coordinates(result)],
+        "coordinates": _coordinates(result),
         "variables": _variables(result, COMMON_VARIABLES),
         "effects": of_effects[:-1],
         "root stress": _root_stress(result),
@@ -78,13 +60,6 @@ def _further_attributes() -> list[str]:
         f"With `[accuracy] target`, further attributes give the estimated error of each setting: `{ESTIMATED}steps"
         " per mesh cycle` and so on.",
     ]
-
-
-def _dimensions(result: xr.Dataset) -> list[str]:
-    return table(
-        ("dimension", "meaning"),
-        [(f"`{name}`", DIMENSIONS[name]) for name in sorted(result.sizes, key=list(DIMENSIONS).index)],
-    )
 
 
 def _coordinates(result: xr.Dataset) -> list[str]:

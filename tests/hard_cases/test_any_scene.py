@@ -37,6 +37,14 @@ LAWS = {
 }
 
 
+def obeys_the_laws(found):
+    """Rows 1 to 3 at every step; returns the largest penetration, um."""
+    worst = worst_of(found)
+    for name, value in worst.items():
+        assert value <= LAWS[name][2], f"{name}: {value}"
+    return worst["penetration"]
+
+
 class Tally:
     """The worst of each law over all scenes, and how the scenes ended."""
 
