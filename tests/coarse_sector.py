@@ -8,7 +8,7 @@ import numpy as np
 from fenics_gears import Gear
 from fenics_gears.elasticity.element_sizes import ElementSizes
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.ring import centre_motion, condensed_sector
+from fenics_gears.elasticity.ring import condensed_sector
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.scene.data import Material
 
@@ -28,11 +28,6 @@ def coarse_sector_mesh(name: str):
 def coarse_condensed_sector(name: str, poissons_ratio: float = 0.3):
     """The same, condensed."""
     return condensed_sector(coarse_sector_mesh(name), ELEMENTS[name], poissons_ratio)
-
-
-def flank_motion(sector, gear: Gear, teeth: tuple[int, ...]) -> np.ndarray:
-    """Displacement of the flanks of some teeth per unit rigid motion of the gear."""
-    return np.vstack([centre_motion(sector.points["flank"], tooth * gear.angular_pitch) for tooth in teeth])
 
 
 def relative(difference, reference) -> float:

@@ -4,24 +4,22 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from tests.docs.markdown import prose
 from tests.effects.examples import EXAMPLES
 
 from fenics_gears.effects import COMMON_VARIABLES, effect_named, every_effect
 from fenics_gears.effects.effect import Effect
 
 PAGE = Path(__file__).parents[1] / "docs" / "effects.md"
-HEADING = """# Effects
-
-Each section below switches on one effect. If a scene leaves the section out, the effect is not there: no unknowns, no terms, no result variables, and its physics is not imported.
-`gears check SCENE` lists the effects that are on and off. `gears effects SCENE` measures what each costs and how it changes the result. [Adding an effect](adding_an_effect.md) shows how to write one.
-
-This page is written by `python -m tests.effects_table` from `fenics_gears.effects`; a test says when it is out of date.
-"""
 
 
 def page() -> str:
     """The whole page."""
-    lines = [HEADING, "| section | effect | without it | adds | needs | excludes |", "|---|---|---|---|---|---|"]
+    lines = [
+        prose("effects.md"),
+        "| section | effect | without it | adds | needs | excludes |",
+        "|---|---|---|---|---|---|",
+    ]
     lines += [_row(each) for each in every_effect()]
     lines += ["", "## Examples", ""]
     for each in every_effect():

@@ -1,5 +1,4 @@
-"""The whole gear by brute force, to compare the fast routes with: its mesh, its flank compliance, the stiffness of its
-ring of sectors."""
+"""The whole gear by brute force, to compare the fast routes with: its mesh, its flank compliance."""
 
 from __future__ import annotations
 
@@ -7,11 +6,11 @@ import numpy as np
 
 from fenics_gears import Gear, Material
 from fenics_gears.elasticity.compliance import FlankCompliance
-from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense
+from fenics_gears.elasticity.condensation import by_radius, condense
 from fenics_gears.elasticity.element_nodes import node_roll_angles
 from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.ring import centre_motion, check_congruent, rotation, turned_nodes
+from fenics_gears.elasticity.ring import rotation
 from meshes.root_crack import joined_sectors
 
 
@@ -63,31 +62,3 @@ def whole_gear_mesh(sector: BodyMesh, teeth: int) -> BodyMesh:
     Tooth t stands t pitches counter-clockwise of tooth 0 and its flank is "flank t".
     """
     return joined_sectors([sector] * teeth)
-
-
-def ring_stiffness(sector: CondensedBody, teeth: int, loaded: tuple[int, ...]) -> np.ndarray:
-    """Stiffness (2n len(loaded) + 3, ...) over the flanks of the loaded teeth and the centre (dx, dy, phi), E = 1 MPa.
-
-    Assembled from all sectors, dense. Flank dofs are in each tooth's own frame, the centre's in that of tooth 0.
-    """
-    check_congruent(sector.points["lower"], sector.points["upper"], teeth)
-    flank, cut = len(sector.dofs("flank")), len(sector.dofs("lower"))
-    size = teeth * (flank + cut) + 3
-    turn = turned_nodes(teeth, cut // 2)
-    total = np.zeros((size, size))
-    for tooth in range(teeth):
-        map_to_ring = np.zeros((len(sector.stiffness), size))
-        first = teeth * flank
-        ahead = first + (tooth + 1) % teeth * cut
-        map_to_ring[sector.dofs("flank"), tooth * flank + np.arange(flank)] = 1.0
-        map_to_ring[sector.dofs("lower"), first + tooth * cut + np.arange(cut)] = 1.0
-        map_to_ring[np.ix_(sector.dofs("upper"), ahead + np.arange(cut))] = turn
-        map_to_ring[np.ix_(sector.dofs("hub"), np.arange(size - 3, size))] = centre_motion(
-            sector.points["hub"], 2.0 * np.pi * tooth / teeth
-        )
-        total += map_to_ring.T @ sector.stiffness @ map_to_ring
-    kept = np.concatenate([tooth * flank + np.arange(flank) for tooth in loaded] + [np.arange(size - 3, size)])
-    free = np.setdiff1d(np.arange(size), kept)
-    eliminated = np.linalg.solve(total[np.ix_(free, free)], total[np.ix_(free, kept)])
-    stiffness = total[np.ix_(kept, kept)] - total[np.ix_(kept, free)] @ eliminated
-    return 0.5 * (stiffness + stiffness.T)

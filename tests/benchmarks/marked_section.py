@@ -5,6 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 
+def markers(name: str) -> tuple[str, str]:
+    """The lines of a page between which a section stands."""
+    return f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
+
+
 def replaced(page: str, begin: str, end: str, words: str, where: str = "the page") -> str:
     """The page with `words` between its two marker lines. Raises SystemExit where they are missing."""
     before, found, rest = page.partition(begin)

@@ -6,17 +6,10 @@ import argparse
 import inspect
 import re
 
-from tests.docs.markdown import capital, table
+from tests.docs.markdown import capital, prose, table
 
 from fenics_gears.commands import cli
 from fenics_gears.elasticity.cache import DEFAULT_SIZE
-
-HEADING = """# Commands
-
-In a checkout the command is `./gears`, which installs what is missing on first use. After `pip install .` it is `gears`. [The README](../README.md#commands) lists what each command does.
-
-This page is written by `python -m tests.docs.write` from the program's argument parser; a test says when it is out of date.
-"""
 
 
 def parser(called: str = "") -> argparse.ArgumentParser:
@@ -38,7 +31,7 @@ def commands() -> dict[str, tuple[str, argparse.ArgumentParser]]:
 def page() -> str:
     """The whole page."""
     whole = parser()
-    lines = [HEADING, "## `gears`", "", f"    gears{_usage(whole)} COMMAND ...", "", *_options(whole), ""]
+    lines = [prose("commands.md"), "## `gears`", "", f"    gears{_usage(whole)} COMMAND ...", "", *_options(whole), ""]
     lines += ["Every command also accepts `-h`, `-v` and `-q`.", ""]
     for name, (words, command) in commands().items():
         rest = {"test": " [PYTEST'S OPTIONS]", "python": " [PYTHON'S OPTIONS] FILE"}.get(name) or _usage(command)

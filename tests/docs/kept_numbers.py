@@ -52,11 +52,6 @@ def rows(name: str) -> Rows:
         return list(csv.DictReader(opened))
 
 
-def markers(name: str) -> tuple[str, str]:
-    """The lines of a page between which a section stands."""
-    return f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
-
-
 def percent(part: str) -> str:
     """A part of 1 in per cent, two digits."""
     return f"{100.0 * float(part):.2g} %"

@@ -5,6 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
+from tests.docs.blocks import ROOT
+
+# How the prose at the top of a page ends whose other lines are generated.
+WRITTEN = "a test says when it is out of date.\n"
+
 
 def table(heading: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
     """Lines of a table; a bar in a cell would end it and is escaped."""
@@ -22,3 +27,10 @@ def capital(words: str) -> str:
     """The words as a sentence, with a full stop."""
     words = words[:1].upper() + words[1:]
     return words if words.endswith(".") else words + "."
+
+
+def prose(page: str) -> str:
+    """What stands at the top of a page of docs, which is written by hand."""
+    text, found, _ = (ROOT / "docs" / page).read_text(encoding="utf-8").partition(WRITTEN)
+    assert found, f"docs/{page} does not say who writes it"
+    return text + found

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from tests.docs.markdown import capital, from_docstring, table
+from tests.docs.markdown import capital, from_docstring, prose, table
 
 from fenics_gears.effects import effect_named, every_effect
 from fenics_gears.inputs import units
@@ -14,16 +14,6 @@ from fenics_gears.inputs.allowed import Allowed
 from fenics_gears.inputs.section import Section, allowed_in, names_in, required_in, section_within
 from fenics_gears.scene.schema import scene_text
 
-HEADING = """# The scene
-
-A scene is a TOML file. `[gears]` and `[load]` are required, `[motion]` only with `[inertia]`. `[accuracy]` and `[output]` control how finely the scene is computed and what is stored. Every
-other section switches on one [effect](effects.md); if it is left out, the effect is not there. [The demo](../demos/lundvall2004.toml) is a complete scene.
-
-A quantity is written as text with a number and a unit, `"4.5 mm"` or `"0.203e9 N mm/rad"`, in any unit of its kind. Only numbers without dimension are written without a unit.
-`gears check SCENE` lists all mistakes in a scene at once, each with its line, its value, what is allowed and the nearest known name. Every command checks the scene in this way before it computes.
-
-This page is written by `python -m tests.docs.write` from the scene's schema; a test says when it is out of date.
-"""
 ALWAYS = ("gears", "load", "motion")
 # The names that a section's docstring begins with; the page has them in the heading.
 NAMES = re.compile(r"^`\[[^]]+\]`(?: and (?:`\[[^]]+\]`|the wheel's))?[.:;]\s*")
@@ -43,7 +33,7 @@ class SectionOfScene:
 
 def page() -> str:
     """The whole page."""
-    lines = [HEADING, *_units(), "## Top of the file", "", *fields(scene_text(), "the top")]
+    lines = [prose("scene.md"), *_units(), "## Top of the file", "", *fields(scene_text(), "the top")]
     lines += ["## Gears, load and motion", ""]
     for name in ALWAYS:
         lines += _with_parts(name)

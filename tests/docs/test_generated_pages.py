@@ -86,7 +86,7 @@ def test_a_run_has_no_attribute_that_the_list_does_not_know(everything, paper_sc
     assert always <= set(everything.attrs) and always | when_lost <= set(lost.attrs)
 
 
-def test_every_variable_of_the_run_is_on_the_page(everything):
+def test_every_variable_and_dimension_of_the_run_is_on_the_page(everything):
     """Authority: the run."""
     words = kept("result.md")
-    assert all(f"| `{name}` |" in words for name in everything.variables)
+    assert all(f"| `{name}` |" in words for name in (*everything.variables, *everything.sizes))

@@ -1,7 +1,8 @@
 """Tables of the evidence pages are those of the numbers kept beside them."""
 
 import pytest
-from tests.docs.kept_numbers import EVIDENCE, SECTIONS, markers, rows
+from tests.benchmarks.marked_section import markers
+from tests.docs.kept_numbers import EVIDENCE, SECTIONS, rows
 
 from fenics_gears.model.plane_strain import SOFTER
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tests.benchmarks.marked_section import write_section
+from tests.benchmarks.marked_section import markers, write_section
 from tests.docs import commands_page, kept_numbers, result_page, scene_page
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -15,4 +15,4 @@ if __name__ == "__main__":
         (DOCS / name).write_text(page(), encoding="utf-8")
         print(DOCS / name)
     for (page_name, section), words in kept_numbers.SECTIONS.items():
-        write_section(DOCS / "evidence" / page_name, *kept_numbers.markers(section), words())
+        write_section(DOCS / "evidence" / page_name, *markers(section), words())

@@ -125,6 +125,8 @@ def imports_of_hooks(section):
 
 PROGRAM = """
 import json, sys
+from fenics_gears.scene.read import scene_from_text
+from fenics_gears.simulation.simulate import simulate
 loaded = []
 for text in json.load(sys.stdin):
     simulate(scene_from_text(text))

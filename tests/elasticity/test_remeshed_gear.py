@@ -1,15 +1,14 @@
 """A gear meshed anew with prescribed flank nodes, against brute force."""
 
 from functools import lru_cache
-from math import radians
 
 import numpy as np
 import pytest
+from tests.coarse_sector import COARSE, PINION, STEEL, relative
 
-from fenics_gears import Gear
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import condense
-from fenics_gears.elasticity.element_sizes import Discretisation, ElementSizes, element_sizes
+from fenics_gears.elasticity.element_sizes import Discretisation, element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.elasticity.mesh_data import BodyMesh
@@ -18,21 +17,13 @@ from fenics_gears.elasticity.ring import centre_motion, rotation
 from fenics_gears.elasticity.sector_boundary import flank_roll_angles, flank_through
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.involute import arc_length
-from fenics_gears.scene.data import Material
 from meshes.root_crack import joined_sectors
 
-COARSE = ElementSizes(flank=0.8, fillet=0.4, coast=1.0, body=3.0)
-PINION = Gear(16, 4.5, radians(20.0), 0.196, 41.32, 31.25, 15.0, 0.38 * 4.5)
-STEEL = Material(206e3, 0.3)
 ANGLE = 0.37
 # Roll angles on two neighbouring teeth and on the third after them.
 ROLLS = (np.array([0.45, 0.47, 0.5]), np.array([0.31, 0.28, 0.22, 0.2]), np.array([0.55, 0.6]))
 PLACES = (0, 1, 3)
 BODY = 3.0
-
-
-def relative(difference, reference):
-    return np.abs(difference).max() / np.abs(reference).max()
 
 
 def loaded_teeth():

@@ -1,8 +1,15 @@
-"""How a hard case says what it measured: the fixture `measured`, read by `tests.hard_cases.table`."""
+"""The coarse scene of many rows, and how they say what they measured, which `tests.hard_cases.table` reads."""
 
 import re
 
 import pytest
+from tests.coarse import coarse_scene
+
+
+@pytest.fixture(scope="session")
+def coarse(paper_scene):
+    """The paper's scene with the coarse settings."""
+    return coarse_scene(paper_scene)
 
 
 @pytest.fixture

@@ -6,24 +6,15 @@ Writes docs/hard_cases.md, with what the nightly cases measure. Further argument
 from __future__ import annotations
 
 import platform
+import re
 import sys
 from collections import defaultdict
 from pathlib import Path
 
 import pytest
-from tests.hard_cases.cases import CASES
 
 HERE = Path(__file__).parent
 PAGE = HERE.parents[1] / "docs" / "hard_cases.md"
-HEADING = """# Hard cases and measured values
-
-These cases must stay numerically stable. Case NN is tested by the files `tests/hard_cases/test_row_NN_*.py`; the docstrings of their tests name the
-authority of every limit. `python -m tests.hard_cases.table` runs these tests and writes this page with the values that they measured.
-
-"x / y" is x divided by y. "x ... y" are the smallest and the largest of several measurements. "Stand-in teeth" are teeth without finite elements (`tests/stand_in.py`).
-"Over the face" heads the values of pairs whose flanks are resolved over the face: helical gears, lead modifications, misaligned axes, gears that tilt.
-An error "with its cause" names why contact has no solution or did not converge. Further symbols are those of [the model](model.md).
-"""
 
 
 class Collector:
@@ -43,15 +34,17 @@ class Collector:
                 measured[int(row)][what].append((value, limit))
 
 
-def page(collector: Collector) -> str:
-    """The documentation's page: a section for each case, its measurements in a table."""
-    lines = [HEADING, f"Python {platform.python_version()} on {platform.machine()}."]
-    for row, (name, must_hold) in CASES.items():
-        lines += ["", f"## {row}. {name[0].upper()}{name[1:]}", "", f"**Must hold:** {must_hold}.", ""]
-        lines += table(collector.measured[row])
+def page(collector: Collector, text: str) -> str:
+    """The documentation's page `text` with the tables of its cases made anew."""
+    head, *cases = re.split(r"^(?=## \d+\. )", text, flags=re.MULTILINE)
+    found = [re.sub(r"^Python .*$", f"Python {platform.python_version()} on {platform.machine()}.", head, flags=re.M)]
+    for case in cases:
+        row, said = int(re.match(r"## (\d+)", case)[1]), case.partition("\n| ")[0]
+        lines = [said, *table(collector.measured[row])]
         if collector.over_the_face[row]:
             lines += ["", "Over the face:", "", *table(collector.over_the_face[row])]
-    return "\n".join(lines) + "\n"
+        found.append("\n".join(lines) + "\n")
+    return "\n".join(each.rstrip("\n") + "\n" for each in found)
 
 
 def table(measured: dict) -> list[str]:
@@ -81,7 +74,7 @@ def main(options: list[str]) -> int:
     """Run, write, and return pytest's exit code."""
     collector = Collector()
     outcome = pytest.main(["-q", "-m", "", str(HERE), *options], plugins=[collector])
-    PAGE.write_text(page(collector), encoding="utf-8")
+    PAGE.write_text(page(collector, PAGE.read_text(encoding="utf-8")), encoding="utf-8")
     return int(outcome)
 
 

@@ -38,6 +38,14 @@ LAWS = {
 }
 
 
+def obeys_the_laws(found):
+    """Rows 1 to 3 at every step; returns the largest penetration, um."""
+    worst = worst_of(found)
+    for name, value in worst.items():
+        assert value <= LAWS[name][2], f"{name}: {value}"
+    return worst["penetration"]
+
+
 class Tally:
     """The worst of each law over all scenes, and how the scenes ended."""
 
@@ -109,7 +117,7 @@ def judged(tally, measured, gears, compliances_of, examples, scenes=valid_scenes
         tally.tell(measured, gears)
 
 
-@pytest.mark.parametrize("examples", [5, pytest.param(40, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize("examples", [3, pytest.param(40, marks=pytest.mark.nightly)])
 def test_every_step_of_any_scene_on_stand_in_teeth(measured, examples):
     """Authority: the contact laws and Newton's third law, from the equations; teeth without finite elements, so that
     many can be drawn."""
@@ -121,7 +129,7 @@ def test_every_step_of_any_scene(measured, tmp_path):
     judged(Tally(), measured, "finite elements", on_elements(Cache(tmp_path)), 2)
 
 
-@pytest.mark.parametrize("examples", [4, pytest.param(30, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize("examples", [2, pytest.param(30, marks=pytest.mark.nightly)])
 def test_every_step_of_any_frictionless_scene_without_load(measured, examples):
     """Authority: as above. One scene in fifteen had failed: with no load to measure by, round-off of stiff springs and
     teeth was taken for a force that nothing balances."""

@@ -5,8 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.hard_cases.invariants import Run, cycle_of, run_of, worst_of
-from tests.hard_cases.test_any_scene import LAWS
+from tests.hard_cases.invariants import Run, cycle_of
+from tests.hard_cases.test_any_scene import obeys_the_laws
+from tests.hard_cases.test_over_the_face_static import run
 from tests.helical import BEARINGS, CROWNED, FRICTION, INERTIA, SHAFTS, helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
@@ -18,14 +19,6 @@ DAMPED = INERTIA + '\n[damping]\nstiffness_proportional = "3e-6 s"\nmass_proport
 FEW = "slices = 4\ncontact_nodes = 9\nsteps_per_mesh_cycle = 16"
 BY_NIGHT = pytest.mark.nightly
 BOTH = "\n[coast_flanks]\n"
-
-
-def run(more="", **changes):
-    """A run of a scene; it must not fail."""
-    model = model_of(helical_scene(more, **{"accuracy": FEW, **changes}))
-    found = run_of(model, on_stand_in_bodies(model))
-    assert found.failure is None, str(found.failure)
-    return found
 
 
 def with_torque(more, part, **changes):
@@ -40,14 +33,6 @@ def with_torque(more, part, **changes):
     return Run(model, marcher, list(march.records), dataset(recorder, march))
 
 
-def obeys_the_laws(found):
-    """Rows 1 to 3 at every step; returns the largest penetration, um."""
-    worst = worst_of(found)
-    for name, value in worst.items():
-        assert value <= LAWS[name][2], f"{name}: {value}"
-    return worst["penetration"]
-
-
 @pytest.mark.parametrize(
     "more",
     [
@@ -60,7 +45,7 @@ def obeys_the_laws(found):
 def test_account_of_energy_closes(more, measured):
     """Row 4. Exact identity, the geometry moving: energy gained = input - output - damping - friction + changes of
     contact."""
-    result = run(more + CROWNED).result
+    result = run(more + CROWNED, accuracy=FEW).result
     works = {name: result[name].values for name in result if name.startswith("work_")}
     gained = result["energy"].values - result["energy"].values[0]
     balance = (

@@ -2,14 +2,11 @@
 
 import numpy as np
 import pytest
-from tests.coarse_sector import PINION, coarse_condensed_sector, coarse_sector_mesh, flank_motion
-from tests.whole_gear import ring_stiffness
+from tests.coarse_sector import coarse_condensed_sector, coarse_sector_mesh
 
 from fenics_gears.elasticity.condensation import condense
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.ring import centre_motion
-
-TEETH = (0, 1, 5)
 
 
 def check_kernel(stiffness, rigid, what, measured):
@@ -37,20 +34,6 @@ def test_kernel_of_a_sector(name, poissons_ratio, measured):
     sector = coarse_condensed_sector(name, poissons_ratio)
     points = np.vstack(list(sector.points.values()))
     check_kernel(sector.stiffness, centre_motion(points), f"sector, {name}, nu {poissons_ratio:g}", measured)
-
-
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.nightly] if name == "Q2" else []) for name in ELEMENTS]
-)
-def test_kernel_of_the_gear(name, measured):
-    """The ring of sectors over the flanks of three teeth and the centre (dx, dy, phi), the couple taken at the tip
-    radius."""
-    sector = coarse_condensed_sector(name)
-    stiffness = ring_stiffness(sector, PINION.teeth, TEETH)
-    rigid = np.vstack([flank_motion(sector, PINION, TEETH), np.eye(3)])
-    as_lengths = np.ones(len(stiffness))
-    as_lengths[-1] = PINION.tip_radius
-    check_kernel(stiffness / np.outer(as_lengths, as_lengths), as_lengths[:, None] * rigid, f"gear, {name}", measured)
 
 
 def test_kernel_of_any_part_of_the_boundary(measured):

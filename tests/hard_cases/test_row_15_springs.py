@@ -4,14 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene, frictionless, quasi_static
+from tests.coarse import frictionless, quasi_static
 
 from fenics_gears import simulate
-
-
-@pytest.fixture(scope="module")
-def coarse(paper_scene):
-    return coarse_scene(paper_scene)
 
 
 def stiffened(scene, factor):

@@ -5,15 +5,9 @@ from itertools import product
 
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene, frictionless, quasi_static, teeth_alone
+from tests.coarse import frictionless, quasi_static, teeth_alone
 
 from fenics_gears import model_of, simulate
-
-
-@pytest.fixture(scope="module")
-def coarse(paper_scene):
-    return coarse_scene(paper_scene)
-
 
 TORQUES = [0.0, 1e-12, 1.0, 4370e3]
 ABSENT = [(), ("bearings",), ("shafts",), ("shafts", "bearings")]

@@ -4,8 +4,9 @@ does."""
 from dataclasses import replace
 
 import pytest
-from tests.coarse import coarse_scene, quasi_static
+from tests.coarse import quasi_static
 from tests.hard_cases.invariants import run_of, worst_of
+from tests.hard_cases.test_any_scene import LAWS
 
 from fenics_gears import model_of, simulate
 from fenics_gears.elasticity.cache import user_cache
@@ -16,20 +17,8 @@ from fenics_gears.system.progress import SilentProgress
 WORDS = ("self-locking", "more than one solution")
 ABSENT = [(), ("bearings",), ("shafts", "bearings")]
 DYNAMIC = {"dynamic": lambda scene: scene, "quasi-static": quasi_static}
-# Of hard_cases.md, rows 1 and 2, by the names of `invariants.step_residuals`.
-LIMITS = {
-    "penetration": ("largest penetration", 1e-4, "um"),
-    "tension": ("largest tension / load", 1e-6, ""),
-    "complementarity": ("p_n gap / (load x length)", 1e-10, ""),
-    "cone": ("friction beyond mu p_n / load", 1e-6, ""),
-    "wrong_way": ("work of friction in the direction of slip / (load x length)", 1e-10, ""),
-    "dissipation": ("energy gained by friction / (load x length)", 1e-10, ""),
-}
-
-
-@pytest.fixture(scope="module")
-def coarse(paper_scene):
-    return coarse_scene(paper_scene)
+# Rows 1 and 2.
+LIMITS = ("penetration", "tension", "complementarity", "cone", "wrong_way", "dissipation")
 
 
 def with_friction(scene, coefficient, absent=()):
@@ -63,7 +52,9 @@ def locks_from(pair):
 
 @pytest.mark.parametrize("absent", ABSENT, ids=["all", "without bearings", "rigid"])
 @pytest.mark.parametrize("dynamic", DYNAMIC)
-@pytest.mark.parametrize("friction", [0.3, pytest.param(0.6, marks=pytest.mark.nightly), 1.0, 2.0])
+@pytest.mark.parametrize(
+    "friction", [0.3, *(pytest.param(each, marks=pytest.mark.nightly) for each in (0.6, 1.0)), 2.0]
+)
 def test_strong_friction_converges_or_says_why(friction, dynamic, absent, coarse, paper_pair, measured):
     """Authority: Coulomb's law at every step from the equations, and the moment balance of the wheel: normal force and
     friction have the lever arms rb2 and L - x, so that friction can lock from mu = rb2/(L - x) on (1.65 at the start of
@@ -80,7 +71,8 @@ def test_strong_friction_converges_or_says_why(friction, dynamic, absent, coarse
         + (f"; {causes}" if causes else ""),
         "converges, or names the cause",
     )
-    for name, (words, limit, unit) in LIMITS.items():
+    for name in LIMITS:
+        _, words, limit, unit = LAWS[name]
         measured(f"mu = {friction:g}: {words}", worst[name], f"{limit:g} {unit}".rstrip(), unit)
         assert worst[name] <= limit, name
     if friction < locks_from(paper_pair):

@@ -4,15 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static, teeth_alone
+from tests.coarse import COARSE, frictionless, quasi_static, teeth_alone
 
 from fenics_gears import simulate
 from fenics_gears.scene.data import Motion
-
-
-@pytest.fixture(scope="module")
-def coarse(paper_scene):
-    return coarse_scene(paper_scene)
 
 
 def one_cycle(scene, steps, size=0.12):

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene, frictionless, quasi_static
+from tests.coarse import frictionless, quasi_static
 
 from fenics_gears import simulate
 from fenics_gears.contact.step_solver import NEWTON
@@ -13,11 +13,6 @@ from fenics_gears.effects.friction import Friction
 from fenics_gears.scene.data import Motion
 
 CYCLES = 3
-
-
-@pytest.fixture(scope="module")
-def coarse(paper_scene):
-    return coarse_scene(paper_scene)
 
 
 def at(scene, mesh_frequency, cycles=CYCLES):

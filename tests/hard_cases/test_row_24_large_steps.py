@@ -4,18 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.coarse import COARSE, coarse_scene, quasi_static
+from tests.coarse import COARSE, quasi_static
 
 from fenics_gears import model_of, simulate
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import resolved_frequency, steps_to_resolve
 from fenics_gears.model.description import describe
 from fenics_gears.scene.data import Motion
-
-
-@pytest.fixture(scope="module")
-def coarse(paper_scene):
-    return coarse_scene(paper_scene)
 
 
 def light(scene):

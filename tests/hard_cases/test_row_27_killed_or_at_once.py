@@ -1,7 +1,6 @@
 """Row 27: kill -9 at any moment, and several runs at once on one cache.
 
-Authority throughout: hard case 27: recomputed or resumed; never a wrong number, never half a result under its final
-name. Where a number is compared, the reference is the same run undisturbed, and the two are the same to the last bit.
+Authority throughout: as of test_row_27_damage.py.
 """
 
 import os

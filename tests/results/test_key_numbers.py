@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static, teeth_alone
 
-from fenics_gears import HARMONIC_NAMES, mesh_factor, model_of, simulate, single_stiffness
+from fenics_gears import mesh_factor, model_of, simulate, single_stiffness
 from fenics_gears.effects.profile_modifications import ProfileModification, ProfileModifications
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.model.resolution import plane_contact_modulus
@@ -57,16 +57,6 @@ def test_peak_pressure_is_that_of_hertz(static, paper_scene):
     hertz = np.sqrt(force / pair.face_width * plane_contact_modulus(paper_scene) / (np.pi * radius))
     assert attributes["peak_contact_pressure"] == pytest.approx(hertz, rel=0.02)
     assert attributes["peak_contact_pressure_flank"] == "drive"
-
-
-def test_harmonics_are_fourier_s_sums(static):
-    """Brute force: 2/N times the sums of the curve with cosine and sine of the mesh phase, the last step left out, in
-    um at the base circle."""
-    curve = static.transmission_error.values[:-1] * static.attrs["base_radius_wheel"] * 1e3
-    phase = static.mesh_phase.values[:-1]
-    for n, name in enumerate(HARMONIC_NAMES, 1):
-        cosine, sine = (2.0 * np.mean(curve * wave(2.0 * np.pi * n * phase)) for wave in (np.cos, np.sin))
-        assert static.attrs[name] == pytest.approx(np.hypot(cosine, sine), rel=1e-9)
 
 
 def test_efficiency_by_the_energy_account(paper_scene):

@@ -75,7 +75,6 @@ def test_a_settling_time_comes_before_the_recorded_cycles(frequency, time, recor
             "[flank_errors]\nseed = 4\n[flank_errors.pinion.waviness]\namplitude = '1 um'\nwaves = 3",
             ["flank_errors.tolerance_class\n", "is missing"],
         ),
-        ("[flank_errors]\ntolerance_class = 12", ["is too large", "from 1 to 11"]),
         ("[eccentricity]", ["says of neither gear that it runs out"]),
         ("[eccentricity.wheel]\ndistance = '1 mm'", ["eccentricity.wheel.distance", "up to 0.45 mm"]),
         ("[eccentricity.wheel]\ndistance = '0 mm'", ["is zero. For a gear that runs true, leave its section out"]),
@@ -83,7 +82,6 @@ def test_a_settling_time_comes_before_the_recorded_cycles(frequency, time, recor
             "[tip_relief]\ndepth = '3 um'\nstart = '3 kg'",
             ["is a mass, not an angle or a length", '"80.1 mm"', '"HPSTC"'],
         ),
-        ("[tip_relief]\ndepth = '3 um'\nstart = '400 deg'", ["is too large", "from 1e-3 deg to 360 deg"]),
         ("[root_relief]\ndepth = '3 um'\nstart = 'HPSTC'", ['Did you mean "LPSTC"?']),
         (
             "[root_relief]\ndepth = '3 um'\nstart = 'LPSTC'\nshape = 'cubic'",

@@ -114,7 +114,6 @@ REFUSED = [
         ["beside [misalignment]", 'Take "elastic"'],
     ),
     (HELICAL + accuracy('model = "ISO 6336-1"'), 'accuracy.model = "ISO 6336-1"', ["resolved over the face"]),
-    (HELICAL + accuracy('model = "stiffness table"'), 'accuracy.model = "stiffness table"', ["resolved over the face"]),
     (HELICAL + '[body_meshes]\npinion = "a.msh"\n', "[body_meshes]", ["beside gears.helix_angle"]),
     (SPUR + LEAD + '[body_meshes]\npinion = "a.msh"\n', "[lead_modifications]", ["beside [body_meshes]"]),
     (
@@ -122,13 +121,11 @@ REFUSED = [
         'gears.helix_angle = "15 deg"',
         ["needs teeth that give way", "Add [gears.material]"],
     ),
-    (HELICAL.replace('"15 deg"', '"46 deg"'), 'gears.helix_angle = "46 deg"', ["is too large", "to 45 deg"]),
     (
         HELICAL.replace('"15 deg"', '"0 deg"'),
         'gears.helix_angle = "0 deg"',
         ["is zero", "For spur gears, leave it out"],
     ),
-    (HELICAL.replace('"15 deg"', '"-15 deg"'), 'gears.helix_angle = "-15 deg"', ["is negative"]),
     (HELICAL.replace('"left"', '"both"'), 'gears.pinion_hand = "both"', ["is not known", '"right", "left"']),
     (HELICAL.replace('helix_angle = "15 deg"\n', ""), "gears.helix_angle", ["is missing", "pinion_hand"]),
     (
@@ -136,7 +133,6 @@ REFUSED = [
         "accuracy.slices = 20",
         ["three-dimensional scenes", "gears.helix_angle", "bearings.places"],
     ),
-    (SPUR + accuracy("layers = 20"), "accuracy.layers = 20", ["three-dimensional scenes"]),
     (HELICAL + accuracy("layers = 900"), "accuracy.layers = 900", ["0.0333 mm thin", "up to 500"]),
     (
         HELICAL.replace('"30 mm"\n[gears.p', '"0.05 mm"\n[gears.p'),
@@ -153,12 +149,6 @@ REFUSED = [
         'lead_modifications.pinion.end_relief.length = "31 mm"',
         ["the left end", "up to 30 mm"],
     ),
-    (
-        SPUR + LEAD.replace('"10 um"', '"-10 um"'),
-        'lead_modifications.pinion.end_relief.depth = "-10 um"',
-        ["is negative"],
-    ),
-    (SPUR + LEAD.replace('"6 um"', '"-6 um"'), 'lead_modifications.pinion.crowning = "-6 um"', ["is negative"]),
     (SPUR + LEAD.replace('"6 um"', '"6 mm"'), 'lead_modifications.pinion.crowning = "6 mm"', ["up to 0.3 mm"]),
     (SPUR + MISALIGNED.replace("12 um", "2 mm"), 'misalignment.in_plane = "2 mm"', ["up to 0.3 mm"]),
     (SPUR + "[misalignment]\n", "[misalignment]", ["names no deviation"]),

@@ -21,12 +21,18 @@ from fenics_gears.studies.accuracy.setting import own_setting
 TEETH = "tooth_elasticity"
 # Fewer and coarser than --quick: what is tested here is the way, not the numbers.
 TINY = {
-    FAMILY: (0.35, 0.7), FLANK: (0.35, 0.7), NODES: (0.7,), BODY: (4.0,), LENGTH: (1.0,), STEPS: (10, 20, 40),
+    FAMILY: (0.7, 1.4), FLANK: (0.7, 1.4), NODES: (1.4,), BODY: (4.0,), LENGTH: (1.0,), STEPS: (10, 20, 40),
 }  # fmt: skip
-TINY_FINE = {FLANK: 0.7, NODES: 0.7, BODY: 4.0, LENGTH: 1.0, STEPS: 20}
+TINY_FINE = {FLANK: 1.4, NODES: 1.4, BODY: 4.0, LENGTH: 1.0, STEPS: 20}
+# What is run of them, one of each kind.
+MEASURED = ("flank elements and contact nodes", "body element size", "steps per mesh cycle", "interpolation")
 SETTINGS = Accuracy(
     element="P1", flank_element_size=0.25, contact_length=3.0, contact_nodes=13, steps_per_mesh_cycle=20
 )
+
+
+def measured(*arguments):
+    return tuple(each for each in refinement.refinements(*arguments) if each.name in MEASURED)
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -35,6 +41,7 @@ def tiny():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(refinement, "QUICK", TINY)
         patch.setattr(refinement, "QUICK_FINE", TINY_FINE)
+        patch.setattr(reports, "refinements", measured)
         yield
 
 
@@ -70,21 +77,17 @@ def test_the_scenes_own_setting_is_the_scenes_own_run(report, scene):
     assert own_setting(scene).grid.nodes == SETTINGS.contact_nodes
 
 
-def test_every_setting_of_the_issue_is_refined_with_the_others_fine(report):
+def test_every_setting_of_the_issue_is_refined_with_the_others_fine(scene, report):
     """Authority: issue 6; each level differs from its base in its own fields alone, and that is the fine setting."""
-    assert {each.refinement.name for each in report.refinements} == {
-        "flank elements and contact nodes", "flank element size", "contact node spacing", "body element size",
-        "steps per mesh cycle", "contact length", "element",
-        "interpolation", "elastic teeth",
+    every = refinement.refinements(scene, True)
+    assert {each.name for each in every} == {
+        *MEASURED, "flank element size", "contact node spacing", "contact length", "element", "elastic teeth",
     }  # fmt: skip
-    for result in report.refinements:
-        base = result.refinement.base
-        assert base == report.fine
-        for each in result.levels:
-            assert (
-                replace(each.level.setting, **{field: getattr(base, field) for field in result.refinement.fields})
-                == base
-            )
+    assert [each.refinement.name for each in report.refinements] == [each.name for each in measured(scene, True)]
+    for each in every:
+        assert each.base == report.fine
+        for level in each.levels:
+            assert replace(level.setting, **{field: getattr(each.base, field) for field in each.fields}) == each.base
 
 
 def test_a_setting_is_charged_at_least_its_parts_and_its_distance(report):
@@ -118,7 +121,7 @@ def test_root_stress_has_errors_and_orders(report):
 def test_condensing_anew_at_every_step_is_measured_from_condensing_once(scene, monkeypatch):
     """Authority: issue 6 names it; it is a model of its own, compared in one setting that both routes have, and limits
     no setting."""
-    coarse = {FLANK: 0.7, NODES: 0.7, BODY: 4.0, STEPS: 4}
+    coarse = {FLANK: 1.4, NODES: 1.4, BODY: 4.0, STEPS: 4}
     monkeypatch.setattr(refinement, "REMESHED_FINE", coarse)
     assert [each.name for each in refinement.refinements(scene)][-1] == "condensation"
     study = reports.AccuracyStudy(scene, reports.SilentProgress(), True, 1)

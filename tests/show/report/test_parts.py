@@ -5,7 +5,6 @@ from math import asin, cos, pi, radians, sin
 
 import numpy as np
 import pytest
-import xarray as xr
 from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.path import Path
@@ -14,7 +13,6 @@ from tests.helical import wide_pair
 from tests.show.synthetic import made_up_run
 
 from fenics_gears.show.chart import Chart, Curve
-from fenics_gears.show.orders import spectrum
 from fenics_gears.show.panels import thinned
 from fenics_gears.show.report.curves import spectra
 from fenics_gears.show.report.energy import energy
@@ -41,26 +39,6 @@ def test_thinned_curves_keep_peaks_ends_and_gaps(values, most):
     for start in range(0, len(values) if len(values) > most else 0, width):
         inside = places[(places >= start) & (places < start + width)]
         assert np.isnan(values[inside]).any() == np.isnan(values[start : start + width]).any()
-
-
-def run_of(scene_text, values, phase, tmp_path):
-    """A run with nothing but a curve."""
-    dataset = xr.Dataset(
-        {"transmission_error": ("time", values, {"units": "rad"})},
-        {"mesh_phase": ("time", phase)},
-        {"scene": scene_text, "base_radius_wheel": 50.0},
-    )
-    return Run(dataset, tmp_path / "run.nc")
-
-
-def test_mesh_orders_have_the_amplitudes_of_the_harmonics(paper_scene, tmp_path):
-    """Authority: Fourier: a sum of cosines has their amplitudes at their orders, and nothing between."""
-    phase = np.linspace(28.0, 31.0, 301)
-    values = 5.0 + 3.0 * np.cos(2 * pi * phase + 1.0) + 0.25 * np.sin(6 * pi * phase)
-    found = spectrum(run_of(paper_scene.text, values, phase, tmp_path), values)
-    amplitude = dict(zip(np.round(found.lines.orders, 6), found.lines.amplitudes))
-    assert np.isclose(amplitude[1.0], 3.0) and np.isclose(amplitude[3.0], 0.25) and amplitude[2.0] < 1e-12
-    assert set(found.origins[found.lines.amplitudes > 1e-9]) == {"mesh"} and "3 whole mesh cycles" in found.record
 
 
 def ramp_of(paper_scene, cycles):
