@@ -84,7 +84,10 @@ def _variables(recorder: Recorder, arrays: dict[str, np.ndarray], first: int):
                 {"units": described[name].units, "long_name": described[name].long_name},
             )
     if recorder.stress is not None:
-        for name, words in recorder.stress.labels()[0].items():
+        labels = recorder.stress.labels()[0]
+        for along in recorder.along_face:
+            labels = along.words(labels)
+        for name, words in labels.items():
             if name in arrays:
                 yield name, recorder.stored[name][0], arrays[name], {"units": "MPa", "long_name": words}
 

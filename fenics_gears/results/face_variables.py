@@ -66,6 +66,11 @@ class AlongTheFace:
             ),
         }
 
+    def words(self, words: Mapping[str, str]) -> dict[str, str]:
+        """Long names of root stress, from those of one slice."""
+        section = words["root_stress_at_30_degrees"]
+        return {**words, "root_stress_at_30_degrees": f"largest {section}", "root_stress_over_face": section}
+
     def numbers(self, counted: xr.Dataset) -> dict[str, float]:
         """Of the settled steps of a result."""
         return load_factors(counted, self.pair)

@@ -131,9 +131,6 @@ class RootStress:
                 "stress where the fillet's tangent stands at 30 degrees to the tooth's centreline"
             ),
         }
-        if self.cycle.face.slices > 1:
-            section = words["root_stress_at_30_degrees"]
-            words |= {"root_stress_at_30_degrees": f"largest {section}", "root_stress_over_face": section}
         return words, {
             "fillet": ("fillet", list(SIDES), {"long_name": "side of the tooth"}),
             "fillet_side": ("fillet_point", np.repeat(SIDES, angles.shape[1]), {"long_name": "side of the tooth that "

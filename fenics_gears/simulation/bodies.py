@@ -20,16 +20,18 @@ if TYPE_CHECKING:
 
 def gear_bodies(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> Bodies:
     """Pinion and wheel, from the cache or condensed; `job`: whose ranks share the work on each body over its face."""
-    bodies = []
+    sections = []
     for name in GEARS:
-        progress.stage(f"condense {name}{_way(model, name, job)}")
-        bodies.append(gear_body(model, name, cache, job))
-    return bodies[0], bodies[1]
+        progress.stage(f"condense {name}")
+        sections.append(_section(model, name, cache))
+    pinion, wheel = map(Body.of, sections, solids_of(model, progress, cache, job))
+    return pinion, wheel
 
 
-def gear_body(model: Model, name: str, cache: Cache | None, job: Job | None = None) -> Body:
+def gear_body(model: Model, name: str, cache: Cache | None) -> Body:
     """The "pinion" or the "wheel" over the teeth that interact, from the cache or condensed."""
-    return Body.of(_section(model, name, cache), _solid(model, name, cache, job))
+    solid = None if model.solid_discretisation(GEARS.index(name)) is None else solid_of(model, name, cache)
+    return Body.of(_section(model, name, cache), solid)
 
 
 def body_key(model: Model, name: str) -> tuple:
@@ -63,21 +65,30 @@ def _section(model: Model, name: str, cache: Cache | None):
     return flank_compliance(getattr(model.pair, name), material, division, reach, cache)
 
 
-def _solid(model: Model, name: str, cache: Cache | None, job: Job | None) -> FaceCompliance | None:
-    division = model.solid_discretisation(GEARS.index(name))
-    if division is None:
-        return None
+def solids_of(
+    model: Model, progress: Progress, cache: Cache | None, job: Job | None = None
+) -> tuple[FaceCompliance | None, FaceCompliance | None]:
+    """Both bodies in three dimensions; None of a plane scene."""
+    if model.solid_discretisation(0) is None:
+        return None, None
     # Imported here: plane scenes have none.
-    from fenics_gears.elasticity.face.compliance import face_compliance
-
-    gear, material = getattr(model.pair, name), model.scene.gears.material_of(name)
-    return face_compliance(gear, material, division, model.touching.reach, cache, job)
-
-
-def _way(model: Model, name: str, job: Job | None) -> str:
-    """Conjugate gradients, in words, where a body is condensed by them: they take a multiple of the time."""
-    if model.solid_discretisation(GEARS.index(name)) is None:
-        return ""
     from fenics_gears.model.face_cost import by_gradients
 
-    return " by conjugate gradients" if by_gradients(model, GEARS.index(name), 1 if job is None else job.size) else ""
+    solids = []
+    for number, name in enumerate(GEARS):
+        # They take a multiple of the time.
+        way = " by conjugate gradients" if by_gradients(model, number, 1 if job is None else job.size) else ""
+        progress.stage(f"condense {name}'s body{way}")
+        solids.append(solid_of(model, name, cache, job))
+    return solids[0], solids[1]
+
+
+def solid_of(model: Model, name: str, cache: Cache | None, job: Job | None = None) -> FaceCompliance:
+    """The body of the "pinion" or the "wheel" in three dimensions, from the cache or condensed."""
+    # Imported here: plane scenes have none.
+    from fenics_gears.elasticity.face.compliance import face_compliance
+    from fenics_gears.model.face_resolution import face_discretisation
+
+    gear, material = getattr(model.pair, name), model.scene.gears.material_of(name)
+    division = face_discretisation(model, GEARS.index(name))
+    return face_compliance(gear, material, division, model.touching.reach, cache, job)

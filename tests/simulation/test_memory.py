@@ -95,15 +95,15 @@ def test_a_run_says_that_bodies_are_condensed_by_conjugate_gradients(monkeypatch
     """Promise of the page on clusters: they take a multiple of the time. The pinion's memory is between what the two
     ways need, the wheel's is enough for a factorisation."""
     model, said = model_of(helical_scene(teeth=(24, 18))), []
-    monkeypatch.setattr(bodies, "gear_body", lambda *arguments: None)
+    monkeypatch.setattr(bodies, "solid_of", lambda *arguments: None)
     monkeypatch.setattr(SilentProgress, "stage", lambda self, name: said.append(name))
     enough = [
         [expected_memory(*expected_size(gear, face_discretisation(model, number)), way) for way in (True, False)]
         for number, gear in enumerate((model.pair.pinion, model.pair.wheel))
     ]
     monkeypatch.setenv(MEMORY_VARIABLE, f"{0.5 * (max(enough[1][1], enough[0][0]) + enough[0][1]) / 1e6:.6f} MB")
-    bodies.gear_bodies(model, SilentProgress(), None)
-    assert said == ["condense pinion by conjugate gradients", "condense wheel"], enough
+    bodies.solids_of(model, SilentProgress(), None)
+    assert said == ["condense pinion's body by conjugate gradients", "condense wheel's body"], enough
 
 
 def test_sizes_of_memory(monkeypatch):
