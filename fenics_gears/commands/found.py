@@ -16,7 +16,6 @@ import sys
 from collections.abc import Callable, Iterator
 from functools import partial
 from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
 
@@ -91,6 +90,8 @@ def _found(label: str, load: Callable, file: str | Path) -> Found:
 
 def _file(module: str) -> str:
     """The file of a module, empty where there is none."""
+    from importlib.util import find_spec
+
     try:
         return getattr(find_spec(module), "origin", None) or ""
     except Exception:

@@ -64,7 +64,9 @@ def test_one_that_fails_is_left_out_and_named(install):
     """Authority: house rule on errors; the other commands work. A module that is not there, one without `add`, one
     whose command's name is taken."""
     taken = "def add(commands, shared):\n    commands.add_parser('map')\n"
-    folder = install("taken", taken, absent="no_such_module", second="taken", third="math")
+    folder = install("taken", taken, absent="no_such_module", fourth="loud", second="taken", third="math")
+    # Its command is not called.
+    (folder / "loud.py").write_text('"""``gears loud``: fail."""\n\nraise RuntimeError("loaded")\n', encoding="utf-8")
     done = gears(folder, "cache")
     assert done.returncode == 0 and "cache" in done.stdout.lower()
     lines = done.stderr.splitlines()
@@ -72,6 +74,9 @@ def test_one_that_fails_is_left_out_and_named(install):
     assert [said.match(each)[1] for each in lines] == ["absent (no_such_module)", "second (taken)", "third (math)"]
     assert "No module named 'no_such_module'" in lines[0] and "conflicting subparser: map" in lines[1]
     assert "has no attribute 'add'" in lines[2]
+    assert "loud  " in gears(folder, "--help").stdout
+    called = gears(folder, "loud")
+    assert called.returncode == 2 and "The extension fourth (loud) cannot be loaded" in called.stderr
 
 
 def test_a_help_does_not_load_numerics():

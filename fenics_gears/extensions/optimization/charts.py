@@ -90,26 +90,16 @@ def front_chart(outcome: Outcome) -> Chart:
     curves = [
         Curve("designs", x, y, GREY, mode=MARKERS),
         Curve("Pareto front", x[order], y[order], PALETTE[0], mode=MARKED_LINES),
-        Curve(BEST, x[[outcome.best]], y[[outcome.best]], PALETTE[2], mode=MARKERS),
+        _mark(BEST, x[outcome.best], y[outcome.best], PALETTE[2]),
     ]
-    if outcome.before.goals:
-        curves.append(
-            Curve(
-                BEFORE,
-                np.array([outcome.before.goals[one.name]]),
-                np.array([outcome.before.goals[other.name]]),
-                PALETTE[1],
-                mode=MARKERS,
-            )
-        )
-    return Chart(
-        "Goals against each other",
-        curves,
-        title(one.name, one.unit),
-        title(other.name, other.unit),
-        _note(outcome),
-        380,
-    )
+    if before := outcome.before.goals:
+        curves.append(_mark(BEFORE, before[one.name], before[other.name], PALETTE[1]))
+    axes = title(one.name, one.unit), title(other.name, other.unit)
+    return Chart("Goals against each other", curves, *axes, _note(outcome), 380)
+
+
+def _mark(name: str, x, y: float, colour: str) -> Curve:
+    return Curve(name, np.array([x]), np.array([y]), colour, mode=MARKERS)
 
 
 def variable_chart(outcome: Outcome, variable: Variable, goal: Goal) -> Chart:
@@ -126,20 +116,10 @@ def variable_chart(outcome: Outcome, variable: Variable, goal: Goal) -> Chart:
             PALETTE[0],
             mode=MARKERS if variable.words else MARKED_LINES,
         ),
-        Curve(
-            BEST,
-            np.array([outcome.chosen.values[variable.name]]),
-            np.array([outcome.chosen.goals[goal.name]]),
-            PALETTE[2],
-            mode=MARKERS,
-        ),
+        _mark(BEST, outcome.chosen.values[variable.name], outcome.chosen.goals[goal.name], PALETTE[2]),
     ]
-    return Chart(
-        f"{sentence(called(goal.name))} over {called(variable.name)}",
-        curves,
-        title(variable.name, variable.unit),
-        title(goal.name, goal.unit),
-    )
+    axes = title(variable.name, variable.unit), title(goal.name, goal.unit)
+    return Chart(f"{sentence(called(goal.name))} over {called(variable.name)}", curves, *axes)
 
 
 def tolerance_rows(outcome: Outcome, goal: Goal) -> list[tuple[str, str, str, str, str]]:

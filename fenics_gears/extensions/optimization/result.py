@@ -45,52 +45,35 @@ def dataset(outcome: Outcome) -> xr.Dataset:
     `mesh_phase`.
     """
     design, tried = outcome.design, outcome.tried
-    result = xr.Dataset(
-        coords={
-            "design": ("design", np.arange(len(tried)), {"long_name": "design, in the order in which they were tried"})
-        }
-    )
+    numbers = np.arange(len(tried))
+    described = {"long_name": "design, in the order in which they were tried"}
+    result = xr.Dataset(coords={"design": ("design", numbers, described)})
+
+    def add(name: str, values, unit: str, words: str, *dims: str) -> None:
+        result[name] = ("design", *dims), np.array(values), {"units": unit, "long_name": words}
+
     for variable in design.variables:
         values = np.array([each.values[variable.name] for each in tried], dtype=object if variable.words else float)
-        result[variable.name] = "design", values, {"units": variable.unit or "1", "long_name": variable.name}
+        add(variable.name, values, variable.unit or "1", variable.name)
     judged = f"{design.tolerances.quantile:g} quantile" if design.tolerances.judged == QUANTILE else "mean"
     for goal in design.goals:
         words = f"{goal.words}, {judged} over the tolerances" if design.tolerances.scatters else goal.words
-        result[goal.name] = (
-            "design",
-            np.array([each.goals.get(goal.name, np.nan) for each in tried]),
-            {"units": goal.unit, "long_name": words},
-        )
-    for name, unit in {
-        each.name: each.unit for each in (*design.goals, *(bound.goal for bound in design.bounds))
-    }.items():
-        for dimension, values in (
+        add(goal.name, [each.goals.get(goal.name, np.nan) for each in tried], goal.unit, words)
+    units = {each.name: each.unit for each in (*design.goals, *(bound.goal for bound in design.bounds))}
+    for name, unit in units.items():
+        for dimension, found in (
             ("sample", [each.of_samples.get(name) for each in tried]),
             ("point", [each.at_points.get(name) for each in tried]),
         ):
-            known = next((each for each in values if each is not None), None)
+            known = next((each for each in found if each is not None), None)
             if known is not None and len(known) > 1:
-                filled = np.array([np.full(len(known), np.nan) if each is None else each for each in values])
-                result[f"{name}_at_{dimension}"] = (
-                    ("design", dimension),
-                    filled,
-                    {"units": unit, "long_name": name.replace("_", " ")},
-                )
-    result["violation"] = (
-        "design",
-        np.array([each.violation for each in tried]),
-        {"units": "1", "long_name": "how far bounds are broken, in parts of them"},
-    )
-    for name, places, words in (
-        ("on_front", outcome.front, "on the Pareto front"),
-        ("best", [outcome.best], "the chosen design"),
-    ):
-        result[name] = "design", np.isin(np.arange(len(tried)), places).astype(int), {"units": "1", "long_name": words}
-    result["failure"] = (
-        "design",
-        np.array([each.failure for each in tried], dtype=object),
-        {"long_name": "why the design has no numbers"},
-    )
+                filled = [np.full(len(known), np.nan) if each is None else each for each in found]
+                add(f"{name}_at_{dimension}", filled, unit, name.replace("_", " "), dimension)
+    add("violation", [each.violation for each in tried], "1", "how far bounds are broken, in parts of them")
+    add("on_front", np.isin(numbers, outcome.front).astype(int), "1", "on the Pareto front")
+    add("best", np.isin(numbers, [outcome.best]).astype(int), "1", "the chosen design")
+    failures = np.array([each.failure for each in tried], dtype=object)
+    result["failure"] = "design", failures, {"long_name": "why the design has no numbers"}
     result = result.merge(harris_dataset(outcome))
     before = {f"before: {name}": value for name, value in outcome.before.goals.items()}
     return result.assign_attrs(
@@ -105,14 +88,9 @@ def harris_dataset(outcome: Outcome) -> xr.Dataset:
     if not every or any(each is None or each.shape != every[0].shape for each in every):
         return xr.Dataset()
     values = np.array([[each[1] for each in of_choice] for of_choice in curves])
+    described = {"units": "rad", "long_name": "transmission error"}
     return xr.Dataset(
-        {
-            "transmission_error": (
-                ("choice", "load", "mesh_phase"),
-                values,
-                {"units": "rad", "long_name": "transmission error"},
-            )
-        },
+        {"transmission_error": (("choice", "load", "mesh_phase"), values, described)},
         coords={
             "choice": np.array(["before", "best"], dtype=object),
             "load": ("load", torques, {"units": "N m", "long_name": "torque on the wheel"}),
