@@ -8,7 +8,7 @@ import sys
 
 import pytest
 from tests.docs.blocks import ROOT, blocks
-from tests.studies.conftest import DEMO
+from tests.programs import DEMO
 
 import fenics_gears
 from fenics_gears import gear_pair, load_scene

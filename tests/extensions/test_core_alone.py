@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 from tests.docs.blocks import ROOT
-from tests.studies.conftest import ACCURACY, DEMO
+from tests.programs import DEMO
+from tests.studies.conftest import ACCURACY
 
 # Tests of the whole program, or of its installation.
 OF_THE_WHOLE = ("extensions", "docs", "demos", "setup", "benchmarks", "debians", "hard_cases")
@@ -50,6 +51,7 @@ def python(folder, *arguments, timeout=300):
     )
 
 
+@pytest.mark.nightly
 def test_its_modules_load_and_a_scene_runs(core):
     """Authority: the contract that the core imports no extension, by doing; help, check and run."""
     scene = DEMO.read_text(encoding="utf-8").replace("mesh_cycles = 30 ", "mesh_cycles = 2 ").partition("[accuracy]")[0]

@@ -228,6 +228,7 @@ def test_an_interrupted_write_leaves_no_file(tmp_path, monkeypatch, measured):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.nightly
 def test_a_study_killed_in_the_middle_goes_on_where_it_was(folder, undrawn, measured, capsys):
     """kill -9: nothing lost, nothing computed twice, nothing left half-written."""
     study = write_study(folder, FIVE)

@@ -18,14 +18,6 @@ def test_harmonics_of_a_curve_that_is_made_of_them(cycles):
     assert harmonics(curve, cycles) == pytest.approx(amplitudes, abs=1e-12)
 
 
-def test_harmonics_have_the_power_of_the_curve():
-    """Parseval: half the sum of the squared amplitudes is the mean square of a curve about its mean; the last one
-    counts as sampled."""
-    curve = np.random.default_rng(1).normal(size=31)
-    power = 0.5 * np.sum(harmonics(curve, 1, count=15) ** 2)
-    assert power == pytest.approx(np.var(curve), rel=1e-12)
-
-
 def test_shares_of_pairs_that_hand_over_in_a_straight_line():
     """Exact: a contact ratio of 1.5; a pair's share rises from 1/3 to 2/3, is 1 alone, and falls the other way;
     positions in cycles."""

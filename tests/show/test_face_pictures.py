@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 from tests.over_face import helical_run, root_stress_run
-from tests.programs import python
 from tests.show.synthetic import made_up_run
 
 from fenics_gears.contact.pressure import read_off
@@ -88,17 +87,3 @@ def test_line_loads_add_up_to_the_forces(run, side):
         touched = pair.field.x[:-1][loads > 0.0]
         ends = (np.interp(z, start.y, start.x), np.interp(z, end.y, end.x))
         assert (touched[0], touched[-1]) == pytest.approx(ends, abs=2.5 / 12)
-
-
-def test_plane_runs_do_not_import_the_pictures_of_the_face():
-    """Authority: rule 9 of the house; a process that draws a plane run."""
-    names = "contact_pattern", "line_load", "face_picture"
-    program = f"""
-import sys, tempfile
-from tests.show.synthetic import made_up_run
-from fenics_gears.show.plots import draw_run
-draw_run(made_up_run(), tempfile.mkdtemp())
-loaded = [name for name in {names} if "fenics_gears.show." + name in sys.modules]
-print(loaded, "fenics_gears.results.load_factors" in sys.modules)
-"""
-    assert python("-c", program).stdout.split("\n")[0] == "[] False"

@@ -68,10 +68,3 @@ def test_claim_4_friction_makes_reactions_and_input_couple_vary_at_constant_outp
             spread = np.ptp(variable.values) / np.abs(variable.values).mean()
             assert spread > 0.03 if varies else spread < 1e-12
     assert np.ptp(static["friction"].reaction_y.sel(gear="pinion").values) > 1.5 * 0.1 * 8400.0
-
-
-def test_transmission_error_of_a_cycle_repeats(static):
-    """All teeth are alike: the quasi-static error has the period of the mesh."""
-    error = static["friction"].transmission_error.values
-    steps = static["friction"].attrs["steps_per_mesh_cycle"]
-    assert error[:steps] == pytest.approx(error[steps : 2 * steps], rel=1e-9)

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from tests.programs import CHECKOUT, DEMO, command, environment, gears, mpirun  # noqa: F401
+from tests.programs import DEMO
 
 ACCURACY = """[accuracy]
 flank_element_size = "0.3 mm"

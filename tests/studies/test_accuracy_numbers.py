@@ -30,16 +30,6 @@ def test_the_order_of_an_exact_power_is_found(sizes, order):
     assert observed_order(sequence(sizes, order), sizes) == pytest.approx(order, rel=1e-6)
 
 
-def test_the_limit_of_an_exact_power_is_its_constant():
-    """Authority: Richardson 1911; one power is removed exactly, and the uncertainty is 1.25 times what was extrapolated
-    (Roache)."""
-    sizes = (0.8, 0.4, 0.2)
-    limit = richardson(sequence(sizes, 2.0), sizes, expected=2.0)
-    assert np.allclose(limit.value, SHAPE, atol=1e-12)
-    assert limit.uncertainty == pytest.approx(1.25 * 0.3 * 0.04 * np.linalg.norm(ERROR))
-    assert limit.least_error == 0.0
-
-
 def test_richardson_on_archimedes_polygons():
     """Authority: n sin(pi/n) goes to pi as 1/n^2; three polygons give an order near 2, and the limit lies within its
     uncertainty."""

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 from tests.programs import DEMO, environment, gears, mpirun
-from tests.studies.conftest import ACCURACY, DEMO, environment, gears, mpirun
+from tests.studies.conftest import ACCURACY
 from tests.system.failing_rank import WORDS
 
 from fenics_gears.results import load

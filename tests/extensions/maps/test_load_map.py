@@ -9,7 +9,8 @@ import numpy as np
 import pandas
 import pytest
 import xarray as xr
-from tests.studies.conftest import DEMO, stamps
+from tests.programs import DEMO
+from tests.studies.conftest import stamps
 
 from fenics_gears import Load, SceneError, load_scene, model_of, results, simulate
 from fenics_gears.commands.cli import main
