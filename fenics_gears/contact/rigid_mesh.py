@@ -13,7 +13,7 @@ from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, Method
 from fenics_gears.contact.operator import ContactOperator, Passage, Response, count_of, lines_of
 from fenics_gears.contact.places import pair_places
-from fenics_gears.contact.rigid_step import SAME_GAP, Sides, rigid_step
+from fenics_gears.contact.rigid_step import Sides, rigid_step
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, Removal, facing_points
 from fenics_gears.contact.window import ContactGrid, flank_ends, node_offsets
@@ -75,12 +75,6 @@ def solve_rigid(
     if outcome != CONVERGED:
         raise _no_equilibrium(operator, problem)
     return StepSolution(forces, coordinates, displacement, status, iterations, NEWTON)
-
-
-def pairs_that_touch(operator: ContactOperator, node: int) -> np.ndarray:
-    """Positions in `operator.pairs` of those that touch when `node` does; the shares of several are not determined."""
-    side = operator.on_drive_flanks == operator.on_drive_flanks[node]
-    return np.unique(operator.node_pair[side & (operator.gap <= operator.gap[node] + SAME_GAP)])
 
 
 def _no_equilibrium(operator: ContactOperator, problem: StepProblem) -> NoStaticEquilibrium:

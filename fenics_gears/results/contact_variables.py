@@ -8,8 +8,9 @@ import xarray as xr
 from numba import njit
 
 from fenics_gears.contact.laws import NO_FORCE
+from fenics_gears.contact.rigid_step import SAME_GAP
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
-from fenics_gears.dynamics.steps import Record, smallest_openings
+from fenics_gears.dynamics.steps import smallest_openings
 from fenics_gears.results.side_by_side import SideBySide
 from fenics_gears.scene.data import Scene
 
@@ -97,28 +98,20 @@ def pair_variables(scene: Scene, nodes: SideBySide) -> Values:
 
 def _rigid_pairs(scene: Scene, nodes: SideBySide) -> Values:
     """Forces of pairs of rigid flanks; not a number where several pairs touch together, for their shares are not
-    determined."""
-    from fenics_gears.contact.rigid_mesh import pairs_that_touch
-
-    sides = {"pair_normal_force": DRIVE} | (
-        {"pair_coast_normal_force": COAST} if scene.coast_flanks is not None else {}
-    )
-    force = {name: np.zeros((len(nodes.steps), nodes.slots)) for name in sides}
-    for i, record in enumerate(nodes.steps.records):
-        operator, forces = record.position.operator, _normal(record)
-        for node in np.flatnonzero(forces):
-            flank = operator.pairs[operator.node_pair[node]].place.flank
-            name = next(each for each, side in sides.items() if side == flank)
-            together = pairs_that_touch(operator, node)
-            for pair in together:
-                force[name][i, nodes.slot_of(i, operator.pairs[pair].place.index)] = (
-                    forces[node] if len(together) == 1 else np.nan
-                )
-    return force
-
-
-def _normal(record: Record) -> np.ndarray:
-    return record.solution.forces[: record.position.operator.nodes]
+    determined: all with the gap of the node (one of a side) that has the force."""
+    gap, steps = np.concatenate([position.operator.gap for position in nodes.steps.positions]), len(nodes.steps)
+    found = {}
+    for name, drive in (("pair_normal_force", True), ("pair_coast_normal_force", False)):
+        if not drive and scene.coast_flanks is None:
+            break
+        of_side = nodes.drive == drive
+        loaded = np.flatnonzero(of_side & (nodes.normal != 0.0))
+        force, largest_gap = np.zeros(steps), np.full(steps, -np.inf)
+        force[nodes.step[loaded]], largest_gap[nodes.step[loaded]] = nodes.normal[loaded], gap[loaded] + SAME_GAP
+        touching = nodes.by_slot(of_side & (gap <= largest_gap[nodes.step])) > 0
+        force[touching.sum(axis=1) > 1] = np.nan
+        found[name] = np.where(touching, force[:, None], 0.0)
+    return found
 
 
 def node_variables(scene: Scene, nodes: SideBySide) -> Values:
