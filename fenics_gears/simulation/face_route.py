@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
+
 from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
-from fenics_gears.model.face_cost import by_gradients
+from fenics_gears.model.face_cost import both_at_once, by_gradients
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
 from fenics_gears.simulation.elastic_route import Compliances, cycle_of, gear_compliances
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
+from fenics_gears.system.second_process import SecondProcess, second_process, threads
 
 Bodies = tuple[FaceCompliance, FaceCompliance]
 
@@ -27,17 +30,31 @@ def face_route(model: Model, progress: Progress, cache: Cache | None, job: Job |
 
 
 def gear_bodies(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> Bodies:
-    """Compliance of pinion and wheel over their faces."""
+    """Compliance of pinion and wheel over their faces: of both at once where there are cores and memory for it."""
+    reach, names = model.touching.reach, ("pinion", "wheel")
+
+    def begin(name: str) -> None:
+        # Conjugate gradients take a multiple of the time.
+        by = by_gradients(model, names.index(name), 1 if job is None else job.size)
+        progress.stage(f"condense {name}'s body" + (" by conjugate gradients" if by else ""))
+
+    if job is None and threads() > 1 and both_at_once(model):
+        with ThreadPoolExecutor(1) as waiting, second_process() as second:
+            wheel = waiting.submit(gear_body, model, "wheel", reach, cache, second)
+            begin("pinion")
+            pinion = gear_body(model, "pinion", reach, cache)
+            begin("wheel")
+            return pinion, wheel.result()
     bodies = []
-    for number, name in enumerate(("pinion", "wheel")):
-        # They take a multiple of the time.
-        way = " by conjugate gradients" if by_gradients(model, number, 1 if job is None else job.size) else ""
-        progress.stage(f"condense {name}'s body{way}")
-        bodies.append(gear_body(model, name, model.touching.reach, cache, job))
+    for name in names:
+        begin(name)
+        bodies.append(gear_body(model, name, reach, cache, job))
     return bodies[0], bodies[1]
 
 
-def gear_body(model: Model, name: str, reach: Reach, cache: Cache | None, job: Job | None = None) -> FaceCompliance:
+def gear_body(
+    model: Model, name: str, reach: Reach, cache: Cache | None, job: Job | SecondProcess | None = None
+) -> FaceCompliance:
     """Compliance of the "pinion" or the "wheel" over its face, from the cache where it is there."""
     # Imported here: plane scenes have none.
     from fenics_gears.elasticity.face.compliance import face_compliance
