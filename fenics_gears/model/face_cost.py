@@ -8,7 +8,7 @@ from fenics_gears.elasticity.face.cost import expected_memory, expected_size, is
 from fenics_gears.model.cost import CONDENSING_PROGRAM, ON_FLANKS, ExpectedCost, root_stress_cost
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
-from fenics_gears.system.memory import usual_memory
+from fenics_gears.system.memory import allowed_memory, usual_memory
 
 # Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a
 # cut for each harmonic of the ring, of which there are half as many as teeth.
@@ -52,6 +52,16 @@ def _size(model: Model, number: int) -> tuple[int, int]:
 def by_gradients(model: Model, number: int, ranks: int = 1) -> bool:
     """Whether the body of a gear, 0 or 1, is condensed by conjugate gradients."""
     return is_iterative(*_size(model, number), ranks)
+
+
+def both_at_once(model: Model) -> bool:
+    """Whether the bodies of both gears differ, and can be condensed at the same time in the memory that the run may
+    take."""
+    gears = zip((model.pair.pinion, model.pair.wheel), model.scene.gears.materials)
+    if len({(gear, material, face_discretisation(model, number)) for number, (gear, material) in enumerate(gears)}) < 2:
+        return False
+    memory = (expected_memory(*_size(model, number), by_gradients(model, number)) for number in range(2))
+    return CONDENSING_PROGRAM + sum(memory) <= allowed_memory()
 
 
 def face_cost(model: Model, sections: ExpectedCost, ranks: int = 1) -> ExpectedCost:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
 from fenics_gears.effects import effects_on, from_effects
@@ -16,6 +17,7 @@ from fenics_gears.system.progress import Progress
 if TYPE_CHECKING:
     from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
     from fenics_gears.elasticity.face_compliance_data import FaceCompliance
+    from fenics_gears.system.second_process import SecondProcess
 
 
 def gear_bodies(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> Bodies:
@@ -68,22 +70,36 @@ def _section(model: Model, name: str, cache: Cache | None):
 def solids_of(
     model: Model, progress: Progress, cache: Cache | None, job: Job | None = None
 ) -> tuple[FaceCompliance | None, FaceCompliance | None]:
-    """Both bodies in three dimensions; None of a plane scene."""
+    """Both bodies in three dimensions, of both at once where there are cores and memory for it; None of a plane
+    scene."""
     if model.solid_discretisation(0) is None:
         return None, None
     # Imported here: plane scenes have none.
-    from fenics_gears.model.face_cost import by_gradients
+    from fenics_gears.model.face_cost import both_at_once, by_gradients
+    from fenics_gears.system.second_process import second_process, threads
 
+    def begin(number: int) -> None:
+        # Conjugate gradients take a multiple of the time.
+        way = " by conjugate gradients" if by_gradients(model, number, 1 if job is None else job.size) else ""
+        progress.stage(f"condense {GEARS[number]}'s body{way}")
+
+    if job is None and threads() > 1 and both_at_once(model):
+        with ThreadPoolExecutor(1) as waiting, second_process() as second:
+            wheel = waiting.submit(solid_of, model, GEARS[1], cache, second)
+            begin(0)
+            pinion = solid_of(model, GEARS[0], cache)
+            begin(1)
+            return pinion, wheel.result()
     solids = []
     for number, name in enumerate(GEARS):
-        # They take a multiple of the time.
-        way = " by conjugate gradients" if by_gradients(model, number, 1 if job is None else job.size) else ""
-        progress.stage(f"condense {name}'s body{way}")
+        begin(number)
         solids.append(solid_of(model, name, cache, job))
     return solids[0], solids[1]
 
 
-def solid_of(model: Model, name: str, cache: Cache | None, job: Job | None = None) -> FaceCompliance:
+def solid_of(
+    model: Model, name: str, cache: Cache | None, job: Job | SecondProcess | None = None
+) -> FaceCompliance:
     """The body of the "pinion" or the "wheel" in three dimensions, from the cache or condensed."""
     # Imported here: plane scenes have none.
     from fenics_gears.elasticity.face.compliance import face_compliance

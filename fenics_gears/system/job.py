@@ -131,8 +131,9 @@ class Job:
         return {rank: each for rank, each in enumerate(told) if each is not None}
 
 
-def together(job: Job | None, work: Callable[..., Any], *arguments: Any, **here: Any) -> list[Any]:
-    """As `Job.together`; `work` has None as its communicator where this process is alone."""
+def together(job: Any, work: Callable[..., Any], *arguments: Any, **here: Any) -> list[Any]:
+    """As `Job.together`, or that of a `second_process.SecondProcess`; `work` has None as its communicator where this
+    process is alone."""
     return [work(*arguments, None, **here)] if job is None else job.together(work, *arguments, **here)
 
 

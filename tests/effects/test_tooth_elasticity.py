@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fenics_gears import SceneError, scene_from_text, simulate
-from fenics_gears.contact.rigid_mesh import SAME_GAP
+from fenics_gears.contact.rigid_step import SAME_GAP
 from fenics_gears.effects import without
 from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief

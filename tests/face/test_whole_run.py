@@ -6,8 +6,14 @@ import numpy as np
 import pytest
 from tests.benchmarks.third_dimension.pairs import MODULE, scene_of, standard_pair
 
-from fenics_gears import simulate
+from fenics_gears import model_of, simulate
+from fenics_gears.elasticity.cache import Cache
 from fenics_gears.scene.data import Accuracy
+from fenics_gears.simulation.bodies import solids_of
+from fenics_gears.system import second_process
+from fenics_gears.system.memory import MEMORY_VARIABLE
+from fenics_gears.system.progress import SilentProgress
+from fenics_gears.system.second_process import SecondProcess
 
 HELIX_ANGLE = radians(20.0)
 COARSE = Accuracy(
@@ -55,3 +61,25 @@ def test_line_load_adds_up_to_the_normal_force(result):
     np.testing.assert_allclose(
         of_slices, result.normal_force.sel(time=result.contact_time.values, method="nearest").values, rtol=1e-12
     )
+
+
+def test_both_bodies_at_once_are_those_one_after_the_other(scene, monkeypatch, tmp_path):
+    """Authority: the same bodies with one thread. What the cache has starts no process, nor does a pair whose bodies
+    memory does not hold at once."""
+    model, started = model_of(scene), []
+    together = SecondProcess.together
+    monkeypatch.setattr(SecondProcess, "together", lambda *given: started.append(given) or together(*given))
+
+    def bodies(threads, cache=None):
+        monkeypatch.setattr(second_process, "threads", lambda: threads)
+        return solids_of(model, SilentProgress(), cache)
+
+    expected, kept = bodies(1), Cache(tmp_path)
+    assert not started
+    found = bodies(2, kept)
+    assert len(started) == 1 and not any(body.timings["from_cache"] for body in found)
+    for one, other in zip(found, expected):
+        np.testing.assert_allclose(one.blocks, other.blocks, rtol=0.0, atol=1e-13 * abs(other.blocks).max())
+    assert all(body.timings["from_cache"] for body in bodies(2, kept))
+    monkeypatch.setenv(MEMORY_VARIABLE, "300 MB")
+    assert np.array_equal(bodies(2)[1].blocks, expected[1].blocks) and len(started) == 1

@@ -17,6 +17,7 @@ from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.outline import centreline_angle
 from fenics_gears.system.job import Job, together
+from fenics_gears.system.second_process import SecondProcess
 
 # Not a choice: heights of the nodes, here and in FaceCompliance, follow from it.
 ORDER = 2
@@ -28,15 +29,15 @@ def face_compliance(
     discretisation: FaceDiscretisation,
     reach: Reach,
     cache: Cache | None = None,
-    job: Job | None = None,
+    job: Job | SecondProcess | None = None,
 ) -> FaceCompliance:
     """Flank compliance of a gear over its face, from the cache or by condensing one swept tooth sector, hub held, end
     faces free.
 
     gear: its transverse section. Similar gears share an entry of the cache. With `reach.across` the coast flank's dofs
     follow the drive flank's, in the tooth's frame mirrored at its centreline at that height: x and y as of the mirrored
-    section, heights and z as they are. job: whose ranks share the work. Raises SceneError for an impossible size,
-    ComputationError when a stage fails.
+    section, heights and z as they are. job: whose ranks share the work, or the process that does it. Raises SceneError
+    for an impossible size, ComputationError when a stage fails.
     """
     check_inputs(gear, material, reach)
     discretisation.check()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -102,7 +103,7 @@ def condensed_swept_sector(
     halves = [fold.folded(rows, own, sign) for sign in signs]
     del rows
     assembled = perf_counter()
-    found: list[Half | None] = []
+    found: list[Any] = []
     while halves:
         parts = (
             _by_gradients(halves.pop(0), fold, own, sweep, group)
@@ -126,7 +127,8 @@ def condensed_swept_sector(
     ]
     check_congruent(cuts[0], cuts[1], teeth)
     lower = np.column_stack([np.tile(cuts[0], (heights, 1)), np.repeat(sweep.heights, len(cuts[0]))])
-    return SweptSector(*found, lower, fold.cut_turned, fold.flank_turned if both else None, heights, timings)
+    even, odd = found
+    return SweptSector(even, odd, lower, fold.cut_turned, fold.flank_turned if both else None, heights, timings)
 
 
 def spanned(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
