@@ -149,7 +149,7 @@ def solved(matrix, right_side, forces):
         for row in range(column + 1, size):
             factor = matrix[row, column] * inverse
             right_side[row] -= factor * value
-            subtract_multiple(numbers, row * width + first, (row + 1) * width, factor, numbers, column * width + first)
+            _subtract(numbers, row * width + first, (row + 1) * width, factor, column * width + first)
     for column in range(size - 1, -1, -1):
         value = right_side[column] / matrix[column, column]
         right_side[column] = value
@@ -174,22 +174,19 @@ def _bring_pivot(matrix, right_side, column):
 
 
 @njit(cache=True)
-def subtract_multiple(numbers, first, end, factor, others, other):
-    """Subtract from the numbers `first` to `end` the factor times the `others` from `other` on."""
-    # Four are read before one is written, and unsigned places are not looked at for a negative index: so they are
+def _subtract(numbers, first, end, factor, other):
+    """Subtract from the numbers `first` to `end`, groups of four, the factor times those from `other` on."""
+    # All four are read before one is written, and unsigned places are not looked at for a negative index: so they are
     # compiled for four numbers at a time.
     at, end, other = np.uint64(first), np.uint64(end), np.uint64(other)
     one, two, three, four = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
-    while at + four <= end:
-        a = numbers[at] - factor * others[other]
-        b = numbers[at + one] - factor * others[other + one]
-        c = numbers[at + two] - factor * others[other + two]
-        d = numbers[at + three] - factor * others[other + three]
+    while at < end:
+        a = numbers[at] - factor * numbers[other]
+        b = numbers[at + one] - factor * numbers[other + one]
+        c = numbers[at + two] - factor * numbers[other + two]
+        d = numbers[at + three] - factor * numbers[other + three]
         numbers[at], numbers[at + one], numbers[at + two], numbers[at + three] = a, b, c, d
         at, other = at + four, other + four
-    while at < end:
-        numbers[at] -= factor * others[other]
-        at, other = at + one, other + one
 
 
 @njit(cache=True)
@@ -202,8 +199,11 @@ def relative_displacement(equations, iterate, first, end):
     for i in range(first, end):
         displacement[i] = product(jacobian[i], coordinates)
     for j in range(len(forces)):
-        if forces[j] != 0.0:
-            subtract_multiple(displacement, first, end, forces[j], compliance[j], first)
+        force = forces[j]
+        if force != 0.0:
+            row = compliance[j]
+            for i in range(first, end):
+                displacement[i] -= row[i] * force
 
 
 @njit(cache=True, inline="always")

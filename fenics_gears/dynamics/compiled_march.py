@@ -13,7 +13,7 @@ from numba import njit
 
 from fenics_gears.contact.addresses import arrays_of
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.mixed_form import Equations, Iterate, product, subtract_multiple
+from fenics_gears.contact.mixed_form import Equations, Iterate, product
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton
 from fenics_gears.dynamics.average_acceleration import advanced as advanced_by_average
 from fenics_gears.dynamics.average_acceleration import history as average_history
@@ -183,8 +183,11 @@ def slip_at_start(rigid_slip, previous_jacobian, columns, position, forces):
     for node in range(len(displaced)):
         displaced[node] = product(previous_jacobian[node], position)
     for loaded in range(len(forces)):
-        if forces[loaded] != 0.0:
-            subtract_multiple(displaced, 0, len(displaced), forces[loaded], columns[loaded], 0)
+        force = forces[loaded]
+        if force != 0.0:
+            column = columns[loaded]
+            for node in range(len(displaced)):
+                displaced[node] -= column[node] * force
     for node in range(len(displaced)):
         displaced[node] = rigid_slip[node] - displaced[node]
     return displaced
