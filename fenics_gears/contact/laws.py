@@ -31,16 +31,17 @@ class Tolerance:
 
 
 @njit(cache=True)
-def pressing(normal, u_n, gap, r_n):
-    """The normal force that is projected [24]; a node is open where it is not positive."""
-    return normal + r_n * (u_n - gap)
+def presses(closed, normal, u_n, gap):
+    """Whether the normal force that is projected [24] is positive, else a node opens: an open node has no force and a
+    closed one no gap, so that the projection's `r` does not decide."""
+    return normal > 0.0 if closed else u_n > gap
 
 
 @njit(cache=True)
 def next_status(status, normal, pressed, frictional, trial, friction, through_stick):
-    """The status that the projections give a node whose normal force is `normal`, projected `pressed`, and whose
+    """The status that the projections give a node whose normal force is `normal`, whether it is `pressed`, and whose
     tangential one `trial`; with `through_stick` a reversal of slip stops at stick first."""
-    if pressed <= 0.0:
+    if not pressed:
         return OPEN
     if not frictional:
         return SLIP_FORWARD

@@ -16,7 +16,7 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from fenics_gears.contact.addresses import row_of
+from fenics_gears.contact.addresses import GAP, row_of
 from fenics_gears.contact.face import one_slice
 from fenics_gears.contact.mesh import Mesh, Nodes
 from fenics_gears.contact.node_before import nodes_before
@@ -43,7 +43,7 @@ class Position:
 
     @cached_property
     def in_memory(self) -> tuple[np.ndarray, list[np.ndarray]]:
-        """For compiled code: the operator's row (1,) of `contact.addresses`, and the arrays whose addresses it has.
+        """For compiled code: the operator's row of `contact.addresses`, and the arrays whose addresses it has.
 
         The previous compliance lies there by columns: few nodes are loaded.
         """
@@ -64,7 +64,7 @@ class Position:
         operator, (row, held) = replace(self.operator, gap=gap), self.in_memory
         operator.__dict__.update(node_pair=self.operator.node_pair, on_drive_flanks=self.operator.on_drive_flanks)
         changed, row = replace(self, operator=operator), row.copy()
-        row["gap"] = gap.ctypes.data
+        row[GAP] = gap.ctypes.data
         changed.__dict__["in_memory"] = row, [*held, gap]
         return changed
 

@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from fenics_gears.contact.laws import NO_FORCE, OPEN
-from fenics_gears.contact.mixed_form import solved
+from fenics_gears.contact.mixed_form import product, solved, system_of
 
 
 @njit(cache=True)
@@ -31,24 +31,22 @@ def mesh_stiffness(contact, status, forces, coordinates):
         whole += forces[node]
         drive += forces[node] if on_drive_flanks[node] else 0.0
     side = 2.0 * drive >= whole
-    closed = np.flatnonzero((on_drive_flanks == side) & (status != OPEN))
-    force, pairs, last = 0.0, 0, -1
-    for node in closed:
-        force += forces[node]
-        if forces[node] > 0.0 and node_pair[node] != last:
-            pairs, last = pairs + 1, node_pair[node]
+    closed, count, force, pairs, last = np.empty(n, dtype=np.int64), 0, 0.0, 0, -1
+    for node in range(n):
+        if status[node] != OPEN and on_drive_flanks[node] == side:
+            closed[count], count, force = node, count + 1, force + forces[node]
+            if forces[node] > 0.0 and node_pair[node] != last:
+                pairs, last = pairs + 1, node_pair[node]
     if force <= NO_FORCE:
         return np.zeros(3)
     overlap = np.full(n, -np.inf)
     for node in range(n):
         if on_drive_flanks[node] == side:
-            overlap[node] = -gap[node]
-            for c in range(len(coordinates)):
-                overlap[node] += jacobian[node, c] * coordinates[c]
+            overlap[node] = product(jacobian[node], coordinates) - gap[node]
     deflection = _highest(overlap, node_pair)
     # Of a gear so heavy that it does not move, the deflection is below the last digit of its rotation.
     secant = force / deflection if deflection > 0.0 else np.nan
-    return np.array([secant, _tangent(contact.compliance, closed), pairs])
+    return np.array([secant, _tangent(contact.compliance, closed[:count]), pairs])
 
 
 @njit(cache=True)
@@ -71,8 +69,8 @@ def _highest(overlap, node_pair):
 @njit(cache=True)
 def _tangent(compliance, nodes):
     """Force (N) on some nodes of a compliance (m, m), mm/N, when all of them approach by 1 mm."""
-    matrix = np.empty((len(nodes), len(nodes)))
+    matrix = system_of(len(nodes))
     for i in range(len(nodes)):
         for j in range(len(nodes)):
             matrix[i, j] = compliance[nodes[i], nodes[j]]
-    return solved(matrix, np.ones(len(nodes))).sum()
+    return solved(matrix, np.ones(len(nodes)), len(nodes)).sum()

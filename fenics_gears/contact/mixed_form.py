@@ -22,6 +22,8 @@ from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 
 # Unknowns up to which elimination in compiled code is faster than LAPACK.
 SMALL_SYSTEM = 40
+# Pivots of forces as part of the first one, below which larger ones are looked for.
+LEAST_PIVOT = 1e-2
 
 
 class Equations(NamedTuple):
@@ -62,7 +64,7 @@ def _slip_factor(status, friction):
     return 0.0
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def solve_sets(equations, iterate):
     """Solve the linear system of the sets of an iterate for its forces and coordinates, in place.
 
@@ -71,78 +73,120 @@ def solve_sets(equations, iterate):
     stiffness, load, compliance, jacobian, gap, slip_before, friction, _ = equations
     status, forces, coordinates, _ = iterate
     n, k, tangential = len(gap), len(load), len(slip_before) > 0
-    closed = np.flatnonzero(status != OPEN)
-    stick = np.flatnonzero(status == STICK) if tangential else closed[:0]
-    n_closed, n_stick = len(closed), len(stick)
-    rows = np.concatenate((closed, n + stick))
-    size = n_closed + n_stick
+    # Rows of normal forces of closed nodes, then of tangential ones of those that stick.
+    rows, factors, closed = np.empty(len(forces), dtype=np.int64), np.zeros(n), 0
+    for node in range(n):
+        if status[node] != OPEN:
+            rows[closed] = node
+            if tangential:
+                factors[closed] = _slip_factor(status[node], friction)
+            closed += 1
+    size = closed
+    if tangential:
+        for b in range(closed):
+            if status[rows[b]] == STICK:
+                rows[size] = n + rows[b]
+                size += 1
     # Forces are carried as lengths, `unit` N each, so that all entries are of the size of a stiffness.
     unit = 1.0 / compliance[0, 0] if len(compliance) else 1.0
-    matrix = np.empty((size + k, size + k))
-    right_side = np.empty(size + k)
-    factors = np.zeros(n_closed)
-    if tangential:
-        for b in range(n_closed):
-            factors[b] = _slip_factor(status[closed[b]], friction)
+    matrix, right_side = system_of(size + k), np.empty(size + k)
     for a in range(size):
-        row, values, entries = rows[a], compliance[rows[a]], matrix[a]
+        row = rows[a]
         for b in range(size):
-            entries[b] = -values[rows[b]] * unit * unit
-        if tangential:
-            for b in range(n_closed):
-                entries[b] -= factors[b] * values[n + closed[b]] * unit * unit
+            value = compliance[row, rows[b]]
+            if tangential and b < closed:
+                value += factors[b] * compliance[row, n + rows[b]]
+            matrix[a, b] = -value * unit * unit
         for c in range(k):
             matrix[a, size + c] = jacobian[row, c] * unit
         right_side[a] = (gap[row] if row < n else -slip_before[row - n]) * unit
     for c in range(k):
         for b in range(size):
             entry = jacobian[rows[b], c]
-            if tangential and b < n_closed:
-                entry += factors[b] * jacobian[n + closed[b], c]
+            if tangential and b < closed:
+                entry += factors[b] * jacobian[n + rows[b], c]
             matrix[size + c, b] = entry * unit
         for d in range(k):
             matrix[size + c, size + d] = stiffness[c, d]
         right_side[size + c] = load[c]
-    solution = solved(matrix, right_side)
+    solution = solved(matrix, right_side, size)
     forces[:] = 0.0
-    for a in range(n_closed):
-        node = closed[a]
-        forces[node] = solution[a] * unit
-        if tangential:
-            forces[n + node] = factors[a] * forces[node]
-    for a in range(n_stick):
-        forces[n + stick[a]] = solution[n_closed + a] * unit
+    for a in range(size):
+        forces[rows[a]] = solution[a] * unit
+    if tangential:
+        for b in range(closed):
+            if factors[b] != 0.0:
+                forces[n + rows[b]] = factors[b] * forces[rows[b]]
     coordinates[:] = solution[size:]
 
 
 @njit(cache=True)
-def solved(matrix, right_side):
-    """Solution of a linear system, in place of both; small ones without LAPACK, whose call costs more than they do."""
-    size = len(right_side)
+def system_of(size):
+    """Room for the matrix of a linear system that is to be `solved`: of a small one whole groups of four columns, those
+    behind its own zero."""
+    width = size if size > SMALL_SYSTEM else (size + 3) // 4 * 4
+    matrix = np.empty((size, width))
+    matrix[:, size:] = 0.0
+    return matrix
+
+
+@njit(cache=True, error_model="numpy")
+def solved(matrix, right_side, forces):
+    """Solution of a linear system, in place of both; small ones without LAPACK, whose call costs more than they do.
+
+    The first `forces` rows and columns are those of a compliance, which needs no other pivots than its diagonal: others
+    are looked for where that comes near zero, as where nodes depend on each other, and in all columns after them.
+    """
+    size, width = matrix.shape
     if size > SMALL_SYSTEM:
         return np.linalg.solve(matrix, right_side)
+    numbers, least = matrix.reshape(-1), LEAST_PIVOT * abs(matrix[0, 0]) if size else 0.0
     for column in range(size):
-        pivot, largest = column, abs(matrix[column, column])
+        if column >= forces or abs(matrix[column, column]) <= least:
+            _bring_pivot(matrix, right_side, column)
+        inverse, value = 1.0 / matrix[column, column], right_side[column]
+        first = column // 4 * 4
         for row in range(column + 1, size):
-            if abs(matrix[row, column]) > largest:
-                pivot, largest = row, abs(matrix[row, column])
-        if largest == 0.0:
-            raise np.linalg.LinAlgError("Matrix is singular to machine precision.")
-        if pivot != column:
-            for other in range(column, size):
-                matrix[column, other], matrix[pivot, other] = matrix[pivot, other], matrix[column, other]
-            right_side[column], right_side[pivot] = right_side[pivot], right_side[column]
-        for row in range(column + 1, size):
-            factor = matrix[row, column] / matrix[column, column]
-            if factor != 0.0:
-                for other in range(column + 1, size):
-                    matrix[row, other] -= factor * matrix[column, other]
-                right_side[row] -= factor * right_side[column]
+            factor = matrix[row, column] * inverse
+            right_side[row] -= factor * value
+            _subtract(numbers, row * width + first, (row + 1) * width, factor, column * width + first)
     for column in range(size - 1, -1, -1):
-        for other in range(column + 1, size):
-            right_side[column] -= matrix[column, other] * right_side[other]
-        right_side[column] /= matrix[column, column]
+        value = right_side[column] / matrix[column, column]
+        right_side[column] = value
+        for row in range(column):
+            right_side[row] -= matrix[row, column] * value
     return right_side
+
+
+@njit(cache=True)
+def _bring_pivot(matrix, right_side, column):
+    """Exchange a row of a matrix that is being eliminated for the one below it with the largest entry in `column`."""
+    pivot, largest = column, abs(matrix[column, column])
+    for row in range(column + 1, len(matrix)):
+        if abs(matrix[row, column]) > largest:
+            pivot, largest = row, abs(matrix[row, column])
+    if largest == 0.0:
+        raise np.linalg.LinAlgError("Matrix is singular to machine precision.")
+    if pivot != column:
+        for other in range(column, len(matrix)):
+            matrix[column, other], matrix[pivot, other] = matrix[pivot, other], matrix[column, other]
+        right_side[column], right_side[pivot] = right_side[pivot], right_side[column]
+
+
+@njit(cache=True)
+def _subtract(numbers, first, end, factor, other):
+    """Subtract from the numbers `first` to `end`, groups of four, the factor times those from `other` on."""
+    # All four are read before one is written, and unsigned places are not looked at for a negative index: so they are
+    # compiled for four numbers at a time.
+    at, end, other = np.uint64(first), np.uint64(end), np.uint64(other)
+    one, two, three, four = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
+    while at < end:
+        a = numbers[at] - factor * numbers[other]
+        b = numbers[at + one] - factor * numbers[other + one]
+        c = numbers[at + two] - factor * numbers[other + two]
+        d = numbers[at + three] - factor * numbers[other + three]
+        numbers[at], numbers[at + one], numbers[at + two], numbers[at + three] = a, b, c, d
+        at, other = at + four, other + four
 
 
 @njit(cache=True)
@@ -154,10 +198,12 @@ def relative_displacement(equations, iterate, first, end):
     forces, coordinates = iterate.forces, iterate.coordinates
     for i in range(first, end):
         displacement[i] = product(jacobian[i], coordinates)
-    for j in np.flatnonzero(forces):
-        row, force = compliance[j], forces[j]
-        for i in range(first, end):
-            displacement[i] -= row[i] * force
+    for j in range(len(forces)):
+        force = forces[j]
+        if force != 0.0:
+            row = compliance[j]
+            for i in range(first, end):
+                displacement[i] -= row[i] * force
 
 
 @njit(cache=True, inline="always")

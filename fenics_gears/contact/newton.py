@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, STICK, next_status, pressing
-from fenics_gears.contact.mixed_form import Iterate, product, relative_displacement, solve_sets
+from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, STICK, next_status, presses
+from fenics_gears.contact.mixed_form import product, relative_displacement, solve_sets
 
 CONVERGED, CYCLED, SINGULAR = 0, 1, 2
 OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}
@@ -37,52 +37,46 @@ class Method(NamedTuple):
 
 
 @njit(cache=True)
-def _tangents(equations, iterate, r_scale):
+def _tangents(equations, iterate):
     """As `relative_displacement`, the tangential rows of the few nodes that are closed or close next; no other has a
     slip that counts."""
     compliance, jacobian, gap, n = equations.compliance, equations.jacobian, equations.gap, len(equations.gap)
     status, forces, coordinates, displacement = iterate
-    rows = np.empty(n, dtype=np.int64)
-    count = 0
+    rows, count = np.empty(n, dtype=np.int64), 0
     for j in range(n):
-        r_n = r_scale / compliance[j, j]
-        if status[j] != OPEN or pressing(forces[j], displacement[j], gap[j], r_n) > 0.0:
-            rows[count] = n + j
+        if status[j] != OPEN or displacement[j] > gap[j]:
+            rows[count], displacement[n + j] = n + j, product(jacobian[n + j], coordinates)
             count += 1
-    rows = rows[:count]
-    for i in rows:
-        displacement[i] = product(jacobian[i], coordinates)
-    for j in np.flatnonzero(forces):
-        row, force = compliance[j], forces[j]
-        for i in rows:
-            displacement[i] -= row[i] * force
+    for j in range(len(forces)):
+        force = forces[j]
+        if force != 0.0:
+            for i in range(count):
+                displacement[rows[i]] -= compliance[j, rows[i]] * force
 
 
-@njit(cache=True)
-def _update_status(equations, iterate, r_scale, rule):
-    """New sets by the projections; `r` per node from the elastic compliance. Returns (changed, new status)."""
+@njit(cache=True, error_model="numpy")
+def _update_status(equations, iterate, new, r_scale, rule):
+    """Put the new sets by the projections into `new` (n,); `r` per node from the elastic compliance. Returns whether
+    they changed."""
     _, _, compliance, _, gap, slip_before, friction, _ = equations
     status, forces, _, displacement = iterate
     n, tangential = len(gap), len(slip_before) > 0
-    new = np.empty_like(status)
     changed = False
     for j in range(n):
-        trial = 0.0
-        if tangential:
+        trial, pressed = 0.0, presses(status[j] != OPEN, forces[j], displacement[j], gap[j])
+        if tangential and pressed:
             # A node in a set satisfies that set's equation exactly; round-off must not decide in its place.
             slip = 0.0 if status[j] == STICK else displacement[n + j] + slip_before[j]
             trial = forces[n + j] + r_scale / compliance[n + j, n + j] * slip
-        u_n = gap[j] if status[j] != OPEN else displacement[j]
-        pressed = pressing(forces[j], u_n, gap[j], r_scale / compliance[j, j])
         new[j] = next_status(status[j], forces[j], pressed, tangential, trial, friction, rule != ALL_AT_ONCE)
         if new[j] != status[j]:
             if rule == ONE_AT_A_TIME and changed:
                 new[j] = status[j]
             changed = True
-    return changed, new
+    return changed
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _force_round_off(equations, coordinates):
     """Round-off (N) of the forces: that of the load, and that of the lengths times the stiffnesses of springs and
     teeth."""
@@ -109,34 +103,45 @@ def measure(residual, equations, iterate):
     Equilibrium is solved, not iterated: a residual within the round-off of a row's terms is no violation. A slip
     against its friction counts in proportion to that friction, as far as it exceeds the round-off of the forces.
     """
-    stiffness, load, _, jacobian, gap, slip_before, friction, _ = equations
+    _, load, _, _, gap, slip_before, friction, _ = equations
     status, forces, coordinates, displacement = iterate
-    n, tangential = len(gap), len(slip_before) > 0
-    residual[:] = 0.0
-    negligible = ROUND_OFF + _force_round_off(equations, coordinates) if len(load) else ROUND_OFF
+    n, penetration, tension, excess, stick_slip = len(gap), 0.0, 0.0, 0.0, 0.0
     for j in range(n):
-        residual[PENETRATION] = max(residual[PENETRATION], displacement[j] - gap[j])
-        residual[TENSION] = max(residual[TENSION], -forces[j])
-        if tangential:
-            limit = friction * max(forces[j], 0.0)
-            residual[CONE_EXCESS] = max(residual[CONE_EXCESS], abs(forces[n + j]) - limit)
+        penetration, tension = max(penetration, displacement[j] - gap[j]), max(tension, -forces[j])
+    if len(slip_before):
+        negligible = ROUND_OFF + _force_round_off(equations, coordinates) if len(load) else ROUND_OFF
+        for j in range(n):
+            excess = max(excess, abs(forces[n + j]) - friction * max(forces[j], 0.0))
             slip = displacement[n + j] + slip_before[j]
-            if status[j] == STICK:
-                residual[STICK_SLIP] = max(residual[STICK_SLIP], abs(slip))
-            elif status[j] != OPEN and forces[n + j] * slip < 0.0 and abs(forces[n + j]) > negligible:
-                residual[STICK_SLIP] = max(residual[STICK_SLIP], abs(slip))
-    balance, terms = -load, np.abs(load)
+            against = forces[n + j] * slip < 0.0 and abs(forces[n + j]) > negligible
+            if status[j] == STICK or status[j] != OPEN and against:
+                stick_slip = max(stick_slip, abs(slip))
+    residual[PENETRATION], residual[TENSION], residual[CONE_EXCESS] = penetration, tension, excess
+    residual[STICK_SLIP], residual[EQUILIBRIUM] = stick_slip, _imbalance(equations, iterate)
+
+
+@njit(cache=True)
+def _imbalance(equations, iterate):
+    """The largest force (N) by which a centre coordinate is out of equilibrium, beyond the round-off of its terms."""
+    stiffness, load, jacobian = equations.stiffness, equations.load, equations.jacobian
+    forces, coordinates, largest = iterate.forces, iterate.coordinates, 0.0
+    balance = np.empty((2, len(load)))
     for c in range(len(load)):
+        total, terms = -load[c], abs(load[c])
         for d in range(len(load)):
-            balance[c] += stiffness[c, d] * coordinates[d]
-            terms[c] += abs(stiffness[c, d] * coordinates[d])
+            term = stiffness[c, d] * coordinates[d]
+            total, terms = total + term, terms + abs(term)
+        balance[0, c], balance[1, c] = total, terms
     for i in range(len(forces)):
-        if forces[i] != 0.0:
+        force = forces[i]
+        if force != 0.0:
             for c in range(len(load)):
-                balance[c] += jacobian[i, c] * forces[i]
-                terms[c] += abs(jacobian[i, c] * forces[i])
+                term = jacobian[i, c] * force
+                balance[0, c] += term
+                balance[1, c] += abs(term)
     for c in range(len(load)):
-        residual[EQUILIBRIUM] = max(residual[EQUILIBRIUM], abs(balance[c]) - ROUND_OFF * terms[c])
+        largest = max(largest, abs(balance[0, c]) - ROUND_OFF * balance[1, c])
+    return largest
 
 
 @njit(cache=True)
@@ -161,8 +166,11 @@ def _with_one_closed(status, equations, displacement):
     """Where only contact holds the load and no node is closed, close the one that touches first as the drivetrain moves
     freely, or else the nearest to contact; returns whether it did."""
     jacobian, gap, free_motion = equations.jacobian, equations.gap, equations.free_motion
-    if not len(free_motion) or not len(gap) or np.any(status != OPEN):
+    if not len(free_motion) or not len(gap):
         return False
+    for each in status:
+        if each != OPEN:
+            return False
     first, distance = -1, np.inf
     for j in range(len(gap)):
         approach = 0.0
@@ -183,26 +191,26 @@ def _same(one, other):
 
 
 @njit(cache=True)
-def newton(equations, status, method, history, sets):
-    """Active-set Newton from the sets `status` (n,) int8, changed in place to those of the solution.
+def newton(equations, iterate, method, history, sets):
+    """Active-set Newton from the sets of an `iterate`, which becomes the solution; its displacement is zero at first.
 
     `history` (iterations, 5) and `sets` (iterations, n) are filled with residuals and sets. Returns (outcome,
-    iterations, forces, coordinates, u).
+    iterations).
     """
+    status, displacement = iterate.status, iterate.displacement
     n, m = len(equations.gap), len(equations.compliance)
-    iterate = Iterate(status, np.zeros(m), np.zeros(len(equations.load)), np.zeros(m))
-    outcome, iteration, limit = CYCLED, 0, len(history)
+    outcome, iteration, limit, new = CYCLED, 0, len(history), np.empty_like(status)
     while iteration < limit:
-        _with_one_closed(status, equations, iterate.displacement)
+        _with_one_closed(status, equations, displacement)
         sets[iteration] = status
         solve_sets(equations, iterate)
         relative_displacement(equations, iterate, 0, n)
         if len(equations.slip_before):
-            _tangents(equations, iterate, method.r_scale)
+            _tangents(equations, iterate)
         measure(history[iteration], equations, iterate)
-        changed, new = _update_status(equations, iterate, method.r_scale, method.rule)
-        if _with_one_closed(new, equations, iterate.displacement):
-            changed = np.any(new != status)
+        changed = _update_status(equations, iterate, new, method.r_scale, method.rule)
+        if _with_one_closed(new, equations, displacement):
+            changed = not _same(new, status)
         repeated = not changed
         for earlier in range(iteration + 1):
             repeated = repeated or _same(sets[earlier], new)
@@ -215,4 +223,4 @@ def newton(equations, status, method, history, sets):
             break
         status[:] = new
     relative_displacement(equations, iterate, n, m)
-    return outcome, iteration, iterate.forces, iterate.coordinates, iterate.displacement
+    return outcome, iteration

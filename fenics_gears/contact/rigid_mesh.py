@@ -10,6 +10,7 @@ from fenics_gears.contact.interpolation import hat_integrals
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh import Mesh, MeshTraits, nodes_at
 from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.mixed_form import Iterate
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, Method
 from fenics_gears.contact.operator import ContactOperator, Passage, Response, count_of, lines_of
 from fenics_gears.contact.places import pair_places
@@ -71,10 +72,12 @@ def solve_rigid(
     sliding = np.empty(0) if operator.sliding is None else operator.sliding
     sides = Sides(operator.on_drive_flanks, operator.node_pair, sliding)
     method = Method(1.0, ALL_AT_ONCE, tolerance.length, tolerance.force)
-    outcome, iterations, forces, coordinates, displacement = rigid_step(problem.equations, sides, status, method)
+    m = len(problem.compliance)
+    iterate = Iterate(status, np.zeros(m), np.zeros(len(problem.load)), np.zeros(m))
+    outcome, iterations = rigid_step(problem.equations, sides, iterate, method)
     if outcome != CONVERGED:
         raise _no_equilibrium(operator, problem)
-    return StepSolution(forces, coordinates, displacement, status, iterations, NEWTON)
+    return StepSolution(iterate.forces, iterate.coordinates, iterate.displacement, status, iterations, NEWTON)
 
 
 def _no_equilibrium(operator: ContactOperator, problem: StepProblem) -> NoStaticEquilibrium:

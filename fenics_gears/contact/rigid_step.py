@@ -35,14 +35,14 @@ class Sides(NamedTuple):
 
 
 @njit(cache=True)
-def rigid_step(equations, sides, status, method):
+def rigid_step(equations, sides, iterate, method):
     """Solve a step with the first that holds the load: no node touching, the leading node of a side, or of both.
 
-    Both sides touch where teeth are wider than the spaces between them and bearings let the centres move. Sets go into
-    `status` (n,). Returns what `newton.newton` does; SINGULAR where nothing holds the load.
+    Both sides touch where teeth are wider than the spaces between them and bearings let the centres move. The `iterate`
+    becomes the solution. Returns (outcome, candidates tried), as `newton.newton`; SINGULAR where nothing holds the
+    load.
     """
-    m, k = len(equations.compliance), len(equations.load)
-    forces, coordinates, displacement = np.zeros(m), np.zeros(k), np.zeros(m)
+    status, forces, coordinates, displacement = iterate
     leaders = _leaders(equations.gap, sides.on_drive_flanks)
     candidates = 1 + len(leaders) + (1 if len(leaders) == 2 and not len(sides.sliding) else 0)
     for candidate in range(candidates):
@@ -51,11 +51,11 @@ def rigid_step(equations, sides, status, method):
         if _solved(equations, touching, unit, forces, coordinates) and _obeys(
             equations, leaders, touching, forces, coordinates, method
         ):
-            for row in range(m):
+            for row in range(len(displacement)):
                 displacement[row] = product(equations.jacobian[row], coordinates)
             _set(status, unit)
-            return CONVERGED, candidate + 1, forces, coordinates, displacement
-    return SINGULAR, candidates, forces, coordinates, displacement
+            return CONVERGED, candidate + 1
+    return SINGULAR, candidates
 
 
 @njit(cache=True)

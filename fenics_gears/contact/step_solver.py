@@ -147,18 +147,18 @@ def run_newton(
     """Newton from `status`; returns ((outcome, iterations, forces, coordinates, u, sets), (history, all sets))."""
     history = np.zeros((max_iterations, 5))
     sets = np.full((max_iterations, len(problem.gap)), -1, dtype=np.int8)
-    current, equations = status.copy(), problem.equations
+    equations, m = problem.equations, len(problem.compliance)
+    iterate = Iterate(status.copy(), np.zeros(m), np.zeros(len(problem.load)), np.zeros(m))
     if friction is not None:
         equations = equations._replace(friction=friction)
     method = Method(r_scale, rule, problem.tolerance.length, problem.tolerance.force)
     try:
-        result = newton(equations, current, method, history, sets)
+        outcome, done = newton(equations, iterate, method, history, sets)
     except np.linalg.LinAlgError:
-        done = int(np.sum(np.any(sets >= 0, axis=1)))
-        zeros = np.zeros(len(problem.compliance))
-        result = (SINGULAR, done, zeros, np.zeros(len(problem.load)), zeros)
-    used = max(result[1], 1)
-    return (*result, current), (history[:used], sets[:used])
+        outcome, done = SINGULAR, int(np.sum(np.any(sets >= 0, axis=1)))
+    result = outcome, done, iterate.forces, iterate.coordinates, iterate.displacement, iterate.status
+    used = max(done, 1)
+    return result, (history[:used], sets[:used])
 
 
 def _friction_from_zero(problem: StepProblem, status: np.ndarray, max_iterations: int):

@@ -83,9 +83,12 @@ def advanced(step, before, position):
 @njit(cache=True)
 def with_history(load, history, states):
     """A load (k,) with what the states (3, k) at the start of a step add, by matrices `history` (3, k, k)."""
-    result = load.copy()
-    for kind in range(len(history)):
-        for i in range(len(load)):
+    result = np.empty_like(load)
+    for i in range(len(load)):
+        # Summed outside the array: to write and read it for each term takes longer than the term.
+        total = load[i]
+        for kind in range(len(history)):
             for j in range(len(load)):
-                result[i] += history[kind, i, j] * states[kind, j]
+                total += history[kind, i, j] * states[kind, j]
+        result[i] = total
     return result

@@ -13,7 +13,7 @@ from numba import njit
 
 from fenics_gears.contact.addresses import arrays_of
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.mixed_form import Equations
+from fenics_gears.contact.mixed_form import Equations, Iterate, product
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton
 from fenics_gears.contact.rigid_step import Sides, rigid_step
 from fenics_gears.dynamics.average_acceleration import advanced as advanced_by_average
@@ -22,7 +22,7 @@ from fenics_gears.dynamics.average_acceleration import with_history
 from fenics_gears.dynamics.backward_euler import advanced as advanced_backward
 from fenics_gears.dynamics.backward_euler import history as backward_history
 from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.steps import Steps
+from fenics_gears.dynamics.steps import Steps, in_block
 
 STATIC, AVERAGE_ACCELERATION, BACKWARD_EULER = range(3)
 # Sets of a mesh cycle before, where there are none.
@@ -60,6 +60,13 @@ class Motion(NamedTuple):
         free = drivetrain.free_motion if method == STATIC else np.empty(0)
         return cls(method, stiffness, mass, damping, free, float(friction), tolerance.length, tolerance.force, rigid)
 
+    @property
+    def packed(self) -> np.ndarray:
+        """All in one array for compiled code, which `_unpacked` takes apart: to find the types of many arrays takes
+        numba longer than a step."""
+        numbers = self.method, self.friction, self.length_tolerance, self.force_tolerance, self.rigid
+        return np.concatenate([numbers, *(array.ravel() for array in self[1:4]), self.free_motion])
+
 
 class Course(NamedTuple):
     """What differs from step to step: how long they last (`durations` (s,), s), `loads` (s, k), N, and the sets (N,) as
@@ -75,7 +82,7 @@ def solve_steps(steps: Steps, first: int, end: int, motion: Motion, course: Cour
     is not solved. The course is that of all steps."""
     done = np.full(1, first)
     try:
-        _solve_steps(done, end, steps.in_memory, motion, course)
+        _solve_steps(done, end, steps.in_memory, motion.packed, *course)
     except np.linalg.LinAlgError:
         # Sets that leave the system singular: the step after the last one done.
         pass
@@ -83,22 +90,41 @@ def solve_steps(steps: Steps, first: int, end: int, motion: Motion, course: Cour
 
 
 @njit(cache=True)
-def _solve_steps(done, end, steps, motion, course):
+def _unpacked(numbers, k):
+    matrices, free_motion = numbers[5 : 5 + 3 * k * k].reshape(3, k, k), numbers[5 + 3 * k * k :]
+    return Motion(
+        int(numbers[0]),
+        matrices[0],
+        matrices[1],
+        matrices[2],
+        free_motion,
+        numbers[1],
+        numbers[2],
+        numbers[3],
+        numbers[4] != 0.0,
+    )
+
+
+@njit(cache=True)
+def _solve_steps(done, end, block, packed, durations, loads, cycle_before):
+    steps, motion = in_block(block), _unpacked(packed, loads.shape[1])
     starts, kinds, states, status = steps.starts, steps.kinds, steps.states, steps.status
     effective, k, duration = motion.stiffness, len(motion.stiffness), -1.0
     history = np.zeros((3, k, k))
     method = Method(1.0, ALL_AT_ONCE, motion.length_tolerance, motion.force_tolerance)
+    residuals, most = np.empty((MOST_ITERATIONS, 5)), np.diff(starts).max()
+    all_sets, coordinates = np.empty(MOST_ITERATIONS * most, dtype=np.int8), np.empty(k)
     for s in range(done[0], end):
-        if course.durations[s] != duration and motion.method != STATIC:
-            duration = course.durations[s]
+        if durations[s] != duration and motion.method != STATIC:
+            duration = durations[s]
             history = _history(motion, duration)
             effective = motion.stiffness + history[0]
-        outer = course.loads[s]
+        outer = loads[s]
         load = outer if motion.method == STATIC else with_history(outer, history, states[s - 1])
         now, before = slice(starts[s], starts[s + 1]), slice(starts[s - 1], starts[s])
         contact = arrays_of(steps.rows[s], kinds, k, starts[s] - starts[s - 1])
         nodes, n = status[now], starts[s + 1] - starts[s]
-        begin(nodes, status[before], contact.node_before, course.cycle_before[now], course.cycle_before[before])
+        begin(nodes, status[before], contact.node_before, cycle_before[now], cycle_before[before])
         slip_before = np.empty(0)
         if len(contact.rigid_slip):
             forces_before = steps.forces[kinds * starts[s - 1] : kinds * starts[s]]
@@ -110,16 +136,16 @@ def _solve_steps(done, end, steps, motion, course):
             effective, load, contact.compliance, contact.jacobian, contact.gap, slip_before, motion.friction,
             _turned(motion.free_motion, outer),
         )  # fmt: skip
+        both = slice(kinds * starts[s], kinds * starts[s + 1])
+        iterate = Iterate(nodes, steps.forces[both], coordinates, steps.displacement[both])
         if motion.rigid:
             sides = Sides(contact.on_drive_flanks, contact.node_pair, contact.sliding)
-            outcome, count, found, coordinates, moved = rigid_step(equations, sides, nodes, method)
+            outcome, steps.iterations[s] = rigid_step(equations, sides, iterate, method)
         else:
-            residuals, sets = np.empty((MOST_ITERATIONS, 5)), np.empty((MOST_ITERATIONS, n), dtype=np.int8)
-            outcome, count, found, coordinates, moved = newton(equations, nodes, method, residuals, sets)
+            sets = all_sets[: MOST_ITERATIONS * n].reshape(MOST_ITERATIONS, n)
+            outcome, steps.iterations[s] = newton(equations, iterate, method, residuals, sets)
         if outcome != CONVERGED:
             return
-        both = slice(kinds * starts[s], kinds * starts[s + 1])
-        steps.forces[both], steps.displacement[both], steps.iterations[s] = found, moved, count
         states[s] = _advanced(motion.method, duration, states[s - 1], coordinates)
         done[0] = s + 1
 
@@ -170,14 +196,18 @@ def slip_at_start(rigid_slip, previous_jacobian, columns, position, forces):
     Arrays as of ContactOperator, `columns` (m before, n) of the `previous_compliance`; `position` (k,) and `forces` of
     the step before.
     """
-    displaced = np.zeros(len(rigid_slip))
+    displaced = np.empty(len(rigid_slip))
     for node in range(len(displaced)):
-        for c in range(len(position)):
-            displaced[node] += previous_jacobian[node, c] * position[c]
-    for loaded in np.flatnonzero(forces):
-        for node in range(len(displaced)):
-            displaced[node] -= columns[loaded, node] * forces[loaded]
-    return rigid_slip - displaced
+        displaced[node] = product(previous_jacobian[node], position)
+    for loaded in range(len(forces)):
+        force = forces[loaded]
+        if force != 0.0:
+            column = columns[loaded]
+            for node in range(len(displaced)):
+                displaced[node] -= column[node] * force
+    for node in range(len(displaced)):
+        displaced[node] = rigid_slip[node] - displaced[node]
+    return displaced
 
 
 @njit(cache=True)

@@ -10,7 +10,8 @@ import numpy as np
 from numba import njit
 
 from fenics_gears.contact.addresses import Arrays
-from fenics_gears.dynamics.steps import Steps, forces_at, operator_at
+from fenics_gears.contact.mixed_form import product
+from fenics_gears.dynamics.steps import Steps, forces_at, in_block, operator_at
 
 
 @dataclass(frozen=True)
@@ -41,8 +42,8 @@ class End(NamedTuple):
 
 
 class Shared(NamedTuple):
-    """What both ends of a step have: `rows` of forces, those before and the same ones now; the `successor` (n_0,) of
-    each node before and the `node_before` (n_1,) of each now, -1 for none.
+    """What both ends of a step have: `rows` of forces that are loaded at either, those before and the same ones now;
+    the `successor` (n_0,) of each node before and the `node_before` (n_1,) of each now, -1 for none.
 
     Where two nodes come from one, as beside a moving edge, the later of them is that node and the other is new.
     """
@@ -53,16 +54,17 @@ class Shared(NamedTuple):
 
 
 @njit(cache=True)
-def _works(steps):
+def _works(block):
+    steps = in_block(block)
     works = np.zeros((3, max(len(steps.rows) - 1, 0)))
     if not len(steps.rows):
         return works
     now = _end(steps, 0)
     for s in range(1, len(steps.rows)):
         then, now = now, _end(steps, s)
-        shared = _shared(now.contact.node_before, len(then.contact.gap), steps.kinds)
-        works[0, s - 1] = _by_shape(then, now, shared.rows)
-        _normal_work(works[:, s - 1], then, now, shared)
+        shared = _shared(then, now, steps.kinds)
+        rotation, changes = _normal_work(then, now, shared)
+        works[ROTATION, s - 1], works[CHANGES, s - 1] = _by_shape(then, now, shared.rows) + rotation, changes
         if steps.kinds == 2:
             _tangential_work(works[:, s - 1], then, now, shared)
     return works
@@ -75,47 +77,54 @@ def _end(steps, s):
 
 
 @njit(cache=True)
-def _shared(node_before, n_0, kinds):
-    n_1 = len(node_before)
+def _shared(then, now, kinds):
+    node_before, forces_0, forces_1 = now.contact.node_before, then.forces, now.forces
+    n_0, n_1, count = len(then.contact.gap), len(node_before), 0
     successor, own = np.full(n_0, -1), np.full(n_1, -1)
     for node in range(n_1):
         if node_before[node] >= 0:
             successor[node_before[node]] = node
-    rows_0, rows_1, count = np.empty(kinds * n_0, dtype=np.int64), np.empty(kinds * n_0, dtype=np.int64), 0
+    rows_0, rows_1 = np.empty(kinds * n_0, dtype=np.int64), np.empty(kinds * n_0, dtype=np.int64)
     for kind in range(kinds):
         for node in range(n_0):
             after = successor[node]
             if after >= 0:
                 own[after] = node
-                rows_0[count], rows_1[count] = kind * n_0 + node, kind * n_1 + after
-                count += 1
+                row_0, row_1 = kind * n_0 + node, kind * n_1 + after
+                if forces_0[row_0] != 0.0 or forces_1[row_1] != 0.0:
+                    rows_0[count], rows_1[count] = row_0, row_1
+                    count += 1
     return Shared((rows_0[:count], rows_1[:count]), successor, own)
 
 
 @njit(cache=True)
-def _normal_work(works, then, now, shared):
-    """Add what normal forces do on the rotation, and by closing and opening between steps, to `works` (3,)."""
+def _normal_work(then, now, shared):
+    """What normal forces do on the rotation, and by closing and opening between steps."""
     # Taken out of the records once: in a loop that would cost more than the numbers.
     gaps_0, forces_0, displaced_0 = then.contact.gap, then.forces, then.displacement
     gaps_1, forces_1, displaced_1 = now.contact.gap, now.forces, now.displacement
     (rows_0, rows_1), successor, node_before = shared
+    rotation, changes = 0.0, 0.0
     for node in range(len(gaps_0)):
-        p_0, gap_0, after = forces_0[node], gaps_0[node], successor[node]
+        p_0, after = forces_0[node], successor[node]
         if after >= 0:
-            p_1, gap_1 = forces_1[after], gaps_1[after]
-            works[ROTATION] -= 0.5 * (p_0 + p_1) * (gap_1 - gap_0)
-            works[CHANGES] += 0.5 * (p_0 * (gap_1 - displaced_1[after]) - p_1 * (gap_0 - displaced_0[node]))
+            p_1 = forces_1[after]
+            if p_0 != 0.0 or p_1 != 0.0:
+                gap_0, gap_1 = gaps_0[node], gaps_1[after]
+                rotation -= 0.5 * (p_0 + p_1) * (gap_1 - gap_0)
+                changes += 0.5 * (p_0 * (gap_1 - displaced_1[after]) - p_1 * (gap_0 - displaced_0[node]))
         elif p_0 != 0.0:
-            works[CHANGES] += 0.5 * p_0 * (gap_0 - _at_other(node, then, rows_0, now, rows_1))
+            changes += 0.5 * p_0 * (gaps_0[node] - _at_other(node, then, rows_0, now, rows_1))
     for node in range(len(gaps_1)):
         p_1 = forces_1[node]
         if node_before[node] < 0 and p_1 != 0.0:
-            works[CHANGES] -= 0.5 * p_1 * (gaps_1[node] - _at_other(node, now, rows_1, then, rows_0))
+            changes -= 0.5 * p_1 * (gaps_1[node] - _at_other(node, now, rows_1, then, rows_0))
+    return rotation, changes
 
 
 @njit(cache=True)
 def _tangential_work(works, then, now, shared):
-    """The same of friction, with what is lost to it."""
+    """Add what friction does, with what is lost to it, to `works` (3,)."""
     n_0, forces_0, displaced_0, x_0 = len(then.contact.gap), then.forces, then.displacement, then.coordinates
     n_1, forces_1, displaced_1 = len(now.contact.gap), now.forces, now.displacement
     (rows_0, rows_1), successor, node_before = shared
@@ -134,7 +143,7 @@ def _tangential_work(works, then, now, shared):
             continue
         # `slid`: slip of rigid flanks less the displacement that the same points had before; `moved`: displacement that
         # the node had then.
-        slid = rigid_slip[node] - jacobian[node] @ x_0
+        slid = rigid_slip[node] - product(jacobian[node], x_0)
         for column in loaded:
             slid += columns[column, node] * forces_0[column]
         if before >= 0:
@@ -158,18 +167,16 @@ def _by_shape(then, now, rows):
     )
     jacobian_1, compliance_1, forces_1, x_1 = now.contact.jacobian, now.contact.compliance, now.forces, now.coordinates
     rows_0, rows_1 = rows
-    work, loaded = 0.0, np.flatnonzero(forces_1[rows_1])
+    work = 0.0
     for row in range(len(rows_0)):
         i_0, i_1 = rows_0[row], rows_1[row]
         p_0, p_1 = forces_0[i_0], forces_1[i_1]
-        if p_0 == 0.0 and p_1 == 0.0:
-            continue
         for k in range(len(x_0)):
             work += (jacobian_1[i_1, k] - jacobian_0[i_0, k]) * (p_0 * x_1[k] + p_1 * x_0[k])
         if p_0 != 0.0:
-            for column in loaded:
-                change = compliance_1[i_1, rows_1[column]] - compliance_0[i_0, rows_0[column]]
-                work -= p_0 * change * forces_1[rows_1[column]]
+            for column in range(len(rows_0)):
+                j_0, j_1 = rows_0[column], rows_1[column]
+                work -= p_0 * (compliance_1[i_1, j_1] - compliance_0[i_0, j_0]) * forces_1[j_1]
     return 0.5 * work
 
 
@@ -177,12 +184,11 @@ def _by_shape(then, now, rows):
 def _at_other(row, here, rows, there, other_rows):
     """Displacement G x - C p (mm) that a row of the end `here` would have at the end `there`: `rows` here are
     `other_rows` there, with the forces there."""
-    found, jacobian, compliance = 0.0, here.contact.jacobian, here.contact.compliance
-    x, forces = there.coordinates, there.forces
-    for k in range(len(x)):
-        found += jacobian[row, k] * x[k]
+    compliance, forces, found = (
+        here.contact.compliance,
+        there.forces,
+        product(here.contact.jacobian[row], there.coordinates),
+    )
     for column in range(len(rows)):
-        force = forces[other_rows[column]]
-        if force != 0.0:
-            found -= compliance[row, rows[column]] * force
+        found -= compliance[row, rows[column]] * forces[other_rows[column]]
     return found

@@ -9,9 +9,9 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
+from numba import carray, njit
 
-from fenics_gears.contact.addresses import ROW, arrays_of
+from fenics_gears.contact.addresses import NODES, ROW, arrays_of, to_integer, to_number, to_row, to_set
 from fenics_gears.contact.laws import OPEN
 from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import ContactOperator
@@ -50,6 +50,17 @@ class InMemory(NamedTuple):
     iterations: np.ndarray
 
 
+def table_of(positions: Sequence[Position]) -> np.ndarray:
+    """The numbers (s, r) of the row of each position's contact operator, as of `contact.addresses`; the positions hold
+    what they point to."""
+    rows = [position.in_memory[0] for position in positions]
+    return np.concatenate(rows).reshape(len(rows), -1) if rows else np.empty((0, len(ROW)), dtype=np.int64)
+
+
+# One number instead of each array, since to find the types of many arrays takes numba longer than to go through a step.
+BLOCK = np.dtype([(name, np.int64) for name in ("steps", "kinds", "coordinates", "rows", "starts", *ARRAYS[1:])])
+
+
 @dataclass
 class Steps:
     """Steps (s,) of a march: their `numbers`, `positions` and the `methods` that solved them; n contact nodes at each,
@@ -73,13 +84,16 @@ class Steps:
     @classmethod
     def to_solve(cls, numbers: Sequence[float], positions: list[Position], coordinates: int, method: str) -> Steps:
         """Room for the solutions at these positions."""
-        count, nodes = len(positions), sum(position.operator.nodes for position in positions)
+        count, table = len(positions), table_of(positions)
+        nodes = int(table[:, NODES].sum())
         forces = nodes * (1 if not count or positions[0].operator.rigid_slip is None else 2)
-        return cls(
+        steps = cls(
             np.array(numbers, dtype=float), positions, np.zeros((count, 3, coordinates)), np.zeros(forces),
             np.zeros(forces),
             np.zeros(nodes, dtype=np.int8), np.zeros(count, dtype=np.int64), [method] * count,
         )  # fmt: skip
+        steps.__dict__["table"] = table
+        return steps
 
     @classmethod
     def of(cls, records: Sequence[Record]) -> Steps:
@@ -98,6 +112,7 @@ class Steps:
         if record.position is not self.positions[place]:
             self.positions[place] = record.position
             self.__dict__.pop("table", None)
+            self.__dict__.pop("in_memory", None)
         self.methods[place] = solution.method
         self.states[place] = state
         self.forces[forces], self.displacement[forces], self.status[nodes] = (
@@ -128,6 +143,10 @@ class Steps:
             solution,
             self.parts.get(place, ()),
         )
+
+    def forces_of(self, place: int) -> np.ndarray:
+        """The forces (n,) or (2 n,), N, of one step."""
+        return self.forces[self._slices(place)[1]]
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -188,26 +207,45 @@ class Steps:
     @cached_property
     def starts(self) -> np.ndarray:
         """Where the contact nodes of each step begin, and where they end (s + 1,)."""
-        return np.concatenate(([0], np.cumsum(self.table["nodes"])))
+        return np.concatenate(([0], np.cumsum(self.table[:, NODES])))
 
     @cached_property
     def table(self) -> np.ndarray:
-        """The row of each step's contact operator (s,), as of `contact.addresses`; the positions hold what it points
-        to."""
-        rows = [position.in_memory[0] for position in self.positions]
-        return np.concatenate(rows) if rows else np.empty(0, dtype=ROW)
+        """The numbers (s, r) of the row of each step's contact operator."""
+        return table_of(self.positions)
 
-    @property
-    def in_memory(self) -> InMemory:
-        """For compiled code, which may write into its arrays; to be used as long as these steps are held."""
-        return InMemory(
-            self.table, self.starts, self.kinds, self.states, self.forces, self.displacement, self.status,
-            self.iterations,
+    @cached_property
+    def in_memory(self) -> np.ndarray:
+        """For compiled code, which makes an InMemory `in_block` of it and may write into the arrays: where they lie
+        (1,); to be used as long as these steps are held."""
+        arrays = (
+            self.table, self.starts, self.states, self.forces, self.displacement, self.status, self.iterations,
         )  # fmt: skip
+        addresses = [array.ctypes.data for array in arrays]
+        return np.array([(len(self), self.kinds, self.states.shape[2], *addresses)], dtype=BLOCK)
 
     def _slices(self, place: int) -> tuple[slice, slice]:
         first, end = int(self.starts[place]), int(self.starts[place + 1])
         return slice(first, end), slice(self.kinds * first, self.kinds * end)
+
+
+@njit(cache=True)
+def in_block(block):
+    """The arrays of steps that are `in_memory`."""
+    at = block[0]
+    count, kinds = at.steps, at.kinds
+    starts = carray(to_integer(at.starts), count + 1)
+    nodes = starts[count]
+    return InMemory(
+        carray(to_row(at.rows), count),
+        starts,
+        kinds,
+        carray(to_number(at.states), (count, 3, at.coordinates)),
+        carray(to_number(at.forces), kinds * nodes),
+        carray(to_number(at.displacement), kinds * nodes),
+        carray(to_set(at.status), nodes),
+        carray(to_integer(at.iterations), count),
+    )
 
 
 @njit(cache=True)
@@ -241,7 +279,8 @@ def drive_flanks_touch(steps: Steps) -> np.ndarray:
 
 
 @njit(cache=True)
-def _openings(steps):
+def _openings(block):
+    steps = in_block(block)
     found = np.full((len(steps.rows), 2), np.inf)
     for s in range(len(steps.rows)):
         contact, displacement = operator_at(steps, s), steps.displacement[forces_at(steps, s)]
@@ -253,7 +292,8 @@ def _openings(steps):
 
 
 @njit(cache=True)
-def _touching(steps):
+def _touching(block):
+    steps = in_block(block)
     found = np.zeros(len(steps.rows), dtype=np.bool_)
     for s in range(len(steps.rows)):
         drive, status = operator_at(steps, s).on_drive_flanks, steps.status[nodes_at(steps, s)]

@@ -55,10 +55,12 @@ def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
 def _summed(rows, forces, starts):
     """Sums (rows, s) of rows (rows, N) times forces (N,) over the nodes of each step."""
     sums = np.zeros((len(rows), len(starts) - 1))
-    for row in range(len(rows)):
-        for s in range(len(starts) - 1):
-            for node in range(starts[s], starts[s + 1]):
-                sums[row, s] += rows[row, node] * forces[node]
+    for s in range(len(starts) - 1):
+        for node in range(starts[s], starts[s + 1]):
+            # Few nodes are loaded.
+            if forces[node] != 0.0:
+                for row in range(len(rows)):
+                    sums[row, s] += rows[row, node] * forces[node]
     return sums
 
 
@@ -134,7 +136,7 @@ def watched_contact(nodes: SideBySide) -> Values:
     steps = nodes.steps
     found = {
         "window reached": nodes.any(nodes.of("at_end") & nodes.closed),
-        "dependent rows": np.array([position.operator.dependent_rows for position in steps.positions]),
+        "dependent rows": nodes.layouts.dependent_rows,
         "rows": steps.kinds * np.diff(steps.starts),
     }
     if nodes.cycle.traits.has_pressure:

@@ -15,7 +15,7 @@ from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.drivetrain import ON_BEARINGS, Drivetrain
 from fenics_gears.dynamics.energy_account import account, mean_load, quadratic
 from fenics_gears.dynamics.stepping import VaryingLoad
-from fenics_gears.dynamics.steps import Steps, forces_at, operator_at
+from fenics_gears.dynamics.steps import Steps, forces_at, in_block, operator_at
 from fenics_gears.scene.data import Scene
 
 
@@ -42,14 +42,18 @@ def energy_of_teeth(steps: Steps) -> np.ndarray:
 
 
 @njit(cache=True)
-def _energy_of_teeth(steps):
+def _energy_of_teeth(block):
+    steps = in_block(block)
     energies = np.zeros(len(steps.rows))
     for s in range(len(steps.rows)):
-        compliance, loads = operator_at(steps, s).compliance, steps.forces[forces_at(steps, s)]
+        compliance, loads, energy = operator_at(steps, s).compliance, steps.forces[forces_at(steps, s)], 0.0
         loaded = np.flatnonzero(loads)
         for i in loaded:
+            displaced = 0.0
             for j in loaded:
-                energies[s] += 0.5 * loads[i] * compliance[i, j] * loads[j]
+                displaced += compliance[i, j] * loads[j]
+            energy += 0.5 * loads[i] * displaced
+        energies[s] = energy
     return energies
 
 

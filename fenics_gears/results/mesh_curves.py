@@ -10,7 +10,7 @@ from numba import njit
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_stiffness import mesh_stiffness
 from fenics_gears.contact.pressure import read_off
-from fenics_gears.dynamics.steps import Steps, forces_at, nodes_at, operator_at
+from fenics_gears.dynamics.steps import Steps, forces_at, in_block, nodes_at, operator_at
 from fenics_gears.results.beside_edges import EDGE, KINK, NOTHING, EdgesAndKinks
 from fenics_gears.results.side_by_side import SideBySide
 
@@ -24,7 +24,8 @@ def stiffness_curves(steps: Steps) -> Curves:
 
 
 @njit(cache=True)
-def _stiffness(steps):
+def _stiffness(block):
+    steps = in_block(block)
     found = np.zeros((3, len(steps.rows)))
     for s in range(len(steps.rows)):
         forces, status = steps.forces[forces_at(steps, s)], steps.status[nodes_at(steps, s)]

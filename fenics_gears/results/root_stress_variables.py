@@ -10,10 +10,9 @@ import numpy as np
 from scipy import sparse
 
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, rows_in_slice, sector_of
-from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.contact.operator import node_slices
 from fenics_gears.contact.tooth_pair import ToothPair
-from fenics_gears.dynamics.steps import Record
 from fenics_gears.elasticity.root_stress import RootStressRows
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.pair import GearPair
@@ -34,18 +33,17 @@ class RootStress:
 
     def __init__(self, pair: GearPair, cycle: Cycle, rows: Rows):
         self.pair, self.cycle, self.rows = pair, cycle, rows
-        self._matrices: dict[float, tuple[list[int], tuple[OnFlanks, OnFlanks]]] = {}
+        self._matrices: dict[tuple, tuple[np.ndarray, tuple[OnFlanks, OnFlanks]]] = {}
 
-    def on_flanks(self, record: Record) -> tuple[list[int], tuple[OnFlanks, OnFlanks]]:
-        """Indices of the tooth pairs in reach, and matrices from contact forces to forces on both gears' flanks, built
-        when first asked for."""
-        phase = record.step % self.cycle.steps
-        if phase not in self._matrices:
-            pairs = record.position.operator.pairs
-            tangential = len(record.solution.forces) > record.position.operator.nodes
-            teeth = sorted({pair.place.index for pair in pairs}, reverse=True)
-            self._matrices[phase] = teeth, tuple(self._of_gear(gear, pairs, tangential) for gear in (0, 1))
-        return self._matrices[phase]
+    def on_flanks(self, position: Position) -> tuple[np.ndarray, tuple[OnFlanks, OnFlanks]]:
+        """Indices (t,) of the tooth pairs in reach, and matrices from contact forces to forces on both gears' flanks,
+        built when first asked for."""
+        key = position.nodes, position.index
+        if key not in self._matrices:
+            pairs, tangential = position.operator.pairs, position.operator.rigid_slip is not None
+            teeth = np.array(sorted({pair.place.index for pair in pairs}, reverse=True), dtype=int)
+            self._matrices[key] = teeth, tuple(self._of_gear(gear, pairs, tangential) for gear in (0, 1))
+        return self._matrices[key]
 
     def _of_gear(self, gear: int, pairs: Sequence[ToothPair], tangential: bool) -> OnFlanks:
         sectors, dofs = sorted({sector_of(gear, pair) for pair in pairs}), self.rows[gear].rows.shape[-1]
@@ -85,28 +83,28 @@ class RootStress:
         values = np.full((len(nodes.steps), 2, nodes.slots, slices, points), np.nan)
         # Not a number at points that a fillet does not have.
         at_rest = np.stack([0.0 * rows.rows[rows.reach, ..., 0] for rows in self.rows])
-        # By gear and distance of the tooth from the loaded one, so that all steps are one product.
-        asked: dict[tuple[int, int], list[tuple[int, int, np.ndarray]]] = defaultdict(list)
-        known: list[tuple[int, int]] = []
-        for i, record in enumerate(nodes.steps.records):
-            teeth, gears = self.on_flanks(record)
-            slots = [nodes.slot_of(i, index) for index in teeth]
-            known += [(i, slot) for slot in slots]
+        # Steps at one position together, then all by gear and distance of the tooth from the loaded one.
+        alike: dict[tuple, list[int]] = defaultdict(list)
+        for i, position in enumerate(nodes.steps.positions):
+            alike[position.nodes, position.index].append(i)
+        asked: dict[tuple[int, int], list[tuple[np.ndarray, np.ndarray, np.ndarray]]] = defaultdict(list)
+        for steps in map(np.array, alike.values()):
+            teeth, gears = self.on_flanks(nodes.steps.positions[steps[0]])
+            slots = nodes.slot_of(steps[:, None], teeth)
+            values[steps[:, None], :, slots] = at_rest
+            contact = np.stack([nodes.steps.forces_of(step) for step in steps], axis=1)
             for gear, (sectors, matrix) in enumerate(gears):
-                forces = (matrix @ record.solution.forces).reshape(len(sectors), -1)
-                for loaded in np.flatnonzero(forces.any(axis=1)):
-                    for index, slot in zip(teeth, slots):
-                        ahead = SENSE_OF_TEETH[gear] * index - sectors[loaded]
-                        asked[gear, ahead].append((i, slot, forces[loaded]))
-        if known:
-            steps, slots = np.array(known).T
-            values[steps, :, slots] = at_rest
+                for sector, forces in zip(sectors, (matrix @ contact).reshape(len(sectors), -1, len(steps))):
+                    loaded = np.flatnonzero(forces.any(axis=0))
+                    for index, slot in zip(teeth.tolist(), slots.T) if len(loaded) else ():
+                        asked[gear, SENSE_OF_TEETH[gear] * index - sector].append(
+                            (steps[loaded], slot[loaded], forces[:, loaded].T)
+                        )
         for (gear, ahead), found in asked.items():
-            steps, slots, forces = zip(*found)
-            stacked = np.concatenate(forces).reshape(len(forces), -1)
-            stress = stacked @ self._known(gear, ahead).reshape(slices * points, -1).T
+            steps, slots, forces = (np.concatenate(each) for each in zip(*found))
+            stress = forces @ self._known(gear, ahead).reshape(slices * points, -1).T
             # At a step a tooth stands so far ahead of one loaded tooth alone: no place is there twice.
-            values[list(steps), gear, list(slots)] += stress.reshape(-1, slices, points)
+            values[steps, gear, slots] += stress.reshape(-1, slices, points)
         return self._variables(values.reshape(*values.shape[:4], 2, points // 2))
 
     def _variables(self, values: np.ndarray) -> dict[str, np.ndarray]:

@@ -35,11 +35,12 @@ class Layout:
     undercut; `arcs` (2, n): where it touches the pinion's and the wheel's flank, mm along the involute from the base
     circle; `rows_of_normals` (6, n) and `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each
     force: force (x, y), N, and torque, N mm; over a face of many slices (12, n), with the axial force, N, and the
-    moments about x and y, N mm, of both gears after these.
+    moments about x and y, N mm, of both gears after these. `dependent_rows`: as of a
+    ContactOperator.
     """
 
     def __init__(self, operator: ContactOperator, cycle: Cycle, tangential: bool):
-        pairs = operator.pairs
+        pairs, self.dependent_rows = operator.pairs, operator.dependent_rows
         counts = [len(pair.offsets) for pair in pairs]
         self.index = per_node(pairs, np.array([pair.place.index for pair in pairs], dtype=int))
         self.node = np.concatenate([np.arange(count) for count in counts] or [np.empty(0, dtype=int)])
@@ -124,6 +125,7 @@ class Layouts:
         counts = [len(layout.node) for layout in layouts]
         self.layouts, self.starts = layouts, np.cumsum([0, *counts])
         self.step = np.repeat(np.arange(len(layouts)), counts)
+        self.dependent_rows = np.array([layout.dependent_rows for layout in layouts])
         # Where the normal forces stand among all forces, a step's normals before its tangents.
         self.normal = np.arange(len(self.step)) + (kinds - 1) * np.repeat(self.starts[:-1], counts)
         self.tangential = self.normal + np.repeat(counts, counts)
@@ -185,9 +187,9 @@ class SideBySide:
         self.number = self.cycles[self.step] - self.of("index") + first_number
         self.slot = self.number % slots
 
-    def slot_of(self, place: int, index: int) -> int:
-        """Slot of the tooth pair of that index at a step, given by its place."""
-        return int(self.cycles[place] - index + self.first_number) % self.slots
+    def slot_of(self, place: int | np.ndarray, index: int | np.ndarray) -> np.ndarray:
+        """Slot of the tooth pair of that index at a step, given by its place; or those of many."""
+        return (self.cycles[place] - index + self.first_number) % self.slots
 
     @property
     def drive(self) -> np.ndarray:

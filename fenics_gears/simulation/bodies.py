@@ -97,9 +97,7 @@ def solids_of(
     return solids[0], solids[1]
 
 
-def solid_of(
-    model: Model, name: str, cache: Cache | None, job: Job | SecondProcess | None = None
-) -> FaceCompliance:
+def solid_of(model: Model, name: str, cache: Cache | None, job: Job | SecondProcess | None = None) -> FaceCompliance:
     """The body of the "pinion" or the "wheel" in three dimensions, from the cache or condensed."""
     # Imported here: plane scenes have none.
     from fenics_gears.elasticity.face.compliance import face_compliance

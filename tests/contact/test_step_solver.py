@@ -1,8 +1,8 @@
 """Newton and its fallbacks: each tested by an input on which all methods before it end without a solution.
 
-The seeds are the smallest of 100 000 random problems (1 to 8 nodes, friction 0.1 to 2, with and without a free motion).
-The methods solved, in their order: 78 697, 13 816, 170, 74, 5733, 123, 1369; nothing solved 18, whose error says
-self-locking.
+The seeds are among the smallest of 100 000 random problems (1 to 8 nodes, friction 0.1 to 2, with and without a free
+motion). The methods solved, in their order: 78 697, 13 816, 170, 74, 5733, 123, 1369; nothing solved 18, whose error
+says self-locking.
 """
 
 from dataclasses import replace
@@ -36,7 +36,7 @@ NEEDED = [
     ("r x 10", (66111, 2, 0.6, False)),
     ("r x 10", (92521, 1, 0.6, True)),
     ("r x 0.1", (22492, 2, 2.0, False)),
-    ("r x 0.1", (320, 2, 0.3, True)),
+    ("r x 0.1", (1628, 2, 0.6, True)),
     ("friction from zero", (4570, 1, 0.6, False)),
     ("friction from zero", (62202, 1, 0.3, True)),
     ("one change at a time", (21300, 2, 2.0, False)),
