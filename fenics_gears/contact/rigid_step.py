@@ -17,7 +17,7 @@ import numpy as np
 from numba import njit
 
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
-from fenics_gears.contact.mixed_form import product, solved
+from fenics_gears.contact.mixed_form import product, solved, system_of
 from fenics_gears.contact.newton import CONVERGED, SINGULAR
 
 # Gaps (mm) that differ by less are the same: the round-off of positions on the line of action.
@@ -104,26 +104,29 @@ def _solved(equations, touching, unit, forces, coordinates):
     if not t:
         if len(equations.free_motion):
             return False
-        coordinates[:] = solved(stiffness.copy(), load.copy())
+        alone = system_of(k)
+        alone[:, :k] = stiffness
+        coordinates[:] = solved(alone, load.copy(), 0)
         return True
     if t > 1 and not _independent(jacobian[touching[0]], jacobian[touching[1]]):
         return False
     # Forces are carried as lengths, by the largest stiffness, so that all entries of the matrix are of one size.
     largest = np.abs(stiffness).max()
     scale = largest if largest > 0.0 else 1.0
-    matrix, right = np.zeros((k + t, k + t)), np.empty(k + t)
+    matrix, right = system_of(k + t), np.empty(k + t)
+    matrix[:] = 0.0
     matrix[:k, :k], right[:k] = stiffness, load
     for a in range(t):
         matrix[k + a, :k], right[k + a] = scale * jacobian[touching[a]], scale * equations.gap[touching[a]]
         for row in np.flatnonzero(unit[a]):
             matrix[:k, k + a] += scale * unit[a, row] * jacobian[row]
     try:
-        solution = solved(matrix.copy(), right.copy())
+        solution = solved(matrix.copy(), right.copy(), 0)
         # Iterative refinement: where slow masses are hardly any stiffness, load over stiffness is a length beside which
         # the gap is round-off.
         for a in range(k + t):
             right[a] -= product(matrix[a], solution)
-        solution += solved(matrix, right)
+        solution += solved(matrix, right, 0)
     except Exception:
         # A singular matrix; compiled code tells no kinds of errors apart.
         return False

@@ -21,7 +21,7 @@ def stiffness(operator, solution):
     nothing, none = np.empty(0), np.empty((0, 0))
     contact = Arrays(
         operator.compliance, operator.jacobian, operator.gap, operator.on_drive_flanks, operator.node_pair,
-        operator.node_pair, nothing, none, none,
+        operator.node_pair, nothing, none, none, nothing,
     )  # fmt: skip
     secant, tangent, pairs = mesh_stiffness(contact, solution.status, solution.forces, solution.coordinates)
     return SimpleNamespace(secant=secant, tangent=tangent, pairs=pairs)
