@@ -43,7 +43,7 @@ def extended(tmp_path_factory):
     effects = folder / "fenics_gears" / "effects"
     (effects / "brake.py").write_text(block("python", "EFFECT = Effect("), encoding="utf-8")
     text = (effects / "__init__.py").read_text(encoding="utf-8")
-    entry = block("python", '"brake",').rstrip()
+    entry = block("python", '    "brake",').rstrip()
     text, listed = re.subn(r"(\nAT_THE_TOP = .*?)\n\)", rf"\1\n{entry}\n)", text, count=1, flags=re.S)
     assert listed == 1
     (effects / "__init__.py").write_text(text, encoding="utf-8")
