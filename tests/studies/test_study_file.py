@@ -1,10 +1,13 @@
 """Study files: what they sweep, and the mistakes that are refused."""
 
+import copy
+
 import numpy as np
 import pytest
 from tests.studies.conftest import write_study
 
 from fenics_gears.commands.cli import main
+from fenics_gears.studies import fields
 from fenics_gears.studies.study_file import load_study
 
 FREQUENCIES = 'motion.mesh_frequency = ["100 Hz", "200 Hz"]\n'
@@ -216,3 +219,24 @@ def test_a_mistake_of_many_cases_is_said_once(folder, capsys):
     assert main(["study", str(study)]) == 2
     error = capsys.readouterr().err
     assert error.count("recorded_cycles") == 1 and "1 mistake" in error
+
+
+@pytest.mark.parametrize(
+    "path, value",
+    [
+        (("gears", "pinion", "teeth"), 17),
+        (("load", "power"), "1 kW"),
+        (("friction", "coefficient"), 0.1),
+        (("gears",), fields.ABSENT),
+        (("gears", "material", "name"), fields.ABSENT),
+    ],
+)
+def test_a_change_leaves_the_base_scene_as_it_was(path, value):
+    """Authority: a case's scene is the base scene with its own changes, not with those of the cases before it."""
+    tree = {"gears": {"pinion": {"teeth": 16}}, "load": {"wheel_torque": "1 N m"}}
+    before = copy.deepcopy(tree)
+    changed = fields.changed(tree, path, value)
+    assert tree == before
+    for name in path[:-1]:
+        changed = changed.get(name, {})
+    assert changed.get(path[-1], fields.ABSENT) == value and "wheel_torque" not in changed
