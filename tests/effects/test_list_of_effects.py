@@ -1,26 +1,13 @@
 """The one list of effects and what hangs on it."""
 
 import dataclasses
-import re
-from pathlib import Path
 
-import pytest
-
-from fenics_gears import Scene, effects, scene_from_text
+from fenics_gears import Scene, effects
 from fenics_gears.inputs.section import names_in
 from fenics_gears.scene.schema import SceneText
 
-DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 SECTIONS = [effect.section for effect in effects.EFFECTS]
 AT_THE_TOP = [effect.section for effect in effects.top_level()]
-
-
-def without(*sections):
-    """The demo without some sections."""
-    text = DEMO
-    for section in sections:
-        text = re.sub(rf"^\[{effects.effect_named(section).written}\].*?(?=^\[|\Z)", "", text, flags=re.M | re.S)
-    return text
 
 
 def test_schema_data_and_list_know_the_same_sections():
@@ -33,23 +20,6 @@ def test_schema_data_and_list_know_the_same_sections():
         "written",
         "folder",
     } == set(AT_THE_TOP)
-
-
-@pytest.mark.parametrize("section", ["shafts", "bearings", "damping", "friction"])
-def test_an_absent_section_takes_its_effect_and_variables_away(section):
-    """Authority: house rule 9; an effect that a scene does not name has no result variables."""
-    scene, plain = scene_from_text(DEMO), scene_from_text(without(section))
-    assert getattr(plain, section) is None
-    gone = {variable.name for variable in effects.result_variables(scene)} - {
-        variable.name for variable in effects.result_variables(plain)
-    }
-    # The demonstration is a plane one, its bearings have no places.
-    assert gone == {
-        variable.name
-        for variable in effects.effect_named(section).variables
-        if not variable.field and not variable.over_face
-    }
-    assert effects.effect_named(section) not in effects.effects_on(plain)
 
 
 def test_names_in_the_list_are_consistent():
