@@ -1,25 +1,12 @@
 """The one list of effects and what hangs on it."""
 
 import dataclasses
-import re
-from pathlib import Path
 
-import pytest
-
-from fenics_gears import Scene, effects, scene_from_text
+from fenics_gears import Scene, effects
 from fenics_gears.inputs.section import names_in
 from fenics_gears.scene.schema import scene_text
 
-DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 SECTIONS, AT_THE_TOP = effects.SECTIONS, effects.AT_THE_TOP
-
-
-def without(*sections):
-    """The demo without some sections."""
-    text = DEMO
-    for section in sections:
-        text = re.sub(rf"^\[{effects.effect_named(section).written}\].*?(?=^\[|\Z)", "", text, flags=re.M | re.S)
-    return text
 
 
 def test_schema_data_and_list_know_the_same_sections():
@@ -38,23 +25,6 @@ def test_a_module_has_the_effect_of_its_name():
     """Authority: identity of the list and of what the modules say of themselves."""
     assert tuple(each.section for each in effects.every_effect()) == SECTIONS
     assert tuple(each.section for each in effects.every_effect() if not each.within) == AT_THE_TOP
-
-
-@pytest.mark.parametrize("section", ["shafts", "bearings", "damping", "friction"])
-def test_an_absent_section_takes_its_effect_and_variables_away(section):
-    """Authority: house rule 9; an effect that a scene does not name has no result variables."""
-    scene, plain = scene_from_text(DEMO), scene_from_text(without(section))
-    assert getattr(plain, section) is None
-    gone = {variable.name for variable in effects.result_variables(scene)} - {
-        variable.name for variable in effects.result_variables(plain)
-    }
-    # The demonstration is a plane one, its bearings have no places.
-    assert gone == {
-        variable.name
-        for variable in effects.effect_named(section).variables
-        if not variable.field and not variable.over_face
-    }
-    assert effects.effect_named(section) not in effects.effects_on(plain)
 
 
 def test_names_in_the_list_are_consistent():

@@ -8,7 +8,6 @@ from tests.coarse import coarse_scene, frictionless, quasi_static
 
 from fenics_gears import simulate
 from fenics_gears.effects.friction import Friction
-from fenics_gears.simulation.routes import prepared
 
 SCENES = {"quasi-static": quasi_static, "200 Hz": lambda scene: scene}
 COEFFICIENTS = (1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
@@ -31,25 +30,3 @@ def test_effect_of_friction_is_of_its_order(name, paper_scene, measured):
     for rate, coefficient in zip(rates, COEFFICIENTS):
         # Beside the effect itself, only the round-off of the transmission error.
         assert rate * coefficient <= 1.3 * rates[2] * coefficient + 1e-12
-
-
-def test_frictionless_scene_has_nothing_tangential(paper_scene, measured):
-    """From the task: no unknowns, no arrays, no result variables, no off-line-of-action motion at all."""
-    from fenics_gears.model.model import model_of
-    from fenics_gears.system.progress import SilentProgress
-
-    scene = frictionless(coarse_scene(paper_scene))
-    _, cycle = prepared(model_of(scene), SilentProgress(), None)
-    operators = [cycle.position(step).operator for step in range(cycle.steps)]
-    result = simulate(scene)
-    surplus = max(len(operator.compliance) - operator.nodes for operator in operators)
-    motion = np.abs(result.centre_y.values).max()
-    tangential = [name for name in result.data_vars if "friction" in name or "traction" in name]
-    measured(
-        "without friction: tangential unknowns, motion off the line of action", f"{surplus}, {motion:.1g} mm", "0, 0"
-    )
-    assert surplus == 0
-    assert all(operator.rigid_slip is None and operator.previous_compliance is None for operator in operators)
-    assert all(len(operator.jacobian) == operator.nodes for operator in operators)
-    assert motion == 0.0
-    assert tangential == []

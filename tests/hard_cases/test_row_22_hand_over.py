@@ -22,7 +22,9 @@ def largest_step(scene, steps, size=0.12):
     return np.abs(np.diff(error)).max() / np.ptp(error)
 
 
-@pytest.mark.parametrize("kind", ["teeth alone", "paper's drivetrain", "with friction"])
+@pytest.mark.parametrize(
+    "kind", ["teeth alone", pytest.param("paper's drivetrain", marks=pytest.mark.nightly), "with friction"]
+)
 def test_transmission_error_is_continuous_in_time(coarse, kind, measured):
     """Continuity: the largest change from step to step is that of a finite slope; it halves with the step, hand-over
     included."""

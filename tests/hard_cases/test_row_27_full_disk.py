@@ -88,33 +88,6 @@ def test_a_full_disk_leaves_no_half_result(folder, undrawn, measured, size):
     assert load("study").drop_vars("wall_time").equals(load("usual").drop_vars("wall_time"))
 
 
-def test_a_cache_on_a_full_disk_keeps_nothing(tmp_path, measured):
-    """An entry that does not fit: a warning, no file, and the process goes on. What a run does without its cache is
-    told by tests/studies/test_run_study.py."""
-    program = (
-        "import logging, numpy\n"
-        "from pathlib import Path\n"
-        "from fenics_gears.elasticity.cache import Cache\n"
-        "logging.basicConfig()\n"
-        "Cache(Path('cache')).store('key', {'values': numpy.zeros(100_000)})\n"
-        "print('went on')\n"
-    )
-    call = [sys.executable, "-c", program]
-    ended = subprocess.run(
-        call, cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=60, preexec_fn=within(10_000)
-    )
-    names, unfinished = left_over(tmp_path / "cache")
-    measured(
-        "cache full", f"exit code {ended.returncode}, {len(names) + len(unfinished)} files left", "0, none, a warning"
-    )
-    assert (
-        ended.returncode == 0
-        and ended.stdout == "went on\n"
-        and "nothing is kept" in ended.stderr
-        and names == unfinished == []
-    )
-
-
 @pytest.mark.parametrize("code", [errno.ENOSPC, errno.EDQUOT, errno.EACCES])
 def test_the_cache_warns_of_a_full_disk(tmp_path, code, monkeypatch, caplog, measured):
     """A full disk may show only when the file is flushed."""

@@ -27,7 +27,7 @@ def standard_pair(z1: int, z2: int, module: float = 3.0) -> GearPairData:
     return GearPairData(module, np.radians(20.0), distance, 5.0 * module, gear(z1), gear(z2), Material(206e3, 0.3))
 
 
-@pytest.fixture(params=["paper", (20, 30), (24, 72), (40, 40)], ids=str)
+@pytest.fixture(params=["paper", pytest.param((20, 30), marks=pytest.mark.nightly), (24, 72), (40, 40)], ids=str)
 def case(request, paper_scene):
     """Gears and line load (N/mm): the paper's as they are, and standard pairs at 200 N/mm."""
     if request.param != "paper":

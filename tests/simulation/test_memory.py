@@ -23,7 +23,7 @@ from fenics_gears.system.memory import MEMORY_VARIABLE, SHARE, allowed_memory, s
 from fenics_gears.system.progress import SilentProgress
 
 
-@pytest.mark.parametrize("share", [0.0, 0.4])
+@pytest.mark.parametrize("share", [pytest.param(0.0, marks=pytest.mark.nightly), 0.4])
 def test_operators_that_are_not_kept_change_no_number(paper_scene, monkeypatch, share):
     """Two routes to the same number: operators made again in every mesh cycle, and operators kept."""
     scene = coarse_scene(paper_scene, cycles=3)
