@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
+import numpy as np
+
 
 class Clock(Protocol):
     """Times of steps, which may lie between whole ones; step 0 is at time 0."""
@@ -14,6 +16,12 @@ class Clock(Protocol):
 
     def duration(self, first: float, last: float) -> float:
         """Time from one step to another, s, without the round-off of a difference of times."""
+
+    def times(self, steps: np.ndarray) -> np.ndarray:
+        """Times (s,) of many steps, s."""
+
+    def durations(self, steps: np.ndarray) -> np.ndarray:
+        """Times from each of s + 1 steps to the next, (s,), s."""
 
 
 @dataclass(frozen=True)
@@ -29,3 +37,11 @@ class SteadyClock:
     def duration(self, first: float, last: float) -> float:
         """Time from one step to another, s."""
         return (last - first) * self.time_step
+
+    def times(self, steps: np.ndarray) -> np.ndarray:
+        """Times (s,) of many steps, s."""
+        return steps * self.time_step
+
+    def durations(self, steps: np.ndarray) -> np.ndarray:
+        """Times from each of s + 1 steps to the next, (s,), s."""
+        return np.diff(steps) * self.time_step
