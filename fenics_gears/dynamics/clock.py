@@ -18,6 +18,12 @@ class Clock(Protocol):
     def duration(self, first: float, last: float) -> float:
         """Time from one step to another, s, without the round-off of a difference of times."""
 
+    def times(self, steps: np.ndarray) -> np.ndarray:
+        """Times (s,) of many steps, s."""
+
+    def durations(self, steps: np.ndarray) -> np.ndarray:
+        """Times from each of s + 1 steps to the next, (s,), s."""
+
 
 @dataclass(frozen=True)
 class SteadyClock:
@@ -32,6 +38,14 @@ class SteadyClock:
     def duration(self, first: float, last: float) -> float:
         """Time from one step to another, s."""
         return (last - first) * self.time_step
+
+    def times(self, steps: np.ndarray) -> np.ndarray:
+        """Times (s,) of many steps, s."""
+        return steps * self.time_step
+
+    def durations(self, steps: np.ndarray) -> np.ndarray:
+        """Times from each of s + 1 steps to the next, (s,), s."""
+        return np.diff(steps) * self.time_step
 
 
 @dataclass(frozen=True)

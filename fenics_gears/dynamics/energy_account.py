@@ -54,9 +54,7 @@ def account(
     moved = np.diff(passed.states[:, 0], axis=0)
     damping = np.zeros(len(moved))
     if drivetrain.damping is not None:
-        damping = quadratic(moved, drivetrain.damping) / np.array(
-            [clock.duration(*ends) for ends in zip(passed.numbers[:-1], passed.numbers[1:])]
-        )
+        damping = quadratic(moved, drivetrain.damping) / clock.durations(passed.numbers)
     parts = {
         "rotation": _summed(contact.rotation),
         "load": _summed(np.sum(moved * mean_load(drivetrain, loads, passed.numbers), axis=1)),

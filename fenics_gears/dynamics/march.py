@@ -212,7 +212,7 @@ class Marcher(Stepper):
         steps.put(0, last)
         durations, cycle_before = np.zeros(len(steps)), NO_SETS
         if self._motion.method != STATIC:
-            durations[1:] = [self.clock.duration(step - 1, step) for step in numbers]
+            durations[1:] = self.clock.durations(np.arange(numbers[0] - 1, numbers[-1] + 1))
         if self.cycle.traits.repeats:
             cycle_before = self._cycle_before(steps)
         loads = (

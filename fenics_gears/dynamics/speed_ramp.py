@@ -57,6 +57,14 @@ class RampClock:
             )
         return passed
 
+    def times(self, steps: np.ndarray) -> np.ndarray:
+        """Times (s,) of many steps, s."""
+        return np.array([self.time(step) for step in steps.tolist()])
+
+    def durations(self, steps: np.ndarray) -> np.ndarray:
+        """Times from each of s + 1 steps to the next, (s,), s."""
+        return np.array([self.duration(*ends) for ends in zip(steps[:-1].tolist(), steps[1:].tolist())])
+
     def acceleration_at(self, step: float) -> float:
         """Change of the mesh frequency at a step, Hz/s; the mean of both sides where a ramp begins after steady cycles.
 

@@ -122,7 +122,7 @@ class Recorder:
         scene, cycle = self.model.scene, self.cycle
         nodes = SideBySide(self._layouts, cycle, block, self.slots, self.first_number)
         numbers = block.numbers
-        times = np.array([self.model.clock.time(step) for step in numbers.tolist()])
+        times = self.model.clock.times(numbers)
         values = {"time": times, "mesh_phase": numbers / cycle.steps, "pair_number": nodes.pair_number}
         values |= self._centres(block) | mesh_variables(scene, nodes) | pair_variables(scene, nodes)
         if scene.tooth_elasticity is not None:
