@@ -1,170 +1,258 @@
-"""The compliance of two gears' bodies between contact nodes in slices of the face: `W M W^T`, with M between the flank
-nodes under them.
+"""The compliance between contact nodes in slices of the face, of both gears' bodies and of fine plane sections. Rows
+are formed when their node is first closed: most nodes never are, and nothing needs their rows.
 
-Indices: contact nodes come in groups, one for each tooth pair in a slice. Under a group lie some consecutive flank
-nodes of the pinion and some of the wheel, in that slice; those of all groups stand one after the other, group by group,
-the pinion's before the wheel's, and are the rows and columns of M. M is in the directions of contact: a flank node has
-as many displacements as a contact node, not three. The weights W of a group have a row for each of its contact nodes
-and a column for each flank node under it.
+Contact nodes come in groups, one for each tooth pair in a slice. Under a group lie some consecutive flank nodes of the
+pinion and some of the wheel, in that slice. With the weights W of a contact node's flank nodes the bodies' part is
+`W M W^T`, M being in the directions of contact: a flank node has as many displacements as a contact node, not three.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import accumulate, product
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
+from numba import carray, njit
 
-from fenics_gears.contact.interpolation import FlankInterpolation
+from fenics_gears.contact.addresses import to_flag, to_integer, to_number
+from fenics_gears.system.memory import pages
 
-
-class OnGear(NamedTuple):
-    """Groups (P,) on one gear: its `teeth`; their `slices`; how many flank nodes lie under each (`widths`), and where
-    these stand among those of all groups (`places`); the first of their degrees of freedom in the body (`dofs`) and in
-    its plane section (`plane_dofs`); the directions of contact in the tooth's frame (`axes`, (P, d, 3)) and in the
-    section (`plane_axes`, (P, d, 2))."""
-
-    teeth: np.ndarray
-    slices: np.ndarray
-    widths: np.ndarray
-    places: np.ndarray
-    dofs: np.ndarray
-    plane_dofs: np.ndarray
-    axes: np.ndarray
-    plane_axes: np.ndarray
+# Of a group: its first node, its slice, the place of that node among those in the slice, and how many these are.
+BEGIN, SLICE, IN_SLICE, OF_SLICE = range(4)
+# Of a group on a gear: its tooth, how many flank nodes lie under it, their place among those under all groups, and the
+# first of their degrees of freedom in the body and in its plane section.
+TOOTH, WIDTH, PLACE, DOF, PLANE_DOF = range(5)
 
 
-@dataclass(frozen=True)
-class Groups:
-    """Groups (P,) of contact nodes and the flank nodes under them.
+class Side(NamedTuple):
+    """Contact nodes (n,) as rows or columns, in groups (P,).
 
-    `weights`: (nodes, flank nodes) of each group; `nodes`, `flank_nodes`: where its own stand among all; `first`,
-    `widths`, `places` (2, P), of either gear: the first flank node under a group, how many there are, and where these
-    stand among those of all groups.
+    `group` (n,) of each node; `first` (2, n): the first flank node of either gear that a node sees, among those under
+    all groups, and `near` (2, n, w): weights from that one on. `groups` (4, P) and `on_gears` (2, 5, P): numbers
+    of each group, as above. `axes` (2, P, d, 5): directions of contact in the tooth's frame, in the body (3) and in the
+    section (2).
     """
 
-    weights: list[np.ndarray]
-    nodes: list[slice]
-    flank_nodes: list[slice]
+    group: np.ndarray
     first: np.ndarray
-    widths: np.ndarray
-    places: np.ndarray
+    groups: np.ndarray
+    on_gears: np.ndarray
+    near: np.ndarray
+    axes: np.ndarray
+
+
+class Fine(NamedTuple):
+    """Compliance of fine sections, mm per N/mm, between the contact nodes (d, n, e, m) in a slice: `numbers` of all
+    slices, each from `begins` (S,) on; `shares` (S,), 1/mm: what a section counts in its slice."""
+
+    numbers: np.ndarray
+    begins: np.ndarray
+    shares: np.ndarray
+
+
+class _Source(NamedTuple):
+    """What the rows of a `matrix` are formed of."""
+
+    rows: Side
+    columns: Side
+    fine: Fine
+    blocks: tuple[np.ndarray, np.ndarray]
+    sections: tuple[np.ndarray, np.ndarray]
+    matrix: np.ndarray
+
+
+# In compiled code it is a table of its arrays, and of the flags that say which rows are formed: address and shape of
+# each.
+ARRAYS = 21
+
+
+@dataclass(frozen=True, eq=False)
+class FaceRows:
+    """Compliance (d n, e m), mm/N, between contact nodes over a face: of both bodies, less what their plane sections
+    give in each slice, and of the fine sections there.
+
+    `matrix`: zero where it is not yet `formed` (n,); by columns where asked for. `table` and `arrays`: what rows are
+    formed of.
+    """
+
+    matrix: np.ndarray
+    formed: np.ndarray
+    by_columns: bool
+    table: np.ndarray
+    arrays: list[np.ndarray]
 
     @classmethod
-    def of(cls, interpolations: Sequence[tuple[FlankInterpolation, FlankInterpolation]]) -> Groups:
-        """The groups with these interpolations of pinion and wheel."""
-        weights, firsts, widths = [], [], []
-        for of_gears in interpolations:
-            dense, lowest = zip(*map(_dense, of_gears))
-            weights.append(np.concatenate(dense, axis=1))
-            firsts.append(lowest)
-            widths.append([part.shape[1] for part in dense])
-        first, width = (np.array(numbers, dtype=np.int64).reshape(-1, 2).T for numbers in (firsts, widths))
-        nodes, under = ([len(part) for part in weights], [part.shape[1] for part in weights])
-        begin = np.array(list(accumulate(under, initial=0))[:-1], dtype=np.int64)
-        places = np.stack([begin, begin + width[0]])
-        return cls(weights, _one_after_the_other(nodes), _one_after_the_other(under), first, width, places)
-
-
-@dataclass(frozen=True)
-class Side:
-    """Contact nodes as the rows or the columns of a compliance: their groups, on the pinion and on the wheel."""
-
-    groups: Groups
-    gears: tuple[OnGear, OnGear]
+    def of(
+        cls,
+        bodies: Sequence[tuple[np.ndarray, np.ndarray]],
+        rows: Side,
+        columns: Side,
+        fine: Fine,
+        by_columns: bool = False,
+    ) -> FaceRows:
+        """`bodies`: of pinion and wheel `blocks` (k, D, D), mm/N, that of tooth i under forces on tooth j being number
+        (k - 1)/2 + i - j, and `sections` (k, D', D'), mm per N/mm. `by_columns`: rows here are the compliance's
+        columns."""
+        blocks, sections = zip(*bodies)
+        n, m = (side.axes.shape[2] * len(side.group) for side in (rows, columns))
+        matrix, formed = pages(n, m), np.zeros(len(rows.group), dtype=bool)
+        arrays = [np.ascontiguousarray(array) for array in (*rows, *columns, *fine, *blocks, *sections)]
+        arrays += [matrix, formed]
+        table = np.zeros((ARRAYS, 5), dtype=np.int64)
+        for row, array in zip(table, arrays):
+            row[0], row[1 : 1 + array.ndim] = array.ctypes.data, array.shape
+        return cls(matrix, formed, by_columns, table, arrays)
 
     @property
-    def shape(self) -> tuple[int, int, int]:
-        """Numbers of directions, of contact nodes and of flank nodes."""
-        groups, kinds = self.groups, self.gears[0].axes.shape[1]
-        return kinds, groups.nodes[-1].stop if groups.nodes else 0, groups.flank_nodes[-1].stop if groups.nodes else 0
+    def address(self) -> int:
+        """For compiled code."""
+        return self.table.ctypes.data
 
-
-def _dense(view: FlankInterpolation) -> tuple[np.ndarray, int]:
-    """Weights (n, w) of the flank nodes from the lowest to the highest under any contact node, and the lowest."""
-    lowest, (nodes, width) = int(view.first.min()), view.near.shape
-    found = np.zeros((nodes, int(view.first.max()) - lowest + width))
-    found[np.arange(nodes)[:, None], (view.first - lowest)[:, None] + np.arange(width)] = view.near
-    return found, lowest
-
-
-def _one_after_the_other(sizes: Sequence[int]) -> list[slice]:
-    ends = list(accumulate(sizes, initial=0))
-    return [slice(start, end) for start, end in zip(ends[:-1], ends[1:])]
-
-
-def face_product(bodies: Sequence[tuple[np.ndarray, np.ndarray]], shares: np.ndarray, rows: Side, columns: Side):
-    """Compliance (d, n, e, m), mm/N, between contact nodes: of the `bodies`, less what their plane sections give in
-    each slice, as of `add_between`; symmetric where rows and columns are the same."""
-    (kinds, _, under_rows), (others, _, under_columns) = rows.shape, columns.shape
-    between = np.zeros((kinds, under_rows, others, under_columns))
-    for (blocks, sections), own, other in zip(bodies, rows.gears, columns.gears):
-        add_between(blocks, sections, shares, own, other, rows is columns, between)
-    return _at_contact_nodes(between, rows, columns)
+    def whole(self) -> np.ndarray:
+        """The compliance with all its rows."""
+        form_rows(self.address, np.arange(len(self.formed)))
+        return self.matrix.T if self.by_columns else self.matrix
 
 
 @njit(cache=True)
-def add_between(blocks, sections, shares, rows, columns, symmetric, result):
-    """Add to `result` (d, s, e, s'), mm/N, one gear's compliance between the flank nodes under groups `rows` and
-    `columns` (OnGear).
-
-    `blocks` (k, D, D), mm/N, of the body: that of tooth i under forces on tooth j is number (k - 1)/2 + i - j; less
-    `sections` (k, D', D'), mm per N/mm, times `shares` (S,), 1/mm, for groups in the same slice. `symmetric`: rows and
-    columns are the same; of two groups only the later one has rows.
-    """
-    offsets, along = (len(blocks) - 1) // 2, np.empty(3)
-    for p in range(len(rows.teeth)):
-        for q in range(p + 1 if symmetric else len(columns.teeth)):
-            number = offsets + rows.teeth[p] - columns.teeth[q]
-            block, section, share = blocks[number], sections[number], 0.0
-            if rows.slices[p] == columns.slices[q]:
-                share = shares[rows.slices[p]]
-            for i in range(rows.widths[p]):
-                row, plane_row, place = rows.dofs[p] + 3 * i, rows.plane_dofs[p] + 2 * i, rows.places[p] + i
-                for d in range(rows.axes.shape[1]):
-                    across, across_plane = rows.axes[p, d], rows.plane_axes[p, d]
-                    for j in range(columns.widths[q]):
-                        column, other = columns.dofs[q] + 3 * j, columns.places[q] + j
-                        for b in range(3):
-                            along[b] = (
-                                across[0] * block[row, column + b]
-                                + across[1] * block[row + 1, column + b]
-                                + across[2] * block[row + 2, column + b]
-                            )
-                        for e in range(columns.axes.shape[1]):
-                            axis = columns.axes[q, e]
-                            value = along[0] * axis[0] + along[1] * axis[1] + along[2] * axis[2]
-                            if share != 0.0:
-                                at = columns.plane_dofs[q] + 2 * j
-                                for b in range(2):
-                                    in_plane = (
-                                        across_plane[0] * section[plane_row, at + b]
-                                        + across_plane[1] * section[plane_row + 1, at + b]
-                                    )
-                                    value -= share * in_plane * columns.plane_axes[q, e, b]
-                            result[d, place, e, other] += value
+def form_rows(address, nodes):
+    """Form those rows of contact nodes, in increasing order, that are not yet formed; `address` of a FaceRows, 0 where
+    all rows are there."""
+    if address == 0:
+        return
+    table = carray(to_integer(address), (ARRAYS, 5))
+    formed = carray(to_flag(table[-1, 0]), table[-1, 1])
+    missing = nodes[~formed[nodes]]
+    if not len(missing):
+        return
+    source = _source(table)
+    rows, columns = source.rows, source.columns
+    widest, under = rows.on_gears[:, WIDTH].max(), 0
+    for gear in range(2):
+        last = columns.on_gears[gear, :, -1]
+        under = max(under, last[PLACE] + last[WIDTH])
+    # Beyond the last flank node: narrow interpolations are as wide as the others, with weights of zero.
+    room = under + columns.near.shape[2]
+    between = np.zeros((2, rows.axes.shape[2], widest + rows.near.shape[2], columns.axes.shape[2], room))
+    group = -1
+    for node in missing:
+        if rows.group[node] != group:
+            group = rows.group[node]
+            for gear in range(2):
+                _between(source, gear, group, between[gear])
+        _form(source, node, between)
+        formed[node] = True
 
 
-def _at_contact_nodes(between: np.ndarray, rows: Side, columns: Side) -> np.ndarray:
-    """Compliance (d, n, e, m), mm/N, between contact nodes from that `between` (d, s, e, s') their flank nodes.
+@njit(cache=True)
+def _side(table):
+    return Side(
+        carray(to_integer(table[0, 0]), table[0, 1]),
+        carray(to_integer(table[1, 0]), (2, table[1, 2])),
+        carray(to_integer(table[2, 0]), (4, table[2, 2])),
+        carray(to_integer(table[3, 0]), (2, 5, table[3, 3])),
+        _cube(table[4]),
+        carray(to_number(table[5, 0]), (2, table[5, 2], table[5, 3], 5)),
+    )
 
-    Where rows and columns are the same, of two groups `between` is known where the later one has the rows.
-    """
-    (kinds, nodes, under), (others, nodes_of_columns, _), symmetric = rows.shape, columns.shape, rows is columns
-    found, half = np.empty((kinds, nodes, others, nodes_of_columns)), np.empty((under, nodes_of_columns))
-    own, other = rows.groups, columns.groups
-    for d, e in np.ndindex(kinds, others):
-        # From the columns' side first, so that rows of the result are written in one piece.
-        for weights, at, below in zip(other.weights, other.nodes, other.flank_nodes):
-            known = slice(below.start if symmetric else 0, None)
-            half[known, at] = between[d, known, e, below] @ weights.T
-        for weights, at, below in zip(own.weights, own.nodes, own.flank_nodes):
-            end = at.stop if symmetric else None
-            np.matmul(weights, half[below, :end], out=found[d, at, e, :end])
-    if symmetric:
-        for (d, e), at in product(np.ndindex(kinds, others), own.nodes):
-            found[e, : at.start, d, at] = found[d, at, e, : at.start].T
-    return found
+
+@njit(cache=True)
+def _cube(row):
+    return carray(to_number(row[0]), (row[1], row[2], row[3]))
+
+
+@njit(cache=True)
+def _source(table):
+    fine = Fine(
+        carray(to_number(table[12, 0]), table[12, 1]),
+        carray(to_integer(table[13, 0]), table[13, 1]),
+        carray(to_number(table[14, 0]), table[14, 1]),
+    )
+    blocks, sections = (_cube(table[15]), _cube(table[16])), (_cube(table[17]), _cube(table[18]))
+    matrix = carray(to_number(table[19, 0]), (table[19, 1], table[19, 2]))
+    return _Source(_side(table), _side(table[6:]), fine, blocks, sections, matrix)
+
+
+@njit(cache=True)
+def _between(source, gear, group, result):
+    """Compliance (d, i, e, j), mm/N, of one gear between the flank nodes i under a group and j under all groups, less
+    that of its plane section in the same slice."""
+    rows, columns, blocks, sections = source.rows, source.columns, source.blocks[gear], source.sections[gear]
+    own, other, offsets = rows.on_gears[gear, :, group], columns.on_gears[gear], (len(blocks) - 1) // 2
+    along, in_plane = np.empty(3 * other[WIDTH].max()), np.empty(2 * other[WIDTH].max())
+    for q in range(other.shape[1]):
+        number, width, share = offsets + own[TOOTH] - other[TOOTH, q], other[WIDTH, q], 0.0
+        block, section = blocks[number], sections[number]
+        if rows.groups[SLICE, group] == columns.groups[SLICE, q]:
+            share = source.fine.shares[rows.groups[SLICE, group]]
+        column, plane_column, place = other[DOF, q], other[PLANE_DOF, q], other[PLACE, q]
+        for i, d in np.ndindex((own[WIDTH], rows.axes.shape[2])):
+            axis = rows.axes[gear, group, d]
+            _combined(along[: 3 * width], axis[:3], block, own[DOF] + 3 * i, column)
+            if share != 0.0:
+                _combined(in_plane[: 2 * width], axis[3:], section, own[PLANE_DOF] + 2 * i, plane_column)
+            for e in range(columns.axes.shape[2]):
+                across, found = columns.axes[gear, q, e], result[d, i, e, place : place + width]
+                for j in range(width):
+                    found[j] = along[3 * j] * across[0] + along[3 * j + 1] * across[1] + along[3 * j + 2] * across[2]
+                    if share != 0.0:
+                        found[j] -= share * (in_plane[2 * j] * across[3] + in_plane[2 * j + 1] * across[4])
+
+
+@njit(cache=True)
+def _combined(found, axis, block, row, column):
+    """Combine as many rows of a block, from one on, as an axis has components."""
+    end = column + len(found)
+    first, second, third = block[row, column:end], block[row + 1, column:end], block[row + len(axis) - 1, column:end]
+    if len(axis) == 2:
+        for c in range(len(found)):
+            found[c] = axis[0] * first[c] + axis[1] * second[c]
+    else:
+        for c in range(len(found)):
+            found[c] = axis[0] * first[c] + axis[1] * second[c] + axis[2] * third[c]
+
+
+@njit(cache=True)
+def _form(source, node, between):
+    """Form the rows of a contact node from the compliance `between` (2, d, i, e, j) its group's flank nodes and all."""
+    rows, columns, fine, matrix = source.rows, source.columns, source.fine, source.matrix
+    n, m, group, kinds = len(rows.group), len(columns.group), rows.group[node], columns.axes.shape[2]
+    along, number = np.empty((2, between.shape[4])), rows.groups[SLICE, group]
+    in_slice = rows.groups[IN_SLICE, group] + node - rows.groups[BEGIN, group]
+    for d, e in np.ndindex((rows.axes.shape[2], kinds)):
+        for gear in range(2):
+            first = rows.first[gear, node] - rows.on_gears[gear, PLACE, group]
+            _weighted(along[gear], rows.near[gear, node], between[gear, d, first:, e])
+        found = matrix[d * n + node, e * m : (e + 1) * m]
+        _seen(found, columns.near, columns.first, along)
+        for q in np.flatnonzero(columns.groups[SLICE] == number):
+            count, begin = columns.groups[OF_SLICE, q], columns.groups[BEGIN, q]
+            row = (d * rows.groups[OF_SLICE, group] + in_slice) * kinds + e
+            place = fine.begins[number] + row * count + columns.groups[IN_SLICE, q]
+            end = columns.groups[BEGIN, q + 1] if q + 1 < columns.groups.shape[1] else m
+            for j in range(end - begin):
+                found[begin + j] += fine.shares[number] * fine.numbers[place + j]
+
+
+@njit(cache=True)
+def _weighted(total, weights, values):
+    """Sum of some rows of values (w, s), each by its weight, into `total` (s,)."""
+    total[:] = 0.0
+    for k in range(len(weights)):
+        weight, row = weights[k], values[k]
+        for j in range(len(total)):
+            total[j] += weight * row[j]
+
+
+@njit(cache=True)
+def _seen(found, near, first, values):
+    """What contact nodes (m,) see of `values` (2, s) of the flank nodes of both gears."""
+    # Unsigned places need no look for a negative index.
+    one, zero = np.uint64(1), np.uint64(0)
+    for j in range(np.uint64(len(found))):
+        at, other, total = np.uint64(first[zero, j]), np.uint64(first[one, j]), 0.0
+        for k in range(np.uint64(near.shape[2])):
+            total += near[zero, j, k] * values[zero, at + k] + near[one, j, k] * values[one, other + k]
+        # Written without being read: a page that is read first comes from the system twice.
+        found[j] = total

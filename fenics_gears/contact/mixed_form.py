@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from fenics_gears.contact.face_product import form_rows
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 
 # Unknowns up to which elimination in compiled code is faster than LAPACK.
@@ -29,8 +30,9 @@ class Equations(NamedTuple):
     `compliance` C (m, m), `jacobian` G (m, k) and `gap` (n,) of the contact; `slip_before` (n,): w_old, empty without
     friction.
 
-    `free_motion` (k,): how the load moves the drivetrain where only contact holds it, in which case one node at least
-    stays closed; empty where the drivetrain holds the load.
+    `rows`: address of what forms the rows of nodes that are closed for the first time (`contact.face_product`), 0 where
+    all are there. `free_motion` (k,): how the load moves the drivetrain where only contact holds it, in which case one
+    node at least stays closed; empty where the drivetrain holds the load.
     """
 
     stiffness: np.ndarray
@@ -41,6 +43,7 @@ class Equations(NamedTuple):
     slip_before: np.ndarray
     friction: float
     free_motion: np.ndarray
+    rows: int = 0
 
 
 class Iterate(NamedTuple):
@@ -68,11 +71,12 @@ def solve_sets(equations, iterate):
 
     Raises numpy.linalg.LinAlgError where the sets leave the system singular.
     """
-    stiffness, load, compliance, jacobian, gap, slip_before, friction, _ = equations
+    stiffness, load, compliance, jacobian, gap, slip_before, friction, _, unformed = equations
     status, forces, coordinates, _ = iterate
     n, k, tangential = len(gap), len(load), len(slip_before) > 0
     closed = np.flatnonzero(status != OPEN)
     stick = np.flatnonzero(status == STICK) if tangential else closed[:0]
+    form_rows(unformed, closed)
     n_closed, n_stick = len(closed), len(stick)
     rows = np.concatenate((closed, n + stick))
     size = n_closed + n_stick

@@ -37,7 +37,7 @@ class Method(NamedTuple):
 
 
 @njit(cache=True)
-def _tangents(equations, iterate, r_scale):
+def _tangents(equations, iterate):
     """As `relative_displacement`, the tangential rows of the few nodes that are closed or close next; no other has a
     slip that counts."""
     compliance, jacobian, gap, n = equations.compliance, equations.jacobian, equations.gap, len(equations.gap)
@@ -45,8 +45,7 @@ def _tangents(equations, iterate, r_scale):
     rows = np.empty(n, dtype=np.int64)
     count = 0
     for j in range(n):
-        r_n = r_scale / compliance[j, j]
-        if status[j] != OPEN or pressing(forces[j], displacement[j], gap[j], r_n) > 0.0:
+        if status[j] != OPEN or pressing(forces[j], displacement[j], gap[j], 1.0) > 0.0:
             rows[count] = n + j
             count += 1
     rows = rows[:count]
@@ -61,7 +60,7 @@ def _tangents(equations, iterate, r_scale):
 @njit(cache=True)
 def _update_status(equations, iterate, r_scale, rule):
     """New sets by the projections; `r` per node from the elastic compliance. Returns (changed, new status)."""
-    _, _, compliance, _, gap, slip_before, friction, _ = equations
+    _, _, compliance, _, gap, slip_before, friction, _, _ = equations
     status, forces, _, displacement = iterate
     n, tangential = len(gap), len(slip_before) > 0
     new = np.empty_like(status)
@@ -71,9 +70,12 @@ def _update_status(equations, iterate, r_scale, rule):
         if tangential:
             # A node in a set satisfies that set's equation exactly; round-off must not decide in its place.
             slip = 0.0 if status[j] == STICK else displacement[n + j] + slip_before[j]
-            trial = forces[n + j] + r_scale / compliance[n + j, n + j] * slip
+            # Of an open node, whose rows need not be formed, only the sign counts.
+            r_t = r_scale / compliance[n + j, n + j] if status[j] != OPEN else 1.0
+            trial = forces[n + j] + r_t * slip
         u_n = gap[j] if status[j] != OPEN else displacement[j]
-        pressed = pressing(forces[j], u_n, gap[j], r_scale / compliance[j, j])
+        # Either the force is zero or the distance is: its factor does not matter.
+        pressed = pressing(forces[j], u_n, gap[j], 1.0)
         new[j] = next_status(status[j], forces[j], pressed, tangential, trial, friction, rule != ALL_AT_ONCE)
         if new[j] != status[j]:
             if rule == ONE_AT_A_TIME and changed:
@@ -109,7 +111,7 @@ def measure(residual, equations, iterate):
     Equilibrium is solved, not iterated: a residual within the round-off of a row's terms is no violation. A slip
     against its friction counts in proportion to that friction, as far as it exceeds the round-off of the forces.
     """
-    stiffness, load, _, jacobian, gap, slip_before, friction, _ = equations
+    stiffness, load, _, jacobian, gap, slip_before, friction, _, _ = equations
     status, forces, coordinates, displacement = iterate
     n, tangential = len(gap), len(slip_before) > 0
     residual[:] = 0.0
@@ -198,7 +200,7 @@ def newton(equations, status, method, history, sets):
         solve_sets(equations, iterate)
         relative_displacement(equations, iterate, 0, n)
         if len(equations.slip_before):
-            _tangents(equations, iterate, method.r_scale)
+            _tangents(equations, iterate)
         measure(history[iteration], equations, iterate)
         changed, new = _update_status(equations, iterate, method.r_scale, method.rule)
         if _with_one_closed(new, equations, iterate.displacement):

@@ -12,6 +12,7 @@ import numpy as np
 from numba import njit
 
 from fenics_gears.contact.addresses import arrays_of
+from fenics_gears.contact.face_product import form_rows
 from fenics_gears.contact.laws import OPEN, Tolerance
 from fenics_gears.contact.mixed_form import Equations
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton
@@ -98,12 +99,12 @@ def _solve_steps(done, end, steps, motion, course):
         if len(contact.rigid_slip):
             forces_before = steps.forces[kinds * starts[s - 1] : kinds * starts[s]]
             slip_before = slip_at_start(
-                contact.rigid_slip, contact.previous_jacobian, contact.previous_columns, states[s - 1, 0],
-                forces_before,
+                contact.rigid_slip, contact.previous_jacobian, contact.previous_columns, contact.rows_before,
+                states[s - 1, 0], forces_before,
             )  # fmt: skip
         equations = Equations(
             effective, load, contact.compliance, contact.jacobian, contact.gap, slip_before, motion.friction,
-            _turned(motion.free_motion, outer),
+            _turned(motion.free_motion, outer), contact.rows,
         )  # fmt: skip
         residuals, sets = np.empty((MOST_ITERATIONS, 5)), np.empty((MOST_ITERATIONS, n), dtype=np.int8)
         outcome, count, found, coordinates, moved = newton(equations, nodes, method, residuals, sets)
@@ -154,17 +155,18 @@ def begin(status, before, carried, now_then, before_then):
 
 
 @njit(cache=True)
-def slip_at_start(rigid_slip, previous_jacobian, columns, position, forces):
+def slip_at_start(rigid_slip, previous_jacobian, columns, rows_before, position, forces):
     """w_old of [25] (n,), mm: rigid slip less the tangential displacement that the same material points had a step
     before.
 
-    Arrays as of ContactOperator, `columns` (m before, n) of the `previous_compliance`; `position` (k,) and `forces` of
-    the step before.
+    Arrays as of ContactOperator, `columns` (m before, n) of the `previous_compliance`, with those loaded formed at the
+    address `rows_before`; `position` (k,) and `forces` of the step before.
     """
     displaced = np.zeros(len(rigid_slip))
     for node in range(len(displaced)):
         for c in range(len(position)):
             displaced[node] += previous_jacobian[node, c] * position[c]
+    form_rows(rows_before, np.flatnonzero(forces[: len(forces) // 2]))
     for loaded in np.flatnonzero(forces):
         for node in range(len(displaced)):
             displaced[node] -= columns[loaded, node] * forces[loaded]

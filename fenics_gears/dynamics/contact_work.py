@@ -168,7 +168,8 @@ def _by_shape(then, now, rows):
             work += (jacobian_1[i_1, k] - jacobian_0[i_0, k]) * (p_0 * x_1[k] + p_1 * x_0[k])
         if p_0 != 0.0:
             for column in loaded:
-                change = compliance_1[i_1, rows_1[column]] - compliance_0[i_0, rows_0[column]]
+                # By rows of loaded nodes: others need not be formed.
+                change = compliance_1[rows_1[column], i_1] - compliance_0[i_0, rows_0[column]]
                 work -= p_0 * change * forces_1[rows_1[column]]
     return 0.5 * work
 

@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
-from fenics_gears.contact.face_product import Groups, OnGear, Side, face_product
-from fenics_gears.contact.interpolation import FlankInterpolation
+from fenics_gears.contact.face_product import FaceRows, Fine, Side, form_rows
 
 NODES, SLICES, OFFSETS = 6, 3, 2
 TEETH, IN_SLICES = np.array([0, 0, 1, 2]), np.array([0, 2, 2, 1])
+# The third group is the second in its slice, of three contact nodes each.
+GROUPS = np.array([[0, 3, 6, 9], IN_SLICES, [0, 0, 3, 0], [3, 6, 6, 3]])
 
 
 def symmetric(random, size):
@@ -17,66 +18,67 @@ def symmetric(random, size):
     return np.stack([*(each.T for each in ahead[:0:-1]), *ahead])
 
 
-def groups(random):
-    """Contact nodes of each group, 3 of which see 2 nodes of either flank, and their first node."""
-    firsts = random.integers(0, NODES - 2, (len(TEETH), 2, 3))
-    return [tuple(FlankInterpolation(random.random((3, 2)), first, NODES) for first in each) for each in firsts]
+def side(random, kinds):
+    """Three contact nodes in each group, which see 2 nodes of either flank; and the weights (2, 12, NODES) of all."""
+    firsts, near = random.integers(0, NODES - 2, (2, 4, 3)), random.random((2, 12, 2))
+    lowest = firsts.min(axis=2)
+    widths = firsts.max(axis=2) + 2 - lowest
+    weights = np.zeros((2, 12, NODES))
+    for gear, node in np.ndindex(2, 12):
+        first = firsts[gear].ravel()[node]
+        weights[gear, node, first : first + 2] = near[gear, node]
+    on_gears = [
+        [TEETH, width, np.cumsum(width) - width, 3 * (NODES * IN_SLICES + low), 2 * low]
+        for width, low in zip(widths, lowest)
+    ]
+    places = np.array(on_gears)[:, 2, :, None]
+    first = (firsts - lowest[:, :, None] + places).reshape(2, 12)
+    group, axes = np.repeat(np.arange(4), 3), random.standard_normal((2, 4, kinds, 5))
+    return Side(group, first, GROUPS, np.array(on_gears), near, axes), weights
 
 
-def on_gear(gear, groups, axes, plane_axes):
-    first = groups.first[gear]
-    return OnGear(
-        TEETH,
-        IN_SLICES,
-        groups.widths[gear],
-        groups.places[gear],
-        3 * (NODES * IN_SLICES + first),
-        2 * first,
-        axes,
-        plane_axes,
-    )
-
-
-@pytest.mark.parametrize("kinds", [1, 2])
-@pytest.mark.parametrize("whole", [True, False], ids=["symmetric", "rows and columns"])
-def test_products_are_those_of_whole_matrices(kinds, whole):
-    """Brute force: every group's weights over all flank nodes and directions, times the whole blocks less the sections
-    in the same slice."""
-    random = np.random.default_rng(5)
-    rows = groups(random)
-    columns = rows if whole else groups(random)
-    own, other = Groups.of(rows), Groups.of(columns)
-    shares = random.random(SLICES)
-    bodies, sides = [], ([], [])
-    expected = np.zeros((kinds, 12, kinds, 12))
-    for gear in range(2):
-        blocks, sections = symmetric(random, 3 * NODES * SLICES), symmetric(random, 2 * NODES)
-        axes, plane_axes = (
-            random.standard_normal((len(TEETH), kinds, 3)),
-            random.standard_normal((len(TEETH), kinds, 2)),
-        )
-        bodies.append((blocks, sections))
-        for side, groups_of_side in zip(sides, (own, other)):
-            side.append(on_gear(gear, groups_of_side, axes, plane_axes))
+def by_whole_matrices(bodies, fine, rows, columns):
+    """Every group's weights over all flank nodes and directions, times the whole blocks less the sections in the same
+    slice; and the fine sections there."""
+    (own, weights), (other, others) = rows, columns
+    kinds, kinds_of_columns = own.axes.shape[2], other.axes.shape[2]
+    expected = np.zeros((kinds, 12, kinds_of_columns, 12))
+    for gear, (blocks, sections) in enumerate(bodies):
         for p, q in np.ndindex(len(TEETH), len(TEETH)):
-            number = OFFSETS + TEETH[p] - TEETH[q]
+            number, (here, there) = OFFSETS + TEETH[p] - TEETH[q], (slice(3 * p, 3 * p + 3), slice(3 * q, 3 * q + 3))
             block = blocks[number].reshape(SLICES, NODES, 3, SLICES, NODES, 3)[IN_SLICES[p], :, :, IN_SLICES[q]]
-            seen_there = np.einsum(
-                "ni,da,iajb,eb,mj->dnem", rows[p][gear].weights, axes[p], block, axes[q], columns[q][gear].weights
+            found = "ni,da,iajb,eb,mj->dnem"
+            own_axes, other_axes = own.axes[gear, p], other.axes[gear, q]
+            expected[:, here, :, there] += np.einsum(
+                found, weights[gear, here], own_axes[:, :3], block, other_axes[:, :3], others[gear, there]
             )
             if IN_SLICES[p] == IN_SLICES[q]:
                 section = sections[number].reshape(NODES, 2, NODES, 2)
-                plane = np.einsum(
-                    "ni,da,iajb,eb,mj->dnem",
-                    rows[p][gear].weights,
-                    plane_axes[p],
-                    section,
-                    plane_axes[q],
-                    columns[q][gear].weights,
+                expected[:, here, :, there] -= fine.shares[IN_SLICES[p]] * np.einsum(
+                    found, weights[gear, here], own_axes[:, 3:], section, other_axes[:, 3:], others[gear, there]
                 )
-                seen_there -= shares[IN_SLICES[p]] * plane
-            expected[:, 3 * p : 3 * p + 3, :, 3 * q : 3 * q + 3] += seen_there
-    first = Side(own, tuple(sides[0]))
-    second = first if whole else Side(other, tuple(sides[1]))
-    found = face_product(bodies, shares, first, second)
-    np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12 * np.abs(expected).max())
+    for number in range(SLICES):
+        nodes = np.flatnonzero(np.repeat(IN_SLICES, 3) == number)
+        size = kinds * kinds_of_columns * len(nodes) ** 2
+        part = fine.numbers[fine.begins[number] : fine.begins[number] + size]
+        part = part.reshape(kinds, len(nodes), kinds_of_columns, len(nodes))
+        expected[:, nodes[:, None], :, nodes] += fine.shares[number] * part.transpose(1, 3, 0, 2)
+    return expected.reshape(kinds * 12, kinds_of_columns * 12)
+
+
+@pytest.mark.parametrize("kinds", [(1, 1), (2, 2), (2, 1)], ids=["frictionless", "friction", "step before"])
+def test_rows_are_those_of_whole_matrices(kinds):
+    """Brute force; rows that nobody asked for stay zero."""
+    random = np.random.default_rng(5)
+    rows, columns = (side(random, each) for each in kinds)
+    bodies = [(symmetric(random, 3 * NODES * SLICES), symmetric(random, 2 * NODES)) for _ in range(2)]
+    sizes = [kinds[0] * kinds[1] * count**2 for count in (3, 3, 6)]
+    fine = Fine(random.standard_normal(sum(sizes)), np.cumsum([0, *sizes[:2]]), random.random(SLICES))
+    expected = by_whole_matrices(bodies, fine, rows, columns)
+    found = FaceRows.of(bodies, rows[0], columns[0], fine)
+    asked = np.array([1, 4, 5])
+    form_rows(found.address, asked)
+    both = np.concatenate([12 * kind + asked for kind in range(kinds[0])])
+    np.testing.assert_allclose(found.matrix[both], expected[both], rtol=1e-11, atol=1e-12 * np.abs(expected).max())
+    assert not np.delete(found.matrix, both, axis=0).any()
+    np.testing.assert_allclose(found.whole(), expected, rtol=1e-11, atol=1e-12 * np.abs(expected).max())
