@@ -23,6 +23,7 @@ from fenics_gears.contact.face_product import (
     OF_SLICE,
     PLACE,
     PLANE_DOF,
+    SECTION,
     SLICE,
     TOOTH,
     WIDTH,
@@ -31,9 +32,9 @@ from fenics_gears.contact.face_product import (
     Side,
     form_rows,
 )
+from fenics_gears.contact.fine_sections import OnSections, fine_sections, stacked
 from fenics_gears.contact.interpolation import FlankInterpolation
 from fenics_gears.contact.operator import Passage, Response, count_of, node_slices, per_node, turned
-from fenics_gears.contact.pairing import CompliancePairing
 from fenics_gears.contact.rank import of_full_rank
 from fenics_gears.contact.tooth_pair import Flanks, Place, ToothPair
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
@@ -41,8 +42,6 @@ from fenics_gears.elasticity.slice_averages import on_slices, slice_averages
 from fenics_gears.errors import ComputationError
 
 GEARS = (0, 1)
-# Over the slice's own width, by which all is divided in the end.
-UNIT_WIDTH = 1.0
 
 
 @dataclass(frozen=True)
@@ -59,7 +58,7 @@ class FacePairing:
     def __init__(self, flanks: Flanks, bodies: tuple[FaceCompliance, FaceCompliance], face: Face):
         self.face, self._nodes = face, tuple(len(body.roll_angle) for body in bodies)
         self.sections = Flanks(flanks.pair, (bodies[0].plane, bodies[1].plane), flanks.removal)
-        self._fine, self._shares = CompliancePairing(flanks, width=UNIT_WIDTH), face.cosine / face.widths
+        self._fine, self._shares = tuple(map(stacked, flanks.compliance)), face.cosine / face.widths
         self._bodies = tuple(
             (
                 on_slices(
@@ -78,13 +77,14 @@ class FacePairing:
         previous: Sequence[FacePair] | None = passage.previous
         angles = turned(self.sections.pair, passage.advance)
         now = self._side(pairs, previous is not None)
-        fine, fine_before, dependent = self._fine_sections(pairs, previous, angles)
+        before = None if previous is None else self._side(previous, True)
+        fine, fine_before, dependent = self._fine_sections(now, pairs, before, previous, angles)
         compliance, earlier = self._rows(now, now, fine), None
-        if previous is not None:
+        if before is not None:
             # The tangents as they stood before. Reciprocal, so that rows are those of nodes before, as the march reads
             # them.
             tangents = now._replace(axes=np.stack([self._axes(gear, pairs, True, angles[gear]) for gear in GEARS]))
-            earlier = self._rows(self._side(previous, True), tangents, fine_before, by_columns=True)
+            earlier = self._rows(before, tangents, fine_before, by_columns=True)
         if len(pairs):
             # Its first number is the size that others are measured by.
             form_rows(compliance.address, np.zeros(1, dtype=np.int64))
@@ -100,7 +100,7 @@ class FacePairing:
         nodes, places = node_slices(pairs), [pair.place for pair in pairs]
         views = np.array([pair.coarse for pair in pairs], dtype=object).reshape(-1, 2).T
         first, near = np.empty((2, count_of(pairs)), dtype=np.int64), _widest(views, count_of(pairs))
-        on_gears = np.empty((2, 5, len(pairs)), dtype=np.int64)
+        on_gears = np.empty((2, 6, len(pairs)), dtype=np.int64)
         slices = np.array([place.slice for place in places], dtype=np.int64)
         flanks = np.array([place.flank for place in places], dtype=np.int64)
         for gear, count in enumerate(self._nodes):
@@ -112,7 +112,7 @@ class FacePairing:
                 on_gears[gear, WIDTH, group] = last - lowest[group]
                 under += last - lowest[group]
             on_gears[gear, TOOTH] = [place.ahead(gear) for place in places]
-            on_gears[gear, DOF] = 3 * (count * (flanks * self.face.slices + slices) + lowest)
+            on_gears[gear, SECTION], on_gears[gear, DOF] = flanks * self.face.slices + slices, 3 * lowest
             on_gears[gear, PLANE_DOF] = 2 * (count * flanks + lowest)
         axes = np.stack([self._axes(gear, pairs, tangential) for gear in GEARS])
         return Side(per_node(pairs, np.arange(len(pairs))), first, _groups(nodes, slices), on_gears, near, axes)
@@ -128,27 +128,66 @@ class FacePairing:
             axes[:, 0, 2] = [self.face.axial_share(gear, place.turn) for place in places]
         return axes
 
-    def _fine_sections(self, pairs, previous, turned) -> tuple[Fine, Fine, int]:
+    def _fine_sections(self, now: Side, pairs, before: Side | None, previous, turned) -> tuple[Fine, Fine, int]:
         """Compliance of the fine sections in each slice, between the nodes now and by those before; the dependent
         rows."""
-        now, before = _of_slices(pairs, self.face.slices), _of_slices(previous or (), self.face.slices)
-        between: list[np.ndarray] = []
-        by_earlier: list[np.ndarray] = []
-        dependent = 0
-        for own, own_before in zip(now, before):
-            if not between or self.face.slope != 0.0:
-                section, earlier = self._fine.compliance(own, own_before if previous is not None else None, turned)
-                full, rows = of_full_rank(section)
-                between.append(full)
-                by_earlier.append(np.empty(0) if earlier is None else earlier.T)
-            dependent += rows
-        return self._in_slices(between), self._in_slices(by_earlier), dependent
+        axes, kinds = now.axes[..., 3:], now.axes.shape[2]
+        if before is not None:
+            earlier = [_plane_directions(gear, [pair.place for pair in pairs], True, turned[gear]) for gear in GEARS]
+            axes = np.concatenate([axes, earlier], axis=2)
+        nodes = _on_sections(now, pairs, axes)
+        nodes_before = (
+            _on_sections(now, (), axes[:, :0])
+            if before is None
+            else _on_sections(before, previous, before.axes[..., 3:])
+        )
+        counts, counts_before = (_in_slices(each.groups, self.face.slices) for each in (nodes, nodes_before))
+        begins, size = self._places((kinds * counts) ** 2)
+        begins_before, size_before = self._places(2 * counts * counts_before)
+        fine, by_earlier = (
+            Fine(np.zeros(each), np.maximum(at, 0), self._shares)
+            for each, at in ((size, begins), (size_before, begins_before))
+        )
+        fine_sections(self._fine, nodes, nodes_before, begins, begins_before, fine.numbers, by_earlier.numbers)
+        return fine, by_earlier, self._dependent(fine, begins, kinds * counts)
 
-    def _in_slices(self, sections: list[np.ndarray]) -> Fine:
-        begins = np.cumsum([0, *(section.size for section in sections)], dtype=np.int64)[:-1]
-        # Slices of a spur pair are all alike.
-        begins = np.resize(begins, self.face.slices)
-        return Fine(np.concatenate([section.ravel() for section in sections]), begins, self._shares)
+    def _places(self, sizes: np.ndarray) -> tuple[np.ndarray, int]:
+        """Where sections (S,) begin that take so many numbers, and the end of the last. Slices of a spur pair are all
+        alike: -1 but for the first."""
+        if self.face.slope == 0.0:
+            return np.where(np.arange(len(sizes)) == 0, 0, -1), int(sizes[0])
+        return np.cumsum(sizes) - sizes, int(sizes.sum())
+
+    def _dependent(self, fine: Fine, begins: np.ndarray, rows: np.ndarray) -> int:
+        """Dependent rows of all slices; sections that have some get a thin layer."""
+        found = 0
+        for begin, count in zip(begins, rows):
+            if begin >= 0:
+                section = fine.numbers[begin : begin + count**2].reshape(count, count)
+                section[:], dependent = of_full_rank(section)
+            found += dependent
+        if np.isnan(fine.numbers.sum()):
+            raise ComputationError(
+                "compliance over the face: flanks touch that are further apart than the sections' compliance is known;"
+                " ask flank_compliance for a larger reach"
+            )
+        return found
+
+
+def _on_sections(side: Side, pairs: Sequence[FacePair], axes: np.ndarray) -> OnSections:
+    places = [pair.place for pair in pairs]
+    flanks = np.array([place.flank for place in places], dtype=np.int64)
+    groups, teeth = side.groups[:, : len(pairs)], side.on_gears[:, TOOTH, : len(pairs)]
+    return OnSections.of(
+        groups, flanks, np.ascontiguousarray(teeth), np.ascontiguousarray(axes), [pair.interpolation for pair in pairs]
+    )
+
+
+def _in_slices(groups: np.ndarray, slices: int) -> np.ndarray:
+    """Number of contact nodes in each slice (S,)."""
+    found = np.zeros(slices, dtype=np.int64)
+    found[groups[SLICE]] = groups[OF_SLICE]
+    return found
 
 
 def _widest(views: np.ndarray, nodes: int) -> np.ndarray:
@@ -197,11 +236,3 @@ def _plane_directions(gear: int, places: Sequence[Place], tangential: bool, turn
     else:
         found = [directions(place.contact_rolls[gear] - place.turn * turned, True)[1:] for place in places]
     return np.array(found).reshape(len(places), 2 if tangential and turned is None else 1, 2)
-
-
-def _of_slices(pairs: Sequence[FacePair], slices: int) -> list[list[FacePair]]:
-    """The pairs of each slice."""
-    found: list[list[FacePair]] = [[] for _ in range(slices)]
-    for pair in pairs:
-        found[pair.place.slice].append(pair)
-    return found

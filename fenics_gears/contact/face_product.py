@@ -20,16 +20,16 @@ from fenics_gears.system.memory import pages
 
 # Of a group: its first node, its slice, the place of that node among those in the slice, and how many these are.
 BEGIN, SLICE, IN_SLICE, OF_SLICE = range(4)
-# Of a group on a gear: its tooth, how many flank nodes lie under it, their place among those under all groups, and the
-# first of their degrees of freedom in the body and in its plane section.
-TOOTH, WIDTH, PLACE, DOF, PLANE_DOF = range(5)
+# Of a group on a gear: its tooth, how many flank nodes lie under it, their place among those under all groups; the
+# body's section, by flank and slice, and the first degree of freedom in it; and that in the plane section.
+TOOTH, WIDTH, PLACE, SECTION, DOF, PLANE_DOF = range(6)
 
 
 class Side(NamedTuple):
     """Contact nodes (n,) as rows or columns, in groups (P,).
 
     `group` (n,) of each node; `first` (2, n): the first flank node of either gear that a node sees, among those under
-    all groups, and `near` (2, n, w): weights from that one on. `groups` (4, P) and `on_gears` (2, 5, P): numbers
+    all groups, and `near` (2, n, w): weights from that one on. `groups` (4, P) and `on_gears` (2, 6, P): numbers
     of each group, as above. `axes` (2, P, d, 5): directions of contact in the tooth's frame, in the body (3) and in the
     section (2).
     """
@@ -91,15 +91,15 @@ class FaceRows:
         fine: Fine,
         by_columns: bool = False,
     ) -> FaceRows:
-        """`bodies`: of pinion and wheel `blocks` (k, D, D), mm/N, that of tooth i under forces on tooth j being number
-        (k - 1)/2 + i - j, and `sections` (k, D', D'), mm per N/mm. `by_columns`: rows here are the compliance's
-        columns."""
+        """`bodies`: of pinion and wheel `blocks` (k, s, s, D, D), mm/N, between sections, those of tooth i under forces
+        on tooth j being number (k - 1)/2 + i - j, and `sections` (k, D', D'), mm per N/mm. `by_columns`: rows here are
+        the compliance's columns."""
         blocks, sections = zip(*bodies)
         n, m = (side.axes.shape[2] * len(side.group) for side in (rows, columns))
         matrix, formed = pages(n, m), np.zeros(len(rows.group), dtype=bool)
         arrays = [np.ascontiguousarray(array) for array in (*rows, *columns, *fine, *blocks, *sections)]
         arrays += [matrix, formed]
-        table = np.zeros((ARRAYS, 5), dtype=np.int64)
+        table = np.zeros((ARRAYS, 6), dtype=np.int64)
         for row, array in zip(table, arrays):
             row[0], row[1 : 1 + array.ndim] = array.ctypes.data, array.shape
         return cls(matrix, formed, by_columns, table, arrays)
@@ -121,7 +121,7 @@ def form_rows(address, nodes):
     all rows are there."""
     if address == 0:
         return
-    table = carray(to_integer(address), (ARRAYS, 5))
+    table = carray(to_integer(address), (ARRAYS, 6))
     formed = carray(to_flag(table[-1, 0]), table[-1, 1])
     missing = nodes[~formed[nodes]]
     if not len(missing):
@@ -151,7 +151,7 @@ def _side(table):
         carray(to_integer(table[0, 0]), table[0, 1]),
         carray(to_integer(table[1, 0]), (2, table[1, 2])),
         carray(to_integer(table[2, 0]), (4, table[2, 2])),
-        carray(to_integer(table[3, 0]), (2, 5, table[3, 3])),
+        carray(to_integer(table[3, 0]), (2, 6, table[3, 3])),
         _cube(table[4]),
         carray(to_number(table[5, 0]), (2, table[5, 2], table[5, 3], 5)),
     )
@@ -163,13 +163,18 @@ def _cube(row):
 
 
 @njit(cache=True)
+def _tiles(row):
+    return carray(to_number(row[0]), (row[1], row[2], row[3], row[4], row[5]))
+
+
+@njit(cache=True)
 def _source(table):
     fine = Fine(
         carray(to_number(table[12, 0]), table[12, 1]),
         carray(to_integer(table[13, 0]), table[13, 1]),
         carray(to_number(table[14, 0]), table[14, 1]),
     )
-    blocks, sections = (_cube(table[15]), _cube(table[16])), (_cube(table[17]), _cube(table[18]))
+    blocks, sections = (_tiles(table[15]), _tiles(table[16])), (_cube(table[17]), _cube(table[18]))
     matrix = carray(to_number(table[19, 0]), (table[19, 1], table[19, 2]))
     return _Source(_side(table), _side(table[6:]), fine, blocks, sections, matrix)
 
@@ -180,37 +185,50 @@ def _between(source, gear, group, result):
     that of its plane section in the same slice."""
     rows, columns, blocks, sections = source.rows, source.columns, source.blocks[gear], source.sections[gear]
     own, other, offsets = rows.on_gears[gear, :, group], columns.on_gears[gear], (len(blocks) - 1) // 2
-    along, in_plane = np.empty(3 * other[WIDTH].max()), np.empty(2 * other[WIDTH].max())
+    axes, width = rows.axes[gear, group], own[WIDTH]
     for q in range(other.shape[1]):
-        number, width, share = offsets + own[TOOTH] - other[TOOTH, q], other[WIDTH, q], 0.0
-        block, section = blocks[number], sections[number]
+        number, place = offsets + own[TOOTH] - other[TOOTH, q], other[PLACE, q]
+        found, across = result[:, :, :, place : place + other[WIDTH, q]], columns.axes[gear, q]
+        _add_block(
+            found, blocks[number, own[SECTION], other[SECTION, q]], (own[DOF], other[DOF, q]), axes, across, width
+        )
         if rows.groups[SLICE, group] == columns.groups[SLICE, q]:
             share = source.fine.shares[rows.groups[SLICE, group]]
-        column, plane_column, place = other[DOF, q], other[PLANE_DOF, q], other[PLACE, q]
-        for i, d in np.ndindex((own[WIDTH], rows.axes.shape[2])):
-            axis = rows.axes[gear, group, d]
-            _combined(along[: 3 * width], axis[:3], block, own[DOF] + 3 * i, column)
-            if share != 0.0:
-                _combined(in_plane[: 2 * width], axis[3:], section, own[PLANE_DOF] + 2 * i, plane_column)
-            for e in range(columns.axes.shape[2]):
-                across, found = columns.axes[gear, q, e], result[d, i, e, place : place + width]
-                for j in range(width):
-                    found[j] = along[3 * j] * across[0] + along[3 * j + 1] * across[1] + along[3 * j + 2] * across[2]
-                    if share != 0.0:
-                        found[j] -= share * (in_plane[2 * j] * across[3] + in_plane[2 * j + 1] * across[4])
+            firsts = own[PLANE_DOF], other[PLANE_DOF, q]
+            _add_section(found, sections[number], firsts, axes, -share * across, width)
 
 
 @njit(cache=True)
-def _combined(found, axis, block, row, column):
-    """Combine as many rows of a block, from one on, as an axis has components."""
-    end = column + len(found)
-    first, second, third = block[row, column:end], block[row + 1, column:end], block[row + len(axis) - 1, column:end]
-    if len(axis) == 2:
-        for c in range(len(found)):
-            found[c] = axis[0] * first[c] + axis[1] * second[c]
-    else:
-        for c in range(len(found)):
-            found[c] = axis[0] * first[c] + axis[1] * second[c] + axis[2] * third[c]
+def _add_block(found, block, firsts, axes, across, width):
+    """Compliance (d, i, e, j) between flank nodes of a body, `width` of them responding, by directions `axes` (d, 5)
+    and `across` (e, 5); from the `firsts` rows and columns of a block on, three for each node."""
+    # Unsigned places need no look for a negative index.
+    row, zero, one, two, three = (np.uint64(firsts[0]), np.uint64(0), np.uint64(1), np.uint64(2), np.uint64(3))
+    for i in range(np.uint64(width)):
+        for d in range(np.uint64(len(axes))):
+            column = np.uint64(firsts[1])
+            for j in range(np.uint64(found.shape[3])):
+                x, y, z = 0.0, 0.0, 0.0
+                for a in range(three):
+                    axis = axes[d, a]
+                    x += axis * block[row + a, column]
+                    y += axis * block[row + a, column + one]
+                    z += axis * block[row + a, column + two]
+                for e in range(np.uint64(len(across))):
+                    found[d, i, e, j] = x * across[e, zero] + y * across[e, one] + z * across[e, two]
+                column += three
+        row += three
+
+
+@njit(cache=True)
+def _add_section(found, section, firsts, axes, across, width):
+    """Add the same of plane sections, two rows and columns for each node, by the last two components of directions."""
+    for i, d, j in np.ndindex((width, len(axes), found.shape[3])):
+        row, column = firsts[0] + 2 * i, firsts[1] + 2 * j
+        x = axes[d, 3] * section[row, column] + axes[d, 4] * section[row + 1, column]
+        y = axes[d, 3] * section[row, column + 1] + axes[d, 4] * section[row + 1, column + 1]
+        for e in range(len(across)):
+            found[d, i, e, j] += x * across[e, 3] + y * across[e, 4]
 
 
 @njit(cache=True)

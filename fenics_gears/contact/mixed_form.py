@@ -158,10 +158,25 @@ def relative_displacement(equations, iterate, first, end):
     forces, coordinates = iterate.forces, iterate.coordinates
     for i in range(first, end):
         displacement[i] = product(jacobian[i], coordinates)
-    for j in np.flatnonzero(forces):
-        row, force = compliance[j], forces[j]
-        for i in range(first, end):
-            displacement[i] -= row[i] * force
+    subtract_rows(displacement[first:end], compliance[:, first:end], forces)
+
+
+@njit(cache=True)
+def subtract_rows(total, matrix, factors):
+    """Subtract the rows (m, n) of a matrix that have a factor (m,) from a total (n,), each times its factor."""
+    loaded, n = np.flatnonzero(factors), np.uint64(len(total))
+    four = len(loaded) - len(loaded) % 4
+    # Four at a time, so that the total is read and written less; unsigned places need no look for a negative index.
+    for at in range(0, four, 4):
+        a, b, c, d = loaded[at], loaded[at + 1], loaded[at + 2], loaded[at + 3]
+        row_a, row_b, row_c, row_d = matrix[a], matrix[b], matrix[c], matrix[d]
+        f_a, f_b, f_c, f_d = factors[a], factors[b], factors[c], factors[d]
+        for i in range(n):
+            total[i] -= row_a[i] * f_a + row_b[i] * f_b + row_c[i] * f_c + row_d[i] * f_d
+    for j in loaded[four:]:
+        row, factor = matrix[j], factors[j]
+        for i in range(n):
+            total[i] -= row[i] * factor
 
 
 @njit(cache=True, inline="always")

@@ -14,7 +14,7 @@ from numba import njit
 from fenics_gears.contact.addresses import arrays_of
 from fenics_gears.contact.face_product import form_rows
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.mixed_form import Equations
+from fenics_gears.contact.mixed_form import Equations, subtract_rows
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton
 from fenics_gears.dynamics.average_acceleration import advanced as advanced_by_average
 from fenics_gears.dynamics.average_acceleration import history as average_history
@@ -167,9 +167,7 @@ def slip_at_start(rigid_slip, previous_jacobian, columns, rows_before, position,
         for c in range(len(position)):
             displaced[node] += previous_jacobian[node, c] * position[c]
     form_rows(rows_before, np.flatnonzero(forces[: len(forces) // 2]))
-    for loaded in np.flatnonzero(forces):
-        for node in range(len(displaced)):
-            displaced[node] -= columns[loaded, node] * forces[loaded]
+    subtract_rows(displaced, columns, forces)
     return rigid_slip - displaced
 
 

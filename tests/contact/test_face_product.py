@@ -28,8 +28,7 @@ def side(random, kinds):
         first = firsts[gear].ravel()[node]
         weights[gear, node, first : first + 2] = near[gear, node]
     on_gears = [
-        [TEETH, width, np.cumsum(width) - width, 3 * (NODES * IN_SLICES + low), 2 * low]
-        for width, low in zip(widths, lowest)
+        [TEETH, width, np.cumsum(width) - width, IN_SLICES, 3 * low, 2 * low] for width, low in zip(widths, lowest)
     ]
     places = np.array(on_gears)[:, 2, :, None]
     first = (firsts - lowest[:, :, None] + places).reshape(2, 12)
@@ -72,10 +71,12 @@ def test_rows_are_those_of_whole_matrices(kinds):
     random = np.random.default_rng(5)
     rows, columns = (side(random, each) for each in kinds)
     bodies = [(symmetric(random, 3 * NODES * SLICES), symmetric(random, 2 * NODES)) for _ in range(2)]
+    shape = (-1, SLICES, 3 * NODES, SLICES, 3 * NODES)
+    by_section = [(blocks.reshape(shape).transpose(0, 1, 3, 2, 4), sections) for blocks, sections in bodies]
     sizes = [kinds[0] * kinds[1] * count**2 for count in (3, 3, 6)]
     fine = Fine(random.standard_normal(sum(sizes)), np.cumsum([0, *sizes[:2]]), random.random(SLICES))
     expected = by_whole_matrices(bodies, fine, rows, columns)
-    found = FaceRows.of(bodies, rows[0], columns[0], fine)
+    found = FaceRows.of(by_section, rows[0], columns[0], fine)
     asked = np.array([1, 4, 5])
     form_rows(found.address, asked)
     both = np.concatenate([12 * kind + asked for kind in range(kinds[0])])
