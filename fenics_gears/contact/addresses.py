@@ -20,7 +20,7 @@ class Arrays(NamedTuple):
 
     `rigid_slip` (n,), `previous_jacobian` (n, k) and `previous_columns` (m before, n), the previous compliance by
     columns, have no rows without friction. `rows` and `rows_before`: addresses of what forms rows of the compliance and
-    of those columns (`contact.face_product`), 0 where all of them are there.
+    of those columns (`contact.formed_rows`), 0 where all of them are there.
     """
 
     compliance: np.ndarray

@@ -16,7 +16,8 @@ import numpy as np
 
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.face import Face
-from fenics_gears.contact.face_product import (
+from fenics_gears.contact.fine_sections import OnSections, fine_sections, stacked
+from fenics_gears.contact.formed_rows import (
     BEGIN,
     DOF,
     IN_SLICE,
@@ -27,12 +28,11 @@ from fenics_gears.contact.face_product import (
     SLICE,
     TOOTH,
     WIDTH,
-    FaceRows,
     Fine,
+    FormedRows,
     Side,
     form_rows,
 )
-from fenics_gears.contact.fine_sections import OnSections, fine_sections, stacked
 from fenics_gears.contact.interpolation import FlankInterpolation
 from fenics_gears.contact.operator import Passage, Response, count_of, node_slices, per_node, turned
 from fenics_gears.contact.rank import of_full_rank
@@ -90,10 +90,10 @@ class FacePairing:
             form_rows(compliance.address, np.zeros(1, dtype=np.int64))
         return Response(compliance, earlier, dependent)
 
-    def _rows(self, rows: Side, columns: Side, fine: Fine, by_columns: bool = False) -> FaceRows:
+    def _rows(self, rows: Side, columns: Side, fine: Fine, by_columns: bool = False) -> FormedRows:
         for (blocks, sections), own, other in zip(self._bodies, rows.on_gears, columns.on_gears):
             _check_known(min(len(blocks), len(sections)) // 2, own[TOOTH], other[TOOTH])
-        return FaceRows.of(self._bodies, rows, columns, fine, by_columns)
+        return FormedRows.of(self._bodies, rows, columns, fine, by_columns)
 
     def _side(self, pairs: Sequence[FacePair], tangential: bool) -> Side:
         """The pairs' nodes, along normal and tangent."""
@@ -196,7 +196,7 @@ def _widest(views: np.ndarray, nodes: int) -> np.ndarray:
 
 
 def _groups(nodes: Sequence[slice], slices: np.ndarray) -> np.ndarray:
-    """Of groups whose `nodes` stand there among all: numbers (4, P) as of `face_product.Side`."""
+    """Of groups whose `nodes` stand there among all: numbers (4, P) as of `formed_rows.Side`."""
     found = np.zeros((4, len(nodes)), dtype=np.int64)
     found[BEGIN], found[SLICE] = [own.start for own in nodes], slices
     in_slice = np.zeros(slices.max(initial=-1) + 1, dtype=np.int64)

@@ -10,14 +10,14 @@ import numpy as np
 from numba import njit
 
 from fenics_gears.contact.compliance_product import compliance_product
-from fenics_gears.contact.face_product import BEGIN, IN_SLICE, OF_SLICE, SLICE
+from fenics_gears.contact.formed_rows import BEGIN, IN_SLICE, OF_SLICE, SLICE
 from fenics_gears.contact.interpolation import FlankInterpolation
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.errors import ComputationError
 
 
 class OnSections(NamedTuple):
-    """Contact nodes (n,) in groups (P,): `groups` (4, P) as of `face_product.Side`; `flanks` (P,) of the tooth and its
+    """Contact nodes (n,) in groups (P,): `groups` (4, P) as of `formed_rows.Side`; `flanks` (P,) of the tooth and its
     place on either gear (`teeth`, (2, P)); `axes` (2, P, d, 2) of contact there.
 
     `first` (2, n) of their FlankInterpolation; its `near` of all groups one after the other, of each group from its

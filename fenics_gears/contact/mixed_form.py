@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.face_product import form_rows
+from fenics_gears.contact.formed_rows import form_rows
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 
 # Unknowns up to which elimination in compiled code is faster than LAPACK.
@@ -30,7 +30,7 @@ class Equations(NamedTuple):
     `compliance` C (m, m), `jacobian` G (m, k) and `gap` (n,) of the contact; `slip_before` (n,): w_old, empty without
     friction.
 
-    `rows`: address of what forms the rows of nodes that are closed for the first time (`contact.face_product`), 0 where
+    `rows`: address of what forms the rows of nodes that are closed for the first time (`contact.formed_rows`), 0 where
     all are there. `free_motion` (k,): how the load moves the drivetrain where only contact holds it, in which case one
     node at least stays closed; empty where the drivetrain holds the load.
     """
@@ -158,23 +158,29 @@ def relative_displacement(equations, iterate, first, end):
     forces, coordinates = iterate.forces, iterate.coordinates
     for i in range(first, end):
         displacement[i] = product(jacobian[i], coordinates)
-    subtract_rows(displacement[first:end], compliance[:, first:end], forces)
+    subtract_rows(displacement[first:end], compliance, first, forces)
 
 
 @njit(cache=True)
-def subtract_rows(total, matrix, factors):
-    """Subtract the rows (m, n) of a matrix that have a factor (m,) from a total (n,), each times its factor."""
-    loaded, n = np.flatnonzero(factors), np.uint64(len(total))
+def subtract_rows(total, matrix, first, factors):
+    """Subtract the rows of a matrix (m, l) that have a factor (m,) from a total (n,), each from its column `first` on
+    and times its factor."""
+    loaded, n, end = np.flatnonzero(factors), np.uint64(len(total)), first + len(total)
     four = len(loaded) - len(loaded) % 4
     # Four at a time, so that the total is read and written less; unsigned places need no look for a negative index.
     for at in range(0, four, 4):
         a, b, c, d = loaded[at], loaded[at + 1], loaded[at + 2], loaded[at + 3]
-        row_a, row_b, row_c, row_d = matrix[a], matrix[b], matrix[c], matrix[d]
+        row_a, row_b, row_c, row_d = (
+            matrix[a, first:end],
+            matrix[b, first:end],
+            matrix[c, first:end],
+            matrix[d, first:end],
+        )
         f_a, f_b, f_c, f_d = factors[a], factors[b], factors[c], factors[d]
         for i in range(n):
             total[i] -= row_a[i] * f_a + row_b[i] * f_b + row_c[i] * f_c + row_d[i] * f_d
     for j in loaded[four:]:
-        row, factor = matrix[j], factors[j]
+        row, factor = matrix[j, first:end], factors[j]
         for i in range(n):
             total[i] -= row[i] * factor
 

@@ -21,7 +21,7 @@ from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
     from fenics_gears.contact.face import Face
-    from fenics_gears.contact.face_product import FaceRows
+    from fenics_gears.contact.formed_rows import FormedRows
 
 # The centre coordinates q of the model: seven in the plane. Rotations are carried as arc lengths rb1 phi1, rb2 phi2
 # (mm), so that every coordinate is a length and every row a force, and no equation is scaled against another. The
@@ -35,12 +35,12 @@ NO_NODES_BEFORE = np.empty(0, dtype=np.int64)
 
 
 class _FormedWhenRead:
-    """A compliance of an operator, all of whose rows are formed when it is read (`contact.face_product`)."""
+    """A compliance of an operator, all of whose rows are formed when it is read (`contact.formed_rows`)."""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
 
-    def __set__(self, operator: ContactOperator, compliance: np.ndarray | FaceRows | None) -> None:
+    def __set__(self, operator: ContactOperator, compliance: np.ndarray | FormedRows | None) -> None:
         operator.__dict__[self._name] = compliance
 
     def __get__(self, operator: ContactOperator | None, owner: type | None = None):
@@ -224,8 +224,8 @@ class Response(NamedTuple):
     ContactOperator; `normal_lever_arms` and `previous_jacobian`, over all coordinates, where they are not those of
     flanks that slide along the line of action."""
 
-    compliance: np.ndarray | FaceRows
-    previous_compliance: np.ndarray | FaceRows | None = None
+    compliance: np.ndarray | FormedRows
+    previous_compliance: np.ndarray | FormedRows | None = None
     dependent_rows: int = 0
     normal_lever_arms: tuple[np.ndarray, np.ndarray] | None = None
     previous_jacobian: np.ndarray | None = None

@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from fenics_gears.contact.addresses import arrays_of
-from fenics_gears.contact.face_product import form_rows
+from fenics_gears.contact.formed_rows import form_rows
 from fenics_gears.contact.laws import OPEN, Tolerance
 from fenics_gears.contact.mixed_form import Equations, subtract_rows
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton
@@ -166,8 +166,9 @@ def slip_at_start(rigid_slip, previous_jacobian, columns, rows_before, position,
     for node in range(len(displaced)):
         for c in range(len(position)):
             displaced[node] += previous_jacobian[node, c] * position[c]
-    form_rows(rows_before, np.flatnonzero(forces[: len(forces) // 2]))
-    subtract_rows(displaced, columns, forces)
+    if rows_before != 0:
+        form_rows(rows_before, np.flatnonzero(forces[: len(forces) // 2]))
+    subtract_rows(displaced, columns, 0, forces)
     return rigid_slip - displaced
 
 

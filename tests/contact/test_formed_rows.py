@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fenics_gears.contact.face_product import FaceRows, Fine, Side, form_rows
+from fenics_gears.contact.formed_rows import Fine, FormedRows, Side, form_rows
 
 NODES, SLICES, OFFSETS = 6, 3, 2
 TEETH, IN_SLICES = np.array([0, 0, 1, 2]), np.array([0, 2, 2, 1])
@@ -76,7 +76,7 @@ def test_rows_are_those_of_whole_matrices(kinds):
     sizes = [kinds[0] * kinds[1] * count**2 for count in (3, 3, 6)]
     fine = Fine(random.standard_normal(sum(sizes)), np.cumsum([0, *sizes[:2]]), random.random(SLICES))
     expected = by_whole_matrices(bodies, fine, rows, columns)
-    found = FaceRows.of(by_section, rows[0], columns[0], fine)
+    found = FormedRows.of(by_section, rows[0], columns[0], fine)
     asked = np.array([1, 4, 5])
     form_rows(found.address, asked)
     both = np.concatenate([12 * kind + asked for kind in range(kinds[0])])

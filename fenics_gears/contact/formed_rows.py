@@ -68,7 +68,7 @@ ARRAYS = 21
 
 
 @dataclass(frozen=True, eq=False)
-class FaceRows:
+class FormedRows:
     """Compliance (d n, e m), mm/N, between contact nodes over a face: of both bodies, less what their plane sections
     give in each slice, and of the fine sections there.
 
@@ -90,7 +90,7 @@ class FaceRows:
         columns: Side,
         fine: Fine,
         by_columns: bool = False,
-    ) -> FaceRows:
+    ) -> FormedRows:
         """`bodies`: of pinion and wheel `blocks` (k, s, s, D, D), mm/N, between sections, those of tooth i under forces
         on tooth j being number (k - 1)/2 + i - j, and `sections` (k, D', D'), mm per N/mm. `by_columns`: rows here are
         the compliance's columns."""
@@ -117,8 +117,8 @@ class FaceRows:
 
 @njit(cache=True)
 def form_rows(address, nodes):
-    """Form those rows of contact nodes, in increasing order, that are not yet formed; `address` of a FaceRows, 0 where
-    all rows are there."""
+    """Form those rows of contact nodes, in increasing order, that are not yet formed; `address` of a FormedRows, 0
+    where all rows are there."""
     if address == 0:
         return
     table = carray(to_integer(address), (ARRAYS, 6))
