@@ -27,7 +27,7 @@ from fenics_gears.contact.tooth_pair import PairNodes
 # one before it beside.
 SHARE_KEPT, SHARE_OF_A_BLOCK = 0.7, 0.12
 # Of an operator whose rows are formed when nodes are closed.
-SHARE_FORMED = 0.25
+SHARE_FORMED = 0.3
 
 
 @dataclass(frozen=True)
