@@ -19,7 +19,9 @@ class Arrays(NamedTuple):
     there: `on_drive_flanks` (n,), `node_pair` (n,), `node_before` (n,) as of a Position.
 
     `rigid_slip` (n,), `previous_jacobian` (n, k) and `previous_columns` (m before, n), the previous compliance by
-    columns, have no rows without friction; `sliding` (n,) has none unless the flanks are rigid as well.
+    columns, have no rows without friction; `sliding` (n,) has none unless the flanks are rigid as well. `rows` and
+    `rows_before`: addresses of what forms rows of the compliance and of those columns (`contact.formed_rows`), 0 where
+    all of them are there.
     """
 
     compliance: np.ndarray
@@ -32,6 +34,8 @@ class Arrays(NamedTuple):
     previous_jacobian: np.ndarray
     previous_columns: np.ndarray
     sliding: np.ndarray
+    rows: int = 0
+    rows_before: int = 0
 
 
 # A row: how many contact nodes there are, and the address of each array, 0 where it is not there.
@@ -50,7 +54,7 @@ def _pointer_to(kind):
     return pointer
 
 
-to_number, to_integer, _to_flag = (_pointer_to(kind) for kind in (types.float64, types.int64, types.boolean))
+to_number, to_integer, to_flag = (_pointer_to(kind) for kind in (types.float64, types.int64, types.boolean))
 to_set, to_row = _pointer_to(types.int8), _pointer_to(from_dtype(ROW))
 
 
@@ -63,21 +67,25 @@ def arrays_of(row, kinds, coordinates, nodes_before):
         carray(to_number(row.compliance), (kinds * n, kinds * n)),
         carray(to_number(row.jacobian), (kinds * n, k)),
         carray(to_number(row.gap), n),
-        carray(_to_flag(row.on_drive_flanks), n),
+        carray(to_flag(row.on_drive_flanks), n),
         carray(to_integer(row.node_pair), n),
         carray(to_integer(row.node_before), n),
         carray(to_number(row.rigid_slip), slides),
         carray(to_number(row.previous_jacobian), (slides, k)),
         carray(to_number(row.previous_columns), (kinds * nodes_before, slides)),
         carray(to_number(row.sliding), 0 if row.sliding == 0 else n),
+        row.rows,
+        row.rows_before,
     )
 
 
-def row_of(nodes: int, arrays: Sequence[np.ndarray | None]) -> tuple[np.ndarray, list[np.ndarray]]:
-    """The numbers (r,) of the row of arrays in the order of `Arrays`; and those arrays, each in one piece.
+def row_of(nodes: int, arrays: Sequence[np.ndarray | int | None]) -> tuple[np.ndarray, list[np.ndarray]]:
+    """The numbers (r,) of the row of arrays, or their addresses, in the order of `Arrays`; and those arrays, each in
+    one piece.
 
     Plain numbers: to put together structured ones takes numpy 0.1 ms a row.
     """
-    held = [np.empty(0) if array is None else np.ascontiguousarray(array) for array in arrays]
-    found = [0 if array is None else own.ctypes.data for array, own in zip(arrays, held)]
+    held = [np.ascontiguousarray(array) for array in arrays if isinstance(array, np.ndarray)]
+    pieces = iter(held)
+    found = [next(pieces).ctypes.data if isinstance(each, np.ndarray) else each or 0 for each in arrays]
     return np.array([nodes, *found], dtype=np.int64), held

@@ -16,18 +16,32 @@ import numpy as np
 
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.face import Face
-from fenics_gears.contact.face_product import Groups, OnGear, Side, face_product
+from fenics_gears.contact.fine_sections import OnSections, fine_sections, stacked
+from fenics_gears.contact.formed_rows import (
+    BEGIN,
+    DOF,
+    IN_SLICE,
+    OF_SLICE,
+    PLACE,
+    PLANE_DOF,
+    SECTION,
+    SLICE,
+    TOOTH,
+    WIDTH,
+    Fine,
+    FormedRows,
+    Side,
+    form_rows,
+)
 from fenics_gears.contact.interpolation import FlankInterpolation
-from fenics_gears.contact.operator import Passage, Response, count_of, node_slices, turned
-from fenics_gears.contact.pairing import CompliancePairing, of_full_rank
+from fenics_gears.contact.operator import Passage, Response, count_of, node_slices, per_node, turned
+from fenics_gears.contact.pairing import of_full_rank
 from fenics_gears.contact.tooth_pair import Flanks, Place, ToothPair
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.elasticity.slice_averages import on_slices, slice_averages
 from fenics_gears.errors import ComputationError
 
 GEARS = (0, 1)
-# Over the slice's own width, by which all is divided in the end.
-UNIT_WIDTH = 1.0
 
 
 @dataclass(frozen=True)
@@ -44,7 +58,7 @@ class FacePairing:
     def __init__(self, flanks: Flanks, bodies: tuple[FaceCompliance, FaceCompliance], face: Face):
         self.face, self._nodes = face, tuple(len(body.roll_angle) for body in bodies)
         self.sections = Flanks(flanks.pair, (bodies[0].plane, bodies[1].plane), flanks.removal)
-        self._fine, self._shares = CompliancePairing(flanks, width=UNIT_WIDTH), face.cosine / face.widths
+        self._fine, self._shares = tuple(map(stacked, flanks.compliance)), face.cosine / face.widths
         self._bodies = tuple(
             (
                 on_slices(
@@ -63,70 +77,134 @@ class FacePairing:
         previous: Sequence[FacePair] | None = passage.previous
         angles = turned(self.sections.pair, passage.advance)
         now = self._side(pairs, previous is not None)
-        compliance, earlier = self._of_bodies(now, now), None
-        if previous is not None:
-            # The tangents as they stood before.
-            tangents = Side(
-                now.groups, tuple(self._on_gear(gear, pairs, now.groups, True, angles[gear]) for gear in GEARS)
-            )
-            # Reciprocal, so that it lies in memory by columns, as the march reads it.
-            earlier = self._of_bodies(self._side(previous, True), tangents)
-        dependent = self._add_fine(compliance, earlier, pairs, previous, angles)
-        kinds, nodes, _ = now.shape
-        return Response(
-            compliance.reshape(kinds * nodes, kinds * nodes),
-            None if previous is None else earlier.reshape(2 * count_of(previous), nodes).T,
-            dependent,
-        )
+        before = None if previous is None else self._side(previous, True)
+        fine, fine_before, dependent = self._fine_sections(now, pairs, before, previous, angles)
+        compliance, earlier = self._rows(now, now, fine), None
+        if before is not None:
+            # The tangents as they stood before. Reciprocal, so that rows are those of nodes before, as the march reads
+            # them.
+            tangents = now._replace(axes=np.stack([self._axes(gear, pairs, True, angles[gear]) for gear in GEARS]))
+            earlier = self._rows(before, tangents, fine_before, by_columns=True)
+        if len(pairs):
+            # Its first number is the size that others are measured by.
+            form_rows(compliance.address, np.zeros(1, dtype=np.int64))
+        return Response(compliance, earlier, dependent)
 
-    def _of_bodies(self, rows: Side, columns: Side) -> np.ndarray:
-        for (blocks, sections), own, other in zip(self._bodies, rows.gears, columns.gears):
-            _check_known(min(len(blocks), len(sections)) // 2, own.teeth, other.teeth)
-        return face_product(self._bodies, self._shares, rows, columns)
+    def _rows(self, rows: Side, columns: Side, fine: Fine, by_columns: bool = False) -> FormedRows:
+        for (blocks, sections), own, other in zip(self._bodies, rows.on_gears, columns.on_gears):
+            _check_known(min(len(blocks), len(sections)) // 2, own[TOOTH], other[TOOTH])
+        return FormedRows.of(self._bodies, rows, columns, fine, by_columns)
 
     def _side(self, pairs: Sequence[FacePair], tangential: bool) -> Side:
-        groups = Groups.of([pair.coarse for pair in pairs])
-        return Side(groups, tuple(self._on_gear(gear, pairs, groups, tangential) for gear in GEARS))
+        """The pairs' nodes, along normal and tangent."""
+        nodes, places = node_slices(pairs), [pair.place for pair in pairs]
+        views = np.array([pair.coarse for pair in pairs], dtype=object).reshape(-1, 2).T
+        first, near = np.empty((2, count_of(pairs)), dtype=np.int64), _widest(views, count_of(pairs))
+        on_gears = np.empty((2, 6, len(pairs)), dtype=np.int64)
+        slices = np.array([place.slice for place in places], dtype=np.int64)
+        flanks = np.array([place.flank for place in places], dtype=np.int64)
+        for gear, count in enumerate(self._nodes):
+            lowest, under = np.empty(len(pairs), dtype=np.int64), 0
+            for group, (view, own) in enumerate(zip(views[gear], nodes)):
+                width, lowest[group] = view.near.shape[1], view.first.min()
+                first[gear, own], near[gear, own, :width] = under + view.first - lowest[group], view.near
+                on_gears[gear, PLACE, group], last = under, view.first.max() + width
+                on_gears[gear, WIDTH, group] = last - lowest[group]
+                under += last - lowest[group]
+            on_gears[gear, TOOTH] = [place.ahead(gear) for place in places]
+            on_gears[gear, SECTION], on_gears[gear, DOF] = flanks * self.face.slices + slices, 3 * lowest
+            on_gears[gear, PLANE_DOF] = 2 * (count * flanks + lowest)
+        axes = np.stack([self._axes(gear, pairs, tangential) for gear in GEARS])
+        return Side(per_node(pairs, np.arange(len(pairs))), first, _groups(nodes, slices), on_gears, near, axes)
 
-    def _on_gear(
-        self, gear: int, pairs: Sequence[FacePair], groups: Groups, tangential: bool, turned: float | None = None
-    ) -> OnGear:
-        """The pairs' nodes on one gear: along normal and tangent, or with `turned` (rad) along the tangent as it stood
-        before."""
+    def _axes(self, gear: int, pairs: Sequence[FacePair], tangential: bool, turned: float | None = None) -> np.ndarray:
+        """Directions (P, d, 5) of contact in the tooth's frame, in the body and in its section: of normal and tangent,
+        or with `turned` (rad) of the tangent as it stood before."""
         places = [pair.place for pair in pairs]
-        teeth, flanks, slices = (
-            np.array([(place.ahead(gear), place.flank, place.slice) for place in places], dtype=np.int64)
-            .reshape(-1, 3)
-            .T.copy()
-        )
-        first, nodes = groups.first[gear], self._nodes[gear]
         plane = _plane_directions(gear, places, tangential, turned)
-        axes = np.concatenate([plane, np.zeros((*plane.shape[:2], 1))], axis=2)
+        axes = np.concatenate([plane, np.zeros((*plane.shape[:2], 1)), plane], axis=2)
         if turned is None:
-            axes[:, 0] *= self.face.cosine
+            axes[:, 0, :2] *= self.face.cosine
             axes[:, 0, 2] = [self.face.axial_share(gear, place.turn) for place in places]
-        dofs = 3 * (nodes * (flanks * self.face.slices + slices) + first)
-        plane_dofs = 2 * (nodes * flanks + first)
-        return OnGear(teeth, slices, groups.widths[gear], groups.places[gear], dofs, plane_dofs, axes, plane)
+        return axes
 
-    def _add_fine(self, compliance, earlier, pairs, previous, turned) -> int:
-        """Add the compliance of the fine sections in each slice; returns the dependent rows."""
-        now, before = _of_slices(pairs, self.face.slices), _of_slices(previous or (), self.face.slices)
-        fine, dependent = None, 0
-        for (nodes, own), (nodes_before, own_before), share in zip(now, before, self._shares):
-            if fine is None or self.face.slope != 0.0:
-                # mm per N/mm: between the slice's nodes, and by those before.
-                section, by_earlier = self._fine.compliance(own, own_before if previous is not None else None, turned)
-                fine, rows = of_full_rank(section)
-                kinds, count = len(compliance), len(nodes)
-            dependent += rows
-            compliance[:, nodes[:, None], :, nodes] += share * fine.reshape(kinds, count, kinds, count).transpose(
-                1, 3, 0, 2
+    def _fine_sections(self, now: Side, pairs, before: Side | None, previous, turned) -> tuple[Fine, Fine, int]:
+        """Compliance of the fine sections in each slice, between the nodes now and by those before; the dependent
+        rows."""
+        axes, kinds = now.axes[..., 3:], now.axes.shape[2]
+        if before is not None:
+            earlier = [_plane_directions(gear, [pair.place for pair in pairs], True, turned[gear]) for gear in GEARS]
+            axes = np.concatenate([axes, earlier], axis=2)
+        nodes = _on_sections(now, pairs, axes)
+        nodes_before = (
+            _on_sections(now, (), axes[:, :0])
+            if before is None
+            else _on_sections(before, previous, before.axes[..., 3:])
+        )
+        counts, counts_before = (_in_slices(each.groups, self.face.slices) for each in (nodes, nodes_before))
+        begins, size = self._places((kinds * counts) ** 2)
+        begins_before, size_before = self._places(2 * counts * counts_before)
+        fine, by_earlier = (
+            Fine(np.zeros(each), np.maximum(at, 0), self._shares)
+            for each, at in ((size, begins), (size_before, begins_before))
+        )
+        fine_sections(self._fine, nodes, nodes_before, begins, begins_before, fine.numbers, by_earlier.numbers)
+        return fine, by_earlier, self._dependent(fine, begins, kinds * counts)
+
+    def _places(self, sizes: np.ndarray) -> tuple[np.ndarray, int]:
+        """Where sections (S,) begin that take so many numbers, and the end of the last. Slices of a spur pair are all
+        alike: -1 but for the first."""
+        if self.face.slope == 0.0:
+            return np.where(np.arange(len(sizes)) == 0, 0, -1), int(sizes[0])
+        return np.cumsum(sizes) - sizes, int(sizes.sum())
+
+    def _dependent(self, fine: Fine, begins: np.ndarray, rows: np.ndarray) -> int:
+        """Dependent rows of all slices; sections that have some get a thin layer."""
+        found = 0
+        for begin, count in zip(begins, rows):
+            if begin >= 0:
+                section = fine.numbers[begin : begin + count**2].reshape(count, count)
+                section[:], dependent = of_full_rank(section)
+            found += dependent
+        if np.isnan(fine.numbers.sum()):
+            raise ComputationError(
+                "compliance over the face: flanks touch that are further apart than the sections' compliance is known;"
+                " ask flank_compliance for a larger reach"
             )
-            if previous is not None:
-                more = by_earlier.reshape(1, count, 2, -1).transpose(3, 1, 2, 0)
-                earlier[:, nodes_before[:, None], :, nodes] += share * more
-        return dependent
+        return found
+
+
+def _on_sections(side: Side, pairs: Sequence[FacePair], axes: np.ndarray) -> OnSections:
+    places = [pair.place for pair in pairs]
+    flanks = np.array([place.flank for place in places], dtype=np.int64)
+    groups, teeth = side.groups[:, : len(pairs)], side.on_gears[:, TOOTH, : len(pairs)]
+    return OnSections.of(
+        groups, flanks, np.ascontiguousarray(teeth), np.ascontiguousarray(axes), [pair.interpolation for pair in pairs]
+    )
+
+
+def _in_slices(groups: np.ndarray, slices: int) -> np.ndarray:
+    """Number of contact nodes in each slice (S,)."""
+    found = np.zeros(slices, dtype=np.int64)
+    found[groups[SLICE]] = groups[OF_SLICE]
+    return found
+
+
+def _widest(views: np.ndarray, nodes: int) -> np.ndarray:
+    """Room for the weights (2, nodes, w) of all `views` (2, P)."""
+    return np.zeros((2, nodes, max((view.near.shape[1] for view in views.flat), default=1)))
+
+
+def _groups(nodes: Sequence[slice], slices: np.ndarray) -> np.ndarray:
+    """Of groups whose `nodes` stand there among all: numbers (4, P) as of `formed_rows.Side`."""
+    found = np.zeros((4, len(nodes)), dtype=np.int64)
+    found[BEGIN], found[SLICE] = [own.start for own in nodes], slices
+    in_slice = np.zeros(slices.max(initial=-1) + 1, dtype=np.int64)
+    for group, own in enumerate(nodes):
+        found[IN_SLICE, group] = in_slice[slices[group]]
+        in_slice[slices[group]] += own.stop - own.start
+    found[OF_SLICE] = in_slice[slices]
+    return found
 
 
 def _check_known(offsets: int, responding: np.ndarray, loaded: np.ndarray) -> None:
@@ -158,13 +236,3 @@ def _plane_directions(gear: int, places: Sequence[Place], tangential: bool, turn
     else:
         found = [directions(place.contact_rolls[gear] - place.turn * turned, True)[1:] for place in places]
     return np.array(found).reshape(len(places), 2 if tangential and turned is None else 1, 2)
-
-
-def _of_slices(pairs: Sequence[FacePair], slices: int) -> list[tuple[np.ndarray, list[FacePair]]]:
-    """The contact nodes of each slice among all, and its pairs."""
-    found: list[tuple[list[np.ndarray], list[FacePair]]] = [([], []) for _ in range(slices)]
-    for pair, nodes in zip(pairs, node_slices(pairs)):
-        numbers, own = found[pair.place.slice]
-        numbers.append(np.arange(nodes.start, nodes.stop))
-        own.append(pair)
-    return [(np.concatenate(numbers) if numbers else np.empty(0, dtype=int), own) for numbers, own in found]

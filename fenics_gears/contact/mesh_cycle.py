@@ -27,6 +27,8 @@ from fenics_gears.contact.tooth_pair import PairNodes
 # Of the memory that contact operators may take: what is kept for good, and what a march holds of a block of steps, the
 # one before it beside.
 SHARE_KEPT, SHARE_OF_A_BLOCK = 0.7, 0.12
+# Of an operator whose rows are formed when nodes are closed.
+SHARE_FORMED = 0.3
 
 
 @dataclass(frozen=True)
@@ -48,21 +50,26 @@ class Position:
         The previous compliance lies there by columns: few nodes are loaded.
         """
         operator = self.operator
-        columns = None if operator.previous_compliance is None else operator.previous_compliance.T
+        (rows, forms), (columns, forms_before) = operator.stored, operator.stored_before or (None, 0)
         return row_of(operator.nodes, (
-            operator.compliance, operator.jacobian, operator.gap, operator.on_drive_flanks, operator.node_pair,
+            rows, operator.jacobian, operator.gap, operator.on_drive_flanks, operator.node_pair,
             self.node_before, operator.rigid_slip, operator.previous_jacobian, columns, operator.sliding,
+            forms, forms_before,
         ))  # fmt: skip
 
     @property
     def bytes(self) -> int:
         """Size of the arrays of the contact operator."""
-        return sum(array.nbytes for array in self.in_memory[1])
+        whole = sum(array.nbytes for array in self.in_memory[1])
+        return whole if not self.operator.stored.address else int(SHARE_FORMED * whole)
 
     def with_gap(self, gap: np.ndarray) -> Position:
         """The same position with other gaps (n,), mm; what is known of it already is not found again."""
-        operator, (row, held) = replace(self.operator, gap=gap), self.in_memory
-        operator.__dict__.update(node_pair=self.operator.node_pair, on_drive_flanks=self.operator.on_drive_flanks)
+        operator, (row, held) = copy(self.operator), self.in_memory
+        # As `replace`, which would form all rows.
+        operator.__dict__.update(
+            gap=gap, node_pair=self.operator.node_pair, on_drive_flanks=self.operator.on_drive_flanks
+        )
         changed, row = replace(self, operator=operator), row.copy()
         row[GAP] = gap.ctypes.data
         changed.__dict__["in_memory"] = row, [*held, gap]

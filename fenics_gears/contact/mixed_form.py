@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from fenics_gears.contact.formed_rows import form_rows
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 
 # Unknowns up to which elimination in compiled code is faster than LAPACK.
@@ -31,8 +32,9 @@ class Equations(NamedTuple):
     `compliance` C (m, m), `jacobian` G (m, k) and `gap` (n,) of the contact; `slip_before` (n,): w_old, empty without
     friction.
 
-    `free_motion` (k,): how the load moves the drivetrain where only contact holds it, in which case one node at least
-    stays closed; empty where the drivetrain holds the load.
+    `rows`: address of what forms the rows of nodes that are closed for the first time (`contact.formed_rows`), 0 where
+    all are there. `free_motion` (k,): how the load moves the drivetrain where only contact holds it, in which case one
+    node at least stays closed; empty where the drivetrain holds the load.
     """
 
     stiffness: np.ndarray
@@ -43,6 +45,7 @@ class Equations(NamedTuple):
     slip_before: np.ndarray
     friction: float
     free_motion: np.ndarray
+    rows: int = 0
 
 
 class Iterate(NamedTuple):
@@ -70,7 +73,7 @@ def solve_sets(equations, iterate):
 
     Raises numpy.linalg.LinAlgError where the sets leave the system singular.
     """
-    stiffness, load, compliance, jacobian, gap, slip_before, friction, _ = equations
+    stiffness, load, compliance, jacobian, gap, slip_before, friction, _, unformed = equations
     status, forces, coordinates, _ = iterate
     n, k, tangential = len(gap), len(load), len(slip_before) > 0
     # Rows of normal forces of closed nodes, then of tangential ones of those that stick.
@@ -81,6 +84,8 @@ def solve_sets(equations, iterate):
             if tangential:
                 factors[closed] = _slip_factor(status[node], friction)
             closed += 1
+    if unformed != 0:
+        form_rows(unformed, rows[:closed])
     size = closed
     if tangential:
         for b in range(closed):
@@ -198,12 +203,35 @@ def relative_displacement(equations, iterate, first, end):
     forces, coordinates = iterate.forces, iterate.coordinates
     for i in range(first, end):
         displacement[i] = product(jacobian[i], coordinates)
-    for j in range(len(forces)):
-        force = forces[j]
-        if force != 0.0:
-            row = compliance[j]
-            for i in range(first, end):
-                displacement[i] -= row[i] * force
+    subtract_rows(displacement[first:end], compliance, first, forces)
+
+
+@njit(cache=True)
+def subtract_rows(total, matrix, first, factors):
+    """Subtract the rows of a matrix (m, l) that have a factor (m,) from a total (n,), each from its column `first` on
+    and times its factor."""
+    places, count, n, end = np.empty(len(factors), dtype=np.int64), 0, np.uint64(len(total)), first + len(total)
+    for j in range(len(factors)):
+        if factors[j] != 0.0:
+            places[count] = j
+            count += 1
+    loaded, four = places[:count], count - count % 4
+    # Four at a time, so that the total is read and written less; unsigned places need no look for a negative index.
+    for at in range(0, four, 4):
+        a, b, c, d = loaded[at], loaded[at + 1], loaded[at + 2], loaded[at + 3]
+        row_a, row_b, row_c, row_d = (
+            matrix[a, first:end],
+            matrix[b, first:end],
+            matrix[c, first:end],
+            matrix[d, first:end],
+        )
+        f_a, f_b, f_c, f_d = factors[a], factors[b], factors[c], factors[d]
+        for i in range(n):
+            total[i] -= row_a[i] * f_a + row_b[i] * f_b + row_c[i] * f_c + row_d[i] * f_d
+    for j in loaded[four:]:
+        row, factor = matrix[j, first:end], factors[j]
+        for i in range(n):
+            total[i] -= row[i] * factor
 
 
 @njit(cache=True, inline="always")

@@ -58,7 +58,7 @@ def _tangents(equations, iterate):
 def _update_status(equations, iterate, new, r_scale, rule):
     """Put the new sets by the projections into `new` (n,); `r` per node from the elastic compliance. Returns whether
     they changed."""
-    _, _, compliance, _, gap, slip_before, friction, _ = equations
+    _, _, compliance, _, gap, slip_before, friction, _, _ = equations
     status, forces, _, displacement = iterate
     n, tangential = len(gap), len(slip_before) > 0
     changed = False
@@ -67,7 +67,9 @@ def _update_status(equations, iterate, new, r_scale, rule):
         if tangential and pressed:
             # A node in a set satisfies that set's equation exactly; round-off must not decide in its place.
             slip = 0.0 if status[j] == STICK else displacement[n + j] + slip_before[j]
-            trial = forces[n + j] + r_scale / compliance[n + j, n + j] * slip
+            # Of an open node, whose rows need not be formed, only the sign counts.
+            r_t = r_scale / compliance[n + j, n + j] if status[j] != OPEN else 1.0
+            trial = forces[n + j] + r_t * slip
         new[j] = next_status(status[j], forces[j], pressed, tangential, trial, friction, rule != ALL_AT_ONCE)
         if new[j] != status[j]:
             if rule == ONE_AT_A_TIME and changed:
@@ -103,7 +105,7 @@ def measure(residual, equations, iterate):
     Equilibrium is solved, not iterated: a residual within the round-off of a row's terms is no violation. A slip
     against its friction counts in proportion to that friction, as far as it exceeds the round-off of the forces.
     """
-    _, load, _, _, gap, slip_before, friction, _ = equations
+    _, load, _, _, gap, slip_before, friction, _, _ = equations
     status, forces, coordinates, displacement = iterate
     n, penetration, tension, excess, stick_slip = len(gap), 0.0, 0.0, 0.0, 0.0
     for j in range(n):

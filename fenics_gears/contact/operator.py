@@ -12,13 +12,16 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
 from math import cos, sin
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from fenics_gears.contact.face import Face, one_slice
 from fenics_gears.contact.tooth_pair import DRIVE, PairNodes
 from fenics_gears.geometry.pair import GearPair
+
+if TYPE_CHECKING:
+    from fenics_gears.contact.formed_rows import FormedRows
 
 # The centre coordinates q of the model: seven in the plane. Rotations are carried as arc lengths rb1 phi1, rb2 phi2
 # (mm), so that every coordinate is a length and every row a force, and no equation is scaled against another. The
@@ -30,6 +33,31 @@ FACE_COORDINATES = ("axial_1", "tilt_x1", "tilt_y1", "axial_2", "tilt_x2", "tilt
 COORDINATES = CENTRE_COORDINATES + FACE_COORDINATES
 NO_NODES_BEFORE = np.empty(0, dtype=np.int64)
 IN_THE_PLANE = one_slice(1.0)
+
+
+class _FormedWhenRead:
+    """A compliance of an operator, all of whose rows are formed when it is read (`contact.formed_rows`)."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    def __set__(self, operator: ContactOperator, compliance: np.ndarray | FormedRows | None) -> None:
+        operator.__dict__[self._name] = compliance
+
+    def __get__(self, operator: ContactOperator | None, owner: type | None = None):
+        if operator is None:
+            # The field has no default.
+            raise AttributeError(self._name)
+        held = operator.__dict__[self._name]
+        return held if held is None or isinstance(held, np.ndarray) else held.whole()
+
+
+class Stored(NamedTuple):
+    """A compliance as it lies in memory, by rows (m, m'), mm/N, those of nodes that were closed at least; and the
+    `address` of what forms the others, 0 where all are there."""
+
+    rows: np.ndarray
+    address: int = 0
 
 
 @dataclass(frozen=True)
@@ -51,11 +79,11 @@ class ContactOperator:
     pairs: tuple[PairNodes, ...]
     base_radii: tuple[float, float]
     normal_lever_arms: tuple[np.ndarray, np.ndarray]
-    compliance: np.ndarray
+    compliance: np.ndarray = _FormedWhenRead()  # type: ignore[assignment]
     jacobian: np.ndarray
     gap: np.ndarray
     rigid_slip: np.ndarray | None
-    previous_compliance: np.ndarray | None
+    previous_compliance: np.ndarray | None = _FormedWhenRead()  # type: ignore[assignment]
     previous_jacobian: np.ndarray | None
     dependent_rows: int = 0
     face: Face = IN_THE_PLANE
@@ -65,6 +93,22 @@ class ContactOperator:
     def nodes(self) -> int:
         """Number of contact nodes."""
         return len(self.gap)
+
+    @property
+    def stored(self) -> Stored:
+        """The compliance as far as its rows are formed."""
+        held = self.__dict__["compliance"]
+        return Stored(held) if isinstance(held, np.ndarray) else Stored(held.matrix, held.address)
+
+    @property
+    def stored_before(self) -> Stored | None:
+        """The previous compliance by columns, (m before, n), as far as they are formed; None without friction."""
+        held = self.__dict__["previous_compliance"]
+        if held is None:
+            return None
+        return (
+            Stored(np.ascontiguousarray(held.T)) if isinstance(held, np.ndarray) else Stored(held.matrix, held.address)
+        )
 
     @cached_property
     def node_pair(self) -> np.ndarray:
@@ -182,8 +226,8 @@ class Response(NamedTuple):
     `sliding` of a ContactOperator; `normal_lever_arms` and `previous_jacobian`, over all coordinates, where they are
     not those of flanks that slide along the line of action."""
 
-    compliance: np.ndarray
-    previous_compliance: np.ndarray | None = None
+    compliance: np.ndarray | FormedRows
+    previous_compliance: np.ndarray | FormedRows | None = None
     dependent_rows: int = 0
     normal_lever_arms: tuple[np.ndarray, np.ndarray] | None = None
     previous_jacobian: np.ndarray | None = None
@@ -203,7 +247,9 @@ def contact_operator(
     lines, angles = lines_of(pairs, radii), turned(gears, passage.advance)
     arms, slip, before, earlier = response.normal_lever_arms or lines.lever_arms, None, None, response.previous_jacobian
     if frictional:
-        slip, before = slip_of_rigid_flanks(lines, angles), np.asfortranarray(response.previous_compliance)
+        slip, before = slip_of_rigid_flanks(lines, angles), response.previous_compliance
+        if isinstance(before, np.ndarray):
+            before = np.asfortranarray(before)
         if earlier is None:
             earlier = earlier_tangential_jacobian(lines, radii, angles, face)
         earlier = earlier.take(coordinates, axis=1)
@@ -211,11 +257,11 @@ def contact_operator(
         pairs=pairs,
         base_radii=radii,
         normal_lever_arms=arms,
-        compliance=response.compliance,
+        compliance=response.compliance,  # type: ignore[arg-type]
         jacobian=displacement_jacobian(pairs, radii, arms, frictional, lines, face).take(coordinates, axis=1),
         gap=over_nodes(pairs, "gap") * face.cosine,
         rigid_slip=slip,
-        previous_compliance=before,
+        previous_compliance=before,  # type: ignore[arg-type]
         previous_jacobian=earlier,
         dependent_rows=response.dependent_rows,
         face=face,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fenics_gears.contact.formed_rows import form_rows
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, Tolerance
 from fenics_gears.contact.mixed_form import Equations, Iterate
 from fenics_gears.contact.newton import (
@@ -53,6 +54,7 @@ class StepProblem:
     free_motion: np.ndarray
     tolerance: Tolerance
     free_words: str = ""
+    rows: int = 0
 
     def residual(
         self, status: np.ndarray, forces: np.ndarray, coordinates: np.ndarray, displacement: np.ndarray
@@ -119,6 +121,8 @@ def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> I
     """
     newton, through, larger, smaller, from_zero, one_by_one, fixed_point = NEWTON_AND_FALLBACKS
     yield newton, lambda: run_newton(problem, status, max_iterations)
+    # The others, and what explains their failure, read the whole compliance.
+    form_rows(problem.rows, np.arange(len(problem.gap)))
     if len(problem.slip_before):
         yield through, lambda: run_newton(problem, status, max_iterations, rule=THROUGH_STICK)
         yield larger, lambda: run_newton(problem, status, max_iterations, r_scale=10.0)

@@ -88,7 +88,7 @@ def uncertified(stiffness: np.ndarray, friction: float, solved: Iterable) -> int
         times[key]
         for (key, (operator, closed, sigma)), certified in zip(sets.items(), plain)
         if not certified
-        and not is_only_solution(stiffness, operator.compliance, operator.jacobian, friction, closed, sigma)
+        and not is_only_solution(stiffness, operator.stored.rows, operator.jacobian, friction, closed, sigma)
     )
 
 
@@ -112,7 +112,7 @@ def _plainly_only(stiffness: np.ndarray, friction: float, sets: list[tuple]) -> 
             nodes = np.flatnonzero(closed)
             both = np.concatenate((nodes, len(closed) + nodes))
             compliance[i], moved[i], share[i] = (
-                operator.compliance[nodes[:, None], both],
+                operator.stored.rows[nodes[:, None], both],
                 operator.jacobian[both],
                 friction * sigma[nodes],
             )

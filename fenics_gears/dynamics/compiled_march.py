@@ -12,8 +12,9 @@ import numpy as np
 from numba import njit
 
 from fenics_gears.contact.addresses import arrays_of
+from fenics_gears.contact.formed_rows import form_rows
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.mixed_form import Equations, Iterate, product
+from fenics_gears.contact.mixed_form import Equations, Iterate, product, subtract_rows
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton
 from fenics_gears.contact.rigid_step import Sides, rigid_step
 from fenics_gears.dynamics.average_acceleration import advanced as advanced_by_average
@@ -129,12 +130,12 @@ def _solve_steps(done, end, block, packed, durations, loads, cycle_before):
         if len(contact.rigid_slip):
             forces_before = steps.forces[kinds * starts[s - 1] : kinds * starts[s]]
             slip_before = slip_at_start(
-                contact.rigid_slip, contact.previous_jacobian, contact.previous_columns, states[s - 1, 0],
-                forces_before,
+                contact.rigid_slip, contact.previous_jacobian, contact.previous_columns, contact.rows_before,
+                states[s - 1, 0], forces_before,
             )  # fmt: skip
         equations = Equations(
             effective, load, contact.compliance, contact.jacobian, contact.gap, slip_before, motion.friction,
-            _turned(motion.free_motion, outer),
+            _turned(motion.free_motion, outer), contact.rows,
         )  # fmt: skip
         both = slice(kinds * starts[s], kinds * starts[s + 1])
         iterate = Iterate(nodes, steps.forces[both], coordinates, steps.displacement[both])
@@ -189,22 +190,19 @@ def begin(status, before, carried, now_then, before_then):
 
 
 @njit(cache=True)
-def slip_at_start(rigid_slip, previous_jacobian, columns, position, forces):
+def slip_at_start(rigid_slip, previous_jacobian, columns, rows_before, position, forces):
     """w_old of [25] (n,), mm: rigid slip less the tangential displacement that the same material points had a step
     before.
 
-    Arrays as of ContactOperator, `columns` (m before, n) of the `previous_compliance`; `position` (k,) and `forces` of
-    the step before.
+    Arrays as of ContactOperator, `columns` (m before, n) of the `previous_compliance`, with those loaded formed at the
+    address `rows_before`; `position` (k,) and `forces` of the step before.
     """
     displaced = np.empty(len(rigid_slip))
     for node in range(len(displaced)):
         displaced[node] = product(previous_jacobian[node], position)
-    for loaded in range(len(forces)):
-        force = forces[loaded]
-        if force != 0.0:
-            column = columns[loaded]
-            for node in range(len(displaced)):
-                displaced[node] -= column[node] * force
+    if rows_before != 0:
+        form_rows(rows_before, np.flatnonzero(forces[: len(forces) // 2]))
+    subtract_rows(displaced, columns, 0, forces)
     for node in range(len(displaced)):
         displaced[node] = rigid_slip[node] - displaced[node]
     return displaced

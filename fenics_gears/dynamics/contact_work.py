@@ -176,7 +176,8 @@ def _by_shape(then, now, rows):
         if p_0 != 0.0:
             for column in range(len(rows_0)):
                 j_0, j_1 = rows_0[column], rows_1[column]
-                work -= p_0 * (compliance_1[i_1, j_1] - compliance_0[i_0, j_0]) * forces_1[j_1]
+                # By rows of loaded nodes: others need not be formed.
+                work -= p_0 * (compliance_1[j_1, i_1] - compliance_0[i_0, j_0]) * forces_1[j_1]
     return 0.5 * work
 
 

@@ -78,13 +78,14 @@ def _holder(cycle: Cycle, friction: float, tolerance: Tolerance, slid: float) ->
         problem = StepProblem(
             unit,
             np.zeros(1),
-            operator.compliance,
+            operator.stored.rows,
             np.zeros((len(operator.jacobian), 1)),
             gap,
             slip_before,
             friction,
             nothing,
             tolerance,
+            rows=operator.stored.address,
         )
         solution = cycle.solve(position, problem, cold_start(gap, operator.node_pair), None)
         return StepSolution(
@@ -110,7 +111,7 @@ def _contact_stiffness(position: Position, solution: StepSolution) -> np.ndarray
     """Stiffness (k, k), N/mm, of the contact along its normals."""
     closed = np.flatnonzero(solution.status != OPEN)
     jacobian = position.operator.jacobian[closed]
-    return jacobian.T @ np.linalg.solve(position.operator.compliance[np.ix_(closed, closed)], jacobian)
+    return jacobian.T @ np.linalg.solve(position.operator.stored.rows[np.ix_(closed, closed)], jacobian)
 
 
 def _velocity(drivetrain: Drivetrain, left: np.ndarray, time_step: float) -> np.ndarray:

@@ -186,10 +186,10 @@ class Stepper:
         operator = position.operator
         slip_before = NO_SLIP
         if operator.rigid_slip is not None:
-            columns = np.ascontiguousarray(operator.previous_compliance.T)
             slip_before = slip_at_start(
-                operator.rigid_slip, operator.previous_jacobian, columns, last.state.position, last.solution.forces
-            )
+                operator.rigid_slip, operator.previous_jacobian, *operator.stored_before, last.state.position,
+                last.solution.forces,
+            )  # fmt: skip
         status = np.empty(operator.nodes, dtype=np.int8)
         begin(status, last.solution.status, position.node_before, self.cycle_before(step), self.cycle_before(last.step))
         solution = self._solve(scheme, last.state, position, slip_before, status, step, last.solution)
@@ -210,9 +210,10 @@ class Stepper:
         """The step of `scheme` from `state`, solved from the sets `status` (n,); `last`: the solution before, if there
         is one."""
         operator, load = position.operator, scheme.load(state, self.load(step))
+        compliance, rows = operator.stored
         problem = StepProblem(
-            scheme.stiffness, load, operator.compliance, operator.jacobian, operator.gap, slip_before,
-            self.friction, self._moved_freely(scheme, load), self.tolerance, self._free_words,
+            scheme.stiffness, load, compliance, operator.jacobian, operator.gap, slip_before,
+            self.friction, self._moved_freely(scheme, load), self.tolerance, self._free_words, rows,
         )  # fmt: skip
         try:
             return self.cycle.solve(position, problem, status, last)

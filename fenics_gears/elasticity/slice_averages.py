@@ -42,10 +42,10 @@ def slice_averages(heights: np.ndarray, order: int, positions: np.ndarray, width
 
 
 def on_slices(blocks: np.ndarray, weights: np.ndarray, flanks: int = 1) -> np.ndarray:
-    """Compliance (k, D, D) of teeth on the nodes of layers as that (2 k - 1, D', D') on slices, of every tooth from k -
-    1 behind to k - 1 ahead.
+    """Compliance (k, D, D) of teeth on the nodes of layers as that on slices, of every tooth from k - 1 behind to k - 1
+    ahead: (2 k - 1, F S, F S, d, d), between the d dofs of one flank's section in a slice and those of another.
 
-    `weights` (S, h) of `slice_averages`; dofs by flank, then height or slice, then the section's own.
+    `weights` (S, h) of `slice_averages`; dofs of layers by flank, then height, then the section's own.
     """
     slices, heights = weights.shape
     of_section = blocks.shape[1] // (heights * flanks)
@@ -53,6 +53,7 @@ def on_slices(blocks: np.ndarray, weights: np.ndarray, flanks: int = 1) -> np.nd
     found = []
     for block in blocks:
         averaged = np.einsum("sh,fhagkb->fsagkb", weights, block.reshape(*shape, *shape), optimize=True)
-        averaged = np.einsum("tk,fsagkb->fsagtb", weights, averaged, optimize=True)
-        found.append(averaged.reshape(flanks * slices * of_section, -1))
-    return np.stack([*(each.T for each in found[:0:-1]), *found])
+        averaged = np.einsum("tk,fsagkb->fsgtab", weights, averaged, optimize=True)
+        found.append(averaged.reshape(flanks * slices, flanks * slices, of_section, of_section))
+    # What is read together at a position, two sections, lies together.
+    return np.stack([*(each.transpose(1, 0, 3, 2) for each in found[:0:-1]), *found])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fenics_gears.contact.mesh_cycle import SHARE_FORMED
 from fenics_gears.contact.places import face_places
 from fenics_gears.contact.window import flank_ends, node_offsets
 from fenics_gears.elasticity.face.cost import expected_memory, expected_size, is_iterative
@@ -19,13 +20,12 @@ SOLVED_UNKNOWN = 4e-7
 SOLVED_BY_GRADIENTS = 3e-5
 # Seconds at a position of each tooth pair in a slice and of the square of contact nodes; of a step, of their square and
 # their cube (elimination).
-PAIR_IN_SLICE, NODES_SQUARE, STEP_NODES_SQUARE, STEP_NODES_CUBE = 5e-4, 7e-9, 1.5e-9, 5e-12
+PAIR_IN_SLICE, NODES_SQUARE, STEP_NODES_SQUARE, STEP_NODES_CUBE = 5e-4, 3.5e-9, 1.5e-9, 5e-12
 # With friction: of a position, of a step.
 POSITION_WITH_FRICTION, STEP_WITH_FRICTION = 3.5, 2.5
 # Nodes of a section's flank where body elements are 0.35 modules, and the power by which they grow as elements become
-# smaller; memory of the contact operators with the copies that building and marching make, in that of the operators
-# (measured).
-FLANK_NODES, POWER, WITH_COPIES = 17.0, 0.6, 1.25
+# smaller.
+FLANK_NODES, POWER = 17.0, 0.6
 
 
 def contact_nodes(model: Model, phases: int = 4) -> tuple[float, float]:
@@ -95,8 +95,8 @@ def face_cost(model: Model, sections: ExpectedCost, ranks: int = 1) -> ExpectedC
     step = (STEP_NODES_SQUARE * nodes**2 + STEP_NODES_CUBE * nodes**3) * (STEP_WITH_FRICTION if friction else 1.0)
     if model.scene.output.root_stress:
         held += ON_FLANKS * positions * nodes * (2.0 if friction else 1.0)
-    # Normals alone, or both kinds and by the forces of the step before.
-    operators = WITH_COPIES * 8.0 * positions * nodes**2 * (6.0 if friction else 1.0)
+    # Normals alone, or both kinds and by the forces of the step before; as many rows as are closed at some time.
+    operators = SHARE_FORMED * 8.0 * positions * nodes**2 * (6.0 if friction else 1.0)
     return ExpectedCost(
         condensing,
         positions * position + model.steps * (step + stress_step),

@@ -5,10 +5,14 @@ from __future__ import annotations
 
 import ctypes
 import functools
+import mmap
 import os
 import re
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
+
+import numpy as np
 
 from fenics_gears.errors import SceneError
 from fenics_gears.system.job import ranks_on_machine
@@ -48,6 +52,17 @@ def usual_memory() -> float:
 def _named_or(of_machine: Callable[[], float]) -> float:
     given = os.environ.get(MEMORY_VARIABLE)
     return size_in_bytes(given, MEMORY_VARIABLE, "8 GB") if given else SHARE * of_machine() / ranks_on_machine()
+
+
+def pages(rows: int, columns: int) -> np.ndarray:
+    """A matrix of zeros that takes memory where it is written, by pages of a few kilobytes, and gives it back as soon
+    as nobody holds it."""
+    held = mmap.mmap(-1, max(8 * rows * columns, 1), flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+    # Pages of megabytes would hold much that is never written. Kernels without such pages refuse, other systems than
+    # Linux have no such call.
+    with suppress(OSError, AttributeError):
+        held.madvise(mmap.MADV_NOHUGEPAGE)
+    return np.frombuffer(held, count=rows * columns).reshape(rows, columns)
 
 
 def give_back() -> None:

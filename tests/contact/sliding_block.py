@@ -9,6 +9,7 @@ import numpy as np
 
 from fenics_gears.contact.mesh import MeshTraits
 from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.operator import Stored
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution, solve_step
 from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.drivetrain import Drivetrain
@@ -39,6 +40,7 @@ class SlidingBlock:
             nodes=n, compliance=problem.compliance, jacobian=problem.jacobian, gap=problem.gap,
             rigid_slip=(step - before) * problem.slip_before,
             previous_compliance=problem.compliance[n:], previous_jacobian=problem.jacobian[n:],
+            stored=Stored(problem.compliance), stored_before=Stored(np.ascontiguousarray(problem.compliance[n:].T)),
         )  # fmt: skip
         self.solved.append(step - before)
         return Position(operator, np.arange(n))

@@ -12,6 +12,7 @@ from tests.frozen_gears import frozen_marcher
 from fenics_gears.contact.errors import NoStaticEquilibrium
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.operator import Stored
 from fenics_gears.contact.step_solver import solve_step
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher
@@ -64,7 +65,7 @@ def test_a_position_where_nothing_can_touch_is_named(paper_scene, paper_pair, st
     marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, 1e-4)
     start, k = marcher.start(), len(shafts.coordinates)
     empty = SimpleNamespace(
-        nodes=0, compliance=np.zeros((0, 0)), jacobian=np.zeros((0, k)), gap=np.empty(0), rigid_slip=None,
+        nodes=0, stored=Stored(np.zeros((0, 0))), jacobian=np.zeros((0, k)), gap=np.empty(0), rigid_slip=None,
     )  # fmt: skip
     marcher.cycle.position = lambda step: Position(empty, np.empty(0, dtype=np.int64))
     with pytest.raises(NoStaticEquilibrium) as failure:

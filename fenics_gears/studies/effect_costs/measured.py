@@ -180,7 +180,7 @@ class Bench:
         self._shorter = model_of(replace(subset.scene, motion=shorter))
         self._step_times: list[float] = []
         operators = [self.cycle.position(step).operator for step in range(self.cycle.steps)]
-        self.bytes = sum(operator.compliance.nbytes for operator in operators)
+        self.bytes = sum(operator.stored.rows.nbytes for operator in operators)
         self._contact_rows = sum(len(operator.jacobian) for operator in operators) / len(operators)
 
     def _build(self) -> tuple[tuple, Cycle, float]:
