@@ -139,7 +139,7 @@ def _joined_through_cuts(
         angle, weight = _harmonic(harmonic, teeth)
         stiffness = same + np.cos(angle) * differing
         stiffness[:even, even:] = -np.sin(angle) * differing[:even, even:]
-        # Its transpose is in LAPACK's order, and is read from the upper triangle alone.
+        # Its upper triangle alone is read.
         factor = definite_factor(np.asfortranarray(stiffness), "a harmonic")
         own, across = np.cos(0.5 * angle), np.sin(0.5 * angle)
         moved = np.array(motions, order="F")
