@@ -144,10 +144,6 @@ class Steps:
             self.parts.get(place, ()),
         )
 
-    def forces_of(self, place: int) -> np.ndarray:
-        """The forces (n,) or (2 n,), N, of one step."""
-        return self.forces[self._slices(place)[1]]
-
     def __len__(self) -> int:
         return len(self.positions)
 

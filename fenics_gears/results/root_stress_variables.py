@@ -88,18 +88,20 @@ class RootStress:
         for i, position in enumerate(nodes.steps.positions):
             alike[position.nodes, position.index].append(i)
         asked: dict[tuple[int, int], list[tuple[np.ndarray, np.ndarray, np.ndarray]]] = defaultdict(list)
+        starts, all_forces = nodes.steps.kinds * nodes.steps.starts, nodes.steps.forces
         for steps in map(np.array, alike.values()):
             teeth, gears = self.on_flanks(nodes.steps.positions[steps[0]])
             slots = nodes.slot_of(steps[:, None], teeth)
             values[steps[:, None], :, slots] = at_rest
-            contact = np.stack([nodes.steps.forces_of(step) for step in steps], axis=1)
+            contact = all_forces[starts[steps] + np.arange(starts[steps[0] + 1] - starts[steps[0]])[:, None]]
             for gear, (sectors, matrix) in enumerate(gears):
-                for sector, forces in zip(sectors, (matrix @ contact).reshape(len(sectors), -1, len(steps))):
-                    loaded = np.flatnonzero(forces.any(axis=0))
-                    for index, slot in zip(teeth.tolist(), slots.T) if len(loaded) else ():
-                        asked[gear, SENSE_OF_TEETH[gear] * index - sector].append(
-                            (steps[loaded], slot[loaded], forces[:, loaded].T)
-                        )
+                forces = (matrix @ contact).reshape(len(sectors), -1, len(steps))
+                for sector, loaded, own in zip(sectors, forces.any(axis=1), forces):
+                    some = loaded.nonzero()[0]
+                    if len(some):
+                        own, these, places = own[:, some].T, steps[some], slots[some]
+                        for index, slot in zip(teeth.tolist(), places.T):
+                            asked[gear, SENSE_OF_TEETH[gear] * index - sector].append((these, slot, own))
         for (gear, ahead), found in asked.items():
             steps, slots, forces = (np.concatenate(each) for each in zip(*found))
             stress = forces @ self._known(gear, ahead).reshape(slices * points, -1).T
