@@ -14,7 +14,7 @@ from numba import njit
 from fenics_gears.contact.addresses import arrays_of
 from fenics_gears.contact.formed_rows import form_rows
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.mixed_form import Equations, subtract_rows
+from fenics_gears.contact.mixed_form import Equations
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton
 from fenics_gears.dynamics.average_acceleration import advanced as advanced_by_average
 from fenics_gears.dynamics.average_acceleration import history as average_history
@@ -168,7 +168,9 @@ def slip_at_start(rigid_slip, previous_jacobian, columns, rows_before, position,
             displaced[node] += previous_jacobian[node, c] * position[c]
     if rows_before != 0:
         form_rows(rows_before, np.flatnonzero(forces[: len(forces) // 2]))
-    subtract_rows(displaced, columns, 0, forces)
+    for loaded in np.flatnonzero(forces):
+        for node in range(len(displaced)):
+            displaced[node] -= columns[loaded, node] * forces[loaded]
     return rigid_slip - displaced
 
 
