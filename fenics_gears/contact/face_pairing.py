@@ -160,17 +160,17 @@ class FacePairing:
 
     def _dependent(self, fine: Fine, begins: np.ndarray, rows: np.ndarray) -> int:
         """Dependent rows of all slices; sections that have some get a thin layer."""
-        found = 0
-        for begin, count in zip(begins, rows):
-            if begin >= 0:
-                section = fine.numbers[begin : begin + count**2].reshape(count, count)
-                section[:], dependent = of_full_rank(section)
-            found += dependent
         if np.isnan(fine.numbers.sum()):
             raise ComputationError(
                 "compliance over the face: flanks touch that are further apart than the sections' compliance is known;"
                 " ask flank_compliance for a larger reach"
             )
+        found = dependent = 0
+        for begin, count in zip(begins, rows):
+            if begin >= 0:
+                section = fine.numbers[begin : begin + count**2].reshape(count, count)
+                section[:], dependent = of_full_rank(section)
+            found += dependent
         return found
 
 

@@ -124,10 +124,10 @@ def form_rows(address, nodes):
     table = carray(to_integer(address), (ARRAYS, 6))
     formed = carray(to_flag(table[-1, 0]), table[-1, 1])
     missing = nodes[~formed[nodes]]
-    if not len(missing):
-        return
     source = _source(table)
     rows, columns = source.rows, source.columns
+    if not len(missing) or not len(columns.group):
+        return
     widest, under = rows.on_gears[:, WIDTH].max(), 0
     for gear in range(2):
         last = columns.on_gears[gear, :, -1]

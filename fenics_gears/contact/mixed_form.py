@@ -203,35 +203,12 @@ def relative_displacement(equations, iterate, first, end):
     forces, coordinates = iterate.forces, iterate.coordinates
     for i in range(first, end):
         displacement[i] = product(jacobian[i], coordinates)
-    subtract_rows(displacement[first:end], compliance, first, forces)
-
-
-@njit(cache=True)
-def subtract_rows(total, matrix, first, factors):
-    """Subtract the rows of a matrix (m, l) that have a factor (m,) from a total (n,), each from its column `first` on
-    and times its factor."""
-    places, count, n, end = np.empty(len(factors), dtype=np.int64), 0, np.uint64(len(total)), first + len(total)
-    for j in range(len(factors)):
-        if factors[j] != 0.0:
-            places[count] = j
-            count += 1
-    loaded, four = places[:count], count - count % 4
-    # Four at a time, so that the total is read and written less; unsigned places need no look for a negative index.
-    for at in range(0, four, 4):
-        a, b, c, d = loaded[at], loaded[at + 1], loaded[at + 2], loaded[at + 3]
-        row_a, row_b, row_c, row_d = (
-            matrix[a, first:end],
-            matrix[b, first:end],
-            matrix[c, first:end],
-            matrix[d, first:end],
-        )
-        f_a, f_b, f_c, f_d = factors[a], factors[b], factors[c], factors[d]
-        for i in range(n):
-            total[i] -= row_a[i] * f_a + row_b[i] * f_b + row_c[i] * f_c + row_d[i] * f_d
-    for j in loaded[four:]:
-        row, factor = matrix[j, first:end], factors[j]
-        for i in range(n):
-            total[i] -= row[i] * factor
+    for j in range(len(forces)):
+        force = forces[j]
+        if force != 0.0:
+            row = compliance[j]
+            for i in range(first, end):
+                displacement[i] -= row[i] * force
 
 
 @njit(cache=True, inline="always")

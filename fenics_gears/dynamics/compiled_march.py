@@ -14,7 +14,7 @@ from numba import njit
 from fenics_gears.contact.addresses import arrays_of
 from fenics_gears.contact.formed_rows import form_rows
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.mixed_form import Equations, Iterate, product, subtract_rows
+from fenics_gears.contact.mixed_form import Equations, Iterate, product
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton
 from fenics_gears.contact.rigid_step import Sides, rigid_step
 from fenics_gears.dynamics.average_acceleration import advanced as advanced_by_average
@@ -202,7 +202,12 @@ def slip_at_start(rigid_slip, previous_jacobian, columns, rows_before, position,
         displaced[node] = product(previous_jacobian[node], position)
     if rows_before != 0:
         form_rows(rows_before, np.flatnonzero(forces[: len(forces) // 2]))
-    subtract_rows(displaced, columns, 0, forces)
+    for loaded in range(len(forces)):
+        force = forces[loaded]
+        if force != 0.0:
+            column = columns[loaded]
+            for node in range(len(displaced)):
+                displaced[node] -= column[node] * force
     for node in range(len(displaced)):
         displaced[node] = rigid_slip[node] - displaced[node]
     return displaced
