@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 
 from fenics_gears.contact.existence import explained
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, Tolerance
@@ -134,6 +135,16 @@ def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> I
         )
 
 
+@njit(cache=True)
+def _newton(equations, status, method, history, sets):
+    """`newton`, from plain tuples: of records numba looks through the types at each call, which takes as long as a
+    step."""
+    stiffness, load, compliance, jacobian, gap, slip_before, friction, free_motion = equations
+    r_scale, rule, length, force = method
+    found = Equations(stiffness, load, compliance, jacobian, gap, slip_before, friction, free_motion)
+    return newton(found, status, Method(r_scale, rule, length, force), history, sets)
+
+
 def run_newton(
     problem: StepProblem,
     status: np.ndarray,
@@ -149,9 +160,10 @@ def run_newton(
     current, equations = status.copy(), problem.equations
     if friction is not None:
         equations = equations._replace(friction=friction)
-    method = Method(r_scale, rule, problem.tolerance.length, problem.tolerance.force)
+    tolerance = problem.tolerance
     try:
-        result = newton(equations, current, method, history, sets)
+        method = (r_scale, rule, tolerance.length, tolerance.force)
+        result = _newton(tuple(equations), current, method, history, sets)
     except np.linalg.LinAlgError:
         done = int(np.sum(np.any(sets >= 0, axis=1)))
         zeros = np.zeros(len(problem.compliance))

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from fenics_gears.contact.mesh import Mesh, elastic_mesh
-from fenics_gears.contact.mesh_cycle import Cycle, Gaps, Opening
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.effects import from_effects
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
 from fenics_gears.model.model import Model
+from fenics_gears.simulation.gaps import gaps_of, removal_of_nodes
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
@@ -61,21 +60,19 @@ def mesh_cycle(model: Model, compliances: Compliances) -> Cycle:
     return cycle_of(model, whole_body_mesh(flanks, grid, model.resolution.steps_per_mesh_cycle, model.corner))
 
 
-def cycle_of(model: Model, mesh: Mesh, over_face: Callable[[Cycle], Opening] | None = None) -> Cycle:
-    """The contact equations of a mesh over the steps of the model, with what its effects add to the gaps from step to
-    step; `over_face`: what opens the flanks along a face."""
+def cycle_of(model: Model, mesh: Mesh) -> Cycle:
+    """The contact equations of a mesh over the steps of the model, with what opens its nodes."""
     cycle = Cycle(
         mesh, model.resolution.steps_per_mesh_cycle, model.drivetrain.indices, model.scene.friction is not None
     )
-    openings = () if over_face is None else (over_face(cycle),)
-    return cycle.with_gaps(Gaps(None, openings, tuple(from_effects(model.scene, "gaps", model))))
+    return cycle.with_gaps(gaps_of(model, cycle))
 
 
 def flanks_of(model: Model, compliances: Compliances) -> Flanks:
     """Both gears as contact in the plane sees them: a load over the common face spreads in a gear that is wider."""
-    pair = model.pair
+    pair, removal = model.pair, removal_of_nodes(model)
     if pair.effective_face_widths == (pair.face_width, pair.face_width):
-        return Flanks(pair, compliances, model.removal)
+        return Flanks(pair, compliances, removal)
     # Imported here: gears of one width have none.
     from fenics_gears.elasticity.overhang import with_overhang
 
@@ -84,4 +81,4 @@ def flanks_of(model: Model, compliances: Compliances) -> Flanks:
         with_overhang(body, gear, material, pair.face_width / width)
         for body, gear, material, width in zip(compliances, gears, materials, pair.effective_face_widths)
     )
-    return Flanks(pair, (pinion, wheel), model.removal)
+    return Flanks(pair, (pinion, wheel), removal)

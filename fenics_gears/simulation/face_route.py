@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
+from fenics_gears.contact.face_mesh import face_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.elasticity.cache import Cache
@@ -12,6 +12,7 @@ from fenics_gears.model.face_cost import by_gradients
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
 from fenics_gears.simulation.elastic_route import Compliances, cycle_of, gear_compliances
+from fenics_gears.simulation.gaps import removal_of_nodes
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
@@ -50,6 +51,7 @@ def gear_body(model: Model, name: str, reach: Reach, cache: Cache | None, job: J
 def face_cycle(model: Model, sections: Compliances, bodies: Bodies) -> Cycle:
     """The contact operators of one mesh cycle over the face."""
     mesh = face_mesh(
-        Flanks(model.pair, sections, model.removal), bodies, model.face, model.resolution.contact_grid, model.corner
-    )
-    return cycle_of(model, mesh, lambda cycle: opening_over_face(cycle, model.face_opening, model.coast_face_opening))
+        Flanks(model.pair, sections, removal_of_nodes(model)), bodies, model.face, model.resolution.contact_grid,
+        model.corner,
+    )  # fmt: skip
+    return cycle_of(model, mesh)
