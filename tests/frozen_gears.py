@@ -18,7 +18,7 @@ GRID = ContactGrid(length=1.5, nodes=20)
 class Frozen:
     """The same position of a cycle at every step; nothing slides."""
 
-    face = None
+    face, alike = None, True
 
     def __init__(self, cycle, step):
         position = cycle.position(step)
@@ -39,6 +39,10 @@ class Frozen:
             cycle.pair,
             replace(cycle.traits, divisible=False),
         )
+
+    def beside(self, kind):
+        """Nothing is known of other runs."""
+        return kind()
 
     def position(self, step):
         """The one position."""

@@ -19,6 +19,12 @@ from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
 # Gap (k,), mm along the line of action, between flanks at heights z (k,), mm, and positions (k,), mm from T1.
 OverFace = Callable[[np.ndarray, np.ndarray], np.ndarray]
+# Of each pair's line of contact in its slice (p,): the flank, the height (mm), where it is on the path (mm from T1).
+OnLines = tuple[np.ndarray, np.ndarray, np.ndarray]
+
+
+class LinesOfContact(dict[float, OnLines]):
+    """Those of the positions of a cycle, whatever opens them."""
 
 
 def face_mesh(
@@ -67,11 +73,16 @@ def opening_over_face(cycle: Cycle, drive: OverFace, coast: OverFace | None = No
         xi = pair.path_start + (phase + place.index) * pair.base_pitch + face.shifts[place.slice]
         return (contact_roll_angles if place.flank == DRIVE else coast_roll_angles)(pair, xi)[0]
 
-    def opening(position: Position) -> np.ndarray:
+    def lines(position: Position) -> OnLines:
         places, phase = [pairs.place for pairs in position.operator.pairs], position.index / cycle.steps
         flanks, heights = (np.array([getattr(place, name) for place in places]) for name in ("flank", "height"))
-        along = pair.pinion.base_radius * np.array([roll(place, phase) for place in places])
-        found = np.zeros(len(places))
+        return flanks, heights, pair.pinion.base_radius * np.array([roll(place, phase) for place in places])
+
+    lines_of = PerPosition(lines, cycle.beside(LinesOfContact))
+
+    def opening(position: Position) -> np.ndarray:
+        flanks, heights, along = lines_of(position)
+        found = np.zeros(len(flanks))
         for flank, over_face in ((DRIVE, drive), (COAST, coast)):
             if over_face is not None:
                 own = flanks == flank

@@ -2,7 +2,8 @@
 
 Steps are counted from phase 0, where a new tooth pair reaches the theoretical start of contact; step `i` stands at
 phase `i / steps`. Where all teeth are alike, the equations at a phase are the same in every cycle; only the pairs'
-numbers move on. What opens the nodes further is added to their gaps and changes nothing else.
+numbers move on. What opens the nodes further is added to their gaps and changes nothing else. Runs that differ in
+gaps alone have all operators in common, also those of places between steps that are asked for again.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import inf
+from math import ceil, inf
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -29,6 +30,8 @@ from fenics_gears.contact.tooth_pair import PairNodes
 SHARE_KEPT, SHARE_OF_A_BLOCK = 0.7, 0.12
 # Of an operator whose rows are formed when nodes are closed.
 SHARE_FORMED = 0.3
+# Places between steps that runs have in common divide a step by so many.
+COMMON_PLACES = 64
 
 
 @dataclass(frozen=True)
@@ -78,15 +81,16 @@ class Position:
 
 @dataclass
 class Kept:
-    """How much memory (bytes) operators may take and the kept ones do; those beyond are made again each time the cycle
-    comes round."""
+    """How much memory (bytes) operators may take and the kept ones do, `beside` those of other cycles; what is beyond
+    is made again each time the cycle comes round."""
 
     most: float = inf
     taken: float = 0.0
+    beside: float = 0.0
 
     def takes(self, size: float) -> bool:
         """Whether there is room for this many bytes more, which are then counted."""
-        if self.taken + size > SHARE_KEPT * self.most:
+        if self.beside + self.taken + size > SHARE_KEPT * self.most:
             return False
         self.taken += size
         return True
@@ -95,9 +99,14 @@ class Kept:
 Value = TypeVar("Value")
 
 
+def in_common(place: float) -> bool:
+    """Whether a place, in steps, is one that several runs ask for: a step, or one of few between steps."""
+    return place * COMMON_PLACES % 1.0 == 0.0
+
+
 class PerPosition(Generic[Value]):
-    """A function of the position in the mesh cycle alone, called once for each whole step; `known`: its values so far,
-    which functions alike may share."""
+    """A function of the position in the mesh cycle alone, called once for each place in common; `known`: its values so
+    far, which functions alike may share."""
 
     def __init__(self, function: Callable[[Position], Value], known: dict[float, Value] | None = None):
         self._function, self._known = function, {} if known is None else known
@@ -106,7 +115,7 @@ class PerPosition(Generic[Value]):
         found = self._known.get(position.index)
         if found is None:
             found = self._function(position)
-            if position.index == int(position.index):
+            if in_common(position.index):
                 self._known[position.index] = found
         return found
 
@@ -152,37 +161,32 @@ class Cycle:
         other._positions = self._built if gaps.profile is None and not gaps.openings else {}
         return other
 
+    @property
+    def alike(self) -> bool:
+        """Whether positions of all mesh cycles have the same contact nodes."""
+        return self.mesh.of_cycle is None
+
     def beside(self, kind: type[Value]) -> Value:
         """The one object of a kind that goes with the operators: what others know of them, whatever the gaps."""
         return self._beside.setdefault(kind, kind())
 
     def position(self, step: int) -> Position:
         """The contact equations at `step` (any integer)."""
-        key = self._mesh_at(step), step % self.steps
-        found = self._positions.get(key)
-        if found is None:
-            built = self._built.get(key)
-            if built is None:
-                built = self._build(step, step - 1)
-                # The first ones stay: marches go round and round, and would find none of the last ones again.
-                if self.kept.takes(built.bytes):
-                    self._built[key] = built
-            found = self._opened(built)
-            if key in self._built:
-                self._positions[key] = found
-        return self._deviating(step, found)
+        return self._deviating(step, self._found(step))
 
     def keeps(self, index: int) -> bool:
         """Whether position `index` (0 to steps - 1) of the first mesh cycle has been built and is kept."""
         return (self._mesh_at(index), index) in self._built
 
     def between(self, step: float, before: float) -> Position:
-        """The contact equations at `step`, with the step before at `before`; both may lie between whole steps. Not
-        kept.
+        """The contact equations at `step`, with the step before at `before`; both may lie between whole steps. Kept
+        only at places in common after the last whole step.
 
         Only of a mesh that is divisible, and at halves, quarters and so on, which are exact: `step` decides which
         pairs touch.
         """
+        if before == ceil(step) - 1 and in_common(step):
+            return self._deviating(step, self._found(step))
         return self._deviating(step, self._opened(self._build(step, before)))
 
     def pair_number(self, step: int, index: int | np.ndarray):
@@ -232,6 +236,22 @@ class Cycle:
         passage = Passage(pairs, previous if self.tangential else None, node_before, index, index_before, advance)
         operator = contact_operator(self.pair, passage, self.coordinates, mesh.response(passage), self.face)
         return Position(operator, node_before, index, mesh.nodes)
+
+    def _found(self, step: float) -> Position:
+        """The position at a place in common, with the whole step before it as the one before: kept, or built."""
+        key = self._mesh_at(step), step % self.steps
+        found = self._positions.get(key)
+        if found is None:
+            built = self._built.get(key)
+            if built is None:
+                built = self._build(step, ceil(step) - 1)
+                # The first ones stay: marches go round and round, and would find none of the last ones again.
+                if self.kept.takes(built.bytes):
+                    self._built[key] = built
+            found = self._opened(built)
+            if key in self._built:
+                self._positions[key] = found
+        return found
 
     def _opened(self, position: Position) -> Position:
         """The position with the profile of these gaps and all that opens it in every mesh cycle."""

@@ -1,48 +1,86 @@
-"""Gaps of modified flanks on the contact operators of others: material removed from flanks opens gaps and changes
+"""Gaps of modified flanks on the contact operators of involutes: material removed from flanks opens gaps and changes
 nothing else."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import numpy as np
+from numba import njit
 
-from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, Points
-from fenics_gears.contact.mesh_cycle import Cycle, Gaps, PerPosition, Position
-from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Removal, facing_points, seen_gap
-
-# A tooth pair, and at the points that its nodes average over the roll angles (rad) of pinion and wheel and the gap (mm)
-# of true involutes.
-Facing = tuple[PairNodes, tuple[np.ndarray, np.ndarray], np.ndarray]
+from fenics_gears.contact.interpolation import AVERAGED, INTERPOLATIONS, Averages, Points, node_average
+from fenics_gears.contact.mesh_cycle import Cycle, PerPosition, Position
+from fenics_gears.contact.tooth_pair import DRIVE, Removal, facing_points
 
 
+@dataclass(frozen=True)
+class Facing:
+    """Where the contact nodes of a position look at the flanks: roll angles `rolls` (p,), rad, on pinion and wheel, and
+    the `gap` (p,), mm, of true involutes there, pair after pair, `drive` (p,) where these are modified.
+
+    `ends` (pairs + 1,): where the points of each pair begin and end; `offsets` (n,), mm, and `node_ends` (pairs + 1,):
+    those of its nodes.
+    """
+
+    rolls: tuple[np.ndarray, np.ndarray]
+    gap: np.ndarray
+    drive: np.ndarray
+    ends: np.ndarray
+    offsets: np.ndarray
+    node_ends: np.ndarray
+
+
+@dataclass
 class FacingPoints:
     """The facing points of the positions of a cycle, which all reliefs on its operators have in common."""
 
-    def __init__(self):
-        self.known: dict[float, list[Facing]] = {}
+    known: dict[float, Facing] = field(default_factory=dict)
 
 
-def relieved(cycle: Cycle, removal: tuple[Removal | None, Removal | None]) -> Cycle:
-    """The operators of a `cycle` of flanks along the line of action with the gaps of flanks from which `removal` is
-    taken, in place of its own.
-
-    What it gives is, to the last digit, what a cycle of these flanks gives.
-    """
-    view: Averages | Points = INTERPOLATIONS[cycle.grid.interpolation]
-    facing = PerPosition(
-        lambda position: [
-            (pair, *facing_points(cycle.pair, (None, None), pair.place, view.places(pair.offsets))[::2])
-            for pair in position.operator.pairs
-        ],
-        cycle.beside(FacingPoints).known,
-    )
+def profile_of(cycle: Cycle, removal: tuple[Removal | None, Removal | None]) -> PerPosition[np.ndarray]:
+    """The gaps (n,), mm, at a position of a `cycle` of flanks along the line of action from which `removal` is taken;
+    what the cycle's own flanks lack is not counted."""
+    facing = PerPosition(lambda position: _facing(cycle, position), cycle.beside(FacingPoints).known)
+    averaged = cycle.grid.interpolation == AVERAGED
 
     def profile(position: Position) -> np.ndarray:
-        gaps = []
-        for pair, rolls, gap in facing(position):
-            for removed, roll in zip(removal if pair.place.flank == DRIVE else (None, None), rolls):
-                if removed is not None:
-                    gap = gap + removed(roll)
-            gaps.append(seen_gap(view, pair.offsets, gap))
-        return np.concatenate(gaps) if gaps else np.empty(0)
+        points = facing(position)
+        gap = points.gap
+        for removed, rolls in zip(removal, points.rolls):
+            if removed is not None:
+                gap = gap + np.where(points.drive, removed(rolls), 0.0)
+        return _of_nodes(gap, points.ends, points.offsets, points.node_ends, averaged)
 
-    return cycle.with_gaps(Gaps(profile=profile))
+    return PerPosition(profile)
+
+
+def _facing(cycle: Cycle, position: Position) -> Facing:
+    view: Averages | Points = INTERPOLATIONS[cycle.grid.interpolation]
+    pairs = position.operator.pairs
+    found = [facing_points(cycle.pair, (None, None), pair.place, view.places(pair.offsets)) for pair in pairs]
+    points = [gap.size for _, _, gap in found]
+    nodes = [len(pair.offsets) for pair in pairs]
+
+    def together(arrays: list[np.ndarray]) -> np.ndarray:
+        return np.concatenate([array.ravel() for array in arrays]) if arrays else np.empty(0)
+
+    return Facing(
+        (together([rolls[0] for rolls, _, _ in found]), together([rolls[1] for rolls, _, _ in found])),
+        together([gap for _, _, gap in found]),
+        np.repeat([pair.place.flank == DRIVE for pair in pairs], points).astype(bool),
+        np.concatenate([[0], np.cumsum(points, dtype=np.int64)]),
+        together([pair.offsets for pair in pairs]),
+        np.concatenate([[0], np.cumsum(nodes, dtype=np.int64)]),
+    )
+
+
+@njit(cache=True)
+def _of_nodes(gap, ends, offsets, node_ends, averaged):
+    """Gaps (n,) of contact nodes from those at the points that they see, pair by pair: as `tooth_pair.seen_gap`."""
+    found = np.empty(len(offsets))
+    for pair in range(len(ends) - 1):
+        own, nodes = gap[ends[pair] : ends[pair + 1]], slice(node_ends[pair], node_ends[pair + 1])
+        at, inside = offsets[nodes], min(0.0, own.min())
+        seen = node_average(at, own.reshape((len(at) - 1, -1))) if averaged else own
+        found[nodes] = np.maximum(seen, inside)
+    return found

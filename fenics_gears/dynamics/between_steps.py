@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from math import ceil
 
-from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.dynamics.march import thread_pools
 from fenics_gears.dynamics.stepping import EquationsOfMotion, Stepper
 from fenics_gears.dynamics.steps import Record
@@ -16,16 +16,23 @@ FIRST_REACH = 0.1
 
 
 class BetweenSteps(Stepper):
-    """Solves the static motion between two steps without the march; the `cycle` is divisible.
+    """Solves the static motion between two steps apart from the march; the `cycle` is divisible.
 
-    `marched`: whether a record is that of the march at its step. With friction the step before is solved on the way
-    from a start some steps earlier: from further back, at most a mesh cycle, until it is what was marched.
+    Without friction a solution does not depend on the step before it. With friction that step is one of the march's
+    `records`, by their numbers, or else is solved on the way from a start some steps earlier: from further back, at
+    most a mesh cycle, until it is what was `marched`, which says so of a record.
     """
 
-    def __init__(self, cycle: Cycle, equations: EquationsOfMotion, marched: Callable[[Record], bool]):
+    def __init__(
+        self,
+        cycle: Cycle,
+        equations: EquationsOfMotion,
+        marched: Callable[[Record], bool],
+        records: Mapping[int, Record] | None = None,
+    ):
         super().__init__(cycle, equations)
         self._marched = marched
-        self._before: dict[int, Record | None] = {}
+        self._before: dict[int, Record | None] = dict(records or {})
         self._solved: dict[float, Record | None] = {}
 
     def at(self, step: float) -> Record | None:
@@ -33,18 +40,24 @@ class BetweenSteps(Stepper):
         Raises ContactNotConverged."""
         if step not in self._solved:
             with thread_pools().limit(limits=1):
-                self._solved[step] = self._after(ceil(step) - 1, step)
+                position = self.cycle.between(step, ceil(step) - 1)
+                self._solved[step] = self._after(step, position) if self.friction else self._alone(step, position)
         return self._solved[step]
 
-    def _after(self, before: int, step: float) -> Record | None:
+    def _alone(self, step: float, position: Position) -> Record:
+        status = self.sets_near(step, position)
+        record = self.in_balance(step, position, status)
+        self.remember(step, record.solution.status)
+        return record
+
+    def _after(self, step: float, position: Position) -> Record | None:
+        before = ceil(step) - 1
         if before not in self._before:
             self._before[before] = self._step_before(before)
         last = self._before[before]
-        return None if last is None else self._part(self.static, last, step, self.cycle.between(step, before))
+        return None if last is None else self._part(self.static, last, step, position)
 
     def _step_before(self, step: int) -> Record | None:
-        if not self.friction:
-            return self._static_start(step)
         reach = ceil(FIRST_REACH * self.cycle.steps)
         while reach < 2 * self.cycle.steps:
             # A march starts at step -1.

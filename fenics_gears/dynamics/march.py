@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import compress
 from math import ceil
@@ -39,7 +39,8 @@ LONGEST_BLOCK, LONGEST_BLOCK_OF_OWN_SOLVER = 512, 32
 class March:
     """A march so far.
 
-    `kept`: the last steps; `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of
+    `kept`: the last steps; `in_periods`: by number those of the last two times `period` steps, without their contact
+    operators; `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of
     `METHODS` solved;
     `separations`: step and smallest opening (mm) of every step without contact of drive flanks; `locked`: steps at
     which friction locks a closed node (`contact.existence`); `uncertified`: how many of the `judged` last steps may
@@ -51,6 +52,7 @@ class March:
     stiffness: np.ndarray
 
     kept: int = 0
+    period: int = 0
     newton_iterations: int = 0
     steps: int = 0
     steps_by_method: dict[str, int] = field(default_factory=lambda: dict.fromkeys(METHODS, 0))
@@ -60,6 +62,7 @@ class March:
     uncertified: int = 0
     interrupted: bool = False
     seconds: float = 0.0
+    in_periods: dict[int, Record] = field(default_factory=dict)
     _last: list[Steps] = field(default_factory=list)
 
     def take(self, solved: Steps) -> None:
@@ -74,10 +77,19 @@ class March:
         )
         for method, count in Counter(compress(solved.methods, moved)).items():
             self.steps_by_method[method] += count
+        if self.period:
+            self._hold(solved)
         apart = np.flatnonzero(~drive_flanks_touch(solved) & moved)
         if len(apart):
             openings = smallest_openings(solved)[apart, DRIVE]
             self.separations += list(zip(solved.numbers[apart].astype(int).tolist(), openings.tolist()))
+
+    def _hold(self, solved: Steps) -> None:
+        for record in solved.between(max(len(solved) - 2 * self.period, 0), len(solved)).records:
+            # Contact operators take a hundred times the memory.
+            self.in_periods[int(record.step)] = replace(record, position=None, parts=())  # type: ignore[arg-type]
+        for number in [each for each in self.in_periods if each <= self.steps - 2 * self.period]:
+            del self.in_periods[number]
 
     @cached_property
     def records(self) -> list[Record]:
@@ -116,29 +128,32 @@ class Marcher(Stepper):
         report: Callable[[int, int], None] | None = None,
         observe: Callable[[Steps, March], None] | None = None,
         judged: int = 0,
+        period: int = 0,
     ) -> March:
         """March `steps` steps from step 0 and keep the last `kept` records, wherever the march ends; `observe` is
         called with blocks of steps and the march so far.
 
-        `judged`: of so many last steps it is judged whether friction leaves more than one solution.
+        `judged`: of so many last steps it is judged whether friction leaves more than one solution. `period`: steps
+        after which they repeat, of which the solutions are kept.
 
         Ctrl-C ends the march and keeps what was done. Raises ContactNotConverged, whose `partial` is the March so far.
         """
         with thread_pools().limit(limits=1):
             # Systems of a few dozen unknowns: threads that wait for one another cost up to forty times what they save.
+            march = March(self.friction, self.dynamic.stiffness, kept, period)
             return self._run(
-                steps, kept, report or (lambda step, steps: None), observe or (lambda solved, march: None), judged
+                steps, march, report or (lambda step, steps: None), observe or (lambda solved, march: None), judged
             )
 
     def _run(
         self,
         steps: int,
-        kept: int,
+        march: March,
         report: Callable[[int, int], None],
         observe: Callable[[Steps, March], None],
         judged: int,
     ) -> March:
-        march, begun = March(self.friction, self.dynamic.stiffness, kept), time.perf_counter()
+        begun = time.perf_counter()
 
         def take(solved: Steps) -> None:
             march.take(solved)
@@ -210,11 +225,9 @@ class Marcher(Stepper):
         positions = [last.position, *(self.cycle.position(step) for step in numbers)]
         steps = Steps.to_solve([last.step, *numbers], positions, len(self.drivetrain.coordinates), NEWTON)
         steps.put(0, last)
-        durations, cycle_before = np.zeros(len(steps)), NO_SETS
+        durations, known = np.zeros(len(steps)), self._all_known_before(steps)
         if self._motion.method != STATIC:
             durations[1:] = self.clock.durations(np.arange(numbers[0] - 1, numbers[-1] + 1))
-        if self.cycle.traits.repeats:
-            cycle_before = self._cycle_before(steps)
         loads = (
             np.array([self.load(step) for step in (numbers[0], *numbers)])
             if self.loads
@@ -224,12 +237,12 @@ class Marcher(Stepper):
         try:
             while done < len(steps):
                 begun, end = time.perf_counter(), min(done + self._at_once, len(steps))
-                solved = solve_steps(steps, done, end, self._motion, Course(durations, loads, cycle_before))
+                solved = solve_steps(steps, done, end, self._motion, Course(durations, loads, known))
                 seconds = time.perf_counter() - begun
                 if solved == end:
                     # Ctrl-C is heard between two calls.
                     self._at_once = max(int((end - done) * SECONDS_BETWEEN_REPORTS / max(seconds, 1e-6)), 1)
-                for place in range(done, solved) if len(cycle_before) else ():
+                for place in range(done, solved) if self.remembers else ():
                     self.remember(numbers[place - 1], steps.status[steps.starts[place] : steps.starts[place + 1]])
                 done = solved
                 if done < end:
@@ -242,10 +255,16 @@ class Marcher(Stepper):
                 take(steps.between(1, done))
         return steps.record(done - 1)
 
-    def _cycle_before(self, steps: Steps) -> np.ndarray:
-        """The sets (N,) of all nodes of some steps a mesh cycle before, -1 where they are not known."""
-        known = zip(map(self.cycle_before, steps.numbers.tolist()), np.diff(steps.starts))
-        return np.concatenate([sets if len(sets) else np.full(nodes, -1, dtype=np.int8) for sets, nodes in known])
+    def _all_known_before(self, steps: Steps) -> np.ndarray:
+        """The sets (N,) that are known of the positions of some steps, -1 where they are not; none where all are
+        unknown."""
+        known = [self.known_before(step) for step in steps.numbers.tolist()] if self.remembers else []
+        if not any(map(len, known)):
+            return NO_SETS
+        counts = np.diff(steps.starts)
+        return np.concatenate(
+            [sets if len(sets) else np.full(nodes, -1, dtype=np.int8) for sets, nodes in zip(known, counts)]
+        )
 
     def _report(self, report: Callable[[int], None], step: int) -> None:
         now = time.perf_counter()

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import ceil
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.mesh_cycle import Cycle, Position
+from fenics_gears.contact.mesh_cycle import Cycle, Position, in_common
 from fenics_gears.contact.step_solver import HALVED, StepProblem, StepSolution, cold_start
 from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
 from fenics_gears.dynamics.clock import FOLLOWING, Clock, SteadyClock, TimeScales
@@ -58,6 +59,10 @@ def _method(time_scales: TimeScales) -> type[AverageAcceleration] | type[Backwar
     return BackwardEuler
 
 
+class KnownSets(dict[float, np.ndarray]):
+    """By place in the mesh cycle, in steps, the sets (n,) that a run without friction had there last."""
+
+
 class Stepper:
     """Solves single steps of the equations of motion with the contact of a `cycle`."""
 
@@ -74,6 +79,10 @@ class Stepper:
         self._time_scales = equations.time_scales
         # By step, those of the last mesh cycle and a little more; see `remember`.
         self._sets: dict[float, np.ndarray] = {}
+        # Without friction there is one solution, whatever the sets to begin with: those of runs before do as well.
+        self._shared = cycle.beside(KnownSets) if not friction and cycle.alike else KnownSets()
+        self._others = dict(self._shared)
+        self.remembers = cycle.traits.repeats or not friction
 
     def scheme(self, step: int) -> AverageAcceleration | BackwardEuler:
         """The method over the step that ends at `step`; made anew where that step is not as long as the one before."""
@@ -134,19 +143,35 @@ class Stepper:
         self.remember(step, record.solution.status)
         return record
 
-    def remember(self, step: int, status: np.ndarray) -> None:
-        """Keep the sets (n,) of a step for the next mesh cycle to begin with, over a face.
+    def remember(self, step: float, status: np.ndarray) -> None:
+        """Keep the sets (n,) of a step: for other runs, and over a face for the next mesh cycle to begin with.
 
         There they are nearly those of the same position a mesh cycle before. In a plane, with a tenth of the nodes, a
         step before is as near.
         """
+        if in_common(step) and not self.friction:
+            self._shared[step % self.cycle.steps] = status
         if self.cycle.traits.repeats:
             self._sets[step] = status
             self._sets.pop(step - self.cycle.steps - 2, None)
 
-    def cycle_before(self, step: float) -> np.ndarray:
-        """The sets (n,) a mesh cycle before `step`; empty where they are not known."""
-        return self._sets.get(step - self.cycle.steps, NO_SETS)
+    def known_before(self, step: float) -> np.ndarray:
+        """The sets (n,) of a mesh cycle before `step`, or of another run there; empty where none are known."""
+        own = self._sets.get(step - self.cycle.steps)
+        return self._others.get(step % self.cycle.steps, NO_SETS) if own is None else own
+
+    def sets_near(self, step: float, position: Position) -> np.ndarray:
+        """The sets (n,) to begin with at a position where the step before is not solved: those that another run had
+        there, or at the whole step before it."""
+        then = self._others.get(step % self.cycle.steps)
+        if then is not None:
+            return then.copy()
+        before = self._others.get((ceil(step) - 1) % self.cycle.steps)
+        if before is None:
+            return cold_start(position.operator.gap, position.operator.node_pair)
+        status = np.empty(position.operator.nodes, dtype=np.int8)
+        begin(status, before, position.node_before, NO_SETS, NO_SETS)
+        return status
 
     def _step(self, scheme: AverageAcceleration | BackwardEuler, last: Record, step: int) -> Record:
         try:
@@ -191,16 +216,19 @@ class Stepper:
                 last.solution.forces,
             )  # fmt: skip
         status = np.empty(operator.nodes, dtype=np.int8)
-        begin(status, last.solution.status, position.node_before, self.cycle_before(step), self.cycle_before(last.step))
+        begin(status, last.solution.status, position.node_before, self.known_before(step), self.known_before(last.step))
         solution = self._solve(scheme, last.state, position, slip_before, status, step, last.solution)
         return Record(step, scheme.advance(last.state, solution.coordinates), position, solution)
 
     def _static_start(self, step: int) -> Record:
         position = self.cycle.position(step)
+        return self.in_balance(step, position, self.sets_near(step, position))
+
+    def in_balance(self, step: float, position: Position, status: np.ndarray) -> Record:
+        """Static equilibrium at a position after long sliding, solved from the sets `status` (n,)."""
         operator = position.operator
         slip_before = NO_SLIP if operator.rigid_slip is None else STEPS_SLID_BEFORE_START * operator.rigid_slip
         rest = np.zeros(len(self.drivetrain.coordinates))
-        status = cold_start(operator.gap, operator.node_pair)
         solution = self._solve(self.static, State(rest, rest, rest), position, slip_before, status, step)
         return Record(step, State(solution.coordinates, rest, rest), position, solution)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import ceil, floor
+from math import ceil, floor, log
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -70,6 +70,20 @@ def _fewest_layers(scene: Scene, pair: GearPair) -> int:
 def _multiple(layers: int | None, slices: int) -> int | None:
     """The multiple of a number of layers nearest to a number of slices; a layer has one slice at least."""
     return layers and layers * max(round(slices / layers), 1)
+
+
+# Windows differ by this factor, so that loads and designs that are near to each other have the same contact nodes.
+WINDOW_STEP = 2.0**0.25
+
+
+def in_steps(wanted: float, whole: float) -> float:
+    """The shortest of a row of lengths (mm) that is as long as `wanted`: the `whole` one, and each shorter by
+    WINDOW_STEP.
+
+    >>> in_steps(0.9, 1.0), round(in_steps(0.8, 1.0), 3)
+    (1.0, 0.841)
+    """
+    return whole * WINDOW_STEP ** -max(floor(log(whole / wanted, WINDOW_STEP)), 0)
 
 
 # Length of the window of contact nodes where no edge is near, in half-widths of the contact; and mesh stiffness per

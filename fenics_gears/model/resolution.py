@@ -124,12 +124,12 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     condensation = asked.condensation or ONCE
     inner = None
     if scene.three_dimensional:
-        from fenics_gears.model.face_resolution import inner_length
+        from fenics_gears.model.face_resolution import in_steps, inner_length
 
         half_width_of = partial(
             hertz_half_width, relative_radius=_widest(pair), plane_modulus=plane_contact_modulus(scene)
         )
-        inner = inner_length(scene, pair, line_load, half_width_of) + 2.0 * spacing
+        inner = in_steps(inner_length(scene, pair, line_load, half_width_of) + 2.0 * spacing, length)
     return Resolution(
         element=asked.element or DEFAULT_ELEMENT,
         flank_element_size=size,

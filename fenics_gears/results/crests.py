@@ -9,6 +9,7 @@ largest of the cubics through four steps, which is of fourth order.
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import floor, log2
 
 import numpy as np
 
@@ -22,6 +23,9 @@ NEAR, WIDTH_OF_JUMP = 50.0, 1e-3
 LIKE = 0.5
 # A position is sought no nearer to a step than this part of the distance to the next.
 NEAREST = 0.02
+# Positions are sought where halves, quarters and so on of a step are, next to where the lines cross: so that runs that
+# differ little ask for the same ones. They divide the interval by more than 2 to this power.
+HALVINGS = 3
 
 
 def highest(
@@ -43,12 +47,18 @@ def highest(
                 break
             place = 0.5 * (steps[interval] + steps[interval + 1])
         else:
-            place = places[interval - 1]
+            place = _rounded(places[interval - 1], steps[interval], steps[interval + 1])
         found = value(place)
         if np.isnan(found):
             break
         steps, values = np.insert(steps, interval + 1, place), np.insert(values, interval + 1, found)
     return float(steps[values.argmax()]), float(values.max())
+
+
+def _rounded(place: float, start: float, end: float) -> float:
+    """The place of few digits in base 2 next to another between `start` and `end`, which have few themselves."""
+    part = 2.0 ** (floor(log2(end - start)) - HALVINGS)
+    return min(max(part * round(place / part), start + part), end - part)
 
 
 def _steep_neighbour(steps: np.ndarray, values: np.ndarray, near: float) -> int:

@@ -180,7 +180,7 @@ def _numbers(recorder: Recorder, march: March, result: xr.Dataset, counted: xr.D
     error = counted["transmission_error"].values
     lost = [separation for separation in march.separations if separation[0] > first or first == 0]
     numbers = loss_attributes(lost, first, march.steps, recorder.model.clock)
-    extrema = Extrema(recorder.model, recorder.cycle, counted["mesh_phase"].values, error)
+    extrema = Extrema(recorder.model, recorder.cycle, counted["mesh_phase"].values, error, march.in_periods)
     numbers |= peak_to_peak(extrema, error)
     # The last step begins the next cycle.
     numbers["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])

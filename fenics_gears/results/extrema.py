@@ -32,6 +32,8 @@ SOUGHT = 1e-4
 # Over a face, whose positions cost a hundred times as much and whose slices leave a peak-to-peak value some 2 %
 # uncertain.
 SOUGHT_OVER_FACE = 3e-4
+# Longer periods are not held in memory.
+MOST_RECORDS = 2000
 # A position solved again is that of the march if it is as near as this part of what is sought.
 SAME_POSITION = 0.1
 
@@ -48,11 +50,18 @@ class Extrema:
     """Locates the largest values of curves over the settled steps of a run.
 
     `mesh_phase`, `transmission_error` (s,), rad: of consecutive steps; the latter tells whether a position solved again
-    is that of the march.
+    is that of the march. `records`: solutions of the march with friction, by step, from which positions are solved.
     `found_by`: how the last one was located.
     """
 
-    def __init__(self, model: Model, cycle: Cycle, mesh_phase: np.ndarray, transmission_error: np.ndarray):
+    def __init__(
+        self,
+        model: Model,
+        cycle: Cycle,
+        mesh_phase: np.ndarray,
+        transmission_error: np.ndarray,
+        records: Mapping[int, Record] | None = None,
+    ):
         self._model, self._cycle = model, cycle
         self._steps = np.rint(mesh_phase * cycle.steps).astype(int)
         self._period = common_period(model.scene) * cycle.steps
@@ -73,7 +82,8 @@ class Extrema:
             marched = partial(
                 _is_marched, model, transmission_error, self._place(0), same if self._quasi_static else np.inf
             )
-            self._between = BetweenSteps(cycle, model.equations_of_motion, marched)
+            known = {step - self._first: record for step, record in (records or {}).items()}
+            self._between = BetweenSteps(cycle, model.equations_of_motion, marched, known)
 
     def largest(self, curve: np.ndarray, of: Callable[[Record], float]) -> Extremum:
         """The largest value of a curve (s,); `of`: its value at a position."""
@@ -140,6 +150,13 @@ def _is_marched(model: Model, transmission_error: np.ndarray, first: int, same: 
         or abs(float(model.transmission_error(record.state.position)) - transmission_error[int(record.step) + first])
         <= same
     )
+
+
+def repeating_steps(model: Model) -> int:
+    """Steps of a march after which they repeat, where the solutions of so many are needed to locate extrema; else 0."""
+    period = common_period(model.scene) * model.resolution.steps_per_mesh_cycle
+    needed = model.scene.friction is not None and model.drivetrain.mass is None
+    return int(period) if needed and period <= min(model.steps, MOST_RECORDS) else 0
 
 
 def peak_to_peak(extrema: Extrema, error: np.ndarray) -> dict[str, float | str]:

@@ -15,19 +15,24 @@ from fenics_gears.model.model import Model
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.bodies import body_key, gear_body
 from fenics_gears.simulation.elastic_route import mesh_cycle
+from fenics_gears.simulation.gaps import ALONG_THE_FACE, gaps_of, sections_of_gaps
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
 
+# Mesh cycles of the same bodies that are kept, as of torques with other contact nodes, and the part of the memory for
+# contact operators that they may take beside another one.
+MOST_CYCLES, SHARE_OF_OTHERS = 4, 0.35
 NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
 
 
 class GearStore:
-    """Keeps the gears used last and, with `cycles`, the last mesh cycle, so that a frequency sweep builds its operators
-    once.
+    """Keeps the gears used last and, with `cycles`, their last mesh cycles, so that a frequency sweep builds its
+    operators once.
 
     Two runs share gears that are the same bodies at the same resolution, and a mesh cycle when gears, flanks, contact
     grid, steps, moving coordinates and the presence of friction are the same: speed, masses, springs, torque and
-    coefficient may differ. Where only reliefs differ they share its operators, and each relief has gaps of its own.
+    coefficient may differ. Where only gaps differ (reliefs, lead modifications, misalignment, errors of teeth) they
+    share its operators, and each has gaps of its own.
     Shared gears keep the times that condensing them took; with a shared mesh cycle these times are zero. `most`: how
     many gears are kept, None for all.
     """
@@ -35,8 +40,8 @@ class GearStore:
     def __init__(self, most: int | None = 2, cycles: bool = True):
         self._gears: dict[tuple, Body] = {}
         self._most, self._cycles = most, cycles
-        self._operators_key: tuple | None = None
-        self._operators: tuple[Bodies, Cycle] | None = None
+        self._operators: dict[tuple, tuple[Bodies, Cycle]] = {}
+        self._bodies_key: tuple | None = None
         self._cycle_key: tuple | None = None
         self._cycle: Cycle | None = None
 
@@ -44,22 +49,38 @@ class GearStore:
         """Bodies and mesh cycle for ``simulate``, kept or made."""
         if not self._cycles:
             return self._made(model, progress, cache)
-        key, shared = operators_key(model), True
-        if key != self._operators_key:
-            self._operators_key = self._operators = self._cycle_key = self._cycle = (
-                None  # frees its memory before the next is made
-            )
-            unrelieved = replace(model, removal=(None, None)) if differs_in_gaps_alone(model) else model
-            self._operators, self._operators_key, shared = self._made(unrelieved, progress, cache), key, False
-        bodies, cycle = self._operators
+        key, of_bodies = operators_key(model), bodies_key(model)
+        found = self._operators.pop(key, None)
+        shared = found is not None
+        if found is None:
+            # Frees memory before the next is made.
+            self._cycle_key = self._cycle = None
+            self._make_room(of_bodies)
+            found = self._made(model, progress, cache)
+        # Last in the dictionary, last to be given up.
+        self._operators[key], self._bodies_key = found, of_bodies
+        bodies, cycle = found
+        cycle.kept.beside = self._taken - cycle.kept.taken
         if cycle_key(model) != self._cycle_key:
-            self._cycle, self._cycle_key = (
-                relieved(cycle, model) if differs_in_gaps_alone(model) else cycle,
-                cycle_key(model),
-            )
+            self._cycle, self._cycle_key = cycle.with_gaps(gaps_of(model, cycle)) if shared else cycle, cycle_key(model)
         if shared:
             bodies = tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in bodies)
         return bodies, self._cycle
+
+    @property
+    def _taken(self) -> float:
+        """Bytes that all contact operators take."""
+        return sum(cycle.kept.taken for _, cycle in self._operators.values())
+
+    def _make_room(self, bodies: tuple) -> None:
+        """Give up the contact operators of other bodies, and the oldest where those of these take much."""
+        if bodies != self._bodies_key:
+            self._operators.clear()
+        while self._operators and (
+            len(self._operators) >= MOST_CYCLES
+            or self._taken > SHARE_OF_OTHERS * min(cycle.kept.most for _, cycle in self._operators.values())
+        ):
+            del self._operators[next(iter(self._operators))]
 
     def body(self, model: Model, name: str, cache: Cache | None) -> Body:
         """The "pinion" or the "wheel", kept, from the cache, or condensed."""
@@ -83,57 +104,40 @@ def own_gear_store() -> GearStore:
     return GearStore()
 
 
-def differs_in_gaps_alone(model: Model) -> bool:
-    """Whether a scene with reliefs has the contact operators of one without: along the line of action, on teeth that
-    are all alike."""
-    scene = model.scene
-    others = (
-        scene.corner_contact,
-        *(getattr(scene, effect.section) for effect in effects_on(scene) if effect.gaps or effect.elasticity),
-    )
-    plane = model.face.slices == 1 and route_of(model) is CONDENSED
-    return plane and model.removal != (None, None) and all(each is None for each in others)
-
-
-def relieved(cycle: Cycle, model: Model) -> Cycle:
-    """A mesh cycle with the model's reliefs, on the operators of one without."""
-    from fenics_gears.contact import relief_gaps
-
-    return relief_gaps.relieved(cycle, model.removal)
-
-
 def operators_key(model: Model) -> tuple:
-    """What the contact operators of a mesh cycle depend on, their gaps apart where reliefs change nothing else."""
-    scene, resolution = model.scene, model.resolution
-    accuracy = (
-        resolution.condensation,
-        resolution.discretisation(0),
-        resolution.discretisation(1),
-        resolution.contact_grid,
-        resolution.steps_per_mesh_cycle,
-    )
-    in_operators = (
-        scene.corner_contact,
-        *(getattr(scene, effect.section) for effect in effects_on(scene) if effect.gaps or effect.elasticity),
-    )
-    apart = model.removal == (None, None) or differs_in_gaps_alone(model)
+    """What the contact operators of a mesh cycle depend on, whatever opens their nodes."""
+    scene, resolution, apart = model.scene, model.resolution, sections_of_gaps(model)
+    accuracy = resolution.condensation, resolution.contact_grid, resolution.steps_per_mesh_cycle
+    shaping = (section for section in _shaping(scene) if section not in apart)
+    in_operators = (scene.corner_contact, *(getattr(scene, section) for section in shaping))
     springs = scene.accuracy.model, None if scene.resolves_contact else scene.load
-    own, divided = None if apart else _reliefs(scene), tuple(model.solid_discretisation(gear) for gear in (0, 1))
     return (
-        scene.gears,
+        bodies_key(model),
         in_operators,
         scene.coast_flanks is not None,
-        (accuracy, springs, model.face.slices, divided, scene.lead_modifications, scene.misalignment),
-        own,
+        (accuracy, springs),
         tuple(model.drivetrain.indices),
         scene.friction is not None,
+        bool(apart),
     )
+
+
+def bodies_key(model: Model) -> tuple:
+    """The gears of a mesh cycle and how they are divided."""
+    divided = (division for gear in (0, 1) for division in _divisions(model, gear))
+    return model.scene.gears, model.face.slices, *divided
+
+
+def _divisions(model: Model, gear: int) -> tuple:
+    return model.resolution.discretisation(gear), model.solid_discretisation(gear)
 
 
 def cycle_key(model: Model) -> tuple:
     """What the contact equations of a mesh cycle depend on."""
-    return *operators_key(model), _reliefs(model.scene)
+    return *operators_key(model), *(getattr(model.scene, section) for section in sections_of_gaps(model))
 
 
-def _reliefs(scene: Scene) -> tuple:
-    return tuple(getattr(scene, effect.section) for effect in effects_on(scene) if effect.removal)
+def _shaping(scene: Scene) -> list[str]:
+    """The sections that say how teeth are shaped, misplaced or yield."""
+    own = (effect.section for effect in effects_on(scene) if effect.gaps or effect.elasticity or effect.removal)
+    return [*ALONG_THE_FACE, *own]

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from fenics_gears.contact.mesh import Mesh, elastic_mesh
-from fenics_gears.contact.mesh_cycle import Cycle, Gaps, Opening
+from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import Flanks
-from fenics_gears.effects import from_effects
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies
 from fenics_gears.model.model import Model
 from fenics_gears.simulation.bodies import gear_bodies
+from fenics_gears.simulation.gaps import gaps_of, removal_of_nodes
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
 
@@ -31,12 +29,9 @@ def mesh_cycle(model: Model, bodies: Bodies) -> Cycle:
     first, second = (body.solid for body in bodies)
     if first is not None and second is not None:
         # Imported here: plane scenes have none.
-        from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
+        from fenics_gears.contact.face_mesh import face_mesh
 
-        mesh = face_mesh(flanks, (first, second), model.face, grid, corner)
-        return cycle_of(
-            model, mesh, lambda cycle: opening_over_face(cycle, model.face_opening, model.coast_face_opening)
-        )
+        return cycle_of(model, face_mesh(flanks, (first, second), model.face, grid, corner))
     if all(each.alike for each in flanks.compliance):
         return cycle_of(model, elastic_mesh(flanks, grid, corner))
     from fenics_gears.contact.whole_body_mesh import whole_body_mesh
@@ -44,22 +39,20 @@ def mesh_cycle(model: Model, bodies: Bodies) -> Cycle:
     return cycle_of(model, whole_body_mesh(flanks, grid, model.resolution.steps_per_mesh_cycle, corner))
 
 
-def cycle_of(model: Model, mesh: Mesh, over_face: Callable[[Cycle], Opening] | None = None) -> Cycle:
-    """The contact equations of a mesh over the steps of the model, with what its effects add to the gaps from step to
-    step; `over_face`: what opens the flanks along a face."""
+def cycle_of(model: Model, mesh: Mesh) -> Cycle:
+    """The contact equations of a mesh over the steps of the model, with what opens its nodes."""
     cycle = Cycle(
         mesh, model.resolution.steps_per_mesh_cycle, model.drivetrain.indices, model.scene.friction is not None
     )
-    openings = () if over_face is None else (over_face(cycle),)
-    return cycle.with_gaps(Gaps(None, openings, tuple(from_effects(model.scene, "gaps", model))))
+    return cycle.with_gaps(gaps_of(model, cycle))
 
 
 def flanks_of(model: Model, bodies: Bodies) -> Flanks:
     """Both gears as contact sees them: in the plane a load over the common face spreads in a gear that is wider."""
-    pair, first, second = model.pair, bodies[0].section, bodies[1].section
+    pair, removal, first, second = model.pair, removal_of_nodes(model), bodies[0].section, bodies[1].section
     within = pair.effective_face_widths == (pair.face_width, pair.face_width)
     if within or any(body.solid is not None for body in bodies):
-        return Flanks(pair, (first, second), model.removal)
+        return Flanks(pair, (first, second), removal)
     # Imported here: gears of one width have none.
     from fenics_gears.elasticity.overhang import with_overhang
 
@@ -68,4 +61,4 @@ def flanks_of(model: Model, bodies: Bodies) -> Flanks:
         with_overhang(body.section, gear, material, pair.face_width / width)
         for body, gear, material, width in zip(bodies, gears, materials, pair.effective_face_widths)
     )
-    return Flanks(pair, (pinion, wheel), model.removal)
+    return Flanks(pair, (pinion, wheel), removal)

@@ -19,6 +19,7 @@ from fenics_gears.model.cost import expected_cost, too_large
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.results.attributes import ESTIMATED
 from fenics_gears.results.dataset import dataset
+from fenics_gears.results.extrema import repeating_steps
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.validity import worst_first
 from fenics_gears.scene.data import ELASTIC, LAST_CYCLES, Scene
@@ -156,7 +157,9 @@ def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> 
     progress.stage("march")
     try:
         judged = 0 if cycle.traits.rigid else min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1
-        return Marcher(cycle, model.equations_of_motion).run(model.steps, 1, progress.update, recorder.take, judged)
+        return Marcher(cycle, model.equations_of_motion).run(
+            model.steps, 1, progress.update, recorder.take, judged, repeating_steps(model)
+        )
     except ContactNotConverged as failure:
         failure.partial = result_of(recorder, failure.partial, gears, compiled, "failed")
         failure.reason += _varying_load(model, failure.step)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import itertools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,6 @@ from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.model.model import Model, model_of
-from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_of
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import Axis, label
@@ -72,15 +71,16 @@ class NoScene(SceneError):
         self.problems = problems
 
 
-def model_of_tree(
-    name: str, tree: Mapping[str, Any], directory: Path, changed: Callable[[Scene], Scene] = lambda scene: scene
-) -> Model:
-    """The model of a parsed scene, or of what it is `changed` into. Raises NoScene."""
+def model_of_tree(name: str, tree: Mapping[str, Any], directory: Path) -> Model:
+    """The model of a parsed scene. Raises NoScene."""
     try:
-        scene, problems = scene_of(tree, as_toml(tree), name, directory)
+        text = as_toml(tree)
+        scene, problems = scene_of(tree, text, name, directory)
         if scene is None:
             raise NoScene(problems)
-        return model_of(changed(scene))
+        # It gives this scene, which need not be written and read again to see whether it does.
+        scene.__dict__["text"] = text
+        return model_of(scene)
     except NoScene:
         raise
     except SceneError as error:

@@ -14,6 +14,7 @@ from tests.hard_cases.test_any_scene import on_stand_ins
 from fenics_gears import load_scene
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.stepping import KnownSets
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.speed_ramp import SpeedRamp
@@ -52,6 +53,8 @@ SCENES = {
 def marched(model: Model, cycle, plain: bool):
     """The march, its result and the words of its failure, if it failed."""
     recorder = Recorder(model, cycle)
+    # Both begin with what neither has found.
+    cycle.beside(KnownSets).clear()
     try:
         march, failure = Marcher(cycle, model.equations_of_motion, plain).run(model.steps, 1, observe=recorder.take), ""
     except ContactNotConverged as failed:

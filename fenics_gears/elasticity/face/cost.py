@@ -3,6 +3,8 @@ it."""
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.geometry.gear import Gear
@@ -15,6 +17,8 @@ NODES, POWER = 0.37, 1.7
 LIBRARIES, PER_UNKNOWN, PER_UNKNOWN_ITERATIVE, PER_ENTRY = 0.2e9, 6.3e3, 4e3, 19.0
 
 
+# Each of many runs of the same gears asks for it.
+@lru_cache(maxsize=64)
 def expected_size(gear: Gear, face: FaceDiscretisation, both_flanks: bool = False) -> tuple[int, int]:
     """Unknowns of a gear's sector, and those that it is condensed onto: flank or flanks, and cuts."""
     boundary = sector_boundary(gear.of_module_one, face.in_modules_of(gear).sizes)[0]

@@ -19,7 +19,6 @@ from fenics_gears.runs.record import record_of
 from fenics_gears.runs.run import Run, run_of
 from fenics_gears.runs.runs import Failure, Runs
 from fenics_gears.runs.team import Alone, Together
-from fenics_gears.scene.data import Output, Scene
 from fenics_gears.studies.scenes import NoScene, model_of_tree
 from fenics_gears.system.progress import Interruption
 
@@ -69,13 +68,15 @@ class Evaluator:
     """Evaluates designs with the processes of a `team`; runs that are in `directory` are taken from there.
 
     `designs`: how many of how many have been evaluated, for the progress; `computed`: runs that were computed here;
-    `kept`: those that were there before, beside `others` of versions with other numbers.
+    `kept`: those that were there before, beside `others` of versions with other numbers; `of_runs` (2,): seconds that
+    those computed here took, each by itself, and of these in the march.
     """
 
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
         self.design, self._progress = design, progress
         self.runs, self.others = Runs(Lines(directory, line_of), team), kept(directory)[1]
         self.designs, self.kept, self.computed, self.seconds = (0, 0), self.runs.kept, 0, 0.0
+        self.of_runs = np.zeros(2)
 
     def of_designs(self, designs: Sequence[Mapping[str, float | str]], deviations: np.ndarray) -> list[Evaluation]:
         """Designs, by the values of their variables, under deviations (samples, scatters) in parts of their limits."""
@@ -107,15 +108,15 @@ class Evaluator:
     def _case(self, tree: Mapping[str, Any]) -> Run | Failure:
         """The run of a parsed scene, or why it is no scene."""
         try:
-            return run_of(model_of_tree(self.design.name, tree, self.design.directory, self._without_fields))
+            return run_of(model_of_tree(self.design.name, self._without_fields(tree), self.design.directory))
         except NoScene as error:
             return Failure(error)
 
-    def _without_fields(self, scene: Scene) -> Scene:
+    def _without_fields(self, tree: Mapping[str, Any]) -> Mapping[str, Any]:
         """Fields over the flanks take memory and time, and only face load factors need them."""
         if any(name in OVER_FACE for name in self._names):
-            return scene
-        return replace(scene, output=Output(scene.output.root_stress, contact_fields=False))
+            return tree
+        return {**tree, "output": {**tree.get("output", {}), "contact_fields": False}}
 
     @functools.cached_property
     def _names(self) -> list[str]:
@@ -139,6 +140,9 @@ class Evaluator:
         self.runs.compute(missing, tick)
         self.computed += len(missing)
         self.seconds += time.perf_counter() - begun
+        lines = [self.runs.known[run.key] for run in missing]
+        took = [line["seconds"] for line in lines if not isinstance(line, Failure)]
+        self.of_runs += np.sum(took, axis=0) if took else 0.0
 
     def _evaluation(self, values: dict[str, float | str], cases: list[Run | Failure], samples: int) -> Evaluation:
         lines = [case if isinstance(case, Failure) else self.runs.known[case.key] for case in cases]
@@ -186,4 +190,5 @@ def line_of(run: Run, result: xr.Dataset) -> dict[str, Any]:
         return {"failure": worthless[0]}
     found = record_of(result)
     found.numbers[ERROR] *= 1e3 * found.base_radius
-    return {"numbers": found.numbers, "curve": _curve(result) if run.values else []}
+    seconds = [result.attrs["wall_time"], result.attrs["time_march"]]
+    return {"numbers": found.numbers, "curve": _curve(result) if run.values else [], "seconds": seconds}

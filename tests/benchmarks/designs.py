@@ -1,0 +1,97 @@
+"""What a run costs among others that differ in modifications, misalignment and torque, and what it costs by itself.
+
+``python -m tests.benchmarks.designs [--runs N] [--friction]``: runs of the pair of `demos/helical_gearbox` over the
+face, and of the paper's pair in the plane, quasi-static, drawn at random about the designs of the demonstrations; gears
+are condensed before. Processor seconds of a run in medians: of this process and of the kernel; contact operators that
+were built, positions between steps that were asked for, Newton's iterations. "alone": nothing but gears is shared;
+"shared": one after the other on the same contact operators, the second half of them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import resource
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.dynamics.between_steps import BetweenSteps
+from fenics_gears.model.model import Model
+from fenics_gears.runs.gear_store import GearStore
+from fenics_gears.runs.runs import completed
+from fenics_gears.studies.scenes import model_of_tree
+
+DEMOS = Path(__file__).parents[2] / "demos"
+ACCURACY = {"steps_per_mesh_cycle": 20, "flank_element_size": "0.06 mm", "contact_length": "1.2 mm"}
+NO_FIELDS = {"output": {"contact_fields": False}}
+FRICTION = {"friction": {"coefficient": 0.05}}
+
+
+def over_the_face(friction: bool, draw: np.random.Generator) -> Iterator[Model]:
+    """Designs of the helical pair: relief, crowning, helix slope, misalignment, three torques."""
+    tree = tomllib.loads((DEMOS / "helical_gearbox" / "gearbox.toml").read_text(encoding="utf-8"))
+    tree |= NO_FIELDS | {"accuracy": ACCURACY | {"slices": 28, "layers": 14}} | (FRICTION if friction else {})
+    while True:
+        depth, crowning, slope, lean = draw.uniform((18.0, 6.0, -3.0, 15.0), (26.0, 10.0, 3.0, 30.0))
+        tree["tip_relief"] = tree["tip_relief"] | {"depth": f"{depth:.4g} um"}
+        tree["lead_modifications"] = {"pinion": {"crowning": f"{crowning:.4g} um", "helix_slope": f"{slope:.4g} um"}}
+        tree["misalignment"] = {"in_plane": f"{lean:.4g} um"}
+        for torque in (280, 300, 320):
+            yield model_of_tree("design", tree | {"load": {"wheel_torque": f"{torque} N m"}}, DEMOS)
+
+
+def in_the_plane(friction: bool, draw: np.random.Generator) -> Iterator[Model]:
+    """Designs of the search `demos/best_relief`."""
+    tree = tomllib.loads((DEMOS / "lundvall2004.toml").read_text(encoding="utf-8"))
+    left_out = ("inertia", "damping", "motion", *(() if friction else ("friction",)))
+    tree = {name: section for name, section in tree.items() if name not in left_out} | NO_FIELDS
+    while True:
+        depth, length = draw.uniform((5.0, 3.0), (50.0, 9.0))
+        relief = {"depth": f"{depth:.4g} um", "length_on_path": f"{length:.4g} mm"}
+        yield model_of_tree("design", tree | {"tip_relief": relief}, DEMOS)
+
+
+def spent(model: Model, store: GearStore) -> list[float]:
+    """User and kernel seconds of a run, operators built, positions asked for between steps, iterations."""
+    counted, build, at = [0, 0], Cycle._build, BetweenSteps.at
+
+    def counting(place, function):
+        def counted_call(*given):
+            counted[place] += 1
+            return function(*given)
+
+        return counted_call
+
+    Cycle._build, BetweenSteps.at = counting(0, build), counting(1, at)
+    before = resource.getrusage(resource.RUSAGE_SELF)
+    try:
+        result = completed(model, store.prepared)
+    finally:
+        Cycle._build, BetweenSteps.at = build, at
+    after = resource.getrusage(resource.RUSAGE_SELF)
+    seconds = after.ru_utime - before.ru_utime, after.ru_stime - before.ru_stime
+    return [*seconds, *counted, result.attrs["newton_iterations_total"]]
+
+
+def main() -> None:
+    """Print a row for each kind of pair and way."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--runs", type=int, default=24)
+    parser.add_argument("--friction", action="store_true")
+    options = parser.parse_args()
+    print(f"{'':26}{'user ms':>9}{'kernel ms':>11}{'built':>7}{'between':>9}{'iterations':>12}")
+    for name, designs in (("over the face", over_the_face), ("in the plane", in_the_plane)):
+        for way, cycles in (("alone", False), ("shared", True)):
+            models, store = designs(options.friction, np.random.default_rng(1)), GearStore(None, cycles)
+            runs = options.runs if cycles else max(options.runs // 6, 2)
+            found = np.array([spent(next(models), store) for _ in range(runs)])
+            user, kernel, *others = np.median(found[runs // 2 :], axis=0)
+            figures = "".join(f"{each:>{width}.0f}" for each, width in zip(others, (7, 9, 12)))
+            print(f"{f'{name}, {way}':26}{1e3 * user:9.0f}{1e3 * kernel:11.0f}{figures}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
