@@ -25,6 +25,8 @@ from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 SMALL_SYSTEM = 40
 # Pivots of forces as part of the first one, below which larger ones are looked for.
 LEAST_PIVOT = 1e-2
+# Friction coefficient up to which the compliance's diagonal serves as pivots.
+WEAK_FRICTION = 0.25
 
 
 class Equations(NamedTuple):
@@ -114,7 +116,8 @@ def solve_sets(equations, iterate):
         for d in range(k):
             matrix[size + c, size + d] = stiffness[c, d]
         right_side[size + c] = load[c]
-    solution = solved(matrix, right_side, size)
+    # Strong friction leaves the diagonal no better than other pivots.
+    solution = solved(matrix, right_side, size if not tangential or friction <= WEAK_FRICTION else 0)
     forces[:] = 0.0
     for a in range(size):
         forces[rows[a]] = solution[a] * unit
