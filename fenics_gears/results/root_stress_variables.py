@@ -7,7 +7,6 @@ from collections import defaultdict
 from collections.abc import Sequence
 
 import numpy as np
-from scipy import sparse
 
 from fenics_gears.contact.flank_forces import SENSE_OF_TEETH, rows_in_slice, sector_of
 from fenics_gears.contact.mesh_cycle import Cycle, Position
@@ -22,9 +21,10 @@ Rows = tuple[RootStressRows, RootStressRows]
 SIDES = ("drive", "coast")
 
 
-# Of a gear: the teeth loaded at a position, by `sector_of`, and the forces on their flanks' slices per contact force
-# (loaded d, forces).
-OnFlanks = tuple[list[int], sparse.csr_matrix]
+# Of a gear: the teeth loaded at a position, by `sector_of`; and for each tooth pair in its slice the forces on the
+# flank's nodes near it per contact force (f, n or 2 n), their places (f,) among those of all these teeth, and those of
+# its contact forces among all.
+OnFlanks = tuple[list[int], list[tuple[np.ndarray, np.ndarray, np.ndarray]]]
 
 
 class RootStress:
@@ -33,34 +33,29 @@ class RootStress:
 
     def __init__(self, pair: GearPair, cycle: Cycle, rows: Rows):
         self.pair, self.cycle, self.rows = pair, cycle, rows
-        self._matrices: dict[tuple, tuple[np.ndarray, tuple[OnFlanks, OnFlanks]]] = {}
+        self._on_flanks: dict[tuple, tuple[np.ndarray, tuple[OnFlanks, OnFlanks]]] = {}
 
     def on_flanks(self, position: Position) -> tuple[np.ndarray, tuple[OnFlanks, OnFlanks]]:
-        """Indices (t,) of the tooth pairs in reach, and matrices from contact forces to forces on both gears' flanks,
-        built when first asked for."""
+        """Indices (t,) of the tooth pairs in reach, and what contact forces are on both gears' flanks, found when first
+        asked for."""
         key = position.nodes, position.index
-        if key not in self._matrices:
+        if key not in self._on_flanks:
             pairs, tangential = position.operator.pairs, position.operator.rigid_slip is not None
             teeth = np.array(sorted({pair.place.index for pair in pairs}, reverse=True), dtype=int)
-            self._matrices[key] = teeth, tuple(self._of_gear(gear, pairs, tangential) for gear in (0, 1))
-        return self._matrices[key]
+            self._on_flanks[key] = teeth, tuple(self._of_gear(gear, pairs, tangential) for gear in (0, 1))
+        return self._on_flanks[key]
 
     def _of_gear(self, gear: int, pairs: Sequence[ToothPair], tangential: bool) -> OnFlanks:
         sectors, dofs = sorted({sector_of(gear, pair) for pair in pairs}), self.rows[gear].rows.shape[-1]
         count = sum(len(pair.offsets) for pair in pairs)
-        slices, entries = self.rows[gear].rows.shape[1], []
+        slices, pushed = self.rows[gear].rows.shape[1], []
         for nodes, pair in zip(node_slices(pairs), pairs):
             number, forces = self._forces(gear, pair, tangential)
             columns = np.r_[nodes, count + nodes.start : count + nodes.stop] if tangential else np.r_[nodes]
             first = dofs * sectors.index(sector_of(gear, pair)) + len(forces) * (slices * pair.place.flank + number)
-            row, column = np.nonzero(forces)
-            entries.append((forces[row, column], first + row, columns[column]))
-        values, row, column = (
-            (np.concatenate(each) for each in zip(*entries)) if entries else np.empty((3, 0), dtype=int)
-        )
-        return sectors, sparse.csr_matrix(
-            (values, (row, column)), shape=(dofs * len(sectors), (2 if tangential else 1) * count)
-        )
+            near = np.flatnonzero(forces.any(axis=1))
+            pushed.append((forces[near], first + near, columns))
+        return sectors, pushed
 
     def _forces(self, gear: int, pair: ToothPair, tangential: bool) -> tuple[int, np.ndarray]:
         """The slice that a pair is in, and forces (f components, n or 2 n) on a flank's nodes there per contact
@@ -94,8 +89,11 @@ class RootStress:
             slots = nodes.slot_of(steps[:, None], teeth)
             values[steps[:, None], :, slots] = at_rest
             contact = all_forces[starts[steps] + np.arange(starts[steps[0] + 1] - starts[steps[0]])[:, None]]
-            for gear, (sectors, matrix) in enumerate(gears):
-                forces = (matrix @ contact).reshape(len(sectors), -1, len(steps))
+            for gear, (sectors, pushed) in enumerate(gears):
+                forces = np.zeros((len(sectors), self.rows[gear].rows.shape[-1], len(steps)))
+                on_teeth = forces.reshape(-1, len(steps))
+                for own, rows, columns in pushed:
+                    on_teeth[rows] += own @ contact[columns]
                 for sector, loaded, own in zip(sectors, forces.any(axis=1), forces):
                     some = loaded.nonzero()[0]
                     if len(some):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps
-from fenics_gears.contact.relief_gaps import profile_of
 from fenics_gears.contact.tooth_pair import Removal
 from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.model.model import Model
@@ -38,12 +37,15 @@ def sections_of_gaps(model: Model) -> tuple[str, ...]:
 
 def gaps_of(model: Model, cycle: Cycle) -> Gaps:
     """What opens the contact nodes of a cycle of the model, or of one that shares its contact operators."""
-    relieved = model.removal != (None, None) and reliefs_apart(model)
-    openings = ()
+    profile, openings = None, ()
+    if model.removal != (None, None) and reliefs_apart(model):
+        # Imported here: true involutes have none.
+        from fenics_gears.contact.relief_gaps import profile_of
+
+        profile = profile_of(cycle, model.removal)
     if cycle.face.slices > 1:
         # Imported here: plane scenes have none.
         from fenics_gears.contact.face_mesh import opening_over_face
 
         openings = (opening_over_face(cycle, model.face_opening, model.coast_face_opening),)
-    deviations = tuple(from_effects(model.scene, "gaps", model))
-    return Gaps(profile_of(cycle, model.removal) if relieved else None, openings, deviations)
+    return Gaps(profile, openings, tuple(from_effects(model.scene, "gaps", model)))

@@ -11,11 +11,13 @@ import re
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from fenics_gears.errors import SceneError
 from fenics_gears.system.job import ranks_on_machine
+
+if TYPE_CHECKING:
+    import numpy as np
 
 MEMORY_VARIABLE = "FENICS_GEARS_MEMORY"
 BYTES = {"MB": 1e6, "GB": 1e9, "TB": 1e12}
@@ -57,6 +59,9 @@ def _named_or(of_machine: Callable[[], float]) -> float:
 def pages(rows: int, columns: int) -> np.ndarray:
     """A matrix of zeros that takes memory where it is written, by pages of a few kilobytes, and gives it back as soon
     as nobody holds it."""
+    # Imported here: help does without.
+    import numpy as np
+
     held = mmap.mmap(-1, max(8 * rows * columns, 1), flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
     # Pages of megabytes would hold much that is never written. Kernels without such pages refuse, other systems than
     # Linux have no such call.
