@@ -60,7 +60,7 @@ class OnSections(NamedTuple):
 def stacked(section: FlankCompliance) -> np.ndarray:
     """Compliance (2 k - 1, F, F, 2 n, 2 n) of a flank, by the teeth that it is ahead of the loaded one, from k - 1
     behind on, and by both flanks; not a number where it is not known."""
-    reach, sides, dofs = section.offsets, section.flanks, 2 * section.nodes
+    reach, sides, dofs = section.farthest, section.flanks, 2 * section.nodes
     found = np.full((2 * reach + 1, sides, sides, dofs, dofs), np.nan)
     for number, side, other in np.ndindex(2 * reach + 1, sides, sides):
         try:
@@ -77,7 +77,8 @@ def fine_sections(blocks, now, before, begins, begins_before, numbers, by_earlie
     in `begins` on; and by forces `before` on the tangential displacement now, (2, n before, 1, n), into `by_earlier`.
 
     `blocks`: of either gear, as `stacked`. `now.axes`: with friction normal, tangent, and the tangent as it stood
-    before. A slice with a place of -1 is left out.
+    before. A slice with a place of -1 is left out. Where flanks are further apart than the sections' compliance is
+    known, the slice's first number is not a number.
     """
     kinds, no_nodes = min(now.axes.shape[2], 2), 0
     for number in range(len(begins)):
@@ -93,13 +94,18 @@ def fine_sections(blocks, now, before, begins, begins_before, numbers, by_earlie
                 row = _nodes(now, gear, p)
                 nothing = no_nodes, row[1][:0], row[2][:0], row[3]
                 for q in own:
-                    if q <= p:
+                    if not _known(blocks[gear], gear, now, p, now, q):
+                        numbers[begin] = np.nan
+                    elif q <= p:
                         # The other half follows by symmetry.
                         loaded = _nodes(now, gear, q)
                         block = _block(blocks[gear], gear, now, p, now, q)
                         loaded = loaded[0], loaded[1], loaded[2], loaded[3][:kinds]
                         compliance_product(block, row, loaded, compliance, nothing, earlier)
                 for q in earlier_own:
+                    if not _known(blocks[gear], gear, now, p, before, q):
+                        numbers[begin] = np.nan
+                        continue
                     block = _block(blocks[gear], gear, now, p, before, q)
                     loaded = _nodes(before, gear, q)
                     loaded = loaded[0], loaded[1], loaded[2], loaded[3][:kinds]
@@ -117,6 +123,11 @@ def _nodes(nodes, gear, group):
     place, width = nodes.begins[gear, group], nodes.widths[gear, group]
     near = nodes.near[place : place + (end - begin) * width].reshape((end - begin, width))
     return nodes.groups[IN_SLICE, group], near, nodes.first[gear, begin:end], nodes.axes[gear, group]
+
+
+@njit(cache=True)
+def _known(blocks, gear, responding, p, loaded, q):
+    return abs(responding.teeth[gear, p] - loaded.teeth[gear, q]) <= (len(blocks) - 1) // 2
 
 
 @njit(cache=True)

@@ -65,6 +65,11 @@ class FlankCompliance:
         """Largest distance, in pitches, between two teeth whose interaction is known."""
         return len(self.blocks) - 1
 
+    @property
+    def farthest(self) -> int:
+        """The same of any flanks of two teeth."""
+        return self.offsets
+
     def block(self, offset: int) -> np.ndarray:
         """Compliance of the flank ``offset`` pitches ahead of the loaded one, (2n, 2n).
 
@@ -116,6 +121,11 @@ class BothFlanksCompliance(FlankCompliance):
     across: np.ndarray = field(kw_only=True)
     first_across: int = field(kw_only=True)
     flanks: int = 2
+
+    @property
+    def farthest(self) -> int:
+        """The same of any flanks of two teeth: drive and coast flank of a gap are a pitch further apart."""
+        return max(self.offsets, -self.first_across, self.first_across + len(self.across) - 1)
 
     def block(self, offset: int) -> np.ndarray:
         """Compliance (4n, 4n) over both flanks, put together."""

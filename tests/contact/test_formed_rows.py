@@ -2,7 +2,10 @@
 
 import numpy as np
 import pytest
+from tests.stand_in import stand_in_compliance
 
+from fenics_gears import ComputationError
+from fenics_gears.contact.fine_sections import stacked
 from fenics_gears.contact.formed_rows import Fine, FormedRows, Side, form_rows
 
 NODES, SLICES, OFFSETS = 6, 3, 2
@@ -83,3 +86,22 @@ def test_rows_are_those_of_whole_matrices(kinds):
     np.testing.assert_allclose(found.matrix[both], expected[both], rtol=1e-11, atol=1e-12 * np.abs(expected).max())
     assert not np.delete(found.matrix, both, axis=0).any()
     np.testing.assert_allclose(found.whole(), expected, rtol=1e-11, atol=1e-12 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize("coast", [False, True], ids=["drive flanks", "both flanks"])
+def test_stacked_sections_are_all_that_is_known(paper_pair, coast):
+    """Identity: as far as any two flanks' compliance is known, also that of drive and coast flanks, which reaches
+    further; beyond it not a number."""
+    section = stand_in_compliance(paper_pair.pinion, elements=4, offsets=1, coast_flank=coast)
+    blocks = stacked(section)
+    reach = len(blocks) // 2
+    assert reach == section.farthest
+    for ahead, side, other in np.ndindex(2 * reach + 3, section.flanks, section.flanks):
+        try:
+            known = section.between(ahead - reach - 1, 0, (side, other))
+        except ComputationError:
+            known = np.nan
+        if 0 < ahead < 2 * reach + 2:
+            np.testing.assert_array_equal(blocks[ahead - 1, side, other], known)
+        else:
+            assert known is np.nan
