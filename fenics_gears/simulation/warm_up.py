@@ -42,8 +42,10 @@ def _run_once(tangential: bool, rigid: bool) -> None:
     interpolation = flank_interpolation(offsets, rolls, 40.0, 0.5, 1.0, np.linspace(0.4, 0.6, 5), 1)
     node_average(offsets, roll_angle_at_height(40.0, 0.5, 40.0 + quadrature_offsets(offsets)))
     kinds = 2 if tangential else 1
-    nodes = 0, interpolation.near, interpolation.first, np.eye(2)
-    compliance_product(np.eye(10), nodes, nodes, np.zeros((kinds, 2, kinds, 2)), nodes, np.zeros((1, 2, 2, 2)))
+    seen, earlier = (0, interpolation.near, interpolation.first), np.zeros((1, 2, kinds, 2))
+    # With friction also along the tangent as it stood before.
+    responding, loaded = (*seen, np.ones((2 * kinds - 1, 2))), (*seen, np.ones((kinds, 2)))
+    compliance_product(np.eye(10), responding, loaded, np.zeros((kinds, 2, kinds, 2)), loaded, earlier)
     unknowns = 2 if tangential else 1
     node, row, tolerance = np.zeros(1), np.eye(unknowns, 1), Tolerance.of_load(1.0)
     slip = np.ones(1) if tangential else np.empty(0)
