@@ -48,11 +48,9 @@ NO_NODES: _Nodes = (0, np.empty((0, 1)), np.empty(0, dtype=np.int64), np.eye(2))
 class CompliancePairing:
     """Compliance between the contact nodes of tooth pairs, from the flank compliances of both gears."""
 
-    def __init__(self, flanks: Flanks, blocks: tuple[dict, dict] | None = None, width: float | None = None):
-        """`blocks`: of either gear, by pairs of teeth, which pairings of the same bodies may share. `width` (mm): over
-        which a force spreads, the common face width unless given."""
-        self.flanks, self._gears = flanks, flanks.compliance
-        self._width, self._blocks = width or flanks.pair.face_width, blocks or ({}, {})
+    def __init__(self, flanks: Flanks, blocks: tuple[dict, dict] | None = None):
+        """`blocks`: of either gear, by pairs of teeth, which pairings of the same bodies may share."""
+        self.flanks, self._gears, self._blocks = flanks, flanks.compliance, blocks or ({}, {})
 
     def response(self, passage: Passage) -> Response:
         """How the contact nodes of a passage yield."""
@@ -95,7 +93,7 @@ class CompliancePairing:
                 row, near, first, axes = own
                 if tangential:
                     axes = np.concatenate([axes, _earlier_tangent(pair.place, gear, turned)])
-                own = row, near, first, axes / self._width
+                own = row, near, first, axes / self.flanks.pair.face_width
                 for other, loaded, loaded_before in loads:
                     # The other half follows by symmetry.
                     loaded = loaded if loaded[0] <= row else NO_NODES

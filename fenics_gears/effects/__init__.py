@@ -37,6 +37,8 @@ AT_THE_TOP = (
     "profile_modifications",
 )
 SECTIONS = ("tooth_elasticity", *AT_THE_TOP)
+# What opens the flanks along a face.
+ALONG_THE_FACE = ("lead_modifications", "misalignment")
 
 # What every run has, whatever its effects.
 COMMON_VARIABLES: tuple[ResultVariable, ...] = (

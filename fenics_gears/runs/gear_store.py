@@ -7,7 +7,7 @@ import functools
 from dataclasses import replace
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.effects import effects_on
+from fenics_gears.effects import ALONG_THE_FACE, effects_on
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies, Body
 from fenics_gears.inputs.tree import GEARS
@@ -15,7 +15,7 @@ from fenics_gears.model.model import Model
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.bodies import body_key, gear_body
 from fenics_gears.simulation.elastic_route import mesh_cycle
-from fenics_gears.simulation.gaps import ALONG_THE_FACE, gaps_of, sections_of_gaps
+from fenics_gears.simulation.gaps import gaps_of, sections_of_gaps
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
 

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from fenics_gears.effects import effects_on
+from fenics_gears.effects import ALONG_THE_FACE, effects_on
 from fenics_gears.errors import GearsError
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.results.carried_scene import carried_scene
@@ -31,8 +31,6 @@ TOO_FEW = "Fewer than two steps are stored; a curve needs two."
 MOST_CYCLES = 4.0
 # Cycles whose least and largest values differ by less than this part of the largest span are alike.
 ALIKE = 0.01
-# Effects that open the flanks along the face.
-ALONG_THE_FACE = ("lead_modifications", "misalignment")
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps
 from fenics_gears.contact.tooth_pair import Removal
-from fenics_gears.effects import effects_on, from_effects
+from fenics_gears.effects import ALONG_THE_FACE, effects_on, from_effects
 from fenics_gears.model.model import Model
 from fenics_gears.simulation.routes import CONDENSED, route_of
-
-# What opens the flanks of a face; beside it reliefs, and whatever has gaps for each step.
-ALONG_THE_FACE = ("lead_modifications", "misalignment")
 
 
 def gaps_apart(model: Model) -> bool:
