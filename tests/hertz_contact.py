@@ -17,7 +17,6 @@ from fenics_gears import Gear, Scene, model_of
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import CENTRE_COORDINATES
-from fenics_gears.contact.pressure import without_oscillation
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
@@ -25,6 +24,7 @@ from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.geometry.involute import arc_length, canonical_normal, roll_angle_at_arc_length
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import hertz_half_width, plane_contact_modulus, relative_radius
+from fenics_gears.results.mesh_curves import without_oscillation
 
 # The smaller load, in parts of the larger: half its half-width.
 SMALLER = 0.25

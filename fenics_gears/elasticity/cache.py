@@ -22,7 +22,7 @@ from time import perf_counter
 import numpy as np
 
 from fenics_gears.system.memory import size_in_bytes
-from fenics_gears.system.sealed import seal, unsealed
+from fenics_gears.system.output import seal, unsealed
 
 LOGGER = logging.getLogger(__name__)
 DIRECTORY_VARIABLE = "FENICS_GEARS_CACHE"

@@ -11,8 +11,8 @@ from typing import NoReturn
 import numpy as np
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.fillet import fillet_point
 from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.outline import fillet_point
 
 # Lengths (mm) below which a backlash, clearance or arc counts as exactly zero.
 ROUNDING = 1e-6

@@ -1,17 +1,30 @@
 """The outline of one tooth in its transverse section: rack-generated fillet and involute, in the tooth's body frame
-(see involute.py)."""
+(see involute.py).
+
+The rounding of the rack's tip is an ellipse in the transverse section of a helical gear, of semi-axes k rho along the
+pitch line and rho in depth, with rho = rack_tip_radius and k = 1/cos(helix angle). Where its normal has the angle t
+from the depth direction and D = sqrt(1 + (k^2 - 1) sin(t)^2), its point is (k^2 sin(t), cos(t)) rho/D from its centre
+and its radius of curvature k^2 rho/D^3. A spur gear has k = D = 1, a circle.
+
+Where the rack cuts deep, the fillet does not touch the involute but crosses it: what is below the crossing is cut away.
+So it is where the rounding protrudes beyond the rack's flank. From the rounding up, at the protuberance angle, a short
+straight flank then goes back; the fillet's parameter goes on along it, t beyond its value at the end of the rounding
+being length in modules.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, pi, sin
+from math import cos, pi, sin, tan
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.fillet import fillet_point, fillet_speed
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.involute import canonical_point
+from fenics_gears.geometry.involute import canonical_point, involute_function
+
+if TYPE_CHECKING:
+    from fenics_gears.geometry.gear import Gear
 
 ARC_LENGTH_SAMPLES = 401
 
@@ -90,3 +103,142 @@ def _even_parameters(gear: Gear, count: int) -> np.ndarray:
     speed = fillet_speed(gear, fine)
     length = np.concatenate([[0.0], np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(fine))])
     return np.interp(np.linspace(0.0, length[-1], count), length, fine)
+
+
+def fillet_point(gear: Gear, parameter) -> np.ndarray:
+    """Points (..., 2), mm, that the rounded tip of the rack cuts.
+
+    parameter: (...), rad, angle of the rack rounding's normal from the tooth depth direction; 0 (root circle) to
+    ``gear.fillet_end`` (form circle). The point is cut when that normal passes through the pitch point, which is
+    ``l = rack_tip_radius/D + depth/cos(parameter)`` away (law of gearing; Litvin & Fuentes, Gear Geometry and Applied
+    Theory, ch. 6).
+    """
+    angle, along = _on_rack(gear, parameter)
+    distance = _distance_from_pitch_point(gear, angle) - along * np.tan(angle)
+    in_space = np.stack([-distance * np.sin(angle), distance * np.cos(angle) - gear.reference_radius], axis=-1)
+    return _turned(in_space, _body_angle(gear, angle, along))
+
+
+def fillet_tangent(gear: Gear, parameter) -> np.ndarray:
+    """Derivative (..., 2), mm/rad, of ``fillet_point`` by its parameter."""
+    angle, along = _on_rack(gear, parameter)
+    direction = np.stack([-np.cos(angle), -np.sin(angle)], axis=-1)
+    return fillet_speed(gear, parameter)[..., None] * _turned(direction, _body_angle(gear, angle, along))
+
+
+def fillet_speed(gear: Gear, parameter) -> np.ndarray:
+    """Length (mm) of fillet per rad of its parameter: rolling on the rack's rounding plus sliding."""
+    angle, along = _on_rack(gear, parameter)
+    depth, excess, flattening = gear.rack_tip_centre[1], _excess(gear), _flattening(gear, angle)
+    turning = depth / (gear.reference_radius * np.cos(angle) ** 2) - excess * np.cos(angle) / (
+        gear.reference_radius * flattening**3
+    )
+    curvature_radius = gear.rack_stretch**2 * gear.rack_tip_radius / flattening**3
+    speed = curvature_radius + _distance_from_pitch_point(gear, angle) * turning
+    if not gear.protuberance:
+        return speed
+    distance = _distance_from_pitch_point(gear, angle) - along * np.tan(angle)
+    on_flank = gear.module * (1.0 - distance / (gear.reference_radius * np.cos(angle)))
+    return np.where(along > 0.0, on_flank, speed)
+
+
+def _on_rack(gear: Gear, parameter) -> tuple[np.ndarray, np.ndarray | float]:
+    """Angle (rad) of the rack's normal at a fillet parameter, and the length (mm) along the straight flank of a
+    protuberance."""
+    angle = np.asarray(parameter, dtype=float)
+    if not gear.protuberance:
+        return angle, 0.0
+    end = 0.5 * pi - gear.transverse_protuberance_angle
+    return np.minimum(angle, end), gear.module * np.maximum(angle - end, 0.0)
+
+
+def _distance_from_pitch_point(gear: Gear, angle):
+    """Distance (mm) along the normal from the pitch point to the point being cut."""
+    return gear.rack_tip_radius / _flattening(gear, angle) + gear.rack_tip_centre[1] / np.cos(angle)
+
+
+def _excess(gear: Gear) -> float:
+    """(k^2 - 1) rho, mm, zero for a circle."""
+    return (gear.rack_stretch**2 - 1.0) * gear.rack_tip_radius
+
+
+def _flattening(gear: Gear, angle):
+    """D of the ellipse at an angle (rad, any shape) of its normal: 1 for a circle."""
+    return np.sqrt(1.0 + (gear.rack_stretch**2 - 1.0) * np.sin(angle) ** 2)
+
+
+def _body_angle(gear: Gear, angle, along=0.0):
+    """Angle (rad) from the generating pose into the tooth's body frame while ``angle`` is being cut.
+
+    The space lies over the rack's tooth at first; the gear has then rolled the rack's travel over its reference radius.
+    """
+    across, depth = gear.rack_tip_centre
+    # Where the normal meets the pitch line: from the ellipse's centre it is aside of a circle's.
+    aside = _excess(gear) * np.sin(angle) / _flattening(gear, angle)
+    rolled = (across + aside - depth * np.tan(angle) + along / np.cos(angle)) / gear.reference_radius
+    return 0.5 * gear.angular_pitch - gear.tooth_half_angle_at_base - rolled
+
+
+def _turned(vectors, angle):
+    """Vectors (..., 2) turned counter-clockwise by angles (...)."""
+    sine, cosine = np.sin(angle), np.cos(angle)
+    x, y = vectors[..., 0], vectors[..., 1]
+    return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
+
+
+def touching_end(gear: Gear) -> float:
+    """Fillet parameter (rad) where the rounding passes into the rack's straight flank, which cuts the involute."""
+    return 0.5 * pi - gear.pressure_angle
+
+
+def crossing(gear: Gear) -> float:
+    """Fillet parameter (rad) where the fillet of an undercut gear comes out of its involute, by halving to the last
+    digit.
+
+    The fillet rises steadily. Where its rack's normal is that of the flank, or at the base circle, it is inside the
+    tooth; it ends outside.
+    """
+    touching, last = touching_end(gear), _last(gear)
+    inside = touching if gear.protuberance and _radius(gear, touching) > gear.base_radius else _at_base_circle(gear)
+    return halved(lambda parameter: _outside(gear, parameter) >= 0.0, inside, last)
+
+
+def _last(gear: Gear) -> float:
+    """Parameter at the end of what cuts the fillet: of the rounding, or where the protuberance has gone back to the
+    flank, if it still rises there."""
+    if not gear.protuberance:
+        return touching_end(gear)
+    angle, flank = gear.transverse_protuberance_angle, gear.pressure_angle
+    end, rounding = 0.5 * pi - angle, gear.rack_tip_radius
+    flattening = float(_flattening(gear, end))
+    across, depth = gear.rack_tip_centre
+    beyond = (
+        across
+        + gear.rack_stretch**2 * rounding * cos(angle) / flattening
+        - gear.rack_half_thickness(depth + rounding * sin(angle) / flattening)
+    )
+    length = beyond / (cos(angle) * tan(flank) - sin(angle)) / gear.module
+    return end + length if length > 0.0 and fillet_speed(gear, end + 0.5 * length) > 0.0 else end
+
+
+def _at_base_circle(gear: Gear) -> float:
+    return halved(lambda parameter: _radius(gear, parameter) >= gear.base_radius, 0.0, _last(gear))
+
+
+def _radius(gear: Gear, parameter: float) -> float:
+    return float(np.hypot(*fillet_point(gear, parameter)))
+
+
+def _outside(gear: Gear, parameter: float) -> float:
+    """Angle (rad) from the drive flank's involute, out of the tooth, to a point of the fillet on or above the base
+    circle."""
+    x, y = fillet_point(gear, parameter)
+    roll = np.sqrt(max((x**2 + y**2) / gear.base_radius**2 - 1.0, 0.0))
+    return float(np.arctan2(x, -y) + involute_function(roll))
+
+
+def halved(reached, low: float, high: float) -> float:
+    """The least number between two from which on `reached` is true, to the last digit; `high` where it never is."""
+    while low < (middle := 0.5 * (low + high)) < high:
+        low, high = (low, middle) if reached(middle) else (middle, high)
+    return high

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.geometry.fillet import fillet_point
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_checks import ROUNDING, in_degrees, refuse
 from fenics_gears.geometry.involute import involute_function
+from fenics_gears.geometry.outline import fillet_point
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.pair import GearPair

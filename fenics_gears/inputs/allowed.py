@@ -8,7 +8,7 @@ from math import inf, isfinite
 from typing import Any
 
 from fenics_gears.inputs import units
-from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.problem import did_you_mean
 from fenics_gears.inputs.written import as_written
 
 # The longest path that Linux takes.

@@ -12,8 +12,7 @@ from dataclasses import MISSING, Field, dataclass, fields
 from typing import Any, ClassVar, get_args, get_type_hints
 
 from fenics_gears.inputs.allowed import Allowed, Refused
-from fenics_gears.inputs.names import did_you_mean
-from fenics_gears.inputs.problem import Path, Problem
+from fenics_gears.inputs.problem import Path, Problem, did_you_mean
 from fenics_gears.inputs.written import as_written
 
 

@@ -7,8 +7,7 @@ from math import pi
 from typing import Any
 
 from fenics_gears.inputs import units
-from fenics_gears.inputs.names import nearest
-from fenics_gears.inputs.problem import Path
+from fenics_gears.inputs.problem import Path, nearest
 
 Tree = Mapping[str, Any]
 GEARS = ("pinion", "wheel")

@@ -13,8 +13,7 @@ from fenics_gears.effects import from_effects
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.geometry.gear_data import mean_youngs_modulus
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.scene.data import Scene
-from fenics_gears.scene.defaults import (
+from fenics_gears.scene.accuracy import (
     FEWEST_LAYERS,
     LAYER_THICKNESS,
     LAYER_TURN,
@@ -22,6 +21,7 @@ from fenics_gears.scene.defaults import (
     SECTION_SIZE,
     SLICES_OF_A_LAYER,
 )
+from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
     from fenics_gears.model.model import Model

@@ -20,9 +20,8 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
 from fenics_gears.model.drivetrain import drivetrain, mesh_stiffness
-from fenics_gears.model.modification import corner, removals
+from fenics_gears.model.modification import corner, removals, rim_warnings
 from fenics_gears.model.resolution import Resolution, locking_warnings, resolution_warnings, resolve
-from fenics_gears.model.rim import rim_warnings
 from fenics_gears.model.storage import counted_bytes, sizes, stored_arrays
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
 

@@ -23,14 +23,14 @@ from fenics_gears.geometry.gear_data import PAIR_STIFFNESS, mean_youngs_modulus
 from fenics_gears.geometry.involute import arc_length, roll_angle_at_arc_length
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.model.drivetrain import mesh_stiffness
-from fenics_gears.scene.data import ISO_6336, Material, Scene
-from fenics_gears.scene.defaults import (
+from fenics_gears.scene.accuracy import (
     COARSEST_ELEMENT,
     FINEST_ELEMENT,
     MOST_STEPS_PER_MESH_CYCLE,
     NODE_SPACING,
     STEPS_PER_PERIOD,
 )
+from fenics_gears.scene.data import ISO_6336, Material, Scene
 
 DEFAULT_ELEMENT = "P2"
 # Half of the rough stiffness of a pair bounds its deflection from above.

@@ -8,10 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-# How extrema were found.
-SOLVED, CUBICS, STEPS = "positions solved between steps", "cubics through four steps where the curve is smooth", "steps"
-RUNG = "steps_by_rung: "
-ESTIMATED = "estimated_error: "
+from fenics_gears.results.numbers import CUBICS, SOLVED, STEPS
 
 
 @dataclass(frozen=True)
@@ -41,68 +38,58 @@ WITH_FILES = "the scene names files (`[body_meshes]`, tables of `[flank_errors]`
 WITH_TARGET = "`[accuracy] target`"
 IN_STUDIES = "the run is a study's case"
 
-RESULT_ATTRIBUTES = (
-    ResultAttribute("title", "", "the scene's title"),
-    ResultAttribute("scene", "", "the text of the scene that was run; saved as a file it can be run again"),
-    ResultAttribute("scene_name", "", "the name of the scene's file"),
-    ResultAttribute("scene_folder", "", "the folder from which files are looked for that the scene names", WITH_FILES),
-    ResultAttribute(
-        "scene_files", "", "a line for each of these files: a hash of what was read from it, and its name", WITH_FILES
-    ),
-    ResultAttribute("fenics_gears_version", "", "version of this program"),
-    ResultAttribute(
-        "numbers_version", "", "version of its numbers: two results of the same scene may differ where these do"
-    ),
-    ResultAttribute("complete", "", "1 when the run reached its end, 0 when it failed or was interrupted before"),
-    ResultAttribute(
+_ROWS = (
+    ("title", "", "the scene's title"),
+    ("scene", "", "the text of the scene that was run; saved as a file it can be run again"),
+    ("scene_name", "", "the name of the scene's file"),
+    ("scene_folder", "", "the folder from which files are looked for that the scene names", WITH_FILES),
+    ("scene_files", "", "a line for each of these files: a hash of what was read from it, and its name", WITH_FILES),
+    ("fenics_gears_version", "", "version of this program"),
+    ("numbers_version", "", "version of its numbers: two results of the same scene may differ where these do"),
+    ("complete", "", "1 when the run reached its end, 0 when it failed or was interrupted before"),
+    (
         "stopped",
         "",
         "why the run is not complete: `interrupted`, `failed`, or `not ended` (killed or still running, read from"
         " `run.nc.part`)",
         "`complete` is 0",
     ),
-    ResultAttribute("warnings", "", "warnings, one on each line"),
-    ResultAttribute(
+    ("warnings", "", "warnings, one on each line"),
+    (
         "settled_from",
         "s",
         "time from which on steps are settled: the vibration excited by the start has decreased to 0.1 %, in short runs"
         " to 1 %",
         WITH_STEPS,
     ),
-    ResultAttribute("settled_cycles", "1", "number of mesh cycles from `settled_from` to the end", WITH_STEPS),
-    ResultAttribute("friction_coefficient", "1", "coefficient of friction of the run", "`[friction]`"),
-    ResultAttribute(
-        "shown_cycles", "1", "number of mesh cycles at the end of the run that pictures show; for a speed ramp all"
-    ),
-    ResultAttribute(
+    ("settled_cycles", "1", "number of mesh cycles from `settled_from` to the end", WITH_STEPS),
+    ("friction_coefficient", "1", "coefficient of friction of the run", "`[friction]`"),
+    ("shown_cycles", "1", "number of mesh cycles at the end of the run that pictures show; for a speed ramp all"),
+    (
         "mean_transmission_error",
         "rad",
         "mean over the settled steps, without the last step, which belongs to the next mesh cycle",
     ),
-    ResultAttribute(
+    (
         "peak_to_peak_transmission_error",
         "rad",
         "peak-to-peak value over the settled steps; its extremes may lie between steps",
     ),
-    ResultAttribute(
+    (
         "peak_to_peak_transmission_error_from",
         "",
         f"how the extremes were found: `{SOLVED}`, `{CUBICS}`, or `{STEPS}`",
         WITH_STEPS,
     ),
-    ResultAttribute(
-        "largest_transmission_error_mesh_phase", "1", "mesh phase of the largest transmission error", WITH_STEPS
-    ),
-    ResultAttribute(
-        "least_transmission_error_mesh_phase", "1", "mesh phase of the least transmission error", WITH_STEPS
-    ),
-    ResultAttribute(
+    ("largest_transmission_error_mesh_phase", "1", "mesh phase of the largest transmission error", WITH_STEPS),
+    ("least_transmission_error_mesh_phase", "1", "mesh phase of the least transmission error", WITH_STEPS),
+    (
         "base_radius_wheel",
         "mm",
         "base radius of the wheel, which converts the transmission error into a length along the line of action",
     ),
     *(
-        ResultAttribute(
+        (
             f"transmission_error_harmonic_{n}",
             "um",
             f"amplitude of the transmission error at {words} mesh frequency, along the line of action",
@@ -110,145 +97,129 @@ RESULT_ATTRIBUTES = (
         )
         for n, words in enumerate(("the", "twice the", "three times the", "four times the", "five times the"), 1)
     ),
-    ResultAttribute(
+    (
         "rms_transmission_error",
         "um",
         "root mean square of the transmission error without its mean, along the line of action",
         OF_WHOLE_CYCLES,
     ),
-    ResultAttribute(
+    (
         "rms_normal_force",
         "N",
         "root mean square of the mesh force (drive less coast flanks) without its mean",
         OF_WHOLE_CYCLES,
     ),
-    ResultAttribute(
+    (
         "mean_mesh_stiffness",
         "N/(mm um)",
         "mesh stiffness c_gamma: mean of `mesh_stiffness` while the flanks touch, per face width",
         WITH_TEETH,
     ),
-    ResultAttribute(
+    (
         "mean_mesh_stiffness_tangent",
         "N/(mm um)",
         "mean of `mesh_stiffness_tangent`, which governs small vibrations, per face width",
         WITH_TEETH,
     ),
-    ResultAttribute(
+    (
         "single_pair_stiffness",
         "N/(mm um)",
         "single stiffness c': largest `mesh_stiffness` while one tooth pair is loaded, per face width",
         WITH_TEETH + " and in some steps one pair is loaded",
     ),
-    ResultAttribute(
+    (
         "largest_pair_force",
         "N",
         "largest normal force of a tooth pair",
         "the forces of the tooth pairs are determined and a pair is loaded",
     ),
-    ResultAttribute(
+    (
         "largest_pair_force_mesh_phase",
         "1",
         "mesh phase of the largest normal force of a tooth pair",
         "the forces of the tooth pairs are determined and a pair is loaded",
     ),
-    ResultAttribute(
+    (
         "largest_pair_force_from",
         "",
         "how the largest normal force was found, as `peak_to_peak_transmission_error_from`",
         "the forces of the tooth pairs are determined and a pair is loaded",
     ),
-    ResultAttribute(
-        "peak_contact_pressure", "MPa", "peak contact pressure: maximum of `largest_contact_pressure`", WITH_CONTACT
-    ),
-    ResultAttribute("peak_contact_pressure_time", "s", "time of the peak contact pressure", WITH_PRESSURE),
-    ResultAttribute("peak_contact_pressure_mesh_phase", "1", "mesh phase of the peak contact pressure", WITH_PRESSURE),
-    ResultAttribute(
-        "peak_contact_pressure_pair", "1", "number of the tooth pair with the peak contact pressure", WITH_PRESSURE
-    ),
-    ResultAttribute(
-        "peak_contact_pressure_flank", "", "flanks with the peak contact pressure: `drive` or `coast`", WITH_PRESSURE
-    ),
-    ResultAttribute(
-        "peak_contact_pressure_diameter", "mm", "diameter on the pinion at the peak contact pressure", WITH_PRESSURE
-    ),
-    ResultAttribute(
+    ("peak_contact_pressure", "MPa", "peak contact pressure: maximum of `largest_contact_pressure`", WITH_CONTACT),
+    ("peak_contact_pressure_time", "s", "time of the peak contact pressure", WITH_PRESSURE),
+    ("peak_contact_pressure_mesh_phase", "1", "mesh phase of the peak contact pressure", WITH_PRESSURE),
+    ("peak_contact_pressure_pair", "1", "number of the tooth pair with the peak contact pressure", WITH_PRESSURE),
+    ("peak_contact_pressure_flank", "", "flanks with the peak contact pressure: `drive` or `coast`", WITH_PRESSURE),
+    ("peak_contact_pressure_diameter", "mm", "diameter on the pinion at the peak contact pressure", WITH_PRESSURE),
+    (
         "peak_edge_pressure",
         "MPa",
         "maximum of `largest_edge_pressure`; it does not converge as the mesh is refined",
         "a pair is in contact at an edge, within two Hertz half-widths of one, or near the ends of the face",
     ),
-    ResultAttribute(
+    (
         "peak_kink_pressure",
         "MPa",
         "maximum of `largest_kink_pressure`; it does not converge as the mesh is refined",
         "a pair is in contact within a Hertz half-width of the kink of a linear relief",
     ),
-    ResultAttribute("overlap_ratio", "1", "overlap ratio of the common face; 0 for spur gears", OVER_FACE),
-    ResultAttribute("total_contact_ratio", "1", "transverse contact ratio plus overlap ratio", OVER_FACE),
-    ResultAttribute(
+    ("overlap_ratio", "1", "overlap ratio of the common face; 0 for spur gears", OVER_FACE),
+    ("total_contact_ratio", "1", "transverse contact ratio plus overlap ratio", OVER_FACE),
+    (
         "face_load_factor",
         "1",
         "face load factor K_Hbeta: of the line load averaged over the mesh cycle, the largest along the face, away from"
         " its ends, divided by the mean",
         f"{OVER_FACE_WITH_FIELDS} of at least a mesh cycle",
     ),
-    ResultAttribute(
+    (
         "largest_line_load_factor",
         "1",
         "largest line load of a tooth pair at any time, away from edges, divided by that of an even load on rigid gears"
         " in the worst position",
         f"{OVER_FACE_WITH_FIELDS}, and the load reaches away from edges",
     ),
-    ResultAttribute(
+    (
         "edge_line_load_factor",
         "1",
         "the same of the line load near the ends of the face and where a line of contact ends at a tip or form circle",
         f"{OVER_FACE_WITH_FIELDS}, and an edge is loaded",
     ),
-    ResultAttribute(
+    (
         "transverse_load_factor",
         "1",
         "transverse load factor K_Halpha: largest share of a tooth pair, relative to that of even line load",
         OVER_FACE_WITH_LOAD,
     ),
-    ResultAttribute("input_power", "W", "mean power of the driving gear", "a load and a speed"),
-    ResultAttribute(
-        "friction_loss", "1", "friction loss between the flanks divided by the work of the driving gear", WITH_FRICTION
-    ),
-    ResultAttribute(
-        "friction_power", "W", "mean power of the friction loss between the flanks", "`[friction]`, a load and a speed"
-    ),
-    ResultAttribute(
+    ("input_power", "W", "mean power of the driving gear", "a load and a speed"),
+    ("friction_loss", "1", "friction loss between the flanks divided by the work of the driving gear", WITH_FRICTION),
+    ("friction_power", "W", "mean power of the friction loss between the flanks", "`[friction]`, a load and a speed"),
+    (
         "mesh_efficiency",
         "1",
         "efficiency of the mesh, 1 - `friction_loss`, without losses of bearings, oil and damping",
         WITH_FRICTION + ", and teeth that are neither wedged nor locked",
     ),
-    ResultAttribute("contact_loss_count", "1", "number of contact losses of the drive flanks in the settled steps"),
-    ResultAttribute("contact_loss_first", "s", "time of the first contact loss", AFTER_LOSS),
-    ResultAttribute("contact_loss_longest", "s", "duration of the longest contact loss", AFTER_LOSS),
-    ResultAttribute("contact_loss_share", "1", "share of the settled time without contact", AFTER_LOSS),
-    ResultAttribute(
-        "contact_loss_opening", "mm", "largest gap between the drive flanks during a contact loss", AFTER_LOSS
-    ),
-    ResultAttribute(
+    ("contact_loss_count", "1", "number of contact losses of the drive flanks in the settled steps"),
+    ("contact_loss_first", "s", "time of the first contact loss", AFTER_LOSS),
+    ("contact_loss_longest", "s", "duration of the longest contact loss", AFTER_LOSS),
+    ("contact_loss_share", "1", "share of the settled time without contact", AFTER_LOSS),
+    ("contact_loss_opening", "mm", "largest gap between the drive flanks during a contact loss", AFTER_LOSS),
+    (
         "dynamic_factor_by_force",
         "1",
         "dynamic factor: largest force of a tooth pair divided by that of the quasi-static run",
         WITH_INERTIA,
     ),
-    ResultAttribute(
+    (
         "dynamic_factor_by_stress",
         "1",
         "dynamic factor: largest root stress divided by that of the quasi-static run",
         WITH_ROOT_STRESS,
     ),
-    ResultAttribute(
-        "quasi_static_pair_normal_force", "N", "largest force of a tooth pair in the quasi-static run", WITH_INERTIA
-    ),
-    ResultAttribute("quasi_static_root_stress", "MPa", "largest root stress in the quasi-static run", WITH_ROOT_STRESS),
-    ResultAttribute(
+    ("quasi_static_pair_normal_force", "N", "largest force of a tooth pair in the quasi-static run", WITH_INERTIA),
+    ("quasi_static_root_stress", "MPa", "largest root stress in the quasi-static run", WITH_ROOT_STRESS),
+    (
         "dynamic_factor_unknown",
         "",
         "reason why the dynamic factors and the quasi-static values are missing",
@@ -258,52 +229,41 @@ RESULT_ATTRIBUTES = (
         attribute
         for gear in ("pinion", "wheel")
         for attribute in (
-            ResultAttribute(
-                f"largest_root_stress_{gear}", "MPa", f"largest root stress (tension) of the {gear}", ASKED_FOR
-            ),
-            ResultAttribute(
-                f"largest_root_stress_{gear}_mesh_phase", "1", "mesh phase of this largest root stress", ASKED_FOR
-            ),
-            ResultAttribute(
-                f"largest_root_stress_{gear}_pair",
-                "1",
-                "number of the tooth pair to which the tooth belongs",
-                ASKED_FOR,
-            ),
-            ResultAttribute(
-                f"largest_root_stress_{gear}_fillet", "", "side of the tooth: `drive` or `coast`", ASKED_FOR
-            ),
+            (f"largest_root_stress_{gear}", "MPa", f"largest root stress (tension) of the {gear}", ASKED_FOR),
+            (f"largest_root_stress_{gear}_mesh_phase", "1", "mesh phase of this largest root stress", ASKED_FOR),
+            (f"largest_root_stress_{gear}_pair", "1", "number of the tooth pair to which the tooth belongs", ASKED_FOR),
+            (f"largest_root_stress_{gear}_fillet", "", "side of the tooth: `drive` or `coast`", ASKED_FOR),
         )
     ),
-    ResultAttribute("element", "", "finite element used"),
-    ResultAttribute("flank_element_size", "mm", "size of the elements on the flank"),
-    ResultAttribute("contact_length", "mm", "contact length of a tooth pair"),
-    ResultAttribute("contact_nodes", "1", "number of contact nodes of a tooth pair"),
-    ResultAttribute("steps_per_mesh_cycle", "1", "time steps per mesh cycle"),
-    ResultAttribute("condensation", "", "`once` or `every step`, see `accuracy.condensation`"),
-    ResultAttribute("model", "", "model of the tooth contact, see `accuracy.model`"),
-    ResultAttribute("target", "1", "the error allowed by `accuracy.target` (0.01 for 1 %)", WITH_TARGET),
-    ResultAttribute(
+    ("element", "", "finite element used"),
+    ("flank_element_size", "mm", "size of the elements on the flank"),
+    ("contact_length", "mm", "contact length of a tooth pair"),
+    ("contact_nodes", "1", "number of contact nodes of a tooth pair"),
+    ("steps_per_mesh_cycle", "1", "time steps per mesh cycle"),
+    ("condensation", "", "`once` or `every step`, see `accuracy.condensation`"),
+    ("model", "", "model of the tooth contact, see `accuracy.model`"),
+    ("target", "1", "the error allowed by `accuracy.target` (0.01 for 1 %)", WITH_TARGET),
+    (
         "estimated_error",
         "1",
         "the larger of the estimated errors of the curve and of the peak-to-peak value of the transmission error, in"
         " three dimensions also of line load, face load factor and largest line load",
         WITH_TARGET,
     ),
-    ResultAttribute("target_runs", "1", "number of test runs by which the settings were chosen", WITH_TARGET),
-    ResultAttribute("slices", "1", "chosen number of slices of the common face", f"{WITH_TARGET}, and {OVER_FACE}"),
-    ResultAttribute("layers", "1", "chosen number of layers of either gear's body", f"{WITH_TARGET}, and {OVER_FACE}"),
-    ResultAttribute(
-        "target_remarks", "", "a remark on the choice, where a warning recommends other settings", WITH_TARGET
-    ),
-    ResultAttribute("steps", "1", "number of time steps of the run"),
-    ResultAttribute("newton_iterations_total", "1", "number of Newton iterations of the run"),
-    ResultAttribute("time_choose", "s", "wall time of choosing settings", WITH_TARGET),
-    ResultAttribute("time_mesh", "s", "wall time of meshing; 0 for gears from the cache"),
-    ResultAttribute("time_condense", "s", "wall time of assembling and condensing"),
-    ResultAttribute("time_compile", "s", "wall time of compiling"),
-    ResultAttribute("time_march", "s", "wall time of the time stepping"),
-    ResultAttribute("wall_time", "s", "wall time of the case", IN_STUDIES),
-    ResultAttribute("case_key", "", "hash of everything the result of the case depends on", IN_STUDIES),
-    ResultAttribute("case_values", "", "values of the swept fields, as JSON", IN_STUDIES),
+    ("target_runs", "1", "number of test runs by which the settings were chosen", WITH_TARGET),
+    ("slices", "1", "chosen number of slices of the common face", f"{WITH_TARGET}, and {OVER_FACE}"),
+    ("layers", "1", "chosen number of layers of either gear's body", f"{WITH_TARGET}, and {OVER_FACE}"),
+    ("target_remarks", "", "a remark on the choice, where a warning recommends other settings", WITH_TARGET),
+    ("steps", "1", "number of time steps of the run"),
+    ("newton_iterations_total", "1", "number of Newton iterations of the run"),
+    ("time_choose", "s", "wall time of choosing settings", WITH_TARGET),
+    ("time_mesh", "s", "wall time of meshing; 0 for gears from the cache"),
+    ("time_condense", "s", "wall time of assembling and condensing"),
+    ("time_compile", "s", "wall time of compiling"),
+    ("time_march", "s", "wall time of the time stepping"),
+    ("wall_time", "s", "wall time of the case", IN_STUDIES),
+    ("case_key", "", "hash of everything the result of the case depends on", IN_STUDIES),
+    ("case_values", "", "values of the swept fields, as JSON", IN_STUDIES),
 )
+
+RESULT_ATTRIBUTES = tuple(ResultAttribute(*row) for row in _ROWS)

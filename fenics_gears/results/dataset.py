@@ -14,16 +14,14 @@ import xarray as xr
 
 import fenics_gears
 from fenics_gears.contact.laws import NO_FORCE
-from fenics_gears.dynamics.contact_loss import loss_attributes
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects import common_period, from_effects, result_variables
 from fenics_gears.numbers_version import NUMBERS_VERSION
-from fenics_gears.results.attributes import RUNG
 from fenics_gears.results.carried_scene import scene_attributes
-from fenics_gears.results.contact_variables import largest_normal_force
-from fenics_gears.results.energy_variables import transmitted
+from fenics_gears.results.contact_variables import largest_normal_force, transmitted
 from fenics_gears.results.extrema import Extrema, largest_pair_force, peak_to_peak
 from fenics_gears.results.key_numbers import key_numbers, path_point_coordinate, path_point_values
+from fenics_gears.results.numbers import RUNG, loss_attributes
 from fenics_gears.results.pairs import shown_steps
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.settled import of_settled, settled

@@ -22,10 +22,9 @@ from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.effects import common_period
 from fenics_gears.model.model import Model
-from fenics_gears.results.attributes import CUBICS, SOLVED, STEPS
 from fenics_gears.results.crests import highest, largest_of_cubics
 from fenics_gears.results.key_numbers import largest_force_over_time
-from fenics_gears.results.numbers import SAME
+from fenics_gears.results.numbers import CUBICS, SAME, SOLVED, STEPS
 
 # Up to which part of the curve's span an extremum is sought.
 SOUGHT = 1e-4

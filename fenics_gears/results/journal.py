@@ -26,11 +26,10 @@ import numpy as np
 import fenics_gears
 from fenics_gears.dynamics.march import LONGEST_BLOCK, March
 from fenics_gears.errors import ComputationError, GearsError
-from fenics_gears.model.storage import Arrays
-from fenics_gears.results.kept import InMemory, Kind, Values
+from fenics_gears.model.storage import Arrays, InMemory, Kind, Values
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.system.sealed import seal, unsealed
+from fenics_gears.system.output import seal, unsealed
 
 logger = logging.getLogger(__name__)
 

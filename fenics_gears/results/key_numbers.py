@@ -11,8 +11,7 @@ import xarray as xr
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, sliding_speed, specific_sliding
-from fenics_gears.results.contact_variables import largest_normal_force, mesh_force
-from fenics_gears.results.energy_variables import transmitted
+from fenics_gears.results.contact_variables import largest_normal_force, mesh_force, transmitted
 from fenics_gears.results.numbers import (
     HARMONICS,
     first_largest,

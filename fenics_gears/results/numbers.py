@@ -1,13 +1,24 @@
 """The numbers that a pair is judged by, as plain functions of curves; `results.key_numbers` applies them to a result.
 
 Curves (steps,) are those of whole mesh cycles of the settled motion, one value a step, the end left out that begins the
-next cycle.
+next cycle. Contact losses of the drive flanks: how long and how far.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
 import numpy as np
 
+from fenics_gears.dynamics.clock import Clock
+
+# Names of attributes begin with these: one for each method of the solver, one for each setting whose error was
+# estimated.
+RUNG, ESTIMATED = "steps_by_rung: ", "estimated_error: "
+# How extrema were found.
+SOLVED, CUBICS, STEPS = "positions solved between steps", "cubics through four steps where the curve is smooth", "steps"
 HARMONICS = 5
 ROUNDING = 1e-9  # mesh cycles
 # Of the largest of some values: what differs by less is the same.
@@ -76,3 +87,51 @@ def first_largest(values: np.ndarray) -> int:
     """Place of the first value that is the largest but for round-off: cycles repeat, and round-off must not say which
     of them is named."""
     return int(np.argmax(values >= np.nanmax(values) * (1.0 - SAME)))
+
+
+@dataclass(frozen=True)
+class ContactLoss:
+    """One loss: the steps without contact from `first` to `last`, and the widest `opening` (mm) between the drive
+    flanks."""
+
+    first: int
+    last: int
+    opening: float
+
+    @property
+    def steps(self) -> int:
+        """Steps without contact; from the last step before to the first after it is one more."""
+        return self.last - self.first + 1
+
+    def duration(self, clock: Clock) -> float:
+        """Time that those steps stand for, s."""
+        return clock.duration(self.first - 1, self.last)
+
+
+def contact_losses(separations: Sequence[tuple[int, float]]) -> list[ContactLoss]:
+    """The losses among (step, smallest opening in mm) of all steps without contact: steps that follow each other are
+    one."""
+    losses = []
+    for _, run in groupby(enumerate(separations), lambda each: each[1][0] - each[0]):
+        steps = [separation for _, separation in run]
+        losses.append(ContactLoss(steps[0][0], steps[-1][0], max(opening for _, opening in steps)))
+    return losses
+
+
+def loss_attributes(separations: Sequence[tuple[int, float]], first: int, last: int, clock: Clock) -> dict[str, float]:
+    """Attributes of a result on lost contact between two steps: how often; time of the first and length of the longest
+    loss (s), share of the time, widest opening (mm).
+
+    The last four only where contact was lost.
+    """
+    losses = contact_losses(separations)
+    if not losses:
+        return {"contact_loss_count": 0}
+    durations = [loss.duration(clock) for loss in losses]
+    return {
+        "contact_loss_count": len(losses),
+        "contact_loss_first": clock.time(losses[0].first),
+        "contact_loss_longest": max(durations),
+        "contact_loss_share": sum(durations) / clock.duration(first, last),
+        "contact_loss_opening": max(loss.opening for loss in losses),
+    }

@@ -1,6 +1,6 @@
 """Records a march while it goes: curves of all steps, contact fields of the last steps, and what the warnings need.
 
-Steps are evaluated some at a time and then dropped; their values are kept in memory (`results.kept`) or, of a long
+Steps are evaluated some at a time and then dropped; their values are kept in memory (`model.storage`) or, of a long
 march, in a journal on disk (`results.journal`). Contact fields are those of the last steps wherever the march ends.
 """
 
@@ -18,12 +18,16 @@ from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.model.model import Model
-from fenics_gears.model.storage import sizes, stored_arrays
-from fenics_gears.results.beside_edges import EdgesAndKinks
-from fenics_gears.results.contact_variables import mesh_variables, node_variables, pair_variables, watched_contact
-from fenics_gears.results.energy_variables import energy_variables, work_variables
-from fenics_gears.results.kept import InMemory, Kept
-from fenics_gears.results.mesh_curves import pressure_curves, stiffness_curves
+from fenics_gears.model.storage import InMemory, Kept, sizes, stored_arrays
+from fenics_gears.results.contact_variables import (
+    energy_variables,
+    mesh_variables,
+    node_variables,
+    pair_variables,
+    watched_contact,
+    work_variables,
+)
+from fenics_gears.results.mesh_curves import EdgesAndKinks, pressure_curves, stiffness_curves
 from fenics_gears.results.side_by_side import KnownLayouts, SideBySide
 
 if TYPE_CHECKING:

@@ -10,10 +10,10 @@ import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.clock import Clock
-from fenics_gears.dynamics.contact_loss import contact_losses
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March
 from fenics_gears.results.key_numbers import wedged
+from fenics_gears.results.numbers import contact_losses
 from fenics_gears.results.pressure_limits import warnings_of_pressure
 from fenics_gears.scene.data import Scene
 

@@ -14,8 +14,7 @@ from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.bodies import body_key, gear_body
-from fenics_gears.simulation.elastic_route import mesh_cycle
-from fenics_gears.simulation.gaps import gaps_of, sections_of_gaps
+from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_of_gaps
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
 

@@ -95,7 +95,7 @@ def _load_what_runs_need() -> None:
     """Half a second of libraries and compiled code, while rank 0 reads what there is to do."""
     from fenics_gears.simulation.warm_up import compile_kernels
 
-    for module in ("results.netcdf", "simulation.elastic_route"):
+    for module in ("results.files", "simulation.elastic_route"):
         importlib.import_module(f"fenics_gears.{module}")
     compile_kernels(tangential=True)
 

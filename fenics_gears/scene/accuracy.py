@@ -1,13 +1,55 @@
-"""``[accuracy]``: how a scene is computed. Where a value is None the program chooses it (``model.resolution``)."""
+"""``[accuracy]`` and ``[output]``: how a scene is computed, and results besides those that every run has.
+
+Where a value is None the program chooses it (``model.resolution``, ``model.face_resolution``), by the numbers that
+stand first here, from which the reference of scenes says what defaults are."""
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
+from math import inf
+from typing import Any, NamedTuple
 
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.inputs.fields import choice, quantity, whole_number
+from fenics_gears.inputs.allowed import Allowed, Refused
+from fenics_gears.inputs.fields import choice, declared, quantity, switch, whole_number
 from fenics_gears.inputs.section import Section
-from fenics_gears.scene import defaults
+from fenics_gears.inputs.written import as_written
+
+
+class Fineness(NamedTuple):
+    """Flank elements in a Hertz half-width, and the fewest steps of a mesh cycle."""
+
+    elements_per_half_width: float
+    steps_per_mesh_cycle: int
+
+
+# With three elements in a half-width the transmission error of the paper's pair is within 0.15 % of its limit, the peak
+# pressure within 0.1 %. Two would do for sharp tips, but rounded edges of a sixtieth of the module would err by 2 %.
+# Over a face there are many of them.
+# Between steps curves are seen as straight lines, 0.4 % off in L2 for the transmission error of the paper's pair; its
+# extremes are located between them. Over a face a step costs more, and curves of helical pairs are smoother.
+IN_THE_PLANE, OVER_THE_FACE = Fineness(3.0, 200), Fineness(2.0, 100)
+# Flank elements stay between these parts of the module, whatever the load: a vanishing load has no half-width.
+FINEST_ELEMENT, COARSEST_ELEMENT = 1.0 / 200.0, 1.0 / 25.0
+# Distance of contact nodes in flank elements, of second order; first-order elements cannot tell so many apart.
+NODE_SPACING = 0.7
+STEPS_PER_PERIOD = 20
+MOST_STEPS_PER_MESH_CYCLE = 1000
+# Largest elements of the body's section and largest layers of it over the common face, in normal modules.
+SECTION_SIZE, LAYER_THICKNESS = 0.3, 0.7
+FEWEST_LAYERS = 4
+# Slices end where layers do: then a line load does not waver from slice to slice by what is of the layers alone.
+SLICES_OF_A_LAYER = 2
+# How far the line of contact of a helical pair moves along the path of contact within a layer, in base pitches. The
+# mean transmission error is then within
+# 0.2 % of its limit, and errs as the square of it (30 and 38 degrees, sharp tips); the peak-to-peak value within 2 %,
+# or, where a whole overlap leaves little of it, within 0.1 % of the mean. Relieved tips come into contact gently: at 28
+# degrees and 0.11 the mean errs by 0.05 %, the peak-to-peak value by 0.2 %.
+# Tried: more slices in thicker layers. The mean errs by 0.1 % more, but line loads waver by 1 % again; slices that
+# share the body's half layer do not waver, but their mean errs twice as much (30 degrees, 36 slices on 9 layers against
+# 18).
+LAYER_TURN, LAYER_TURN_RELIEVED = 0.06, 0.12
 
 # Models of the mesh: the full contact of elastic flanks, and cheaper ones.
 ELASTIC, RIGID_TEETH, STIFFNESS_TABLE, ISO_6336 = "elastic", "rigid teeth", "stiffness table", "ISO 6336-1"
@@ -43,10 +85,10 @@ class Accuracy(Section):
         "0.08 mm",
         meaning="size of the elements on the flank",
         otherwise=(
-            f"1/{defaults.IN_THE_PLANE.elements_per_half_width:g} of the smallest Hertz half-width of one pair under"
+            f"1/{IN_THE_PLANE.elements_per_half_width:g} of the smallest Hertz half-width of one pair under"
             " the whole load,"
-            f" 1/{defaults.OVER_THE_FACE.elements_per_half_width:g} of it in three-dimensional scenes, but at least"
-            f" 1/{1.0 / defaults.FINEST_ELEMENT:g} and at most 1/{1.0 / defaults.COARSEST_ELEMENT:g} of the module"
+            f" 1/{OVER_THE_FACE.elements_per_half_width:g} of it in three-dimensional scenes, but at least"
+            f" 1/{1.0 / FINEST_ELEMENT:g} and at most 1/{1.0 / COARSEST_ELEMENT:g} of the module"
         ),
     )
     body_element_size: float | None = quantity(
@@ -58,7 +100,7 @@ class Accuracy(Section):
         ),
         otherwise=(
             "a fixed fraction of the module for each order of element, in three-dimensional scenes"
-            f" {defaults.SECTION_SIZE:g} modules"
+            f" {SECTION_SIZE:g} modules"
         ),
     )
     contact_length: float | None = quantity(
@@ -72,7 +114,7 @@ class Accuracy(Section):
         MOST_CONTACT_NODES,
         20,
         meaning="number of contact nodes of a tooth pair",
-        otherwise=f"a spacing of {defaults.NODE_SPACING:g} flank elements, or of 1 flank element of first order",
+        otherwise=f"a spacing of {NODE_SPACING:g} flank elements, or of 1 flank element of first order",
     )
     interpolation: str | None = choice(
         "averaged",
@@ -96,11 +138,11 @@ class Accuracy(Section):
         100,
         meaning="time steps of a mesh cycle",
         otherwise=(
-            f"{defaults.IN_THE_PLANE.steps_per_mesh_cycle}, in three-dimensional scenes"
-            f" {defaults.OVER_THE_FACE.steps_per_mesh_cycle};"
-            f" with `[inertia]` as many as give the highest natural frequency {defaults.STEPS_PER_PERIOD} steps per"
-            f" period, at most {defaults.MOST_STEPS_PER_MESH_CYCLE}; with `[inertia]` and rigid flanks"
-            f" {defaults.MOST_STEPS_PER_MESH_CYCLE}"
+            f"{IN_THE_PLANE.steps_per_mesh_cycle}, in three-dimensional scenes"
+            f" {OVER_THE_FACE.steps_per_mesh_cycle};"
+            f" with `[inertia]` as many as give the highest natural frequency {STEPS_PER_PERIOD} steps per"
+            f" period, at most {MOST_STEPS_PER_MESH_CYCLE}; with `[inertia]` and rigid flanks"
+            f" {MOST_STEPS_PER_MESH_CYCLE}"
         ),
     )
     slices: int | None = whole_number(
@@ -112,7 +154,7 @@ class Accuracy(Section):
             " three-dimensional scenes"
         ),
         otherwise=(
-            f"{defaults.SLICES_OF_A_LAYER} for each of the default layers; with `layers`, the multiple of it"
+            f"{SLICES_OF_A_LAYER} for each of the default layers; with `layers`, the multiple of it"
             " nearest to that number"
         ),
         over_face=True,
@@ -126,11 +168,11 @@ class Accuracy(Section):
             " cut in two; a gear that is wider has more beyond it; of three-dimensional scenes"
         ),
         otherwise=(
-            f"a thickness of {defaults.LAYER_THICKNESS:g} modules, in helical pairs at most so thick that the"
+            f"a thickness of {LAYER_THICKNESS:g} modules, in helical pairs at most so thick that the"
             " line of"
-            f" contact moves by {defaults.LAYER_TURN:g} of the base pitch along the path of contact within a layer,"
-            f" {defaults.LAYER_TURN_RELIEVED:g} where both gears have tip relief; at least {defaults.FEWEST_LAYERS}"
-            f" layers. With `slices`, {defaults.SLICES_OF_A_LAYER} slices to a layer or fewer, if possible so that"
+            f" contact moves by {LAYER_TURN:g} of the base pitch along the path of contact within a layer,"
+            f" {LAYER_TURN_RELIEVED:g} where both gears have tip relief; at least {FEWEST_LAYERS}"
+            f" layers. With `slices`, {SLICES_OF_A_LAYER} slices to a layer or fewer, if possible so that"
             " slices end where layers do"
         ),
         over_face=True,
@@ -155,3 +197,41 @@ class Accuracy(Section):
         ),
         otherwise="`elastic`",
     )
+
+
+_LAST_CYCLES = re.compile(r"last ([1-9]\d{0,6}) cycles?")
+
+
+class AllowedContactFields(Allowed):
+    """True, false or "last N cycles"."""
+
+    def convert(self, value: Any) -> bool | float:
+        """A number of mesh cycles, infinite for true; false as it is."""
+        found = _LAST_CYCLES.fullmatch(value) if isinstance(value, str) else None
+        if found is None and not isinstance(value, bool):
+            raise Refused(f"is {as_written(value)}.")
+        return int(found[1]) if found else value and inf
+
+
+_CONTACT_FIELDS = AllowedContactFields(
+    description='true, false, or "last N cycles", such as "last 3 cycles"',
+    meaning=(
+        "steps at which pressure, traction and place of every contact node are stored: all, none, or those of the last"
+        " mesh cycles. Stress pictures and pressure maps need them. Replaces `motion.recorded_cycles`"
+    ),
+    otherwise="the last `motion.recorded_cycles`",
+)
+
+
+@dataclass(frozen=True)
+class Output(Section):
+    """``[output]``: results that take additional time or storage."""
+
+    root_stress: bool = switch(
+        meaning=(
+            "stress along the fillets of the loaded teeth over time, and dynamic factors by force and by stress; see"
+            " [stress](stress.md)"
+        )
+    )
+    # Of a scene that was read: whether there are any; how many cycles is in its motion.
+    contact_fields: bool | float = declared(_CONTACT_FIELDS, True)

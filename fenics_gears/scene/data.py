@@ -13,12 +13,12 @@ from fenics_gears.geometry.gear_data import GearData as GearData
 from fenics_gears.geometry.gear_data import GearPairData, Material
 from fenics_gears.inputs.tree import wheel_torque
 from fenics_gears.scene.accuracy import ELASTIC as ELASTIC
+from fenics_gears.scene.accuracy import IN_THE_PLANE, OVER_THE_FACE, Fineness
 from fenics_gears.scene.accuracy import ISO_6336 as ISO_6336
 from fenics_gears.scene.accuracy import RIGID_TEETH as RIGID_TEETH
 from fenics_gears.scene.accuracy import STIFFNESS_TABLE as STIFFNESS_TABLE
 from fenics_gears.scene.accuracy import Accuracy as Accuracy
-from fenics_gears.scene.defaults import IN_THE_PLANE, OVER_THE_FACE, Fineness
-from fenics_gears.scene.output import Output as Output
+from fenics_gears.scene.accuracy import Output as Output
 
 if TYPE_CHECKING:
     from fenics_gears.effects.bearings import Bearings

@@ -25,14 +25,6 @@ from fenics_gears.scene.data import Derived, Load, Motion
 from fenics_gears.scene.gear_schema import Gear as GearText
 from fenics_gears.scene.gear_schema import Gears
 from fenics_gears.scene.schema import LoadText
-from fenics_gears.scene.thickness import (
-    asked_measures,
-    check_measure,
-    gear_of,
-    measure_of,
-    rack_gear,
-    shift_of_thickness,
-)
 
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
 NOTABLE_OVERLAP = 0.01
@@ -126,18 +118,36 @@ def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Deriv
     """Centre distance, mm, both gears (without bore, face width and material), and what was derived. Raises
     GeometryError for an impossible figure."""
     drawn = pair.pinion, pair.wheel
-    cut, of_thickness = zip(*(shift_of_thickness(pair, gear, name) for gear, name in zip(drawn, GEARS)))
+    cut, of_thickness = zip(*(_shift(pair, gear, name) for gear, name in zip(drawn, GEARS)))
     shifts = [gear.profile_shift if gear.profile_shift is not None else own for gear, own in zip(drawn, cut)]
     distance, of_distance = _centre_distance(pair, shifts, cut)
     cut, of_backlash = _thinned(pair, cut, distance)
     shortening, of_tips = _tip_shortening(pair, drawn, shifts, distance)
     gears, of_gears = zip(*(_gear_data(pair, *each, shortening) for each in zip(drawn, GEARS, shifts, cut)))
-    asked = (asked_measures(pair, *each) for each in zip(drawn, GEARS, cut))
+    asked = (_asked_measures(pair, *each) for each in zip(drawn, GEARS, cut))
     return distance, gears, [*chain(*of_thickness, of_distance, of_backlash, of_tips, *of_gears, *asked)]
 
 
+def _shift(pair: Gears, drawn: GearText, name: str) -> tuple[float, list[Derived]]:
+    """The profile shift of the gear's thickness, and what was derived."""
+    if drawn.measure is None:
+        return drawn.profile_shift, []
+    # Imported here as below: most drawings give profile shifts.
+    from fenics_gears.scene.thickness import shift_of_thickness
+
+    return shift_of_thickness(pair, drawn, name)
+
+
+def _asked_measures(pair: Gears, drawn: GearText, name: str, cut: float) -> Iterable[Derived]:
+    if drawn.spanned_teeth is None and drawn.ball_diameter is None:
+        return ()
+    from fenics_gears.scene.thickness import asked_measures
+
+    return asked_measures(pair, drawn, name, cut)
+
+
 def _rack_pair(pair: Gears, shifts: list[float], distance: float) -> GearPair:
-    pinion, wheel = (rack_gear(pair, gear.teeth, shift) for gear, shift in zip((pair.pinion, pair.wheel), shifts))
+    pinion, wheel = (pair.rack_gear(gear.teeth, shift) for gear, shift in zip((pair.pinion, pair.wheel), shifts))
     return GearPair(pinion, wheel, distance, 1.0)
 
 
@@ -146,7 +156,7 @@ def _centre_distance(pair: Gears, shifts: Sequence[float], cut: Sequence[float])
     backlash."""
     if pair.centre_distance is not None:
         return float(pair.centre_distance), []
-    opened = pair.backlash is not None and measure_of(pair.pinion) is not None
+    opened = pair.backlash is not None and pair.pinion.measure is not None
     rack_pair = _rack_pair(pair, cut if opened else shifts, 1.0)
     distance, words = (
         rack_pair.centre_distance_without_backlash,
@@ -160,17 +170,14 @@ def _centre_distance(pair: Gears, shifts: Sequence[float], cut: Sequence[float])
             return pair.backlash - replace(rack_pair, centre_distance=at).circumferential_backlash
 
         words = "both tooth thicknesses and the backlash"
-        distance = (
-            brentq(missing, distance, distance + 10.0 * pair.backlash + pair.module)
-            if missing(distance) > 0.0
-            else distance
-        )
+        if missing(distance) > 0.0:
+            distance = brentq(missing, distance, distance + 10.0 * pair.backlash + pair.module)
     return distance, [Derived("centre distance", distance, "mm", words)]
 
 
 def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequence[float], list[Derived]]:
     """Profile shifts of both thicknesses, each lowered by the same amount, so that the pair has its backlash."""
-    if pair.backlash is None or measure_of(pair.pinion) is not None:
+    if pair.backlash is None or pair.pinion.measure is not None:
         return cut, []
     rack_pair = _rack_pair(pair, cut, distance)
     pinion = rack_pair.pinion
@@ -251,7 +258,7 @@ def _gear_data(
     beyond, angle = _protuberance(pair, drawn)
     if radius is None:
         radius = min(
-            standard[2], tip_radius_with_room(replace(rack_gear(pair, drawn.teeth, cut, root), protuberance=beyond))
+            standard[2], tip_radius_with_room(replace(pair.rack_gear(drawn.teeth, cut, root), protuberance=beyond))
         )
         why = (
             f"what has room on the rack's tip, less than the usual {standard[2]:g}"
@@ -265,7 +272,10 @@ def _gear_data(
         tip_chamfer=float(drawn.tip_chamfer or 0.0), protuberance=beyond, protuberance_angle=angle,
         nominal_profile_shift=None if shift == cut else float(shift),
     )  # fmt: skip
-    check_measure(drawn, name, gear_of(pair, data))
+    if drawn.measure is not None:
+        from fenics_gears.scene.thickness import check_measure
+
+        check_measure(drawn, name, pair.in_rotation(data))
     return data, found
 
 

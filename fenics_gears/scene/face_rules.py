@@ -1,27 +1,14 @@
 """Rules of three-dimensional scenes: what stands beside a helix angle, lead modifications, misalignment and places of
-bearings."""
+bearings. Plane scenes do not load them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.section import given
-from fenics_gears.inputs.tree import (
-    GEARS,
-    NOT_IN_THE_PLANE,
-    Tree,
-    dotted,
-    material_sections,
-    over_the_face,
-    quantity_at,
-    quantity_in,
-    table,
-    value_at,
-)
+from fenics_gears.inputs.problem import Path, Problem
+from fenics_gears.inputs.tree import GEARS, Tree, dotted, material_sections, quantity_at, quantity_in, table, value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.accuracy_rules import EVERY_STEP
-from fenics_gears.scene.schema import scene_text
 
 # Effects say themselves what they need.
 NOT_EFFECTS = (("gears", "helix_angle"), ("bearings", "places"))
@@ -39,11 +26,15 @@ PLANE_ONLY = {
 INSTEAD = {"element": "P2", "condensation": "once", "model": "elastic"}
 
 
-def faces_are_resolved_by_elastic_contact(tree: Tree) -> Iterator[Problem]:
-    """A three-dimensional scene has elastic teeth in full contact, of equal sectors, condensed once."""
-    reasons = over_the_face(tree)
-    if not reasons:
-        return
+def rules_over_the_face(tree: Tree, reasons: Sequence[Path]) -> Iterator[Problem]:
+    """All of a scene that `reasons` make three-dimensional: elastic teeth in full contact, of equal sectors, condensed
+    once, layers that have a thickness, errors of a class that is for such a face."""
+    yield from _faces_are_resolved_by_elastic_contact(tree, reasons)
+    yield from _layers_are_no_needles(tree)
+    yield from _class_is_for_the_faces(tree)
+
+
+def _faces_are_resolved_by_elastic_contact(tree: Tree, reasons: Sequence[Path]) -> Iterator[Problem]:
     why = f"cannot stand beside {dotted(reasons[0])}: flanks are then resolved over the face"
     accuracy = table(tree, "accuracy") or {}
     for name, refused in PLANE_ONLY.items():
@@ -74,37 +65,6 @@ def faces_are_resolved_by_elastic_contact(tree: Tree) -> Iterator[Problem]:
             as_written(value_at(tree, *of_scene)) or "",
             "needs teeth that give way. Add [gears.material], or leave it out.",
         )
-
-
-def fields_of_faces_have_a_face(tree: Tree) -> Iterator[Problem]:
-    """Fields of faces belong to three-dimensional scenes, a hand to a helix, and layers have a thickness."""
-    gears, reasons = table(tree, "gears") or {}, over_the_face(tree)
-    if not reasons:
-        for path, allowed, written in given(scene_text(tree), tree):
-            if allowed.over_face:
-                yield Problem(path, as_written(written), NOT_IN_THE_PLANE)
-        yield from _remeshed_gears_have_one_width(tree)
-    if "pinion_hand" in gears and "helix_angle" not in gears:
-        message = (
-            'is missing. Allowed: such as "15 deg"; pinion_hand has no meaning without it. Add it, or leave pinion_hand'
-            " out."
-        )
-        yield Problem(("gears", "helix_angle"), None, message)
-    if reasons:
-        yield from _layers_are_no_needles(tree)
-        yield from _class_is_for_the_faces(tree)
-
-
-def _remeshed_gears_have_one_width(tree: Tree) -> Iterator[Problem]:
-    """What stands out beyond the mate helps to carry, by a law for flanks that are condensed once."""
-    asked = value_at(tree, "accuracy", "condensation")
-    common = quantity_at(tree, "gears", "face_width")
-    widths = {quantity_at(tree, "gears", gear, "face_width") or common for gear in GEARS}
-    offsets = {quantity_at(tree, "gears", gear, "axial_offset") or 0.0 for gear in GEARS}
-    if asked == EVERY_STEP and (len(widths) > 1 or len(offsets) > 1):
-        remedy = 'Give both gears the width that they have in common, or take condensation = "once".'
-        message = f"is for gears of one face width without axial_offset. {remedy}"
-        yield Problem(("accuracy", "condensation"), as_written(asked), message)
 
 
 def _class_is_for_the_faces(tree: Tree) -> Iterator[Problem]:

@@ -6,12 +6,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText
-from fenics_gears.geometry.gear_data import RACKS
+from fenics_gears.geometry.gear import Gear as InRotation
+from fenics_gears.geometry.gear import transverse_gear
+from fenics_gears.geometry.gear_data import RACKS, GearData
 from fenics_gears.inputs.fields import choice, number, quantity, whole_number
 from fenics_gears.inputs.section import Section
 
 # Measures of the tooth thickness, each with what has to be known with it.
 MEASURES = {"tooth_thickness": None, "base_tangent_length": "spanned_teeth", "dimension_over_balls": "ball_diameter"}
+# In place of what a drawing leaves out, where it does not count.
+UNKNOWN = 0.0
 
 
 def _length(example: str, meaning: str, otherwise: str):
@@ -163,6 +167,11 @@ class Gear(Section):
     web: WebText | None = None
     material: OwnMaterialText | None = None
 
+    @property
+    def measure(self) -> str | None:
+        """The field that gives the tooth thickness; None where `profile_shift` does."""
+        return next((name for name in MEASURES if getattr(self, name) is not None), None)
+
 
 @dataclass(frozen=True, kw_only=True)
 class Gears(Section):
@@ -234,3 +243,11 @@ class Gears(Section):
     wheel: Gear
     rack: RackText | None = None
     material: MaterialText | None = None
+
+    def in_rotation(self, gear: GearData) -> InRotation:
+        """A gear in the section of rotation."""
+        return transverse_gear(gear, self.module, self.pressure_angle, self.helix_angle or 0.0)
+
+    def rack_gear(self, teeth: int, shift: float, root_diameter: float = UNKNOWN) -> InRotation:
+        """A gear of which only rack, teeth and profile shift are known, and perhaps the root."""
+        return self.in_rotation(GearData(teeth, shift, UNKNOWN, root_diameter, UNKNOWN, UNKNOWN))

@@ -12,13 +12,12 @@ from typing import Any
 
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.inputs.names import did_you_mean
-from fenics_gears.inputs.problem import Problem, line_numbers, listed
+from fenics_gears.inputs.problem import Problem, did_you_mean, line_numbers, listed
 from fenics_gears.inputs.written import WrittenFloat, as_toml, as_written
 from fenics_gears.scene import data
-from fenics_gears.scene import problems as problems_of
 from fenics_gears.scene.drawing import gear_pair_data, load_data, with_material_sections
 from fenics_gears.scene.rules import broken_rules
+from fenics_gears.scene.schema import checked_sections, without_echoes
 from fenics_gears.system import user_file
 from fenics_gears.system.console import control_character, printable
 
@@ -157,8 +156,8 @@ def scene_of(tree: Mapping[str, Any], text: str, name: str, directory: Path) -> 
 
     Raises GeometryError for a figure of the gears that cannot be derived.
     """
-    checked, problems = problems_of.checked(tree)
-    problems = problems_of.without_echoes(problems + broken_rules(tree))
+    checked, problems = checked_sections(tree)
+    problems = without_echoes(problems + broken_rules(tree))
     if problems:
         return None, problems
     gears, derived = gear_pair_data(checked.gears)

@@ -12,16 +12,17 @@ from collections.abc import Iterator, Mapping
 from math import lcm
 
 from fenics_gears import effects
-from fenics_gears.inputs.names import meant, nearest
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Problem, meant, nearest
 from fenics_gears.inputs.section import allowed_in, given, names_in
 from fenics_gears.inputs.tree import (
     GEARS,
     LARGEST_ERROR,
+    NOT_IN_THE_PLANE,
     Tree,
     given_for,
     load_in,
     material_sections,
+    over_the_face,
     quantity_at,
     quantity_in,
     table,
@@ -29,10 +30,9 @@ from fenics_gears.inputs.tree import (
     value_at,
 )
 from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.accuracy_rules import ACCURACY_RULES
+from fenics_gears.scene.accuracy_rules import ACCURACY_RULES, EVERY_STEP
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
 from fenics_gears.scene.drawing_rules import DRAWING_RULES
-from fenics_gears.scene.face_rules import faces_are_resolved_by_elastic_contact, fields_of_faces_have_a_face
 from fenics_gears.scene.gear_schema import Gears
 from fenics_gears.scene.schema import MotionText, scene_text
 
@@ -190,6 +190,39 @@ def _errors_are_small(tree: Tree) -> Iterator[Problem]:
             yield Problem(path, as_written(written), f"{message} Allowed: up to {largest:g} mm.")
 
 
+def _flanks_are_resolved_over_the_face(tree: Tree) -> Iterator[Problem]:
+    """Fields of faces belong to three-dimensional scenes, which have rules of their own, and a hand to a helix."""
+    if reasons := over_the_face(tree):
+        # Imported here: plane scenes have none.
+        from fenics_gears.scene.face_rules import rules_over_the_face
+
+        yield from rules_over_the_face(tree, reasons)
+    else:
+        for path, allowed, written in given(scene_text(tree), tree):
+            if allowed.over_face:
+                yield Problem(path, as_written(written), NOT_IN_THE_PLANE)
+        yield from _remeshed_gears_have_one_width(tree)
+    gears = table(tree, "gears") or {}
+    if "pinion_hand" in gears and "helix_angle" not in gears:
+        message = (
+            'is missing. Allowed: such as "15 deg"; pinion_hand has no meaning without it. Add it, or leave pinion_hand'
+            " out."
+        )
+        yield Problem(("gears", "helix_angle"), None, message)
+
+
+def _remeshed_gears_have_one_width(tree: Tree) -> Iterator[Problem]:
+    """What stands out beyond the mate helps to carry, by a law for flanks that are condensed once."""
+    asked = value_at(tree, "accuracy", "condensation")
+    common = quantity_at(tree, "gears", "face_width")
+    widths = {quantity_at(tree, "gears", gear, "face_width") or common for gear in GEARS}
+    offsets = {quantity_at(tree, "gears", gear, "axial_offset") or 0.0 for gear in GEARS}
+    if asked == EVERY_STEP and (len(widths) > 1 or len(offsets) > 1):
+        remedy = 'Give both gears the width that they have in common, or take condensation = "once".'
+        message = f"is for gears of one face width without axial_offset. {remedy}"
+        yield Problem(("accuracy", "condensation"), as_written(asked), message)
+
+
 _RULES = (
     _effects_fit_together,
     _both_gears_have_a_width,
@@ -200,7 +233,6 @@ _RULES = (
     _contact_fields_are_of_cycles_that_run,
     _errors_are_small,
     *ACCURACY_RULES,
-    faces_are_resolved_by_elastic_contact,
-    fields_of_faces_have_a_face,
+    _flanks_are_resolved_over_the_face,
     *DRAWING_RULES,
 )

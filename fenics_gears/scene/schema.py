@@ -1,5 +1,5 @@
 """The sections and fields of a scene file that every scene has, with what each allows, as they are written; those of an
-effect are in its own module.
+effect are in its own module. Mistakes against them in sentences that say what to do.
 
 Ranges are generous: what is physically possible is allowed. ``geometry`` checks whether teeth and diameters make a
 gear.
@@ -8,17 +8,18 @@ gear.
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable
-from dataclasses import dataclass, field, make_dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, make_dataclass, replace
+from typing import Any
 
 from fenics_gears.effects import AT_THE_TOP, effect_named
 from fenics_gears.inputs.fields import quantity, text, whole_number
-from fenics_gears.inputs.section import Section, names_in, section_within
+from fenics_gears.inputs.problem import MOST_TOLD, Path, Problem, did_you_mean, meant, nearest
+from fenics_gears.inputs.section import Section, names_in, read, section_within
 from fenics_gears.inputs.tree import LOADS
-from fenics_gears.scene.accuracy import Accuracy
+from fenics_gears.scene.accuracy import Accuracy, Output
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
 from fenics_gears.scene.gear_schema import Gears
-from fenics_gears.scene.output import Output
 
 
 @dataclass(frozen=True)
@@ -151,3 +152,71 @@ def _paths(section: type[Section], home: tuple[str, ...]) -> dict[tuple[str, ...
         inner, path = section_within(section, name), (*home, name)
         found |= {path: inner is not None} | (_paths(inner, path) if inner is not None else {})
     return found
+
+
+def checked_sections(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:
+    """The sections of a parsed TOML file, None where it is wrong, and all that is wrong with it."""
+    section, problems = read(scene_text(tree), tree)
+    return section, list(_explained(problems))
+
+
+def _explained(problems: Iterable[Problem]) -> Iterator[Problem]:
+    """Unknown names with what they may mean, which takes time to search: the first of them alone."""
+    unknown = 0
+    for problem in problems:
+        unknown += problem.unknown
+        if not problem.unknown:
+            yield problem
+        else:
+            yield replace(problem, message=_why_unknown(problem.path) if unknown <= MOST_TOLD else "is not known.")
+
+
+def without_echoes(problems: Iterable[Problem]) -> list[Problem]:
+    """The problems without those that follow from another: a second one of the same field, or a field that is missing
+    because it is misspelt.
+
+    Where a rule and the schema both complain of a name, the rule's message stays.
+    """
+    by_path: dict[Path, list[Problem]] = {}
+    for problem in problems:
+        by_path.setdefault(problem.path, []).append(problem)
+    first = {path: next((each for each in found if not each.unknown), found[0]) for path, found in by_path.items()}
+    unknown = [problem.path for problem in first.values() if problem.unknown]
+    return [
+        problem for problem in first.values() if problem.written is not None or not _is_misspelt(problem.path, unknown)
+    ]
+
+
+def _is_misspelt(missing: Path, unknown: Iterable[Path]) -> bool:
+    return any(
+        path[:-1] == missing[:-1] and (nearest(path[-1], missing[-1:]) or meant(path[:-1], path[-1], missing[-1:]))
+        for path in unknown
+    )
+
+
+def _why_unknown(path: Path) -> str:
+    name, home = path[-1], ".".join(path[:-1])
+    known = [each[-1] for each in known_paths() if each[:-1] == path[:-1]]
+    synonym = meant(path[:-1], name, known)
+    hint = f' Did you mean "{synonym}"?' if synonym else did_you_mean(name, known) or _lives_elsewhere(name)
+    kind = f"a known field of [{home}]" if home else "a known section or field of a scene"
+    return f"is not {kind}.{hint} Known: {', '.join(known)}."
+
+
+def _lives_elsewhere(name: str) -> str:
+    # What both gears share stands for what each may have of its own.
+    fields = [
+        path
+        for path in known_paths()
+        if len(path) == 2 or len(path) > 2 and (*path[:-2], path[-1]) not in known_paths()
+    ]
+    homes = [f"[{'.'.join(path[:-1])}]" for path in fields if path[-1] == name]
+    if homes:
+        return f' "{name}" belongs to {" or ".join(homes)}.'
+    # A symbol stands for something else in every section.
+    named = [
+        f'"{path[-1]}" of [{".".join(path[:-1])}]'
+        for path in fields
+        if len(name) > 2 and meant(path[:-1], name, path[-1:])
+    ]
+    return f" Did you mean {' or '.join(named)}?" if named else ""

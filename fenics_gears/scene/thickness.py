@@ -1,12 +1,14 @@
-"""The tooth thickness of a gear as a drawing has it: by profile shift, or measured by caliper, span or balls."""
+"""The tooth thickness of a gear as a drawing has it, measured by caliper, span or balls. Most drawings give profile
+shifts and do not load it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from fenics_gears.geometry.gear import Gear, transverse_gear
+from fenics_gears.geometry import tooth_thickness
+from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse
-from fenics_gears.geometry.gear_data import GearData
+from fenics_gears.scene import unusual
 from fenics_gears.scene.data import Derived
 from fenics_gears.scene.gear_schema import MEASURES, Gears
 from fenics_gears.scene.gear_schema import Gear as GearText
@@ -17,34 +19,11 @@ LARGEST_ALLOWANCE = 0.5
 # Largest profile shift that a thickness alone may stand for: one spanned tooth more or less is a shift of pi/(2
 # tan(alpha_n)), 4.3 at 20 deg.
 LARGEST_SHIFT = 2.0
-# In place of what a drawing leaves out, where it does not count.
-UNKNOWN = 0.0
-
-
-def gear_of(pair: Gears, gear: GearData) -> Gear:
-    """A gear in the section of rotation."""
-    return transverse_gear(gear, pair.module, pair.pressure_angle, pair.helix_angle or 0.0)
-
-
-def rack_gear(pair: Gears, teeth: int, shift: float, root_diameter: float = UNKNOWN) -> Gear:
-    """A gear of which only rack, teeth and profile shift are known, and perhaps the root."""
-    return gear_of(pair, GearData(teeth, shift, UNKNOWN, root_diameter, UNKNOWN, UNKNOWN))
-
-
-def measure_of(drawn: GearText) -> str | None:
-    """The field that gives the gear's thickness; None where `profile_shift` does."""
-    return next((name for name in MEASURES if getattr(drawn, name) is not None), None)
 
 
 def shift_of_thickness(pair: Gears, drawn: GearText, name: str) -> tuple[float, list[Derived]]:
-    """The profile shift of the gear's thickness, and what was derived."""
-    gear, measure = rack_gear(pair, drawn.teeth, 0.0), measure_of(drawn)
-    if measure is None:
-        return drawn.profile_shift, []
-    # Here as below: most drawings give profile shifts.
-    from fenics_gears.geometry import tooth_thickness
-    from fenics_gears.scene import unusual
-
+    """The profile shift of the gear's measured thickness, and what was derived."""
+    gear, measure = pair.rack_gear(drawn.teeth, 0.0), drawn.measure
     beside = MEASURES[measure]
     written = f"gears.{name}.{measure} = {getattr(drawn, measure):.6g} mm" + (
         f" with {beside} {getattr(drawn, beside):g}" if beside else ""
@@ -75,11 +54,9 @@ def shift_of_thickness(pair: Gears, drawn: GearText, name: str) -> tuple[float, 
 
 def check_measure(drawn: GearText, name: str, gear: Gear) -> None:
     """Caliper and balls touch the involute, and balls stand out of the tip circle and clear of the root."""
-    lowest, measure = gear.form_radius, measure_of(drawn)
-    if measure not in ("base_tangent_length", "dimension_over_balls"):
+    lowest, measure = gear.form_radius, drawn.measure
+    if measure == "tooth_thickness":
         return
-    from fenics_gears.geometry import tooth_thickness
-
     if measure == "base_tangent_length":
         touched, better = (
             tooth_thickness.tangent_contact_radius(gear, drawn.base_tangent_length),
@@ -108,11 +85,7 @@ def check_measure(drawn: GearText, name: str, gear: Gear) -> None:
 
 def asked_measures(pair: Gears, drawn: GearText, name: str, cut: float) -> Iterator[Derived]:
     """What a caliper reads over the teeth, and over the balls, that a drawing names without the measure."""
-    if drawn.spanned_teeth is None and drawn.ball_diameter is None:
-        return
-    from fenics_gears.geometry import tooth_thickness
-
-    gear = rack_gear(pair, drawn.teeth, cut)
+    gear = pair.rack_gear(drawn.teeth, cut)
     if drawn.spanned_teeth is not None and drawn.base_tangent_length is None:
         length = tooth_thickness.base_tangent_length(gear, drawn.spanned_teeth)
         yield Derived(

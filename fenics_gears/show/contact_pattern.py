@@ -6,10 +6,10 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from fenics_gears.contact.pressure import read_off
 from fenics_gears.contact.window import coast_roll_angles, contact_roll_angles
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.results.face_ends import slice_ends
+from fenics_gears.results.mesh_curves import read_off
 from fenics_gears.results.pairs import carrying_side
 from fenics_gears.show.chart import Chart, Curve, Field
 from fenics_gears.show.panels import DARK, GREY

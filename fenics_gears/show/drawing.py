@@ -18,23 +18,29 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from fenics_gears.show.chart import BAND, BARS, LINES, MARKED_LINES, MARKERS, Chart, Curve
-from fenics_gears.show.panel_sizes import (
+from fenics_gears.show.chart import (
     APART_LEVEL,
     APART_UPRIGHT,
+    BAND,
     BAR,
     BAR_GAP,
     BAR_NAME,
+    BARS,
     FLAG_ROW,
     GAP,
     HALF_LABEL,
     HEADING_LINE,
     LEGEND_ROW,
     LETTERS,
+    LINES,
+    MARKED_LINES,
+    MARKERS,
     TICK,
     TICK_ROW,
     TITLE,
     WIDTH,
+    Chart,
+    Curve,
     Panel,
     Scale,
 )

@@ -8,11 +8,11 @@ import numpy as np
 import xarray as xr
 from scipy.spatial import cKDTree
 
-from fenics_gears.contact.pressure import read_off
 from fenics_gears.contact.window import coast_roll_angles, contact_roll_angles
 from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.results.face_ends import slice_ends
+from fenics_gears.results.mesh_curves import read_off
 from fenics_gears.show.contact_pattern import rolls_on_wheel
 from fenics_gears.show.loaded_contact import stored_place
 from fenics_gears.show.pressure import node_edges

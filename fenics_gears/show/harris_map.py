@@ -13,8 +13,7 @@ import xarray as xr
 from fenics_gears.errors import ComputationError
 from fenics_gears.show.chart import WORDS, Chart, Curve
 from fenics_gears.show.motion import LEAST_LENGTH
-from fenics_gears.show.panels import DARK, shades
-from fenics_gears.show.units import digits, factor, in_unit
+from fenics_gears.show.panels import DARK, digits, factor, in_unit, shades
 
 CYCLES, MOST_NAMED = 2.0, 20
 # Room for the loads' words right of the curves, in mesh cycles, and the least distance of two of them, in parts of the

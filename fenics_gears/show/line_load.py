@@ -9,10 +9,9 @@ from fenics_gears.results.load_factors import at_edges, mean_line_load, passing
 from fenics_gears.results.pairs import carrying_side
 from fenics_gears.show.chart import MESH_CYCLES, TIME, Chart, Curve, Field
 from fenics_gears.show.contact_pattern import ACROSS
-from fenics_gears.show.panels import DARK, PALETTE
+from fenics_gears.show.panels import DARK, PALETTE, in_unit
 from fenics_gears.show.pressure import COLOURS
 from fenics_gears.show.run import Run
-from fenics_gears.show.units import in_unit
 
 TITLE = "Line load (N/mm)"
 

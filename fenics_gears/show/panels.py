@@ -1,4 +1,5 @@
-"""What all pictures share: palette, fonts, ends and ticks of axes, and long curves with fewer points."""
+"""What all pictures share: palette, fonts, ends and ticks of axes, long curves with fewer points; and numbers and units
+as people read them: micrometres instead of mm, microradians instead of rad, four digits."""
 
 from __future__ import annotations
 
@@ -8,7 +9,11 @@ from collections.abc import Callable, Sequence
 import matplotlib
 import matplotlib.style  # `rcdefaults` needs it
 import numpy as np
+import xarray as xr
 from matplotlib.ticker import LogLocator, MaxNLocator
+
+from fenics_gears.errors import ComputationError
+from fenics_gears.inputs.units import QuantityError, quantity
 
 # Okabe and Ito's palette without its yellow, which is too pale for a line: told apart with any colour vision.
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
@@ -120,3 +125,39 @@ def thinned(values: np.ndarray, most: int = MOST_POINTS) -> np.ndarray:
     gaps = (first + missing.argmax(axis=1))[missing.any(axis=1)]
     places = np.concatenate([first + lowest, first + highest, gaps, [0, count - 1]])
     return np.unique(np.minimum(places, count - 1))
+
+
+def factor(unit: str, wanted: str) -> float:
+    """What a number in ``unit`` is multiplied with to be one in ``wanted`` ("rad", "µrad").
+
+    Raises ComputationError where they measure different things or one is unknown.
+    """
+    try:
+        size, kind = quantity(f"1 {unit}")
+        wanted_size, wanted_kind = quantity(f"1 {wanted}")
+    except QuantityError as error:
+        raise ComputationError(f"a unit of the result {error}") from error
+    if kind != wanted_kind:
+        raise ComputationError(f'a variable in "{unit}" ({kind}) cannot be shown in "{wanted}" ({wanted_kind})')
+    return size / wanted_size
+
+
+def in_unit(variable: xr.DataArray, wanted: str) -> np.ndarray:
+    """The values of a variable, any shape, in the unit ``wanted``; its own unit is its attribute ``units``.
+
+    Raises ComputationError where it has no unit, or one that does not fit.
+    """
+    if "units" not in variable.attrs:
+        raise ComputationError(f"{variable.name}: the result does not say its units")
+    try:
+        return variable.values * factor(variable.attrs["units"], wanted)
+    except ComputationError as error:
+        raise ComputationError(f"{variable.name}: {error}") from error
+
+
+def digits(value: float) -> str:
+    """Four digits, as measurements have them; three and a power of ten where a tile is too narrow for the number."""
+    if abs(value) >= 1e6:
+        mantissa, _, exponent = f"{value:.2e}".partition("e")
+        return f"{mantissa}e{int(exponent)}"
+    return f"{value:,.0f}" if abs(value) >= 1e4 else f"{value:.4g}"

@@ -17,12 +17,18 @@ from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
-from fenics_gears.show.chart import Chart
+from fenics_gears.show.chart import LETTERS, Chart
 from fenics_gears.show.drawing import picture
-from fenics_gears.show.forces import mesh_forces, pair_forces, shaft_torques
-from fenics_gears.show.motion import error_by_cycle, error_values, transmission_error, wheels_shaft
+from fenics_gears.show.motion import (
+    error_by_cycle,
+    error_values,
+    mesh_forces,
+    pair_forces,
+    shaft_torques,
+    transmission_error,
+    wheels_shaft,
+)
 from fenics_gears.show.orders import OF_ERROR, order_spectrum
-from fenics_gears.show.panel_sizes import LETTERS
 from fenics_gears.show.panels import DARK, DOTS_PER_INCH, WARNING, styled
 from fenics_gears.show.pressure import pressure_maps
 from fenics_gears.show.run import Run, conditions

@@ -20,7 +20,7 @@ from fenics_gears.results.carried_scene import carried_scene
 from fenics_gears.results.pairs import carrying_side, in_middle_slice, lives
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import LOAD_WORDS, Scene
-from fenics_gears.show.units import digits, factor, in_unit
+from fenics_gears.show.panels import digits, factor, in_unit
 
 NO_SCENE = (
     "The scene in this file is none of this version of the program, so that this section cannot be made; run the scene"

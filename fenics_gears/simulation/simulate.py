@@ -17,9 +17,9 @@ from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.errors import ComputationError
 from fenics_gears.model.cost import expected_cost, too_large
 from fenics_gears.model.model import Model, model_of
-from fenics_gears.results.attributes import ESTIMATED
 from fenics_gears.results.dataset import dataset
 from fenics_gears.results.extrema import repeating_steps
+from fenics_gears.results.numbers import ESTIMATED
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.validity import worst_first
 from fenics_gears.scene.data import ELASTIC, LAST_CYCLES, Scene

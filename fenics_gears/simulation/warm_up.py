@@ -23,7 +23,7 @@ from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, Course, M
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.steps import Steps, drive_flanks_touch, smallest_openings
-from fenics_gears.results.energy_variables import energy_of_teeth
+from fenics_gears.results.contact_variables import energy_of_teeth
 from fenics_gears.results.mesh_curves import stiffness_curves
 
 

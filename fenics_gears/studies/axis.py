@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from fenics_gears.inputs import units
-from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.problem import did_you_mean
 from fenics_gears.inputs.written import as_written, toml_value
 from fenics_gears.studies.fields import ABSENT, PRESENT, Path, is_section
 

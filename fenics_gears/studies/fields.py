@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from fenics_gears.inputs.allowed import Allowed, AllowedEither, AllowedList, AllowedNumber
-from fenics_gears.inputs.names import did_you_mean
+from fenics_gears.inputs.problem import did_you_mean
 from fenics_gears.inputs.section import allowed_in, section_within
 from fenics_gears.inputs.tree import LOADS
 from fenics_gears.scene.schema import known_paths, scene_text

@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears.errors import SceneError
-from fenics_gears.inputs.names import did_you_mean
-from fenics_gears.inputs.problem import Problem, counted, line_numbers
+from fenics_gears.inputs.problem import Problem, counted, did_you_mean, line_numbers
 from fenics_gears.inputs.written import as_written
 from fenics_gears.runs.run import Run, run_of, scene_key
 from fenics_gears.scene.read import load_scene, name_of, parsed, text_of

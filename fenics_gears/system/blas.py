@@ -64,7 +64,7 @@ def choice() -> Choice:
     missing = INSTRUCTIONS - _instructions()
     if missing:
         return Choice("", f"chosen by OpenBLAS; the processor is not known to have {' and '.join(sorted(missing))}")
-    # As `system.folders` has made sure that it can be written.
+    # As `system.environment` has made sure that it can be written.
     folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "fenics_gears")
     file, key = folder / "kernels.json", _key()
     with contextlib.suppress(OSError, ValueError, TypeError, KeyError):

@@ -1,12 +1,26 @@
 """What MPI, PETSc and BLAS read from the process environment, set before they are loaded.
 
-A variable the user has set is never changed, unless it names a folder that cannot be used (``system.folders``).
+A variable the user has set is never changed, unless it names a folder for temporary files or caches that this user
+cannot write, as in a container or on a full disk. numba and DOLFINx keep compiled code in the user's folder for caches,
+matplotlib its list of fonts; where they cannot, a command fails or takes a minute more. MPI ends the process where
+temporary files have no room.
 """
 
+from __future__ import annotations
+
+import contextlib
+import hashlib
 import os
 import re
+import shutil
+import stat
+import sys
+import tempfile
+from collections.abc import Callable, MutableMapping
+from pathlib import Path
 
-from fenics_gears.system import blas, folders
+from fenics_gears.errors import SceneError
+from fenics_gears.system import blas
 
 RANK_COUNTS = ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS")
 """Where Open MPI, MPICH and Slurm say how many processes run together."""
@@ -23,7 +37,7 @@ def prepare(environment=os.environ):
     """
     for name, value in defaults(environment).items():
         environment.setdefault(name, value)
-    folders.have_folders(environment, aloud=started_ranks(environment) == 1)
+    have_folders(environment, aloud=started_ranks(environment) == 1)
     blas.choose(environment)
 
 
@@ -66,3 +80,97 @@ def _largest(environment, names):
     # Slurm counts by machine, "4(x2),3": four on each of two, three on another.
     counts = re.findall(r"\d+", re.sub(r"\(x\d+\)", "", ",".join(environment.get(name, "") for name in names)))
     return max([1, *map(int, counts)])
+
+
+Environment = MutableMapping[str, str]
+# Where temporary files go unless TMPDIR says where, and how many bytes of room they need.
+TEMPORARY, ROOM = ("/tmp", "/var/tmp"), 10e6
+# Folders within the user's folder for caches.
+CACHES = ("numba", "fenics", "matplotlib", "fenics_gears")
+
+
+def have_folders(environment: Environment, aloud: bool) -> None:
+    """Set TMPDIR, XDG_CACHE_HOME and MPLCONFIGDIR where what stands there cannot be used.
+
+    aloud: whether to say so on the standard error.
+
+    Raises SceneError where compiled code can be kept nowhere.
+    """
+    say = (lambda sentence: print(f"gears: {sentence}", file=sys.stderr)) if aloud else (lambda sentence: None)
+    _have_temporary_files(environment, say)
+    if not _keeps_caches(environment):
+        _cache_elsewhere(environment, say)
+
+
+def _have_temporary_files(environment: Environment, say: Callable[[str], None]) -> None:
+    wanted = environment.get("TMPDIR") or TEMPORARY[0]
+    folder = next((each for each in (wanted, *TEMPORARY) if _has_room(each)), None)
+    if folder != wanted:
+        environment["TMPDIR"] = folder or wanted
+        used = f"{folder} is used in its place" if folder else "nor is there room elsewhere"
+        say(f"temporary files cannot be written into {wanted} ({used}); let TMPDIR name a folder with room.")
+
+
+def _has_room(folder: str) -> bool:
+    try:
+        found = os.statvfs(folder)
+    except (OSError, ValueError):
+        return False
+    return _can_be_written(Path(folder)) and found.f_bavail * found.f_frsize >= ROOM
+
+
+def _keeps_caches(environment: Environment) -> bool:
+    """Whether the user's folder for caches is there, or can be made, and all that lies in it can be written."""
+    home = environment.get("HOME") or os.path.expanduser("~")
+    if not os.path.isabs(home):
+        return False
+    folder = Path(environment.get("XDG_CACHE_HOME") or Path(home, ".cache"))
+    return all(_can_be_written(each) for each in (folder, *(folder / name for name in CACHES)))
+
+
+def _can_be_written(folder: Path) -> bool:
+    there = next((each for each in (folder, *folder.parents) if os.path.lexists(each)), folder)
+    return there.is_dir() and os.access(there, os.W_OK | os.X_OK)
+
+
+def _cache_elsewhere(environment: Environment, say: Callable[[str], None]) -> None:
+    """Have compiled code kept in a folder for temporary files: as long as that stays, nothing is said again."""
+    folder, is_new = _own_temporary_folder()
+    environment["XDG_CACHE_HOME"] = environment["MPLCONFIGDIR"] = folder
+    if not os.path.isabs(environment.get("HOME") or os.path.expanduser("~")):
+        # A user whom the system does not know; DOLFINx asks for the folder even where it does not need it.
+        environment["HOME"] = folder
+    if is_new:
+        with contextlib.suppress(OSError):
+            _copy_compiled(Path(folder, "numba"))
+        remedy = "to keep it for longer, let XDG_CACHE_HOME name a folder that you can write."
+        say(f"your folder for caches cannot be written, so compiled code is kept in {folder}; {remedy}")
+
+
+def _copy_compiled(folder: Path) -> None:
+    """Give numba what lies compiled beside the sources: it does not look where it cannot write."""
+    for sources in {file.parent.parent for file in Path(__file__).parents[1].rglob("__pycache__/*.nbi")}:
+        # As numba names its folders. Where another version does not, it compiles.
+        place = folder / f"{sources.name}_{hashlib.sha1(str(sources).encode()).hexdigest()}"
+        place.mkdir(parents=True)
+        for file in (sources / "__pycache__").glob("*.nb[ci]"):
+            shutil.copy(file, place)
+
+
+def _own_temporary_folder() -> tuple[str, bool]:
+    """A temporary folder that nobody else can write, since code in it is run, and whether it is new."""
+    try:
+        folder = os.path.join(tempfile.gettempdir(), f"fenics_gears-{os.getuid()}")
+        try:
+            os.mkdir(folder, 0o700)
+            return folder, True
+        except FileExistsError:
+            found = os.lstat(folder)
+        if stat.S_ISDIR(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o077:
+            return folder, False
+        return tempfile.mkdtemp(prefix="fenics_gears-"), True
+    except OSError as error:
+        raise SceneError(
+            "Compiled code can be kept neither in your folder for caches nor in one for temporary files "
+            f"({error.strerror or error}). Let XDG_CACHE_HOME name a folder that you can write."
+        ) from None

@@ -17,7 +17,7 @@ from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.geometry.gear import Gear, transverse_gear
 from fenics_gears.geometry.gear_data import GearData, Web
-from fenics_gears.model.rim import too_stiff
+from fenics_gears.model.modification import too_stiff
 
 PAGE = Path(__file__).parents[2] / "docs" / "evidence" / "geometry.md"
 TEETH, RIMS = (20, 40, 80), (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0)

@@ -9,8 +9,8 @@ from tests.contact.problems import pressed
 from fenics_gears.contact.addresses import Arrays
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.mesh_stiffness import mesh_stiffness
 from fenics_gears.contact.window import ContactGrid
+from fenics_gears.results.mesh_curves import mesh_stiffness
 
 ROTATION_OF_THE_WHEEL = 5
 LOAD = 7e3

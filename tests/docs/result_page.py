@@ -15,7 +15,8 @@ from fenics_gears import scene_from_text, simulate
 from fenics_gears.contact.step_solver import METHODS
 from fenics_gears.effects import COMMON_VARIABLES, FACE_VARIABLES, conflicts, effect_named, every_effect
 from fenics_gears.effects.effect import ResultVariable
-from fenics_gears.results.attributes import ESTIMATED, RESULT_ATTRIBUTES, RUNG
+from fenics_gears.results.attributes import RESULT_ATTRIBUTES
+from fenics_gears.results.numbers import ESTIMATED, RUNG
 
 PAGE = ROOT / "docs" / "result.md"
 # Bodies read from meshes exclude other effects and have no variables of their own; what makes a scene three-dimensional

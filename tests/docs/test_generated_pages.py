@@ -10,7 +10,8 @@ from fenics_gears import simulate
 from fenics_gears.inputs.allowed import Allowed
 from fenics_gears.inputs.fields import declared, quantity
 from fenics_gears.inputs.section import Section, names_in, section_within
-from fenics_gears.results.attributes import ESTIMATED, RESULT_ATTRIBUTES, RUNG
+from fenics_gears.results.attributes import RESULT_ATTRIBUTES
+from fenics_gears.results.numbers import ESTIMATED, RUNG
 from fenics_gears.scene.data import Motion
 from fenics_gears.scene.schema import scene_text
 

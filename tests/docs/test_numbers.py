@@ -12,7 +12,7 @@ from tests.docs.kept_numbers import SCENES, rows
 
 from fenics_gears import build_scene, gear_pair, simulate
 from fenics_gears.commands import cli
-from fenics_gears.model.rim import too_stiff
+from fenics_gears.model.modification import too_stiff
 
 
 def told(page, words):

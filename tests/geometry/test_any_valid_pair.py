@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from tests.random_pairs import valid_pairs
 
 from fenics_gears import involute_function
-from fenics_gears.geometry.fillet import fillet_speed
-from fenics_gears.geometry.outline import tooth_outline
+from fenics_gears.geometry.outline import fillet_speed, tooth_outline
 
 PAIRS = st.one_of(valid_pairs(), valid_pairs(helix_angles=(1.0, 40.0)))
 

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from fenics_gears import involute_function
-from fenics_gears.geometry.fillet import fillet_point
-from fenics_gears.geometry.outline import tooth_outline
+from fenics_gears.geometry.outline import fillet_point, tooth_outline
 from fenics_gears.geometry.pair_checks import fillet_clearance
 
 

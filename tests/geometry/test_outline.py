@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from fenics_gears import GeometryError
-from fenics_gears.geometry.fillet import fillet_tangent
 from fenics_gears.geometry.involute import canonical_normal
-from fenics_gears.geometry.outline import tooth_outline
+from fenics_gears.geometry.outline import fillet_tangent, tooth_outline
 
 CUTS = {
     "standard 20 teeth": dict(teeth=20),

@@ -15,7 +15,7 @@ from fenics_gears.dynamics.steps import Record, Steps
 from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
-from fenics_gears.results.energy_variables import energy_variables
+from fenics_gears.results.contact_variables import energy_variables
 from fenics_gears.scene.data import Motion
 
 

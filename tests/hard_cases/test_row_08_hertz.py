@@ -16,14 +16,14 @@ from tests.contact.problems import pressed as under
 from fenics_gears import model_of
 from fenics_gears.contact.operator import Passage, contact_operator
 from fenics_gears.contact.pairing import CompliancePairing
-from fenics_gears.contact.pressure import without_oscillation
 from fenics_gears.contact.tooth_pair import Flanks, drive_place, tooth_pair
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.gear_compliance import flank_compliance
 from fenics_gears.model.resolution import hertz_half_width, plane_contact_modulus, relative_radius
-from fenics_gears.scene.defaults import NODE_SPACING
+from fenics_gears.results.mesh_curves import without_oscillation
+from fenics_gears.scene.accuracy import NODE_SPACING
 
 NIGHTLY = pytest.mark.nightly
 LIMITS = {2: 0.04, 4: 0.01, 8: 0.005}

@@ -16,7 +16,7 @@ from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.results import dataset
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion
-from fenics_gears.show.forces import pair_forces
+from fenics_gears.show.motion import pair_forces
 from fenics_gears.show.run import Run
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.progress import SilentProgress

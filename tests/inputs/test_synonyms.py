@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from fenics_gears import SceneError, scene_from_text
-from fenics_gears.inputs.names import meant
+from fenics_gears.inputs.problem import meant
 from fenics_gears.inputs.synonyms import SYNONYMS
 from fenics_gears.scene.schema import known_paths
 

@@ -9,8 +9,8 @@ from tests.helical import helical_scene
 
 from fenics_gears import SceneError, model_of
 from fenics_gears.model.face_resolution import face_discretisation, loaded_part
+from fenics_gears.scene.accuracy import FEWEST_LAYERS, LAYER_THICKNESS, LAYER_TURN, SLICES_OF_A_LAYER
 from fenics_gears.scene.data import Accuracy
-from fenics_gears.scene.defaults import FEWEST_LAYERS, LAYER_THICKNESS, LAYER_TURN, SLICES_OF_A_LAYER
 
 CROWNED = '[lead_modifications.pinion]\ncrowning = "5 um"\n'
 

@@ -8,7 +8,7 @@ from tests.benchmarks import rigid_bore
 from fenics_gears import model_of
 from fenics_gears.effects.body_meshes import BodyMeshes
 from fenics_gears.geometry.gear_data import Web
-from fenics_gears.model.rim import rim_warnings, too_stiff
+from fenics_gears.model.modification import rim_warnings, too_stiff
 
 
 def with_wheel(scene, **changes):

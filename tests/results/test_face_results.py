@@ -8,9 +8,9 @@ from tests.helical import helical_scene, on_stand_in_bodies, wide_pair
 from tests.over_face import MORE, helical_run
 
 from fenics_gears import model_of, simulate
-from fenics_gears.contact.pressure import read_off
 from fenics_gears.results import journal
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
+from fenics_gears.results.mesh_curves import read_off
 from fenics_gears.results.pairs import in_middle_slice
 from fenics_gears.runs.record import record_of
 from fenics_gears.studies.accuracy.measures import OVER_FACE, answer

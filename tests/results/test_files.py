@@ -8,8 +8,8 @@ import xarray as xr
 from tests.show.synthetic import made_up_run
 
 from fenics_gears import ComputationError, results
-from fenics_gears.results import netcdf
-from fenics_gears.results.netcdf import read_netcdf, write_netcdf
+from fenics_gears.results import files
+from fenics_gears.results.files import read_netcdf, write_netcdf
 
 
 def several_kinds(steps: int) -> xr.Dataset:
@@ -79,7 +79,7 @@ def _kind(type_of_values: np.dtype):
 
 def test_a_file_made_on_disk_is_the_one_made_in_memory(monkeypatch):
     """Authority: identity; results too large for memory go through the file, and are read as the same."""
-    monkeypatch.setattr(netcdf, "MOST_IN_MEMORY", 0)
+    monkeypatch.setattr(files, "MOST_IN_MEMORY", 0)
     ours, content = several_kinds(5), io.BytesIO()
     write_netcdf(ours, content)
     with xr.open_dataset(content, engine="h5netcdf") as read:

@@ -15,7 +15,7 @@ from fenics_gears import ComputationError, load_scene, simulate
 from fenics_gears.dynamics.march import LONGEST_BLOCK
 from fenics_gears.results import journal
 from fenics_gears.results.journal import COUNTS, HEADER, SPARE, Journal, Place, read
-from fenics_gears.system.sealed import seal
+from fenics_gears.system.output import seal
 
 LAST, STEPS = 300, 4 * SPARE
 STORED = {"time": (("time",), np.dtype(float)), "field": (("contact_time", "slot"), np.dtype(float))}

@@ -6,7 +6,7 @@ from matplotlib.image import imread
 from tests.over_face import helical_run, root_stress_run
 from tests.show.synthetic import made_up_run
 
-from fenics_gears.contact.pressure import read_off
+from fenics_gears.results.mesh_curves import read_off
 from fenics_gears.show import FACE_PICTURE_FILES
 from fenics_gears.show.contact_pattern import contact_patterns, pattern
 from fenics_gears.show.line_load import line_loads

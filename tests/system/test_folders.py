@@ -7,7 +7,7 @@ import os
 
 import pytest
 
-from fenics_gears.system import folders
+from fenics_gears.system import environment as folders
 
 
 @pytest.fixture

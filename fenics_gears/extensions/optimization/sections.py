@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears import load_scene, units
-from fenics_gears.inputs.names import did_you_mean
-from fenics_gears.inputs.problem import line_numbers
+from fenics_gears.inputs.problem import did_you_mean, line_numbers
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.read import parsed
 from fenics_gears.studies import fields

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fenics_gears.results.spectrum import OrderLines
-from fenics_gears.show.forces import force_charts
-from fenics_gears.show.motion import motion_charts
+from fenics_gears.show.motion import force_charts, motion_charts
 from fenics_gears.show.orders import FORCE, mesh_order_chart, order_spectrum, orders_by_cycle, signals_of, spectrum
 from fenics_gears.show.panels import MOST_POINTS
 from fenics_gears.show.pressure import has_pressure, largest_pressures, pressure_maps

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.results.energy_variables import transmitted
+from fenics_gears.results.contact_variables import transmitted
 from fenics_gears.show.chart import over_time, span
-from fenics_gears.show.panels import DARK, PALETTE
+from fenics_gears.show.panels import DARK, PALETTE, digits, factor, in_unit
 from fenics_gears.show.report.page import Facts, Section, sentence
 from fenics_gears.show.run import TOO_FEW, Run
-from fenics_gears.show.units import digits, factor, in_unit
 
 PARTS = {
     "energy_teeth": "teeth",

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from fenics_gears.results.summary import result_rows
+from fenics_gears.show.panels import digits
 from fenics_gears.show.report.page import Beside, Facts, Section, Table, Words
 from fenics_gears.show.run import Run
-from fenics_gears.show.units import digits
 
 # What the summary that `gears run` prints leaves out.
 MORE = {

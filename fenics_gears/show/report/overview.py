@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator
 
 from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.show.panels import digits, factor
 from fenics_gears.show.report.page import Section, Tile, Tiles, Words, sentence
 from fenics_gears.show.run import Run, load_in_words
-from fenics_gears.show.units import digits, factor
 
 GEARS = ("pinion", "wheel")
 

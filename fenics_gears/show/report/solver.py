@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fenics_gears.errors import GearsError
 from fenics_gears.model.description import describe
-from fenics_gears.results.attributes import RUNG
+from fenics_gears.results.numbers import RUNG
 from fenics_gears.results.summary import solver_rows, stage_rows
 from fenics_gears.show.chart import over_time
 from fenics_gears.show.panels import PALETTE

@@ -9,8 +9,8 @@ from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
+from fenics_gears.scene.accuracy import NODE_SPACING
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Scene
-from fenics_gears.scene.defaults import NODE_SPACING
 from fenics_gears.studies.accuracy import over_face
 from fenics_gears.studies.accuracy.over_face import BODY, FAMILY, FLANK, LAYERS, LENGTH, SLICES, STEPS
 from fenics_gears.studies.accuracy.setting import Setting, default_setting, half_width, own_setting

@@ -11,8 +11,8 @@ from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.element_sizes import DEFAULT_SIZES
 from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import CLOSEST_NODES, EVERY_STEP, ONCE
+from fenics_gears.scene.accuracy import SECTION_SIZE
 from fenics_gears.scene.data import Accuracy, Scene
-from fenics_gears.scene.defaults import SECTION_SIZE
 
 
 @dataclass(frozen=True)

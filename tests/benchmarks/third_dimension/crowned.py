@@ -18,10 +18,10 @@ from tests.hertz_point_contact import PointContact
 
 from fenics_gears import gear_pair, model_of
 from fenics_gears.contact.operator import CENTRE_COORDINATES
-from fenics_gears.contact.pressure import without_oscillation
 from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.resolution import plane_contact_modulus, relative_radius
+from fenics_gears.results.mesh_curves import without_oscillation
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.simulation.elastic_route import elastic_route
 from fenics_gears.system.progress import SilentProgress
