@@ -74,10 +74,9 @@ def picture(options: argparse.Namespace) -> int:
 
 def _written(options, dataset, scene, index: int, output: Path | None, progress) -> list[Path]:
     """What is asked for."""
-    from fenics_gears.show.stress_animation import animate
+    from fenics_gears.show.stress_animation import animate, save_series
     from fenics_gears.show.stress_grid import save_vtu
     from fenics_gears.show.stress_picture import save_picture, still
-    from fenics_gears.show.stress_series import save_series
     from fenics_gears.simulation.run_stresses import RunStresses
     from fenics_gears.system.output import write_whole
 

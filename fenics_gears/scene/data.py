@@ -148,7 +148,7 @@ class Scene:
 
     def _repr_html_(self) -> str:
         """The table that notebooks show."""
-        from fenics_gears.scene.table import html
+        from fenics_gears.scene.write import html
 
         return html(self)
 

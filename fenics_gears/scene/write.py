@@ -1,21 +1,25 @@
 """From the frozen dataclasses of ``scene.data`` to a scene file that gives the same data, bit for bit: the way back of
-``scene.read``."""
+``scene.read``; and to a table for notebooks: sections, fields and values with their units."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import fields
+from html import escape
 from pathlib import Path
 from typing import Any
 
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GearsError
 from fenics_gears.geometry.gear_data import GearData, GearPairData, Web
-from fenics_gears.inputs.section import field_of, tree_of
+from fenics_gears.inputs.section import allowed_in, field_of, section_within, tree_of
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.inputs.written import as_toml
+from fenics_gears.inputs.written import as_toml, toml_value
 from fenics_gears.scene import data, gear_schema, schema
+from fenics_gears.scene.data import Scene
 from fenics_gears.scene.read import NO_FILE, parsed, scene_from_text
+from fenics_gears.scene.schema import scene_text
 
 # What a scene is called, and where it was read; it has these data whatever they are.
 WORDS = ("title", "name", "derived", "written", "folder")
@@ -141,3 +145,29 @@ def _motion(scene: data.Scene) -> dict[str, Any]:
         return found | {"mesh_cycles": data.HUNTING_TOOTH_PERIOD}
     settling = (motion.mesh_cycles - max(period, data.LAST_CYCLES)) / motion.mesh_frequency
     return found | {"settling_time": field_of(schema.MotionText, "settling_time", settling)}
+
+
+MOST_LETTERS = 80
+CELL = '<td style="text-align: left">{}</td>'
+
+
+def html(scene: Scene) -> str:
+    """The fields that are not at their defaults, as a scene file has them, and what each of them is."""
+    rows = "".join(
+        f"<tr>{''.join(CELL.format(escape(cell)) for cell in row)}</tr>"
+        for row in rows_of(section_trees(scene), scene_text())
+    )
+    head = "".join(f'<th style="text-align: left">{word}</th>' for word in ("field", "value", "meaning"))
+    return f"<table><caption>{escape(scene.title)}</caption><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
+
+
+def rows_of(tree: Mapping[str, Any], section: Any, home: str = "") -> Iterator[tuple[str, str, str]]:
+    """Name with its sections, value, and meaning, of all fields of a section's tree."""
+    for name, value in tree.items():
+        inner = section_within(section, name)
+        if inner is not None:
+            yield (f"[{home}{name}]", "", "")
+            yield from rows_of(value, inner, f"{home}{name}.")
+        else:
+            text, meaning = value if isinstance(value, str) else toml_value(value), allowed_in(section, name).meaning
+            yield (f"{home}{name}", text if len(text) <= MOST_LETTERS else text[: MOST_LETTERS - 3] + "...", meaning)

@@ -1,4 +1,5 @@
-"""The stored mesh cycles as a moving picture: GIF, or MP4 where ffmpeg is installed."""
+"""The stored mesh cycles as a moving picture: GIF, or MP4 where ffmpeg is installed; and for ParaView: a .vtu file for
+each step, and the .pvd file that lists them with their times."""
 
 from __future__ import annotations
 
@@ -6,6 +7,7 @@ import shutil
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import xarray as xr
@@ -14,7 +16,9 @@ from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.results.pairs import contact_times
+from fenics_gears.show.stress_grid import save_vtu
 from fenics_gears.show.stress_picture import COLOURS, frames
+from fenics_gears.simulation.run_stresses import RunStresses
 
 FRAMES_PER_CYCLE, MOST_FRAMES = 24, 120
 FRAMES_PER_SECOND = 12
@@ -103,3 +107,24 @@ def _write_mp4(frames: list[np.ndarray], path: Path) -> None:
         raise ComputationError(
             f"{path}: ffmpeg could not write the moving picture: {done.stderr.decode(errors='replace').strip()}"
         )
+
+
+def save_series(runs: RunStresses, dataset: xr.Dataset, collection: Path, report: Callable[[int, int], None]) -> None:
+    """Write a .pvd file and the .vtu files that it lists, beside it and named after it; `report(done, all)` is called
+    for each.
+
+    The steps are those of the moving picture, their times in s as the run has them. Raises what `save_vtu` raises.
+    """
+    root = ElementTree.Element("VTKFile", {"type": "Collection", "version": "0.1"})
+    listed = ElementTree.SubElement(root, "Collection")
+    steps = frame_steps(dataset)
+    for done, index in enumerate(steps):
+        report(done, len(steps))
+        file = collection.with_name(f"{collection.stem}_{done:04d}.vtu")
+        mesh = runs.at(index)
+        # To look at; files of half the size.
+        save_vtu(mesh, file, precision=np.float32)
+        ElementTree.SubElement(listed, "DataSet", {"timestep": repr(mesh.time), "part": "0", "file": file.name})
+    report(len(steps), len(steps))
+    ElementTree.indent(root)
+    ElementTree.ElementTree(root).write(collection, encoding="utf-8", xml_declaration=True)
