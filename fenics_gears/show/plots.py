@@ -62,18 +62,6 @@ SUBJECTS: tuple[tuple[str, Callable[[Run], Iterable[Chart]]], ...] = (
 PICTURES = dict(zip(PICTURE_FILES, SUBJECTS))
 
 
-def _of_face(run: Run) -> dict[str, tuple[str, Callable[[Run], Iterable[Chart]]]]:
-    """The pictures of flanks that are resolved over the face; none of a plane run."""
-    if not run.is_over_face:
-        return {}
-    from fenics_gears.show.contact_pattern import contact_patterns
-    from fenics_gears.show.line_load import line_loads
-
-    return dict(
-        zip(FACE_PICTURE_FILES, (("Contact pattern", contact_patterns), ("Line load along the face", line_loads)))
-    )
-
-
 ROWS_AT_ONCE = 16
 
 
@@ -90,7 +78,8 @@ def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
     """The pictures of a result as figures, by file name. Raises ComputationError as ``draw_run`` does."""
     run = Run(dataset)
     _check_steps(run)
-    subjects = {name: (subject, list(charts(run))) for name, (subject, charts) in (PICTURES | _of_face(run)).items()}
+    pictures = PICTURES | dict(zip(FACE_PICTURE_FILES, run.over_face.items()))
+    subjects = {name: (subject, list(charts(run))) for name, (subject, charts) in pictures.items()}
     colour = DARK if run.complete else WARNING
     return {
         name: picture(_heading(run, subject), charts, colour) for name, (subject, charts) in subjects.items() if charts

@@ -6,9 +6,11 @@ What `contact_pattern`, `line_load` and `loaded_contact` do not read by themselv
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -21,6 +23,9 @@ from fenics_gears.results.pairs import carrying_side, in_middle_slice, lives
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import LOAD_WORDS, Scene
 from fenics_gears.show.panels import digits, factor, in_unit
+
+if TYPE_CHECKING:
+    from fenics_gears.show.chart import Chart
 
 NO_SCENE = (
     "The scene in this file is none of this version of the program, so that this section cannot be made; run the scene"
@@ -166,9 +171,15 @@ class Run:
         return curves
 
     @property
-    def is_over_face(self) -> bool:
-        """Whether the flanks are resolved over the face."""
-        return "face_position" in self.dataset.dims
+    def over_face(self) -> dict[str, Callable[[Run], list[Chart]]]:
+        """What draws the charts of flanks that are resolved over the face, by subject; empty of a plane run."""
+        if "face_position" not in self.dataset.dims:
+            return {}
+        # Imported here: plane runs have none.
+        from fenics_gears.show.contact_pattern import contact_patterns
+        from fenics_gears.show.line_load import line_loads
+
+        return {"Contact pattern": contact_patterns, "Line load along the face": line_loads}
 
     @cached_property
     def last_fields(self) -> xr.Dataset:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from fenics_gears.show.contact_pattern import contact_patterns
-from fenics_gears.show.line_load import line_loads
 from fenics_gears.show.report.page import Section, Words
 from fenics_gears.show.run import TOO_FEW, Run
 
@@ -25,11 +23,13 @@ FACTORS = {
 }
 
 
-def face(run: Run) -> Section:
-    """Charts of the stored contact fields; why there are none."""
+def face(run: Run) -> Section | None:
+    """Charts of the stored contact fields, or why there are none; no section of a plane run."""
+    if not run.over_face:
+        return None
     if not run.has_curves:
         return Section("face", HEADING, [Words(TOO_FEW, warns=True)])
-    charts = [*contact_patterns(run), *line_loads(run)]
+    charts = [chart for draw in run.over_face.values() for chart in draw(run)]
     said = [
         Words(sentence.format(run.dataset.attrs[name]))
         for name, sentence in FACTORS.items()

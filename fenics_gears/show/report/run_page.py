@@ -9,6 +9,7 @@ from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.show.report.curves import forces, motion, pressure, spectra
 from fenics_gears.show.report.effects import effects
 from fenics_gears.show.report.energy import energy
+from fenics_gears.show.report.face import face
 from fenics_gears.show.report.geometry import geometry
 from fenics_gears.show.report.numbers import numbers
 from fenics_gears.show.report.origin import made_by, scene_section, version_section
@@ -21,12 +22,13 @@ from fenics_gears.show.run import Run, conditions
 from fenics_gears.system.progress import Progress, SilentProgress
 
 # Pictures before tables: who reads the page looks first.
-SECTIONS = (
+SECTIONS: tuple[Callable[[Run], Section | None], ...] = (
     summary,
     warnings,
     motion,
     forces,
     pressure,
+    face,
     stress,
     root_stress,
     spectra,
@@ -42,30 +44,21 @@ def run_page(run: Run, progress: Progress | None = None) -> Page:
     """The page of a run. Raises SceneError where a time is asked for that the run has not stored."""
     progress = progress or SilentProgress()
     progress.stage("sections")
-    sections, makers = [], _sections(run)
-    for done, make in enumerate(makers):
-        progress.update(done, len(makers), make.__name__.replace("_", " "))
-        sections.append(make(run))
+    sections: list[Section] = []
+    for done, make in enumerate(SECTIONS):
+        progress.update(done, len(SECTIONS), make.__name__.replace("_", " "))
+        if (section := make(run)) is not None:
+            sections.append(section)
     attributes = run.dataset.attrs
     remarks = [] if run.scene is None else changed_files(run.dataset, run.scene)
     sections += [
         version_section(attributes, run.file),
         scene_section(str(attributes.get("scene", "")), remarks=remarks),
     ]
-    progress.update(len(makers), len(makers))
+    progress.update(len(SECTIONS), len(SECTIONS))
     title = " ".join(str(attributes.get("title", "")).split()) or run.file.stem
     subtitle = conditions(run.scene) if run.scene is not None else ""
     return Page("Gear pair: report on a run", title, subtitle, sections, made_by(), _alarm(run))
-
-
-def _sections(run: Run) -> list[Callable[[Run], Section]]:
-    """What makes the sections: of flanks resolved over the face one more, after the contact pressure."""
-    makers = list(SECTIONS)
-    if run.is_over_face:
-        from fenics_gears.show.report.face import face
-
-        makers.insert(makers.index(pressure) + 1, face)
-    return makers
 
 
 def _alarm(run: Run) -> str:
