@@ -35,7 +35,7 @@ def study(options: argparse.Namespace) -> int:
     from fenics_gears.studies.run_study import run_study
     from fenics_gears.studies.summary import last_words, summary_rows
 
-    outcome = run_study(options.study, options.output, shown_progress(options.quiet), options.quiet)
+    outcome = run_study(options.study, options.output, shown_progress(options.quiet), options.quiet, plots)
     if outcome is None:
         return 0
     pictures = [] if outcome.interrupted else plots().draw_study(outcome.file)

@@ -251,8 +251,26 @@ def read_netcdf(content, names: Collection[str] | None = None) -> xr.Dataset:
             if "DIMENSION_LIST" in attributes:
                 dims = tuple(h5py.h5r.get_name(each[0], file.id)[1:].decode() for each in attributes["DIMENSION_LIST"])
             values = held.asstr()[()] if held.dtype.kind == "O" else held[()]
-            variables[name] = (dims, values, _labels(attributes))
-        return xr.decode_cf(xr.Dataset(variables, attrs=_labels(dict(file["/"].attrs)))).load()
+            variables[name] = _decoded(dims, values, _labels(attributes))
+        attributes = _labels(dict(file["/"].attrs))
+    coordinates = set(attributes.pop("coordinates", "").split())
+    for each in variables.values():
+        named = each.attrs.get("coordinates", "").split()
+        if named and all(name in variables for name in named):
+            each.encoding["coordinates"] = each.attrs.pop("coordinates")
+            coordinates.update(named)
+    return xr.Dataset(variables, attrs=attributes).set_coords(coordinates & variables.keys())
+
+
+def _decoded(dims: tuple[str, ...], values: np.ndarray, labels: dict[str, Any]) -> xr.Variable:
+    """A variable by the conventions that `write_netcdf` follows, all that results need: what is missing is not a
+    number, and switches are whole numbers. To look for all other conventions takes a fifth of the time of reading."""
+    encoding: dict[str, Any] = {"dtype": values.dtype}
+    if "_FillValue" in labels:
+        encoding["_FillValue"] = labels.pop("_FillValue")
+    if labels.get("dtype") == "bool":
+        values = values.astype(labels.pop("dtype"))
+    return xr.Variable(dims, values, labels, encoding)
 
 
 def _labels(attributes: Mapping[str, Any]) -> dict[str, Any]:

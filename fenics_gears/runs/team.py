@@ -23,6 +23,10 @@ Task = Callable[..., Any]
 Finished = Callable[[int, Any], None]
 """Called by rank 0's main thread with a task's index and its outcome, or the exception that ended it."""
 
+Meanwhile = Callable[[], object]
+"""What rank 0 does for the end of a job when the other ranks first have enough to compute, such as loading a library:
+the end, where they wait, is that much shorter."""
+
 
 class Alone:
     """One process."""
@@ -39,8 +43,8 @@ class Alone:
 class Together:
     """All ranks of a job, seen from rank 0."""
 
-    def __init__(self, executor, size: int):
-        self._executor, self.size = executor, size
+    def __init__(self, executor, size: int, meanwhile: Meanwhile | None = None):
+        self._executor, self.size, self._meanwhile = executor, size, meanwhile
 
     def run(self, function: Task, tasks: Sequence[Any], finished: Finished, tick: Callable[[], None]) -> None:
         """Compute every task; ``tick`` is called often and may raise KeyboardInterrupt, which ends the ranks after
@@ -65,6 +69,9 @@ class Together:
             tick()
 
         try:
+            if left > self.size and self._meanwhile is not None:
+                self._meanwhile()
+                self._meanwhile = None
             for index in reversed(range(len(tasks))):
                 look()
                 if futures[index].cancel():
@@ -101,8 +108,9 @@ def _load_what_runs_need() -> None:
 
 
 @contextlib.contextmanager
-def ranks() -> Iterator[Alone | Together | None]:
-    """The processes that work together; None on every rank but 0, once there is no more to do.
+def ranks(meanwhile: Meanwhile | None = None) -> Iterator[Alone | Together | None]:
+    """The processes that work together; None on every rank but 0, once there is no more to do. What is to be done
+    `meanwhile` is done only by a job of several processes that gets tasks.
 
     Raises ComputationError where a job of several processes was started that mpi4py cannot join.
     """
@@ -122,4 +130,4 @@ def ranks() -> Iterator[Alone | Together | None]:
         yield None
         return
     with MPICommExecutor(world, root=0) as executor:
-        yield Together(executor, world.size)
+        yield Together(executor, world.size, meanwhile)

@@ -14,7 +14,7 @@ from fenics_gears.runs.folder import Folder, sole_writer
 from fenics_gears.runs.record import Record
 from fenics_gears.runs.run import Run
 from fenics_gears.runs.runs import Failure, Runs
-from fenics_gears.runs.team import Alone, Together, ranks
+from fenics_gears.runs.team import Alone, Meanwhile, Together, ranks
 from fenics_gears.studies.combine import STUDY_FILE, combined, save_study
 from fenics_gears.studies.study import Study
 from fenics_gears.studies.study_file import load_study
@@ -37,13 +37,16 @@ class Outcome:
     interrupted: bool = False
 
 
-def run_study(path: Path, output: Path | None, progress: Progress, quiet: bool = False) -> Outcome | None:
+def run_study(
+    path: Path, output: Path | None, progress: Progress, quiet: bool = False, meanwhile: Meanwhile | None = None
+) -> Outcome | None:
     """Run what is missing of a study and write its dataset; None on every rank of an MPI job but 0.
 
-    output: the study's directory, `results/<name of the study file>` where None. Raises SceneError, before anything is
-    computed or written, where the study is wrong; ComputationError where its directory cannot be used.
+    output: the study's directory, `results/<name of the study file>` where None; meanwhile: as in `ranks`. Raises
+    SceneError, before anything is computed or written, where the study is wrong; ComputationError where its directory
+    cannot be used.
     """
-    with ranks() as team:
+    with ranks(meanwhile) as team:
         if team is None:
             return None
         study = load_study(path)

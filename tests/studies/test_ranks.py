@@ -1,7 +1,9 @@
 """Studies under mpirun: the same numbers as alone, for any number of ranks. Failing and killed ranks are hard case
 28."""
 
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Event
 
 import pytest
 from tests.programs import gears, python
@@ -10,7 +12,7 @@ from tests.studies.test_run_study import FOUR, load
 from tests.system.test_failing_ranks import FACE
 
 from fenics_gears.commands.cli import main
-from fenics_gears.runs.team import Alone
+from fenics_gears.runs.team import Alone, Together
 
 pytestmark = pytest.mark.ranks
 
@@ -25,6 +27,20 @@ def test_a_study_of_more_ranks_than_cases_gives_what_it_gives_alone(folder, undr
     assert together.returncode == 0, together.stderr
     assert "by 3 processes" in together.stderr and together.stdout.count("kept from before") == 1
     assert load("here").drop_vars("wall_time").equals(load("alone").drop_vars("wall_time"))
+
+
+def test_what_the_end_needs_is_made_while_others_compute():
+    """Order of events: a worker computes while rank 0 makes it, once for a job, and not where it has its own task to
+    do at once."""
+    begun, made = Event(), []
+    with ThreadPoolExecutor(1) as executor:
+        team = Together(executor, 2, lambda: made.append(begun.wait(timeout=60)))
+        for count, times in ((2, 0), (3, 1), (3, 1)):
+            found = {}
+            team.run(lambda task, tick=None: begun.set() or task, range(count), found.__setitem__, lambda: None)
+            assert found == {task: task for task in range(count)}
+            assert made == [True] * times
+            begun.clear()
 
 
 @pytest.mark.nightly
