@@ -173,6 +173,12 @@ RESULT_ATTRIBUTES = (
         "peak_contact_pressure_diameter", "mm", "diameter on the pinion at the peak contact pressure", WITH_PRESSURE
     ),
     ResultAttribute(
+        "peak_contact_pressure_beside",
+        "",
+        "`start` or `end` of the pinion's active profile, where lines of contact end and their line load rises",
+        "the peak contact pressure is where `largest_line_load_factor` leaves the end of a line of contact out",
+    ),
+    ResultAttribute(
         "peak_edge_pressure",
         "MPa",
         "maximum of `largest_edge_pressure`; it does not converge as the mesh is refined",
