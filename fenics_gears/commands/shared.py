@@ -172,6 +172,10 @@ def run_file(path: Path) -> Path:
         raise SceneError(
             f"{file}: there is no such file. A run is the directory that `gears run` wrote, or the {RUN_FILE} in it."
         )
+    if file.suffix == ".toml":
+        raise SceneError(
+            f"{file} is a scene, this command takes a run: `gears run {file}` writes the directory to be given here."
+        )
     return file
 
 

@@ -12,7 +12,7 @@ from fenics_gears.geometry.flank_deviations import v_roll_angle
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.cost import SECTOR_UNKNOWNS, expected_cost
 from fenics_gears.model.model import Model, model_of
-from fenics_gears.model.motion_rows import Rows, frequency_rows, inertia_rows, period_rows, speed_rows
+from fenics_gears.model.motion_rows import Rows, frequency_rows, inertia_rows, motion_in_words, period_rows, speed_rows
 from fenics_gears.model.plane_strain import NOTABLE as NOTABLE_STIFFNESS
 from fenics_gears.model.plane_strain import too_stiff
 from fenics_gears.scene.data import ISO_6336, Scene
@@ -72,7 +72,7 @@ def describe(scene: Scene) -> list[tuple[str, Rows]]:
 
 
 def _model_rows(model: Model) -> Rows:
-    grid = model.resolution.contact_grid
+    grid, force = model.resolution.contact_grid, model.scene.load.wheel_torque / model.pair.wheel.base_radius
     each = "normal and tangential force" if model.scene.friction is not None else "normal force"
     touching = (
         f"each with a {each} where flanks touch"
@@ -85,7 +85,7 @@ def _model_rows(model: Model) -> Rows:
         (
             "motions of the gears that are unknown",
             f"{len(model.drivetrain.coordinates)}:",
-            ", ".join(model.drivetrain.coordinates),
+            ", ".join(map(motion_in_words, model.drivetrain.coordinates)),
         ),
         ("contact nodes of a tooth pair", f"{grid.nodes},", touching)
         if model.face.slices == 1
@@ -96,7 +96,7 @@ def _model_rows(model: Model) -> Rows:
             if model.scene.motion.speed_given
             else [("time", "counts mesh cycles, 1 s each", "for the scene has no speed and needs none")]
         ),
-        ("nominal force along the line of action", model.scene.load.wheel_torque / model.pair.wheel.base_radius, "N"),
+        ("nominal force along the line of action", f"{force:.4g}", "N"),
         *(
             []
             if model.scene.friction is None
@@ -126,6 +126,9 @@ def _face_rows(model: Model) -> Rows:
         widths = [("face width in common", pair.face_width, f"mm: {', '.join(each)}")]
     if not scene.three_dimensional:
         return [*widths, *_plane_rows(model)]
+    # Imported here: plane scenes have none.
+    from fenics_gears.model.face_resolution import face_discretisation, layers_of_common_face
+
     low, high = pair.common_face
     found: Rows = [
         *widths,
@@ -145,6 +148,10 @@ def _face_rows(model: Model) -> Rows:
             found.append(
                 (f"{name} end relief", 1e3 * relief.depth, f"um, {relief.shape} over {relief.length:g} mm at {ends}")
             )
+    if scene.tooth_elasticity is not None:
+        common = layers_of_common_face(scene, pair, model.face.slices)
+        layers = [f"{name} {face_discretisation(model, gear).layers}" for gear, name in enumerate(GEARS)]
+        found.append(("layers of the bodies", f"{', '.join(layers)},", f"{common} of them on the common face"))
     about = "um over the common face, about the pitch point in its middle"
     return found + [
         (f"misalignment {words}", 1e3 * amount, about)
@@ -212,9 +219,9 @@ def _accuracy_rows(model: Model) -> Rows:
         return "" if value is None else ", from the scene"
 
     elastic: Rows = [
-        ("Hertz half-width at full load", resolution.half_width, "mm"),
+        ("Hertz half-width at full load", f"{resolution.half_width:.4g}", "mm"),
         ("element", resolution.element + origin(asked.element), ""),
-        ("flank element size", resolution.flank_element_size, "mm" + origin(asked.flank_element_size)),
+        ("flank element size", f"{resolution.flank_element_size:.4g}", "mm" + origin(asked.flank_element_size)),
         *([("body element size", asked.body_element_size, "mm, from the scene")] if asked.body_element_size else []),
         *([("interpolation", f"{asked.interpolation}, from the scene", "")] if asked.interpolation else []),
         *([("elastic teeth", f"{asked.elastic_teeth}, from the scene", "")] if asked.elastic_teeth else []),
@@ -234,11 +241,11 @@ def _accuracy_rows(model: Model) -> Rows:
         ),
         *([("model of the mesh", f"{asked.model}, from the scene", "")] if asked.model else []),
         *(elastic if model.resolution.element in SECTOR_UNKNOWNS else []),
-        ("contact length", resolution.contact_grid.length, "mm" + origin(asked.contact_length)),
-        ("contact node spacing", resolution.contact_grid.spacing, "mm" + origin(asked.contact_nodes)),
+        ("contact length", f"{resolution.contact_grid.length:.4g}", "mm" + origin(asked.contact_length)),
+        ("contact node spacing", f"{resolution.contact_grid.spacing:.4g}", "mm" + origin(asked.contact_nodes)),
         *(condensation if model.scene.tooth_elasticity is not None else []),
         ("steps per mesh cycle", f"{resolution.steps_per_mesh_cycle}{origin(asked.steps_per_mesh_cycle)}", ""),
-        ("time step" if model.scene.speed_ramp is None else "time step, the longest", model.time_step, "s"),
+        ("time step" if model.scene.speed_ramp is None else "time step, the longest", f"{model.time_step:.4g}", "s"),
         ("steps", f"{model.steps}, {_contact_fields(model)}", ""),
         *period_rows(model),
     ]

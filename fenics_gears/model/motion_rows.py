@@ -122,3 +122,17 @@ def frequency_rows(model: Model) -> Rows:
     )
     rows.append(("highest frequency that is sampled", 0.5 / model.time_step, "Hz: two steps per period"))
     return rows
+
+
+# Coordinates of a drivetrain in words, without the number of the gear.
+MOTIONS = {
+    "centre_x": "centre along x", "centre_y": "centre along y", "rotation_": "rotation", "axial_": "along its axis",
+    "tilt_x": "tilt about x", "tilt_y": "tilt about y",
+}  # fmt: skip
+
+
+def motion_in_words(coordinate: str) -> str:
+    """A coordinate of the drivetrain in words."""
+    if coordinate == "shaft_twist":
+        return "twist of the output shaft"
+    return f"{'pinion' if coordinate[-1] == '1' else 'wheel'} {MOTIONS[coordinate[:-1]]}"

@@ -152,6 +152,12 @@ _ROWS = (
     ("peak_contact_pressure_flank", "", "flanks with the peak contact pressure: `drive` or `coast`", WITH_PRESSURE),
     ("peak_contact_pressure_diameter", "mm", "diameter on the pinion at the peak contact pressure", WITH_PRESSURE),
     (
+        "peak_contact_pressure_beside",
+        "",
+        "`start` or `end` of the pinion's active profile, where lines of contact end and their line load rises",
+        "the peak contact pressure is where `largest_line_load_factor` leaves the end of a line of contact out",
+    ),
+    (
         "peak_edge_pressure",
         "MPa",
         "maximum of `largest_edge_pressure`; it does not converge as the mesh is refined",

@@ -125,12 +125,19 @@ def _pressure(settled: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
         return float(settled[name].values[place])
 
     on_coast = "coast_normal_force" in settled and at("coast_normal_force") > at("normal_force")
+    roll = at("largest_contact_pressure_roll_angle")
+    if pair.slope:
+        # Imported here: plane runs have none.
+        from fenics_gears.results.load_factors import end_of_line
+
+        if end := end_of_line(pair, pair.pinion.base_radius * roll):
+            found["peak_contact_pressure_beside"] = end
     return found | {
         "peak_contact_pressure_time": at("time"),
         "peak_contact_pressure_mesh_phase": at("mesh_phase"),
         "peak_contact_pressure_pair": int(at("largest_contact_pressure_pair")),
         "peak_contact_pressure_flank": "coast" if on_coast else "drive",
-        "peak_contact_pressure_diameter": 2.0 * float(pair.pinion.radius(at("largest_contact_pressure_roll_angle"))),
+        "peak_contact_pressure_diameter": 2.0 * float(pair.pinion.radius(roll)),
     }
 
 

@@ -102,8 +102,18 @@ def _line_ends(result: xr.Dataset, pair: GearPair, side: str, z: np.ndarray) -> 
     position = pair.path_start + since[..., None] * pair.base_pitch + pair.slope * z
     if side:
         position = passing(pair, position, side)
-    near = end_depth(pair) * abs(pair.slope)
-    return (position < pair.path_start + near) | (position > pair.path_end - near)
+    return (position < pair.path_start + _near(pair)) | (position > pair.path_end - _near(pair))
+
+
+def _near(pair: GearPair) -> float:
+    """How far (mm) along the path of contact the end zones of a line of contact reach; 0 of spur pairs."""
+    return end_depth(pair) * abs(pair.slope)
+
+
+def end_of_line(pair: GearPair, position: float) -> str:
+    """Which end of the pinion's active profile, where lines of contact of a helical pair end, is near a position (mm
+    from T1): `start`, `end`, or nothing."""
+    return "start" if position < pair.path_start + _near(pair) else "end" * (position > pair.path_end - _near(pair))
 
 
 def passing(pair: GearPair, position, side: str):

@@ -87,9 +87,8 @@ def _stiffness(attributes) -> list[Row]:
     """The tangent, which small vibrations have; the secant counts gaps of relief and misalignment as deflection."""
     if "mean_mesh_stiffness_tangent" not in attributes:
         return []
-    one = (
-        f", one pair {attributes['single_pair_stiffness']:.4g} at most" if "single_pair_stiffness" in attributes else ""
-    )
+    single = attributes.get("single_pair_stiffness")
+    one = "" if single is None else f", at most {single:.4g} with one pair"
     secant = f"{attributes['mean_mesh_stiffness']:.4g}{one}"
     return [
         (
@@ -106,7 +105,7 @@ def _pair_force(attributes) -> list[Row]:
     rows = [
         (
             "largest force of a tooth pair",
-            f"{attributes['largest_pair_force']:.4g} N at mesh cycle {attributes['largest_pair_force_mesh_phase']:.6g}",
+            f"{attributes['largest_pair_force']:.4g} N at mesh cycle {attributes['largest_pair_force_mesh_phase']:.4g}",
             "",
         )
     ]
@@ -168,10 +167,12 @@ def _pressure(attributes) -> list[Row]:
     if not attributes.get("peak_contact_pressure") or "peak_contact_pressure_diameter" not in attributes:
         return []
     place = (
-        f"at mesh cycle {attributes['peak_contact_pressure_mesh_phase']:.6g}, pinion's diameter"
+        f"at mesh cycle {attributes['peak_contact_pressure_mesh_phase']:.4g}, pinion's diameter"
         f" {attributes['peak_contact_pressure_diameter']:.4g} mm"
     )
     flank = ", coast flank" if attributes["peak_contact_pressure_flank"] == "coast" else ""
+    if end := attributes.get("peak_contact_pressure_beside"):
+        flank += f", beside the {end} of its active profile, where lines of contact end"
     apart = [name for name in APART if f"peak_{name}_pressure" in attributes]
     label = "peak contact pressure" + (f", without {' and '.join(APART[name] for name in apart)}" if apart else "")
     rows = [(label, f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
@@ -256,7 +257,7 @@ def _root_stress(attributes) -> list[Row]:
         name = f"largest_root_stress_{gear}"
         if name in attributes:
             place = (
-                f"at mesh cycle {attributes[f'{name}_mesh_phase']:.6g}, tooth of pair {attributes[f'{name}_pair']},"
+                f"at mesh cycle {attributes[f'{name}_mesh_phase']:.4g}, tooth of pair {attributes[f'{name}_pair']},"
                 f" {attributes[f'{name}_fillet']} side"
             )
             rows.append((f"largest root stress, {gear}", f"{attributes[name]:.4g} MPa {place}", ""))

@@ -7,11 +7,12 @@ from tests.hard_cases.invariants import run_of
 from tests.helical import helical_scene, on_stand_in_bodies, wide_pair
 from tests.over_face import MORE, helical_run
 
-from fenics_gears import model_of, simulate
+from fenics_gears import model_of, scene_from_text, simulate
 from fenics_gears.results import journal
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.results.mesh_curves import read_off
 from fenics_gears.results.pairs import in_middle_slice
+from fenics_gears.results.summary import summary_rows
 from fenics_gears.runs.record import record_of
 from fenics_gears.studies.accuracy.measures import OVER_FACE, answer
 
@@ -40,6 +41,20 @@ def test_studies_take_the_load_factors(monkeypatch):
     assert set(result.attrs) >= OF_FACE and {each.name for each in RESULT_ATTRIBUTES} >= OF_FACE
     record = record_of(result.assign_attrs(wall_time=1.0))
     assert {name: record.numbers[name] for name in OF_FACE} == {name: result.attrs[name] for name in OF_FACE}
+
+
+def test_a_peak_pressure_beside_the_end_of_a_line_of_contact_is_told():
+    """By definition, from the diameter that the result names: it is said where that is within half a module of the face
+    from an end of the line of contact, and the summary has it."""
+    result = helical_run()
+    pair = model_of(scene_from_text(result.attrs["scene"])).pair
+    radius, base = 0.5 * result.attrs["peak_contact_pressure_diameter"], pair.pinion.base_radius
+    place, near = np.sqrt(radius**2 - base**2), min(0.5 * pair.pinion.normal_module, 0.1 * pair.face_width) * pair.slope
+    said = "start" if place < pair.path_start + near else "end" if place > pair.path_end - near else None
+    assert result.attrs.get("peak_contact_pressure_beside") == said
+    printed = dict(row[:2] for row in summary_rows(result))
+    row = next(value for label, value in printed.items() if label.startswith("peak contact pressure"))
+    assert (f"beside the {said} of its active profile" in row) == (said is not None)
 
 
 def test_measures_of_accuracy_are_of_the_middle_slice():

@@ -10,7 +10,7 @@ from tests.helical import wide_pair
 from fenics_gears import gear_pair
 from fenics_gears.contact.window import coast_roll_angles
 from fenics_gears.results.face_ends import end_depth, inner_face, slice_ends, windows
-from fenics_gears.results.load_factors import load_factors
+from fenics_gears.results.load_factors import end_of_line, load_factors
 
 SLICES, STEPS, FIRST, SLOTS = 10, 200, 2, 5
 
@@ -163,3 +163,13 @@ def test_edges_have_a_factor_of_their_own(helical, end, side):
     # To the change of the lines' lengths between the times of the one and of the other.
     assert near["edge_line_load_factor"] == pytest.approx(3.0 * near["largest_line_load_factor"], rel=0.15)
     assert far["edge_line_load_factor"] == pytest.approx(far["largest_line_load_factor"], rel=0.15)
+
+
+def test_ends_of_lines_of_contact_are_told_apart(spur, helical):
+    """Geometry: half a module of the face, along the path by the tangent of the base helix angle, from either end of
+    the path; the line of a spur pair ends nowhere along the face."""
+    near = 0.5 * helical.pinion.normal_module * abs(helical.slope)
+    start, end = helical.path_start, helical.path_end
+    places = (start - 0.1, start + 0.99 * near, start + 1.01 * near, end - 1.01 * near, end - 0.99 * near, end + 0.1)
+    assert [end_of_line(helical, place) for place in places] == ["start", "start", "", "", "end", "end"]
+    assert not end_of_line(spur, spur.path_start + 1e-9)

@@ -54,10 +54,12 @@ def _tiles(run: Run) -> Iterator[Tile]:
             0.0 if run.pair is None else abs(run.scene.load.wheel_torque) / run.pair.wheel.base_radius / run.pair.cosine
         )
         if nominal:
-            note = f"{largest / nominal:.3f} × {digits(nominal)} N, the normal force of the torque without friction"
+            note = f"{largest / nominal:.3f} times that of the torque without friction, {digits(nominal)} N"
         yield Tile("Largest mesh force", digits(largest), "N", note)
     if "peak_contact_pressure" in attributes:
-        yield Tile("Peak contact pressure", digits(attributes["peak_contact_pressure"]), "MPa")
+        end = attributes.get("peak_contact_pressure_beside")
+        where = f"beside the {end} of the pinion's active profile, where lines of contact end" if end else ""
+        yield Tile("Peak contact pressure", digits(attributes["peak_contact_pressure"]), "MPa", where)
     if "root_stress_maximum" in dataset:
         largest = dataset["root_stress_maximum"].max(["time", "slot"]).values
         yield Tile(

@@ -70,7 +70,7 @@ def test_the_largest_mesh_force_is_compared_with_the_force_along_the_same_normal
         run["normal_force"] = 0.0 * run["normal_force"] + Run(run).scene.load.wheel_torque / (
             pair.wheel.base_radius * cos(asin(sin(radians(helix)) * cos(radians(20.0))))
         )
-        assert tiles_of(run, tmp_path)["Largest mesh force"].note.startswith("1.000 ×")
+        assert tiles_of(run, tmp_path)["Largest mesh force"].note.startswith("1.000 times")
 
 
 def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp_path):
