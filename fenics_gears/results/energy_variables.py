@@ -16,6 +16,7 @@ from fenics_gears.dynamics.drivetrain import ON_BEARINGS, Drivetrain
 from fenics_gears.dynamics.energy_account import account, mean_load, quadratic
 from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps, forces_at, in_block, operator_at
+from fenics_gears.results.contact_variables import Curves
 from fenics_gears.scene.data import Scene
 
 
@@ -95,12 +96,14 @@ class Transmitted:
     wheel_drives: bool
 
 
-def transmitted(result: xr.Dataset) -> Transmitted:
+def transmitted(result: Curves | xr.Dataset) -> Transmitted:
     """The side that drives and the work it does, from the first to the last step of a result.
 
     Where the wheel drives, the work of the pinion's side and of the wheel's side are negative.
     """
-    at_pinion, at_wheel = (float(np.subtract(*result[name].values[[-1, 0]])) for name in ("work_input", "work_output"))
+    at_pinion, at_wheel = (
+        float(np.subtract(*np.asarray(result[name])[[-1, 0]])) for name in ("work_input", "work_output")
+    )
     if at_pinion + at_wheel < 0.0:
         return Transmitted(-at_wheel, -at_pinion, True)
     return Transmitted(at_pinion, at_wheel, False)
