@@ -68,15 +68,36 @@ class Position:
 
     def with_gap(self, gap: np.ndarray) -> Position:
         """The same position with other gaps (n,), mm; what is known of it already is not found again."""
-        operator, (row, held) = copy(self.operator), self.in_memory
-        # As `replace`, which would form all rows.
-        operator.__dict__.update(
-            gap=gap, node_pair=self.operator.node_pair, on_drive_flanks=self.operator.on_drive_flanks
+        opened = _Opened.__new__(_Opened)
+        opened.__dict__.update(
+            node_before=self.node_before, index=self.index, nodes=self.nodes, true=self, gap=np.ascontiguousarray(gap)
         )
-        changed, row = replace(self, operator=operator), row.copy()
-        row[GAP] = gap.ctypes.data
-        changed.__dict__["in_memory"] = row, [*held, gap]
-        return changed
+        return opened
+
+
+class _Opened(Position):
+    """A position `true` with another `gap`. Of most steps compiled code alone reads it, so that its operator is put
+    together when it is asked for."""
+
+    true: Position
+    gap: np.ndarray
+
+    @cached_property
+    def operator(self) -> ContactOperator:  # type: ignore[override]
+        """That of the position with these gaps."""
+        true = self.true.operator
+        operator = copy(true)
+        # As `replace`, which would form all rows.
+        operator.__dict__.update(gap=self.gap, node_pair=true.node_pair, on_drive_flanks=true.on_drive_flanks)
+        return operator
+
+    @cached_property
+    def in_memory(self) -> tuple[np.ndarray, list[np.ndarray]]:
+        """As of the position, with these gaps."""
+        row, held = self.true.in_memory
+        row = row.copy()
+        row[GAP] = self.gap.ctypes.data
+        return row, [*held, self.gap]
 
 
 @dataclass

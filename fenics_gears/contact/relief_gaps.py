@@ -3,6 +3,7 @@ nothing else."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -32,26 +33,56 @@ class Facing:
 
 @dataclass
 class FacingPoints:
-    """The facing points of the positions of a cycle, which all reliefs on its operators have in common."""
+    """The facing points of the positions of a cycle, which all reliefs on its operators have in common: by place, and
+    `together` those of all steps once these are known."""
 
     known: dict[float, Facing] = field(default_factory=dict)
+    together: Facing | None = None
+
+    def of_steps(self, steps: int) -> Facing | None:
+        """Those of all steps of the cycle, one after the other; None as long as some are not known."""
+        if self.together is None and all(step in self.known for step in range(steps)):
+            self.together = _joined([self.known[step] for step in range(steps)])
+        return self.together
 
 
 def profile_of(cycle: Cycle, removal: tuple[Removal | None, Removal | None]) -> PerPosition[np.ndarray]:
     """The gaps (n,), mm, at a position of a `cycle` of flanks along the line of action from which `removal` is taken;
     what the cycle's own flanks lack is not counted."""
-    facing = PerPosition(lambda position: _facing(cycle, position), cycle.beside(FacingPoints).known)
-    averaged = cycle.grid.interpolation == AVERAGED
+    points, averaged = cycle.beside(FacingPoints), cycle.grid.interpolation == AVERAGED
+    facing = PerPosition(lambda position: _facing(cycle, position), points.known)
 
-    def profile(position: Position) -> np.ndarray:
-        points = facing(position)
-        gap = points.gap
-        for removed, rolls in zip(removal, points.rolls):
+    def gaps(at: Facing) -> np.ndarray:
+        gap = at.gap
+        for removed, rolls in zip(removal, at.rolls):
             if removed is not None:
-                gap = gap + np.where(points.drive, removed(rolls), 0.0)
-        return _of_nodes(gap, points.ends, points.offsets, points.node_ends, averaged)
+                gap = gap + np.where(at.drive, removed(rolls), 0.0)
+        return _of_nodes(gap, at.ends, at.offsets, at.node_ends, averaged)
 
-    return PerPosition(profile)
+    known: dict[float, np.ndarray] = {}
+    if (together := points.of_steps(cycle.steps)) is not None:
+        of_steps = np.cumsum([len(points.known[step].offsets) for step in range(cycle.steps - 1)])
+        known = dict(enumerate(np.split(gaps(together), of_steps)))
+    return PerPosition(lambda position: gaps(facing(position)), known)
+
+
+def _joined(parts: list[Facing]) -> Facing:
+    """Facing points of several positions as if their pairs were those of one."""
+
+    def whole(arrays: Iterable[np.ndarray]) -> np.ndarray:
+        return np.concatenate(list(arrays))
+
+    def ends(of: Iterable[np.ndarray]) -> np.ndarray:
+        return np.concatenate([[0], np.cumsum(whole(map(np.diff, of)))])
+
+    return Facing(
+        (whole(part.rolls[0] for part in parts), whole(part.rolls[1] for part in parts)),
+        whole(part.gap for part in parts),
+        whole(part.drive for part in parts),
+        ends(part.ends for part in parts),
+        whole(part.offsets for part in parts),
+        ends(part.node_ends for part in parts),
+    )
 
 
 def _facing(cycle: Cycle, position: Position) -> Facing:

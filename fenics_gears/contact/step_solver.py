@@ -141,11 +141,11 @@ def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> I
 
 
 @njit(cache=True)
-def _newton(equations, iterate, method, history, sets):
-    """`newton`, from plain tuples: of records numba looks through the types at each call, which takes as long as a
-    step."""
-    stiffness, load, compliance, jacobian, gap, slip_before, friction, free_motion, rows = equations
-    r_scale, rule, length, force = method
+def _newton(drivetrain, contact, numbers, iterate, method, history, sets):
+    """`newton`, from plain tuples of four at most: through longer ones, and records, numba looks at each call, which
+    takes as long as a step."""
+    (stiffness, load, free_motion), (friction, rows), (r_scale, rule, length, force) = drivetrain, numbers, method
+    compliance, jacobian, gap, slip_before = contact
     status, forces, coordinates, displacement = iterate
     return newton(
         Equations(stiffness, load, compliance, jacobian, gap, slip_before, friction, free_motion, rows),
@@ -165,14 +165,15 @@ def run_newton(
     """Newton from `status`; returns ((outcome, iterations, forces, coordinates, u, sets), (history, all sets))."""
     history = np.zeros((max_iterations, 5))
     sets = np.full((max_iterations, len(problem.gap)), -1, dtype=np.int8)
-    equations, m = problem.equations, len(problem.compliance)
+    tolerance, m = problem.tolerance, len(problem.compliance)
     iterate = Iterate(status.copy(), np.zeros(m), np.zeros(len(problem.load)), np.zeros(m))
-    if friction is not None:
-        equations = equations._replace(friction=friction)
-    tolerance = problem.tolerance
     try:
-        method = r_scale, rule, tolerance.length, tolerance.force
-        outcome, done = _newton(tuple(equations), tuple(iterate), method, history, sets)
+        outcome, done = _newton(
+            (problem.stiffness, problem.load, problem.free_motion),
+            (problem.compliance, problem.jacobian, problem.gap, problem.slip_before),
+            (problem.friction if friction is None else friction, problem.rows),
+            tuple(iterate), (r_scale, rule, tolerance.length, tolerance.force), history, sets,
+        )  # fmt: skip
     except np.linalg.LinAlgError:
         outcome, done = SINGULAR, int(np.sum(np.any(sets >= 0, axis=1)))
     result = outcome, done, iterate.forces, iterate.coordinates, iterate.displacement, iterate.status

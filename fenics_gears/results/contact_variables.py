@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import pi
+from typing import Protocol
 
 import numpy as np
 import xarray as xr
@@ -24,6 +25,15 @@ from fenics_gears.results.side_by_side import SideBySide
 from fenics_gears.scene.data import Scene
 
 Values = dict[str, np.ndarray]
+
+
+class Curves(Protocol):
+    """Values (steps, ...) of a result by name, as arrays."""
+
+    def __getitem__(self, name: str, /) -> np.ndarray:
+        """The values of a name."""
+
+    def __contains__(self, name: object, /) -> bool: ...
 
 
 def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
@@ -73,23 +83,20 @@ def _summed(rows, forces, starts):
     return sums
 
 
-def largest_normal_force(result: xr.Dataset, steps: slice = slice(None)) -> float:
+def largest_normal_force(result: Curves | xr.Dataset, steps: slice = slice(None)) -> float:
     """The largest contact force (N) of a mesh, on its drive or its coast flanks, in all steps or some."""
-    forces = [
-        result[name].values[steps].max(initial=0.0) for name in ("normal_force", "coast_normal_force") if name in result
-    ]
-    return float(max(forces))
+    forces = [result[name] for name in ("normal_force", "coast_normal_force") if name in result]
+    return float(max(np.asarray(force)[steps].max(initial=0.0) for force in forces))
 
 
-def mesh_force(result: xr.Dataset) -> np.ndarray:
+def mesh_force(result: Curves | xr.Dataset) -> np.ndarray:
     """Force (time,), N, of the drive flanks less that of the coast flanks.
 
     >>> mesh_force(xr.Dataset({"normal_force": ("time", [3.0, 4.0]), "coast_normal_force": ("time", [0.0, 1.0])}))
     array([3., 3.])
     """
-    return result["normal_force"].values - (
-        result["coast_normal_force"].values if "coast_normal_force" in result else 0.0
-    )
+    coast = np.asarray(result["coast_normal_force"]) if "coast_normal_force" in result else 0.0
+    return np.asarray(result["normal_force"]) - coast
 
 
 def pair_variables(scene: Scene, nodes: SideBySide) -> Values:
@@ -231,12 +238,14 @@ class Transmitted:
     wheel_drives: bool
 
 
-def transmitted(result: xr.Dataset) -> Transmitted:
+def transmitted(result: Curves | xr.Dataset) -> Transmitted:
     """The side that drives and the work it does, from the first to the last step of a result.
 
     Where the wheel drives, the work of the pinion's side and of the wheel's side are negative.
     """
-    at_pinion, at_wheel = (float(np.subtract(*result[name].values[[-1, 0]])) for name in ("work_input", "work_output"))
+    at_pinion, at_wheel = (
+        float(np.subtract(*np.asarray(result[name])[[-1, 0]])) for name in ("work_input", "work_output")
+    )
     if at_pinion + at_wheel < 0.0:
         return Transmitted(-at_wheel, -at_pinion, True)
     return Transmitted(at_pinion, at_wheel, False)

@@ -7,6 +7,8 @@ Dimensions: `time`, all marched steps; `slot`, the tooth pairs that can touch at
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from functools import cached_property
 from math import isfinite
 
 import numpy as np
@@ -16,52 +18,73 @@ import fenics_gears
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects import common_period, from_effects, result_variables
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.results.carried_scene import scene_attributes
 from fenics_gears.results.contact_variables import largest_normal_force, transmitted
 from fenics_gears.results.extrema import Extrema, largest_pair_force, peak_to_peak
-from fenics_gears.results.key_numbers import key_numbers, path_point_coordinate, path_point_values
+from fenics_gears.results.key_numbers import key_numbers, largest_root_stress, path_point_coordinate, path_point_values
 from fenics_gears.results.numbers import RUNG, loss_attributes
 from fenics_gears.results.pairs import shown_steps
 from fenics_gears.results.recorder import Recorder
-from fenics_gears.results.settled import of_settled, settled
+from fenics_gears.results.settled import settled
 from fenics_gears.results.validity import warnings_of, warnings_of_energy
 from fenics_gears.scene.data import Scene
 
-GEARS = ("pinion", "wheel")
+
+class RunResult:
+    """What a march gave: its numbers and warnings by name (`attrs`), its curves (steps, ...) by name as arrays
+    (`result["normal_force"]`), and `dataset`, all of it with labels, put together when it is asked for."""
+
+    def __init__(self, recorder: Recorder, march: March):
+        recorder.finish()
+        model = recorder.model
+        self._recorder, self._curves = recorder, recorder.arrays
+        counted = settled(model, max(recorder.steps - 1, 0))
+        self._first = counted.first
+        self.attrs = _attributes(recorder, march, self, counted.first)
+        self.attrs.update(_numbers(recorder, march, self, counted.first))
+        found = [counted.warning] if counted.warning else []
+        found += warnings_of(recorder, march, self)
+        found += [
+            *warnings_of_energy(model.scene, self, recorder.cycle.steps, shown_steps(self)),
+            *_undetermined_shares(self),
+        ]
+        for sentences in from_effects(model.scene, "findings", recorder.watched):
+            found += sentences
+        self.attrs["warnings"] = "\n".join(found)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """A curve, or another array of the result."""
+        return self._curves[name]
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._curves
+
+    @property
+    def dataset(self) -> xr.Dataset:
+        """The same with labels; every variable with units and long name."""
+        self._labelled.attrs = self.attrs
+        return self._labelled
+
+    @cached_property
+    def _labelled(self) -> xr.Dataset:
+        # All variables at once, attributes in place: a copy of so many variables takes a millisecond.
+        return xr.Dataset(
+            {name: (dims, values, labels) for name, dims, values, labels in _variables(self._recorder, self._first)},
+            coords=_coordinates(self._recorder, self._curves),
+        )
 
 
 def dataset(recorder: Recorder, march: March) -> xr.Dataset:
-    """What was recorded of a march as a dataset; every variable with units and long name."""
-    recorder.finish()
-    model, arrays = recorder.model, dict(recorder.arrays)
-    counted = settled(model, max(recorder.steps - 1, 0))
-    # All variables at once, attributes in place: a copy of so many variables takes a millisecond.
-    result = xr.Dataset(
-        {name: (dims, values, labels) for name, dims, values, labels in _variables(recorder, arrays, counted.first)},
-        coords=_coordinates(recorder, arrays),
-    )
-    result.attrs.update(_attributes(recorder, march, result, counted.first))
-    counted_steps = of_settled(result)
-    result.attrs.update(_numbers(recorder, march, result, counted_steps))
-    found = [counted.warning] if counted.warning else []
-    found += warnings_of(recorder, march, result)
-    found += [
-        *warnings_of_energy(model.scene, result, recorder.cycle.steps, shown_steps(result)),
-        *_undetermined_shares(result),
-    ]
-    for sentences in from_effects(model.scene, "findings", recorder.watched):
-        found += sentences
-    result.attrs["warnings"] = "\n".join(found)
-    return result
+    """What was recorded of a march as a dataset."""
+    return RunResult(recorder, march).dataset
 
 
-def _variables(recorder: Recorder, arrays: dict[str, np.ndarray], first: int):
+def _variables(recorder: Recorder, first: int):
     """Name, dimensions, values and labels of each variable; `first`: the first settled step."""
-    scene, described = (
-        recorder.model.scene,
-        {variable.name: variable for variable in result_variables(recorder.model.scene)},
-    )
+    scene, arrays = recorder.model.scene, recorder.arrays
+    described = {variable.name: variable for variable in result_variables(scene)}
     for name, variable in described.items():
         if name in arrays:
             yield name, variable.dims, arrays[name], {"units": variable.units, "long_name": variable.long_name}
@@ -135,19 +158,20 @@ def _time_name(scene: Scene) -> str:
     return "time" if scene.motion.speed_given else "nominal time, 1 s for a mesh cycle"
 
 
-def _undetermined_shares(result: xr.Dataset) -> list[str]:
+def _undetermined_shares(result: RunResult) -> list[str]:
     """A warning where several pairs of rigid flanks touch at once: their shares of the force are not determined."""
-    steps = int(np.isnan(result["pair_normal_force"].values).any(axis=1).sum())
+    shares = result["pair_normal_force"]
+    steps = int(np.isnan(shares).any(axis=1).sum())
     if not steps:
         return []
     return [
-        f"several pairs of rigid flanks touch at once in {steps} of {len(result['time'])} steps: their shares of the"
+        f"several pairs of rigid flanks touch at once in {steps} of {len(shares)} steps: their shares of the"
         " force are not determined, and pair_normal_force is not a number there; a scene with [gears.material] has"
         " them"
     ]
 
 
-def _attributes(recorder: Recorder, march: March, result: xr.Dataset, first: int) -> dict:
+def _attributes(recorder: Recorder, march: March, result: RunResult, first: int) -> dict:
     scene = recorder.model.scene
     attributes = {
         "title": scene.title,
@@ -165,38 +189,37 @@ def _attributes(recorder: Recorder, march: March, result: xr.Dataset, first: int
         attributes["friction_coefficient"] = recorder.model.friction_coefficient
     attributes |= {f"{RUNG}{rung}": count for rung, count in march.steps_by_method.items() if count}
     if recorder.steps:
-        attributes["settled_from"] = float(result["time"].values[first])
-        attributes["settled_cycles"] = float(result["mesh_phase"].values[-1] - result["mesh_phase"].values[first])
+        phase = result["mesh_phase"]
+        attributes["settled_from"] = float(result["time"][first])
+        attributes["settled_cycles"] = float(phase[-1] - phase[first])
     return attributes
 
 
-def _numbers(recorder: Recorder, march: March, result: xr.Dataset, counted: xr.Dataset) -> dict[str, float | str]:
-    """The numbers of a run, of its settled steps `counted`."""
+def _numbers(recorder: Recorder, march: March, result: RunResult, first: int) -> dict[str, float | str]:
+    """The numbers of a run, of its settled steps from `first` on."""
     if not recorder.steps:
         return {"contact_loss_count": 0}
-    first = recorder.steps - counted.sizes["time"]
-    error = counted["transmission_error"].values
+    model = recorder.model
+    counted = {name: result[name][first:] for name, (dims, _) in recorder.stored.items() if dims[0] == "time"}
+    error = counted["transmission_error"]
     lost = [separation for separation in march.separations if separation[0] > first or first == 0]
-    numbers = loss_attributes(lost, first, march.steps, recorder.model.clock)
-    extrema = Extrema(recorder.model, recorder.cycle, counted["mesh_phase"].values, error, march.in_periods)
+    numbers = loss_attributes(lost, first, march.steps, model.clock)
+    extrema = Extrema(model, recorder.cycle, counted["mesh_phase"], error, march.in_periods)
     numbers |= peak_to_peak(extrema, error)
     # The last step begins the next cycle.
     numbers["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
-    if (
-        len(error) > 1
-        and recorder.model.scene.friction is not None
-        and not march.locked
-        and largest_normal_force(result) > NO_FORCE
-    ):
-        numbers |= _friction_loss(counted)
-    counted.attrs.update(numbers)
-    numbers |= key_numbers(counted, recorder.model.pair, timed=recorder.model.scene.motion.speed_given)
-    for along in recorder.along_face:
-        numbers |= along.numbers(counted)
+    if len(error) > 1 and model.scene.friction is not None and not march.locked:
+        numbers |= _friction_loss(counted) if largest_normal_force(result) > NO_FORCE else {}
+    numbers |= key_numbers(counted, model.pair, numbers.get("friction_loss"), model.scene.motion.speed_given)
+    if recorder.stress is not None or recorder.along_face:
+        labelled = result.dataset.isel(time=slice(first, None))
+        numbers |= largest_root_stress(labelled)
+        for along in recorder.along_face:
+            numbers |= along.numbers(labelled)
     return numbers | (largest_pair_force(extrema, counted) if "largest_pair_force" in numbers else {})
 
 
-def _friction_loss(counted: xr.Dataset) -> dict[str, float]:
+def _friction_loss(counted: Mapping[str, np.ndarray]) -> dict[str, float]:
     """The share of the drive's work that friction takes; nothing where the drive does no work."""
-    drive, taken = abs(transmitted(counted).drive), counted["work_friction"].values
+    drive, taken = abs(transmitted(counted).drive), counted["work_friction"]
     return {"friction_loss": float(taken[-1] - taken[0]) / drive} if drive else {}

@@ -14,7 +14,6 @@ from functools import partial
 from math import ceil, isfinite
 
 import numpy as np
-import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle
@@ -170,7 +169,7 @@ def peak_to_peak(extrema: Extrema, error: np.ndarray) -> dict[str, float | str]:
     }
 
 
-def largest_pair_force(extrema: Extrema, curves: xr.Dataset | Mapping[str, np.ndarray]) -> dict[str, float | str]:
+def largest_pair_force(extrema: Extrema, curves: Mapping[str, np.ndarray]) -> dict[str, float | str]:
     """The largest normal force of a tooth pair, N, by its curves over the steps, where it is, and how it was found."""
     found = extrema.largest(largest_force_over_time(curves), _largest_force_of_a_pair)
     return {

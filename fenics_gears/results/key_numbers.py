@@ -11,7 +11,7 @@ import xarray as xr
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, sliding_speed, specific_sliding
-from fenics_gears.results.contact_variables import largest_normal_force, mesh_force, transmitted
+from fenics_gears.results.contact_variables import Curves, largest_normal_force, mesh_force, transmitted
 from fenics_gears.results.numbers import (
     HARMONICS,
     first_largest,
@@ -37,32 +37,34 @@ STUDIED = (
 )  # fmt: skip
 
 
-def key_numbers(counted: xr.Dataset, pair: GearPair, timed: bool = True) -> dict[str, float | str]:
-    """All numbers of the settled steps of a result; its attribute `friction_loss` is used if it is there. timed: the
+def key_numbers(
+    counted: Mapping[str, np.ndarray], pair: GearPair, friction_loss: float | None, timed: bool
+) -> dict[str, float | str]:
+    """All numbers of the settled steps of a result but those of root stress; `friction_loss`: its attribute. timed: the
     scene has a speed, without which there is no power."""
     # The last step begins the next cycle.
-    settled = counted.isel(time=slice(0, max(counted.sizes["time"] - 1, 1)))
+    last = max(len(counted["time"]) - 1, 1)
+    settled = {name: values[:last] for name, values in counted.items()}
     return (
         _harmonics(settled, pair)
         | _stiffness(settled, pair)
         | _pair_force(settled)
         | _pressure(settled, pair)
-        | _root_stress(settled)
-        | _power(counted, timed)
+        | _power(counted, friction_loss, timed)
     )
 
 
-def _harmonics(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
+def _harmonics(settled: Curves, pair: GearPair) -> dict[str, float]:
     """Harmonics and r.m.s. of the transmission error as a length at the wheel's base circle, um, and r.m.s. of the mesh
     force, N, of the last whole mesh cycles; nothing of less than one, or on a ramp, where no two cycles are alike."""
-    phase = settled["mesh_phase"].values
+    phase = settled["mesh_phase"]
     if len(phase) < 2 or "mesh_frequency" in settled:
         return {}
     a_cycle = round(1.0 / (phase[1] - phase[0]))
     cycles = len(phase) // a_cycle
     if not cycles:
         return {}
-    curve = settled["transmission_error"].values[-cycles * a_cycle :] * pair.wheel.base_radius / MICROMETRE
+    curve = settled["transmission_error"][-cycles * a_cycle :] * pair.wheel.base_radius / MICROMETRE
     found = {
         name: float(amplitude)
         for name, amplitude in zip(HARMONIC_NAMES, harmonics(curve, cycles))
@@ -74,13 +76,11 @@ def _harmonics(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
     }
 
 
-def _stiffness(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
+def _stiffness(settled: Curves, pair: GearPair) -> dict[str, float]:
     """Mesh stiffness over the face width, N/(mm um): c_gamma, its tangent, and the c' of one pair."""
     if "mesh_stiffness" not in settled:
         return {}
-    secant, tangent, pairs = (
-        settled[name].values for name in ("mesh_stiffness", "mesh_stiffness_tangent", "loaded_pairs")
-    )
+    secant, tangent, pairs = (settled[name] for name in ("mesh_stiffness", "mesh_stiffness_tangent", "loaded_pairs"))
     found = {
         "mean_mesh_stiffness": mean_where_positive(secant),
         "mean_mesh_stiffness_tangent": mean_where_positive(tangent),
@@ -89,7 +89,7 @@ def _stiffness(settled: xr.Dataset, pair: GearPair) -> dict[str, float]:
     return {name: value * MICROMETRE / pair.face_width for name, value in found.items() if np.isfinite(value)}
 
 
-def _pair_force(settled: xr.Dataset) -> dict[str, float]:
+def _pair_force(settled: Curves) -> dict[str, float]:
     """The largest normal force of a tooth pair, N, at the steps, on drive or coast flanks; nothing where shares of
     rigid pairs are not determined, or nothing presses."""
     over_time = largest_force_over_time(settled)
@@ -98,31 +98,31 @@ def _pair_force(settled: xr.Dataset) -> dict[str, float]:
     place = first_largest(over_time)
     return {
         "largest_pair_force": float(over_time[place]),
-        "largest_pair_force_mesh_phase": float(settled["mesh_phase"].values[place]),
+        "largest_pair_force_mesh_phase": float(settled["mesh_phase"][place]),
     }
 
 
-def largest_force_over_time(curves: xr.Dataset | Mapping[str, np.ndarray]) -> np.ndarray:
+def largest_force_over_time(curves: Curves) -> np.ndarray:
     """The largest normal force (time,), N, of a tooth pair, on drive or coast flanks."""
     names = [name for name in ("pair_normal_force", "pair_coast_normal_force") if name in curves]
-    return np.max([np.asarray(curves[name]).max(axis=1, initial=0.0) for name in names], axis=0)
+    return np.max([curves[name].max(axis=1, initial=0.0) for name in names], axis=0)
 
 
-def _pressure(settled: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
+def _pressure(settled: Curves, pair: GearPair) -> dict[str, float | str]:
     """The largest contact pressure and where it is."""
     if "largest_contact_pressure" not in settled:
         return {}
-    pressure = settled["largest_contact_pressure"].values
+    pressure = settled["largest_contact_pressure"]
     place = first_largest(pressure)
     found: dict[str, float | str] = {"peak_contact_pressure": float(pressure[place])}
     for name in ("edge", "kink"):
-        if f"largest_{name}_pressure" in settled and settled[f"largest_{name}_pressure"].values.any():
+        if f"largest_{name}_pressure" in settled and settled[f"largest_{name}_pressure"].any():
             found[f"peak_{name}_pressure"] = float(settled[f"largest_{name}_pressure"].max())
     if pressure[place] <= NO_FORCE / pair.face_width**2:
         return {"peak_contact_pressure": 0.0}
 
     def at(name: str) -> float:
-        return float(settled[name].values[place])
+        return float(settled[name][place])
 
     on_coast = "coast_normal_force" in settled and at("coast_normal_force") > at("normal_force")
     roll = at("largest_contact_pressure_roll_angle")
@@ -141,11 +141,12 @@ def _pressure(settled: xr.Dataset, pair: GearPair) -> dict[str, float | str]:
     }
 
 
-def _root_stress(settled: xr.Dataset) -> dict[str, float | str]:
+def largest_root_stress(counted: xr.Dataset) -> dict[str, float | str]:
     """The largest root stress of either gear, MPa, when it is, at the tooth of which pair and on which side; where it
     was asked for."""
-    if "root_stress_maximum" not in settled:
+    if "root_stress_maximum" not in counted:
         return {}
+    settled = counted.isel(time=slice(0, max(counted.sizes["time"] - 1, 1)))
     found: dict[str, float | str] = {}
     for gear in ("pinion", "wheel"):
         stress = settled["root_stress_maximum"].sel(gear=gear).transpose("time", "slot").values
@@ -164,13 +165,13 @@ def _root_stress(settled: xr.Dataset) -> dict[str, float | str]:
     return found
 
 
-def _power(counted: xr.Dataset, timed: bool) -> dict[str, float]:
+def _power(counted: Curves, loss: float | None, timed: bool) -> dict[str, float]:
     """Mean power of the drive, W, friction loss, W, and efficiency of the mesh; no power without a speed, nothing if
     the drive does no work."""
-    seconds, drive = float(np.ptp(counted["time"].values)), abs(transmitted(counted).drive)
+    seconds, drive = float(np.ptp(counted["time"])), abs(transmitted(counted).drive)
     if not seconds or not drive or largest_normal_force(counted) <= NO_FORCE:
         return {}
-    power, loss = drive / seconds / WATT, counted.attrs.get("friction_loss")
+    power = drive / seconds / WATT
     found = {"input_power": power} if timed else {}
     if loss is not None:
         found |= {"friction_power": loss * power} if timed else {}
@@ -179,11 +180,11 @@ def _power(counted: xr.Dataset, timed: bool) -> dict[str, float]:
     return found
 
 
-def wedged(curves: xr.Dataset) -> np.ndarray:
+def wedged(curves: Curves) -> np.ndarray:
     """Steps (time,) at which drive and coast flanks press at once."""
     if "coast_normal_force" not in curves:
-        return np.zeros(curves.sizes["time"], dtype=bool)
-    return np.minimum(curves["normal_force"].values, curves["coast_normal_force"].values) > NO_FORCE
+        return np.zeros(len(curves["time"]), dtype=bool)
+    return np.minimum(curves["normal_force"], curves["coast_normal_force"]) > NO_FORCE
 
 
 def path_point_values(

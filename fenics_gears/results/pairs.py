@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
 from fenics_gears.errors import SceneError
+
+if TYPE_CHECKING:
+    from fenics_gears.results.dataset import RunResult
 
 
 @dataclass(frozen=True)
@@ -31,10 +35,10 @@ def carrying_side(result: xr.Dataset) -> str:
     )
 
 
-def shown_steps(result: xr.Dataset) -> slice:
+def shown_steps(result: RunResult | xr.Dataset) -> slice:
     """Which steps of a result pictures show: its last cycles, as many as its attribute `shown_cycles` says, all of a
     ramp."""
-    cycles, phase = result.attrs.get("shown_cycles"), result["mesh_phase"].values
+    cycles, phase = result.attrs.get("shown_cycles"), np.asarray(result["mesh_phase"])
     if cycles is None or not len(phase) or phase[-1] - phase[0] <= cycles * (1.0 + 1e-9):
         return slice(None)
     return slice(int(np.searchsorted(phase, phase[-1] - cycles - 1e-9)), None)

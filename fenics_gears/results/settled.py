@@ -16,6 +16,7 @@ from fenics_gears.model.model import Model
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
+    from fenics_gears.results.dataset import RunResult
 
 # The start has died down when so much is left of the slowest vibration that it has set off, in parts of what it was;
 # where the run is long enough, less
@@ -64,10 +65,10 @@ def settling_time(model: Model) -> float:
     return log(1.0 / QUIET) / rate if rate else inf
 
 
-def settled_steps(result: xr.Dataset) -> slice:
+def settled_steps(result: RunResult | xr.Dataset) -> slice:
     """Which steps of a result are settled."""
     begin = result.attrs.get("settled_from")
-    return slice(None) if begin is None else slice(int(np.searchsorted(result["time"].values, begin)), None)
+    return slice(None) if begin is None else slice(int(np.searchsorted(np.asarray(result["time"]), begin)), None)
 
 
 def of_settled(result: xr.Dataset) -> xr.Dataset:

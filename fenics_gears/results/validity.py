@@ -6,18 +6,19 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.results.key_numbers import wedged
 from fenics_gears.results.numbers import contact_losses
 from fenics_gears.results.pressure_limits import warnings_of_pressure
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
+    from fenics_gears.results.dataset import RunResult
     from fenics_gears.results.recorder import Recorder
 
 Watched = Mapping[str, np.ndarray]
@@ -39,19 +40,16 @@ def worst_first(warnings: Iterable[str]) -> list[str]:
 
 
 def warnings_of_energy(
-    scene: Scene, result: xr.Dataset, steps_per_mesh_cycle: int, steps: slice = slice(None)
+    scene: Scene, result: RunResult, steps_per_mesh_cycle: int, steps: slice = slice(None)
 ) -> list[str]:
     """Whether the time stepping, not physics, adds or removes much energy within a mesh cycle where teeth part and
     meet, in all steps or some.
 
     The work is taken cycle by cycle: over a long run even little of it adds up.
     """
-    if scene.inertia is None or scene.tooth_elasticity is None or not result.sizes["time"]:
+    if scene.inertia is None or scene.tooth_elasticity is None or not len(result["time"]):
         return []
-    work, largest = (
-        result["work_contact_changes"].values[steps],
-        max(result["energy"].values[steps].max(), np.finfo(float).tiny),
-    )
+    work, largest = (result["work_contact_changes"][steps], max(result["energy"][steps].max(), np.finfo(float).tiny))
     cycles = (work[first : first + steps_per_mesh_cycle + 1] for first in range(0, len(work), steps_per_mesh_cycle))
     part = max(float(np.ptp(cycle)) for cycle in cycles) / largest
     if part <= NOTABLE_WORK:
@@ -63,7 +61,7 @@ def warnings_of_energy(
     ]
 
 
-def warnings_of(recorder: Recorder, march: March, result: xr.Dataset) -> list[str]:
+def warnings_of(recorder: Recorder, march: March, result: RunResult) -> list[str]:
     """A sentence for each assumption of the model that a march breaks.
 
     Every step is judged. Only the uniqueness of the solution is judged by the last steps, which the march keeps: its
@@ -75,7 +73,7 @@ def warnings_of(recorder: Recorder, march: March, result: xr.Dataset) -> list[st
     if cycle.traits.has_pressure and recorder.steps:
         of_flanks += warnings_of_pressure(recorder.model.scene, watched, result.attrs)
     for along in recorder.along_face:
-        of_flanks += along.warnings(result)
+        of_flanks += along.warnings(result.dataset)
     return [
         *_passed_through(cycle, result), *of_flanks, *_rotation(result), *_wedged(cycle, result),
         *_separation(cycle, drivetrain, march, clock, result), *_locking(cycle, march), *_uniqueness(march),
@@ -108,10 +106,10 @@ def _rank(watched: Watched) -> list[str]:
     ]
 
 
-def _passed_through(cycle: Cycle, result: xr.Dataset) -> list[str]:
+def _passed_through(cycle: Cycle, result: RunResult) -> list[str]:
     """A transmission error of more than a pitch: the teeth of both gears would stand in the same place."""
     pitch = cycle.pair.wheel.angular_pitch
-    largest = np.abs(result["transmission_error"].values).max(initial=0.0)
+    largest = np.abs(result["transmission_error"]).max(initial=0.0)
     if largest <= pitch:
         return []
     return [
@@ -120,17 +118,17 @@ def _passed_through(cycle: Cycle, result: xr.Dataset) -> list[str]:
     ]
 
 
-def _rotation(result: xr.Dataset) -> list[str]:
+def _rotation(result: RunResult) -> list[str]:
     found = []
-    for name, rotations in zip(result["gear"].values, result["rotation"].values.T):
+    for name, rotations in zip(GEARS, result["rotation"].T):
         largest = np.abs(rotations).max(initial=0.0)
         if largest > LARGEST_ROTATION:
             found.append(
                 f"the {name} turns by {largest:.3g} rad from its nominal motion; the model takes such rotations as"
                 f" small (below {LARGEST_ROTATION} rad): stiffen the shafts or lower the torque"
             )
-    tilts = [np.abs(result[name].values).max(axis=0, initial=0.0) for name in ("tilt_x", "tilt_y") if name in result]
-    for name, largest in zip(result["gear"].values, np.max(tilts, axis=0) if tilts else ()):
+    tilts = [np.abs(result[name]).max(axis=0, initial=0.0) for name in ("tilt_x", "tilt_y") if name in result]
+    for name, largest in zip(GEARS, np.max(tilts, axis=0) if tilts else ()):
         if largest > LARGEST_ROTATION:
             found.append(
                 f"the {name} tilts by {largest:.3g} rad; the model takes such rotations as small (below"
@@ -139,12 +137,12 @@ def _rotation(result: xr.Dataset) -> list[str]:
     return found
 
 
-def _wedged(cycle: Cycle, result: xr.Dataset) -> list[str]:
+def _wedged(cycle: Cycle, result: RunResult) -> list[str]:
     """Teeth pressed on both sides at once, since run-out, errors or deflection need more than the backlash; the load
     does not explain these forces."""
     if not cycle.coast_flanks:
         return []
-    coast, both = result["coast_normal_force"].values, wedged(result)
+    coast, both = result["coast_normal_force"], wedged(result)
     if not both.any():
         return []
     return [
@@ -154,7 +152,7 @@ def _wedged(cycle: Cycle, result: xr.Dataset) -> list[str]:
     ]
 
 
-def _separation(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock, result: xr.Dataset) -> list[str]:
+def _separation(cycle: Cycle, drivetrain: Drivetrain, march: March, clock: Clock, result: RunResult) -> list[str]:
     """Loss of contact: how often, when, how long and how far; a scene without coast flanks has no meaning once the
     opening exceeds the backlash."""
     losses = contact_losses(march.separations)

@@ -12,10 +12,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-import xarray as xr
-
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
+from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.files import read
 from fenics_gears.runs.record import VARIABLES, Record, record_of
 from fenics_gears.runs.run import Run
@@ -45,8 +44,9 @@ class Folder:
                     os.replace(path, self._file(run, ENDING))
         return found
 
-    def keep(self, run: Run, result: xr.Dataset) -> Record:
+    def keep(self, run: Run, found: RunResult) -> Record:
         """Write the result and return its record; a note on an earlier failure goes."""
+        result = found.dataset
         results.save(result.assign_attrs(case_key=run.key, case_values=json.dumps(run.values)), self._file(run, ENDING))
         self._file(run, FAILED_ENDING).unlink(missing_ok=True)
         return record_of(result)

@@ -13,10 +13,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import xarray as xr
-
 from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.numbers_version import NUMBERS_VERSION
+from fenics_gears.results.dataset import RunResult
 from fenics_gears.runs.run import Run
 from fenics_gears.runs.runs import Failure, failure_of
 from fenics_gears.system.job import communicator
@@ -31,13 +30,13 @@ class Lines:
     also of a result that has no meaning."""
 
     directory: Path
-    line_of: Callable[[Run, xr.Dataset], Line]
+    line_of: Callable[[Run, RunResult], Line]
 
     def known(self, runs: Iterable[Run]) -> dict[str, Line | Failure]:
         """All whole lines by their keys, whichever runs are asked for."""
         return {key: _known(line) for key, line in kept(self.directory)[0].items()}
 
-    def keep(self, run: Run, result: xr.Dataset) -> Line | Failure:
+    def keep(self, run: Run, result: RunResult) -> Line | Failure:
         """Write the line of a result."""
         line = {"key": run.key, **self.line_of(run, result)}
         append(self.directory, line)

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.results.contact_variables import largest_normal_force
+from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.pairs import shown_steps
 from fenics_gears.results.settled import settled_steps
@@ -47,8 +48,8 @@ class Record:
     warnings: str = ""
 
 
-def record_of(run: xr.Dataset) -> Record:
-    """The record of a complete run; the wall time is the attribute `wall_time`, s."""
+def numbers_of(run: RunResult | xr.Dataset) -> dict[str, float]:
+    """The numbers of a complete run; the wall time is the attribute `wall_time`, s."""
     numbers = {
         "peak_to_peak_transmission_error": float(run.attrs["peak_to_peak_transmission_error"]),
         "mean_transmission_error": float(run.attrs["mean_transmission_error"]),
@@ -57,13 +58,17 @@ def record_of(run: xr.Dataset) -> Record:
         "steps_per_mesh_cycle": float(run.attrs["steps_per_mesh_cycle"]),
         "wall_time": float(run.attrs["wall_time"]),
     }
-    numbers |= {name: float(run.attrs[name]) for name in STUDIED if name in run.attrs}
+    return numbers | {name: float(run.attrs[name]) for name in STUDIED if name in run.attrs}
+
+
+def record_of(run: xr.Dataset) -> Record:
+    """The record of a complete run."""
     last = shown_steps(run)
     phase = run["mesh_phase"].values[last]
     curves = {name: run[name].values[last] for name in CURVES if name in run}
     labels = {name: {key: run[name].attrs[key] for key in ("units", "long_name")} for name in curves}
     return Record(
-        numbers,
+        numbers_of(run),
         phase - np.floor(phase[0]),
         curves,
         float(run.attrs["base_radius_wheel"]),

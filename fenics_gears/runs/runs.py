@@ -9,17 +9,16 @@ import time
 from collections.abc import Callable, Iterable
 from typing import Any, Protocol
 
-import xarray as xr
-
 from fenics_gears.errors import GearsError
 from fenics_gears.model.model import Model
+from fenics_gears.results.dataset import RunResult
 from fenics_gears.runs.condensing import condense, gear_tasks
 from fenics_gears.runs.gear_store import own_gear_store
 from fenics_gears.runs.run import Run
 from fenics_gears.runs.team import Alone, Together
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.routes import Preparation
-from fenics_gears.simulation.simulate import simulate
+from fenics_gears.simulation.simulate import solved
 from fenics_gears.system.progress import Progress, SilentProgress
 
 LOGGER = logging.getLogger(__name__)
@@ -37,7 +36,7 @@ class Store(Protocol):
     def known(self, runs: Iterable[Run]) -> dict[str, Any]:
         """What is kept of runs, by their keys."""
 
-    def keep(self, run: Run, result: xr.Dataset) -> Any:
+    def keep(self, run: Run, result: RunResult) -> Any:
         """Keep the result of a run."""
 
     def keep_failure(self, run: Run, error: Exception) -> Failure:
@@ -110,10 +109,10 @@ def computed(store: Store, run: Run, tick: Tick | None = None) -> Any:
         return store.keep_failure(run, error)
 
 
-def completed(scene: Scene | Model, preparation: Preparation, progress: Progress | None = None) -> xr.Dataset:
+def completed(scene: Scene | Model, preparation: Preparation, progress: Progress | None = None) -> RunResult:
     """The whole result of a run and its `wall_time`, s. Raises KeyboardInterrupt where Ctrl-C ended it."""
     begun = time.perf_counter()
-    result = simulate(scene, progress=progress, preparation=preparation)
+    result = solved(scene, progress=progress, preparation=preparation)
     if not result.attrs["complete"]:
         raise KeyboardInterrupt
     result.attrs["wall_time"] = time.perf_counter() - begun

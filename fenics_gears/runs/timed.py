@@ -69,4 +69,4 @@ def run_sharing(scene: Scene | Model, gears: GearStore, progress: Progress | Non
         cycles.append(found[1])
         return found
 
-    return completed(scene, preparation, progress), cycles[0]
+    return completed(scene, preparation, progress).dataset, cycles[0]

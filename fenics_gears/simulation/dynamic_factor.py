@@ -11,7 +11,6 @@ from dataclasses import replace
 from weakref import WeakKeyDictionary
 
 import numpy as np
-import xarray as xr
 
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle
@@ -19,6 +18,7 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects import common_period, effects_on, missing_needs, without
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
+from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.extrema import Extrema, largest_pair_force
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.settled import settled_steps
@@ -47,7 +47,7 @@ def quasi_static(scene: Scene) -> Scene:
     return without(scene, *(name for name in sections if name in removed))
 
 
-def dynamic_factors(recorder: Recorder, result: xr.Dataset) -> dict[str, float | str]:
+def dynamic_factors(recorder: Recorder, result: RunResult) -> dict[str, float | str]:
     """Largest force of a tooth pair and, if taken, largest root stress of a run's settled steps over those of the same
     scene without inertia.
 
@@ -66,7 +66,7 @@ def dynamic_factors(recorder: Recorder, result: xr.Dataset) -> dict[str, float |
     if isinstance(peaks_still, str):
         return {"dynamic_factor_unknown": peaks_still}
     counted = settled_steps(result)
-    moving = {name: result[name].values[counted] for name in LARGEST_STRESS if name in result}
+    moving = {name: result[name][counted] for name in LARGEST_STRESS if name in result}
     (stress_moving, force_moving), (stress_still, force_still) = (
         _peaks(moving, result.attrs.get("largest_pair_force", 0.0)),
         peaks_still,

@@ -17,7 +17,7 @@ from fenics_gears.elasticity.cache import Cache, user_cache
 from fenics_gears.errors import ComputationError
 from fenics_gears.model.cost import expected_cost, too_large
 from fenics_gears.model.model import Model, model_of
-from fenics_gears.results.dataset import dataset
+from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.extrema import repeating_steps
 from fenics_gears.results.numbers import ESTIMATED
 from fenics_gears.results.recorder import Recorder
@@ -81,6 +81,19 @@ def simulate(
     >>> print(f"{mm:.2f} mm along the line of action at most")
     0.16 mm along the line of action at most
     """
+    return solved(scene, progress=progress, cache=cache, preparation=preparation, job=job, journal=journal).dataset
+
+
+def solved(
+    scene: Scene | Model,
+    *,
+    progress: Progress | None = None,
+    cache: Cache | None = None,
+    preparation: Preparation | None = None,
+    job: Job | None = None,
+    journal: Place | None = None,
+) -> RunResult:
+    """As `simulate`; for whoever needs few of the numbers: its dataset is put together when it is asked for."""
     progress, chosen = progress or SilentProgress(), {}
     try:
         said = scene.scene if isinstance(scene, Model) else scene
@@ -92,7 +105,8 @@ def simulate(
         give_back()
     if chosen:
         chosen["target_remarks"] = OTHER_SETTINGS if "accuracy." in result.attrs["warnings"] else ""
-    return result.assign_attrs(chosen)
+    result.attrs.update(chosen)
+    return result
 
 
 def _with_chosen_settings(scene: Scene, progress: Progress) -> tuple[Scene, dict[str, Any]]:
@@ -119,7 +133,7 @@ def _simulated(
     preparation: Preparation | None,
     job: Job | None,
     journal: Place | None,
-) -> xr.Dataset:
+) -> RunResult:
     for_operators = memory_for_operators(model, 1 if job is None else job.size)
     gears, cycle = (preparation or functools.partial(prepared, job=job))(model, progress, cache)
     cycle.kept.most = for_operators
@@ -161,7 +175,7 @@ def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> 
             model.steps, 1, progress.update, recorder.take, judged, repeating_steps(model)
         )
     except ContactNotConverged as failure:
-        failure.partial = result_of(recorder, failure.partial, gears, compiled, "failed")
+        failure.partial = result_of(recorder, failure.partial, gears, compiled, "failed").dataset
         failure.reason += _varying_load(model, failure.step)
         raise
 
@@ -185,7 +199,7 @@ def _varying_load(model: Model, step: float | None) -> str:
     )
 
 
-def _with_dynamic_factors(recorder: Recorder, result: xr.Dataset, progress: Progress) -> xr.Dataset:
+def _with_dynamic_factors(recorder: Recorder, result: RunResult, progress: Progress) -> RunResult:
     """The result with its dynamic factors, which need a second, quasi-static run; only for complete runs with
     inertia."""
     if recorder.model.scene.inertia is None or not result.attrs["complete"]:
@@ -199,9 +213,9 @@ def _with_dynamic_factors(recorder: Recorder, result: xr.Dataset, progress: Prog
     return result
 
 
-def result_of(recorder: Recorder, march: March, gears, compiled: float, stopped: str) -> xr.Dataset:
-    """The dataset of a recorded march; `stopped`: why it did not come to its end, empty where it did."""
-    result, model, cycle = dataset(recorder, march), recorder.model, recorder.cycle
+def result_of(recorder: Recorder, march: March, gears, compiled: float, stopped: str) -> RunResult:
+    """The result of a recorded march; `stopped`: why it did not come to its end, empty where it did."""
+    result, model, cycle = RunResult(recorder, march), recorder.model, recorder.cycle
     resolution = model.resolution
     result.attrs.update(
         {"stopped": stopped} if stopped else {},

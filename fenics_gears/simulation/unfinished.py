@@ -32,7 +32,7 @@ def unfinished(directory: Path, progress: Progress | None = None, cache: Cache |
     recorder.recall(recorded)
     equations = model.equations_of_motion
     march = March(equations.friction, equations.drivetrain.stiffness, **recorded.march)
-    result = result_of(recorder, march, gears, 0.0, NOT_ENDED)
+    result = result_of(recorder, march, gears, 0.0, NOT_ENDED).dataset
     return result.assign_attrs(
         warnings="\n".join([_missing(result, recorded.steps), *result.attrs["warnings"].splitlines()])
     )

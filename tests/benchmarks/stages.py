@@ -53,7 +53,7 @@ def stages(model, condense: bool) -> dict[str, float]:
     march = Marcher(cycle, model.equations_of_motion).run(model.steps, 1, None, recorder.take)
     recorder.finish()
     done("march with recording")
-    result_of(recorder, march, gears, 0.0, "")
+    result_of(recorder, march, gears, 0.0, "").dataset
     done("dataset")
     return took
 

@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
+from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.runs.lines import Lines, kept
-from fenics_gears.runs.record import record_of
+from fenics_gears.runs.record import numbers_of
 from fenics_gears.runs.run import Run, run_of
 from fenics_gears.runs.runs import Failure, Runs
 from fenics_gears.runs.team import Alone, Together
@@ -176,19 +176,19 @@ def _violation(bound: Bound, of_points: Sequence[float]) -> float:
     return max(map(bound.violation, of_points))
 
 
-def _curve(run) -> list[list[float]]:
+def _curve(run: RunResult) -> list[list[float]]:
     """Mesh phase from 0 on, and transmission error, rad."""
-    phase = run["mesh_phase"].values
-    return [(phase - np.floor(phase[0] + 1e-9)).tolist(), run["transmission_error"].values.tolist()]
+    phase = run["mesh_phase"]
+    return [(phase - np.floor(phase[0] + 1e-9)).tolist(), run["transmission_error"].tolist()]
 
 
-def line_of(run: Run, result: xr.Dataset) -> dict[str, Any]:
+def line_of(run: Run, result: RunResult) -> dict[str, Any]:
     """What is kept of a run: its numbers and, where its values ask for it, its curve; or as `failure` that it has no
     meaning."""
     worthless = [said for said in result.attrs.get("warnings", "").splitlines() if NO_MEANING in said]
     if worthless:
         return {"failure": worthless[0]}
-    found = record_of(result)
-    found.numbers[ERROR] *= 1e3 * found.base_radius
+    numbers = numbers_of(result)
+    numbers[ERROR] *= 1e3 * result.attrs["base_radius_wheel"]
     seconds = [result.attrs["wall_time"], result.attrs["time_march"]]
-    return {"numbers": found.numbers, "curve": _curve(result) if run.values else [], "seconds": seconds}
+    return {"numbers": numbers, "curve": _curve(result) if run.values else [], "seconds": seconds}

@@ -192,7 +192,7 @@ class Bench:
         return gears, cycle, time.perf_counter() - begun
 
     def _run(self, model: Model, cycle: Cycle) -> xr.Dataset:
-        return completed(model, lambda model, progress, cache: (self._gears, cycle))
+        return completed(model, lambda model, progress, cache: (self._gears, cycle)).dataset
 
     def time_steps(self) -> None:
         """One more timed run, of the scene's first mesh cycles."""
