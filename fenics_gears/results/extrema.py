@@ -27,9 +27,9 @@ from fenics_gears.results.numbers import CUBICS, SAME, SOLVED, STEPS
 
 # Up to which part of the curve's span an extremum is sought.
 SOUGHT = 1e-4
-# Over a face, whose positions cost a hundred times as much and whose slices leave a peak-to-peak value some 2 %
-# uncertain.
-SOUGHT_OVER_FACE = 3e-4
+# Over a face positions cost a hundred times as much, and slices leave a peak-to-peak value some 2 % uncertain. There
+# places divide a step by eight, so that all runs of a search ask for the same ones.
+SOUGHT_OVER_FACE, FINEST_OVER_FACE = 3e-4, 0.125
 # Longer periods are not held in memory.
 MOST_RECORDS = 2000
 # A position solved again is that of the march if it is as near as this part of what is sought.
@@ -71,7 +71,7 @@ class Extrema:
         )
         self._quasi_static = model.drivetrain.mass is None
         follows_statics = self._quasi_static or not model.time_scales.averages_acceleration
-        self._sought = SOUGHT if cycle.face.slices == 1 else SOUGHT_OVER_FACE
+        self._sought, self._finest = (SOUGHT, 0.0) if cycle.face.slices == 1 else (SOUGHT_OVER_FACE, FINEST_OVER_FACE)
         self.found_by = CUBICS if not follows_statics else SOLVED if cycle.traits.divisible else STEPS
         if self.found_by == SOLVED:
             # Not a method of this object: with a circle of references all operators would stay until Python looks for
@@ -92,7 +92,7 @@ class Extrema:
         if self.found_by == SOLVED:
             sought = self._sought * float(np.ptp(curve)) + round_off
             step_in_period, highest_value = highest(
-                *self._last_period(curve), lambda step: self._at(step, curve, of), sought
+                *self._last_period(curve), lambda step: self._at(step, curve, of), sought, self._finest
             )
             found = self._first + step_in_period, highest_value
         elif self.found_by == CUBICS:

@@ -46,6 +46,35 @@ def test_the_highest_place_of_a_curve_between_its_steps(name):
     assert top - 2.0 * sought <= found <= top
     assert abs(place - CREST) < 0.1 and len(asked) <= MOST_SOLVED
     assert top - curve(steps).max() > 20.0 * sought
+    # The cubic is known to hold with the first value between steps.
+    assert len(asked) == 1 or name != "smooth crest"
+
+
+def test_places_that_runs_have_in_common():
+    """Identity: where an eighth of a step is the finest part, all places are multiples of it, none is asked for twice,
+    and the largest value is below the exact one by no more than the curve changes in an eighth."""
+    for name, curve in CURVES.items():
+        steps, asked = np.arange(16.0), []
+
+        def value(place, curve=curve, asked=asked):
+            asked.append(place)
+            return float(curve(place))
+
+        found = highest(steps, curve(steps), value, 1e-4, 0.125)[1]
+        assert all(8.0 * place % 1.0 == 0.0 for place in asked) and len(set(asked)) == len(asked) <= 7
+        assert found >= curve(np.array([7.25, 7.375])).max() or name == "smooth crest"
+        assert abs(found - curve(np.array(CREST))) < 0.12
+
+
+def test_a_curve_that_is_level_at_its_top_is_not_searched():
+    """Exact: where one pair bears the whole load its force is the largest that there can be."""
+    steps = np.arange(16.0)
+    force = np.minimum(np.abs(steps - 7.5) / 4.0 + 0.3, 1.0)[::-1]
+
+    def value(place):
+        raise AssertionError(place)
+
+    assert highest(steps, force, value, 1e-4) == (0.0, 1.0)
 
 
 def on_stand_ins(scene, flanks, steps):
