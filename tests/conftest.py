@@ -36,7 +36,7 @@ from fenics_gears.scene.read import load_scene
 # new ones. Strategies that draw valid gears refuse many drawings on the way, and the first example may wait for a
 # compiler.
 PATIENT = [HealthCheck.filter_too_much, HealthCheck.too_slow]
-settings.register_profile("suite", max_examples=15, derandomize=True, deadline=None, suppress_health_check=PATIENT)
+settings.register_profile("suite", max_examples=8, derandomize=True, deadline=None, suppress_health_check=PATIENT)
 settings.register_profile("explore", deadline=None, suppress_health_check=PATIENT, print_blob=True)
 settings.load_profile("suite")
 

@@ -56,7 +56,7 @@ def errors(records):
     return np.array([record.state.position[0] for record in records])
 
 
-@pytest.mark.parametrize("slices", [1, 4])
+@pytest.mark.parametrize("slices", [1, pytest.param(4, marks=pytest.mark.nightly)])
 def test_a_spur_pair_is_the_plane_one(model, slices):
     """Identity: where nothing varies along the face, and the body's section is rigid along it, slices are the plane
     pair side by side."""

@@ -47,37 +47,22 @@ def test_places_are_read_from_mid_width():
     assert with_bearings(ISOTROPIC).bearings.places is None
 
 
-@pytest.mark.parametrize(
-    ("lines", "said"),
-    [
-        ("", "bearings.stiffness\n    is missing"),
-        ('stiffness_x = "1 N/mm"', "bearings.stiffness_y\n    is missing"),
-        (
-            '[bearings.pinion]\nstiffness = "1 N/mm"\n[bearings.wheel]\nstiffness_y = "1 N/mm"',
-            "bearings.wheel.stiffness_x\n    is missing",
-        ),
-        (
-            f'{ISOTROPIC}\nplaces = {{ wheel = ["40 mm", "40.1 mm"] }}',
-            "bearings.places.wheel = a list\n    has both bearings on one spot",
-        ),
-        (
-            f'{ISOTROPIC}\nplaces = {{ wheel = ["40 mm"] }}',
-            "has 1 entry. Allowed: a list of 2 quantities, each a length from -10 m to 10 m",
-        ),
-        (f"{ISOTROPIC}\nplaces = {{}}", "[bearings.places]\n    is empty."),
-        (
-            f'{ISOTROPIC}\naxial_stiffness = "1 N/mm"',
-            (
-                'bearings.axial_stiffness = "1 N/mm"\n    has no effect: a shaft whose bearings have no places is held'
-                " axially."
-            ),
-        ),
-        (
-            f'{ISOTROPIC}\nplaces = {{ wheel = ["-40 mm", "40 mm"] }}\n[bearings.pinion]\naxial_stiffness = "1 N/mm"',
-            "Leave it out, or give bearings.places.pinion.",
-        ),
-    ],
-)
+@pytest.mark.parametrize(("lines", "said"), [
+    ("", "bearings.stiffness\n    is missing"),
+    ('stiffness_x = "1 N/mm"', "bearings.stiffness_y\n    is missing"),
+    ('[bearings.pinion]\nstiffness = "1 N/mm"\n[bearings.wheel]\nstiffness_y = "1 N/mm"',
+     "bearings.wheel.stiffness_x\n    is missing"),
+    (f'{ISOTROPIC}\nplaces = {{ wheel = ["40 mm", "40.1 mm"] }}',
+     "bearings.places.wheel = a list\n    has both bearings on one spot"),
+    (f'{ISOTROPIC}\nplaces = {{ wheel = ["40 mm"] }}',
+     "has 1 entry. Allowed: a list of 2 quantities, each a length from -10 m to 10 m"),
+    (f"{ISOTROPIC}\nplaces = {{}}", "[bearings.places]\n    is empty."),
+    (f'{ISOTROPIC}\naxial_stiffness = "1 N/mm"',
+     ('bearings.axial_stiffness = "1 N/mm"\n    has no effect: a shaft whose bearings have no places is held'
+     " axially.")),
+    (f'{ISOTROPIC}\nplaces = {{ wheel = ["-40 mm", "40 mm"] }}\n[bearings.pinion]\naxial_stiffness = "1 N/mm"',
+     "Leave it out, or give bearings.places.pinion."),
+])  # fmt: skip
 def test_what_is_missing_or_cannot_be_is_named(lines, said):
     """Authority: house rule 7; what is missing or wrong, and where."""
     with pytest.raises(SceneError) as refused:

@@ -163,9 +163,9 @@ def test_what_computes_it_is_loaded_by_a_scene_that_names_it_and_by_no_bare_one(
     assert own <= loaded[section]
 
 
-def test_a_bare_scene_loads_no_varying_gaps_no_second_solver_no_other_model_and_no_finite_elements_for_rigid_flanks():
+@pytest.mark.nightly
+def test_a_bare_scene_loads_no_second_solver_no_other_model_and_no_finite_elements_for_rigid_flanks(loaded):
     """House rule 9, for what several effects share, and for the cheaper models of the mesh."""
-    loaded = modules_after(BARE)
     assert not [
         name
         for name in loaded[TEETH]

@@ -79,21 +79,6 @@ def test_one_that_fails_is_left_out_and_named(install):
     assert called.returncode == 2 and "The extension fourth (loud) cannot be loaded" in called.stderr
 
 
-def test_a_help_does_not_load_numerics():
-    """Authority: `gears --help` is there at once. Modules of commands load at their top what is quick."""
-    script = (
-        "import sys\nfrom fenics_gears.commands.cli import main\ntry:\n    main(['--help'])\nexcept SystemExit:\n"
-        "    print(sorted({'numpy', 'matplotlib', 'xarray', 'pydantic', 'importlib.metadata'} & set(sys.modules)))"
-    )
-    done = subprocess.run(
-        [sys.executable, "-P", "-c", script],
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-    )
-    assert done.stdout.splitlines()[-1] == "[]", done.stderr
-
-
 @pytest.mark.parametrize("name", [name for name in fenics_gears.__all__ if name != "__version__"])
 def test_what_everybody_may_use_is_documented(name):
     """Authority: docs/adding_an_extension.md; a constant is documented beside its definition. Names of modules that are

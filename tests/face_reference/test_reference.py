@@ -14,18 +14,10 @@ from tests.face_reference.reference import FORCE, over_slices, reference
 ANALYSES = {
     key: list(rows) for key, rows in groupby(reference(), key=lambda row: (row.helix_angle, row.phase, row.opening))
 }
-BY_DAY = [(20.0, 0.35, "crowned")]
 
 
-def cases():
-    """All of the file; those of one phase by day, the others by night."""
-    for key in ANALYSES:
-        yield pytest.param(
-            key, id="helix {:g} deg, phase {:g}, {}".format(*key), marks=() if key in BY_DAY else pytest.mark.nightly
-        )
-
-
-@pytest.mark.parametrize("key", cases())
+@pytest.mark.nightly
+@pytest.mark.parametrize("key", ANALYSES, ids=lambda key: "helix {:g} deg, phase {:g}, {}".format(*key))
 def test_deflection_and_line_load_are_those_of_the_resolved_model(key, suite_cache, record_property):
     """Fully resolved model: approach within 1 % (measured: 0.4 %, where tip edges touch 0.8 %), the forces of the tooth
     pairs within 2 % of all."""
@@ -39,7 +31,8 @@ def test_deflection_and_line_load_are_those_of_the_resolved_model(key, suite_cac
         assert np.trapz(load, z) == pytest.approx(found.line_loads[pair].sum() * width, abs=0.02 * FORCE)
 
 
-@pytest.mark.parametrize("key", [key for key in ANALYSES if key[1] == 0.35 and key in BY_DAY])
+@pytest.mark.nightly
+@pytest.mark.parametrize("key", [(20.0, 0.35, "crowned")])
 def test_line_load_is_that_of_the_resolved_model(key, suite_cache):
     """Fully resolved model with thin layers: line load of all pairs within 3 % of the largest, the free ends included
     (measured: 2.7 %)."""

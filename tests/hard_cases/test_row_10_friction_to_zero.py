@@ -13,7 +13,7 @@ SCENES = {"quasi-static": quasi_static, "200 Hz": lambda scene: scene}
 COEFFICIENTS = (1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", [pytest.param("quasi-static", marks=pytest.mark.nightly), "200 Hz"])
 def test_effect_of_friction_is_of_its_order(name, paper_scene, measured):
     """Known order: the laws are piecewise linear in mu, so the difference over mu tends to a constant, until
     round-off."""

@@ -93,73 +93,40 @@ def accuracy(line):
 
 
 REFUSED = [
-    (
-        HELICAL + accuracy('element = "Q1 incompatible"'),
-        'accuracy.element = "Q1 incompatible"',
-        ["beside gears.helix_angle", 'Take "P2"'],
-    ),
-    (
-        SPUR + LEAD + accuracy('condensation = "every step"'),
-        'accuracy.condensation = "every step"',
-        ["beside [lead_modifications]", 'Take "once"'],
-    ),
-    (
-        SPUR + accuracy('condensation = "every step"'),
-        'accuracy.condensation = "every step"',
-        ["of one face width without axial_offset", 'take condensation = "once"'],
-    ),
-    (
-        SPUR + MISALIGNED + accuracy('model = "rigid teeth"'),
-        'accuracy.model = "rigid teeth"',
-        ["beside [misalignment]", 'Take "elastic"'],
-    ),
+    (HELICAL + accuracy('element = "Q1 incompatible"'), 'accuracy.element = "Q1 incompatible"',
+     ["beside gears.helix_angle", 'Take "P2"']),
+    (SPUR + LEAD + accuracy('condensation = "every step"'), 'accuracy.condensation = "every step"',
+     ["beside [lead_modifications]", 'Take "once"']),
+    (SPUR + accuracy('condensation = "every step"'), 'accuracy.condensation = "every step"',
+     ["of one face width without axial_offset", 'take condensation = "once"']),
+    (SPUR + MISALIGNED + accuracy('model = "rigid teeth"'), 'accuracy.model = "rigid teeth"', ["beside [misalignment]",
+     'Take "elastic"']),
     (HELICAL + accuracy('model = "ISO 6336-1"'), 'accuracy.model = "ISO 6336-1"', ["resolved over the face"]),
     (HELICAL + '[body_meshes]\npinion = "a.msh"\n', "[body_meshes]", ["beside gears.helix_angle"]),
     (SPUR + LEAD + '[body_meshes]\npinion = "a.msh"\n', "[lead_modifications]", ["beside [body_meshes]"]),
-    (
-        HELICAL.replace('[gears.material]\nyoungs_modulus = "206 GPa"\npoissons_ratio = 0.3\n', ""),
-        'gears.helix_angle = "15 deg"',
-        ["needs teeth that give way", "Add [gears.material]"],
-    ),
-    (
-        HELICAL.replace('"15 deg"', '"0 deg"'),
-        'gears.helix_angle = "0 deg"',
-        ["is zero", "For spur gears, leave it out"],
-    ),
+    (HELICAL.replace('[gears.material]\nyoungs_modulus = "206 GPa"\npoissons_ratio = 0.3\n', ""),
+     'gears.helix_angle = "15 deg"', ["needs teeth that give way", "Add [gears.material]"]),
+    (HELICAL.replace('"15 deg"', '"0 deg"'), 'gears.helix_angle = "0 deg"', ["is zero",
+     "For spur gears, leave it out"]),
     (HELICAL.replace('"left"', '"both"'), 'gears.pinion_hand = "both"', ["is not known", '"right", "left"']),
     (HELICAL.replace('helix_angle = "15 deg"\n', ""), "gears.helix_angle", ["is missing", "pinion_hand"]),
-    (
-        SPUR + accuracy("slices = 20"),
-        "accuracy.slices = 20",
-        ["three-dimensional scenes", "gears.helix_angle", "bearings.places"],
-    ),
+    (SPUR + accuracy("slices = 20"), "accuracy.slices = 20", ["three-dimensional scenes", "gears.helix_angle",
+     "bearings.places"]),
     (HELICAL + accuracy("layers = 900"), "accuracy.layers = 900", ["0.0333 mm thin", "up to 500"]),
-    (
-        HELICAL.replace('"30 mm"\n[gears.p', '"0.05 mm"\n[gears.p'),
-        'gears.face_width = "0.05 mm"',
-        ["less than a layer", "from 0.06 mm"],
-    ),
-    (
-        SPUR + LEAD.replace('"4 mm"', '"15.1 mm"'),
-        'lead_modifications.pinion.end_relief.length = "15.1 mm"',
-        ["both ends of a face of 30 mm", "up to 15 mm"],
-    ),
-    (
-        SPUR + LEAD.replace('"4 mm"', '"31 mm", sides = "left"'),
-        'lead_modifications.pinion.end_relief.length = "31 mm"',
-        ["the left end", "up to 30 mm"],
-    ),
+    (HELICAL.replace('"30 mm"\n[gears.p', '"0.05 mm"\n[gears.p'), 'gears.face_width = "0.05 mm"', ["less than a layer",
+     "from 0.06 mm"]),
+    (SPUR + LEAD.replace('"4 mm"', '"15.1 mm"'), 'lead_modifications.pinion.end_relief.length = "15.1 mm"',
+     ["both ends of a face of 30 mm", "up to 15 mm"]),
+    (SPUR + LEAD.replace('"4 mm"', '"31 mm", sides = "left"'), 'lead_modifications.pinion.end_relief.length = "31 mm"',
+     ["the left end", "up to 30 mm"]),
     (SPUR + LEAD.replace('"6 um"', '"6 mm"'), 'lead_modifications.pinion.crowning = "6 mm"', ["up to 0.3 mm"]),
     (SPUR + MISALIGNED.replace("12 um", "2 mm"), 'misalignment.in_plane = "2 mm"', ["up to 0.3 mm"]),
     (SPUR + "[misalignment]\n", "[misalignment]", ["names no deviation"]),
     (SPUR + "[lead_modifications]\n", "[lead_modifications]", ["modifies neither gear"]),
     (SPUR + "[lead_modifications.wheel]\n", "[lead_modifications.wheel]", ["names no modification"]),
-    (
-        SPUR + '[lead_modifications.wheel]\nhelix_crowning = "3 um"\n',
-        'lead_modifications.wheel.helix_crowning = "3 um"',
-        ['Did you mean "crowning"?'],
-    ),
-]
+    (SPUR + '[lead_modifications.wheel]\nhelix_crowning = "3 um"\n',
+     'lead_modifications.wheel.helix_crowning = "3 um"', ['Did you mean "crowning"?']),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("text", "place", "fragments"), REFUSED, ids=[place for _, place, _ in REFUSED])

@@ -4,7 +4,6 @@ import matplotlib
 import numpy as np
 import pytest
 from matplotlib.image import imread
-from tests.programs import python
 from tests.show.synthetic import BARE, made_up_run
 
 from fenics_gears import ComputationError
@@ -71,21 +70,3 @@ def test_a_users_matplotlib_settings_neither_matter_nor_change(tmp_path):
         files = draw_run(made_up_run(), tmp_path / "own")
         assert matplotlib.rcParams["font.size"] == 40.0
     assert [file.read_bytes() for file in files] == plain
-
-
-def test_commands_import_matplotlib_without_its_lists_of_properties_and_leave_it_as_it_is():
-    """Authority: matplotlib itself: its function that makes these lists is in place again, a class imported meanwhile
-    has none, and all else is there."""
-    code = (
-        "from fenics_gears.commands.shared import plots; plots()\n"
-        "from matplotlib import artist, lines\n"
-        "assert 'linewidth' in artist.kwdoc(lines.Line2D) and 'linewidth' not in lines.Line2D.set.__doc__\n"
-        "assert 'linewidth' in str(lines.Line2D.set.__signature__)"
-    )
-    python("-c", code)
-
-
-def test_the_command_starts_without_matplotlib():
-    """Authority: the start-up time of the command; matplotlib is for those who draw."""
-    code = "import sys, fenics_gears.commands.cli; sys.exit('matplotlib' in sys.modules)"
-    python("-c", code)

@@ -62,8 +62,12 @@ SLOPING = '\n[lead_modifications.wheel]\nhelix_slope = "6 um"\n'
 FEW = 'contact_nodes = 13\nsteps_per_mesh_cycle = 8\ncontact_length = "1 mm"\nflank_element_size = "0.2 mm"'
 
 
-@pytest.mark.parametrize("friction", ["", FRICTION], ids=["frictionless", "with friction"])
-@pytest.mark.parametrize("always", [CROWNED, ""], ids=["over the face", "in the plane"])
+@pytest.mark.parametrize(("always", "friction"), [
+    pytest.param("", "", id="in the plane, frictionless"),
+    pytest.param(CROWNED, FRICTION, id="over the face, with friction"),
+    pytest.param("", FRICTION, id="in the plane, with friction", marks=pytest.mark.nightly),
+    pytest.param(CROWNED, "", id="over the face, frictionless", marks=pytest.mark.nightly),
+])  # fmt: skip
 def test_designs_share_operators_and_nothing_else(friction, always):
     """Brute force: designs that differ in reliefs, leads, misalignment or errors of teeth, one after the other on the
     operators of the first, are to the last bit what each is alone; and nothing but the first is built at whole
@@ -95,7 +99,7 @@ def test_cycles_of_the_same_bodies_stay_while_there_is_room():
     """Property: torques with contact nodes of their own do not drive out each other's operators, unless these take more
     than their part of the memory; other gears do."""
     models = [
-        model_of(helical_scene(CROWNED, accuracy=FEW.replace("contact_nodes = 13", f"contact_nodes = {nodes}")))
+        model_of(helical_scene(CROWNED, accuracy=f"slices = 5\n{FEW}".replace("nodes = 13", f"nodes = {nodes}")))
         for nodes in (9, 11, 9, 11, 13)
     ]
     gears, built, store = on_stand_in_bodies(models[0]), [], GearStore()
@@ -112,7 +116,7 @@ def test_cycles_of_the_same_bodies_stay_while_there_is_room():
     for model in (*models[:2], models[4], models[0]):
         asked_for(model, most=2.0 * found[0][0].kept.taken)
     assert len(built) == 4
-    asked_for(model_of(helical_scene(CROWNED, accuracy=FEW, width=20.0)))
+    asked_for(model_of(helical_scene(CROWNED, accuracy=f"slices = 5\n{FEW}", width=20.0)))
     assert len(store._operators) == 1
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.show.report.conftest import scene_text
+from tests.show.report.conftest import DRAWN, scene_text
 from tests.show.report.pages import seen
 
 from fenics_gears import results
@@ -85,7 +85,7 @@ def test_every_chart_is_an_image_before_any_script_runs(report):
         if tag == "img" and "svg" in attributes["src"][:20]
     }
     assert list(images) == list(dict.fromkeys(captions(page))) and len(images) > 15
-    drawn = base64.b64decode(images["Normal force of the mesh"].partition(",")[2]).decode()
+    drawn = base64.b64decode(images[DRAWN].partition(",")[2]).decode()
     assert "<svg" in drawn and "Normal force (N)" in drawn and "Time (mesh cycles since the start)" in drawn
 
 
