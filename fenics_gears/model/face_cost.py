@@ -13,7 +13,7 @@ from fenics_gears.system.memory import allowed_memory, usual_memory
 
 # Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a
 # cut for each harmonic of the ring, of which there are half as many as teeth.
-UNKNOWN, CONDENSED_CUBE, HARMONIC_CUBE = 6e-5, 2e-10, 1e-10
+UNKNOWN, CONDENSED_CUBE, HARMONIC_CUBE = 6e-5, 5e-11, 5e-11
 # Of a solution for one load of the root stress, an unknown.
 SOLVED_UNKNOWN = 4e-7
 # Of conjugate gradients, for each of the condensed unknowns a second time.

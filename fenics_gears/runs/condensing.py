@@ -14,6 +14,8 @@ from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.bodies import body_key
 from fenics_gears.simulation.root_stress import rows_of
 from fenics_gears.simulation.routes import route_of
+from fenics_gears.system.progress import SilentProgress
+from fenics_gears.system.second_process import threads
 
 # What is condensed of a gear.
 BODY, ROOT_STRESS = "body", "root stress"
@@ -59,5 +61,8 @@ def condense(task: GearTask, tick: Callable[[], None] | None = None) -> None:
     model = model_of(task.scene)
     if task.part == ROOT_STRESS:
         rows_of(model, task.name, user_cache())
+    elif threads() > 1:
+        # Both at once; the store then has the other one when it is asked for.
+        own_gear_store().bodies(model, SilentProgress(), user_cache())
     else:
         own_gear_store().body(model, task.name, user_cache())

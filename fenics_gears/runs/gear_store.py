@@ -13,7 +13,7 @@ from fenics_gears.elasticity.compliance import Bodies, Body
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.bodies import body_key, gear_body
+from fenics_gears.simulation.bodies import body_key, gear_bodies, gear_body
 from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_of_gaps
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
@@ -86,15 +86,26 @@ class GearStore:
         key = body_key(model, name)
         # Last in the dictionary, last to be given up.
         self._gears[key] = found = self._gears.pop(key, None) or gear_body(model, name, cache)
+        self._give_up_oldest()
+        return found
+
+    def bodies(self, model: Model, progress: Progress, cache: Cache | None) -> Bodies:
+        """Pinion and wheel; where neither is kept, both are condensed as for a single run: at once where that pays."""
+        keys = [body_key(model, name) for name in GEARS]
+        if keys[0] != keys[1] and not self._gears.keys() & set(keys):
+            self._gears.update(zip(keys, gear_bodies(model, progress, cache)))
+        pinion, wheel = (self.body(model, name, cache) for name in GEARS)
+        return pinion, wheel
+
+    def _give_up_oldest(self) -> None:
         while self._most is not None and len(self._gears) > self._most:
             del self._gears[next(iter(self._gears))]
-        return found
 
     def _made(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Bodies, Cycle]:
         if route_of(model) is not CONDENSED:
             return prepared(model, progress, cache)
-        pinion, wheel = (self.body(model, name, cache) for name in GEARS)
-        return (pinion, wheel), mesh_cycle(model, (pinion, wheel))
+        bodies = self.bodies(model, progress, cache)
+        return bodies, mesh_cycle(model, bodies)
 
 
 @functools.lru_cache(maxsize=1)

@@ -8,6 +8,9 @@ from tests.benchmarks.third_dimension.pairs import MODULE, scene_of, standard_pa
 
 from fenics_gears import model_of, simulate
 from fenics_gears.elasticity.cache import Cache
+from fenics_gears.inputs.tree import GEARS
+from fenics_gears.runs import condensing
+from fenics_gears.runs.gear_store import GearStore
 from fenics_gears.scene.data import Accuracy
 from fenics_gears.simulation.bodies import solids_of
 from fenics_gears.system import second_process
@@ -65,7 +68,7 @@ def test_line_load_adds_up_to_the_normal_force(result):
 
 def test_both_bodies_at_once_are_those_one_after_the_other(scene, monkeypatch, tmp_path):
     """Authority: the same bodies with one thread. What the cache has starts no process, nor does a pair whose bodies
-    memory does not hold at once."""
+    memory does not hold at once. The first gear of a study brings the second with it."""
     model, started = model_of(scene), []
     together = SecondProcess.together
     monkeypatch.setattr(SecondProcess, "together", lambda *given: started.append(given) or together(*given))
@@ -76,7 +79,12 @@ def test_both_bodies_at_once_are_those_one_after_the_other(scene, monkeypatch, t
 
     expected, kept = bodies(1), Cache(tmp_path)
     assert not started
-    found = bodies(2, kept)
+    store = GearStore()
+    for name, value in (("own_gear_store", store), ("user_cache", kept), ("threads", 2)):
+        monkeypatch.setattr(condensing, name, lambda value=value: value)
+    monkeypatch.setattr(second_process, "threads", lambda: 2)
+    condensing.condense(condensing.GearTask(scene, "pinion"))
+    found = [store.body(model, name, None).solid for name in GEARS]
     assert len(started) == 1 and not any(body.timings["from_cache"] for body in found)
     for one, other in zip(found, expected):
         np.testing.assert_allclose(one.blocks, other.blocks, rtol=0.0, atol=1e-13 * abs(other.blocks).max())

@@ -8,19 +8,20 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
+from scipy.linalg.blas import dtrmm, dtrsm
 
 from fenics_gears.elasticity.condensation import by_radius, without
 from fenics_gears.elasticity.face.fold import EVEN, ODD, Fold
 from fenics_gears.elasticity.face.layers import Sweep
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.mirrored_ring import Parts, flank_free
+from fenics_gears.elasticity.mirrored_ring import flank_free
 from fenics_gears.elasticity.mumps import Factor, distributed
-from fenics_gears.elasticity.ring import check_congruent
+from fenics_gears.elasticity.ring import check_congruent, definite_factor
 
-# Part of a flank's motions that may be missing: between teeth the compliance then has an error of 1e-12 (measured),
-# within a tooth of 1e-14.
-MISSING = 1e-12
+# Part of a flank's motions that may be missing: the compliance, within a tooth and between teeth, then has an error of
+# 1e-12 of that within a tooth (measured).
+MISSING = 1e-11
 # Random columns that tell what is missing.
 TRIED = 8
 
@@ -30,9 +31,9 @@ class Half:
     """The even or the odd motions of a sector (`fold`): of the drive flank (f) and of the upper cut (c), in the
     section's frame turned with it.
 
-    flank: (f, f), compliance with the cuts held. shapes: (f, r), orthonormal, and to_cut: (r, c): (minus) the flank's
-    motion per motion of the cut is shapes @ to_cut; a cut moves the flank in fewer ways than either has dofs. cut: (c,
-    c), stiffness with the flank free.
+    flank: (f, f), compliance with the cuts held; empty on all ranks of a communicator but 0. shapes: (f, r),
+    orthonormal, and to_cut: (r, c): (minus) the flank's motion per motion of the cut is shapes @ to_cut; a cut moves
+    the flank in fewer ways than either has dofs. cut: (c, c), stiffness with the flank free.
     """
 
     flank: np.ndarray
@@ -59,7 +60,7 @@ class SweptSector:
     timings: dict
 
     def held(self) -> np.ndarray:
-        """Compliance of the drive flank, or of drive and coast flank, with the cuts held."""
+        """Compliance of the drive flank, or of drive and coast flank, with the cuts held; on rank 0."""
         within = 0.5 * (self.even.flank + self.odd.flank)
         if self.coast is None:
             return within
@@ -82,7 +83,7 @@ def condensed_swept_sector(
 
     iterative: by conjugate gradients instead of MUMPS. comm: communicator whose ranks share the work: one half of them
     has the even motions, the other the odd ones, and each half shares out the heights. Every rank calls this and gets
-    the result.
+    the result, rank 0 alone the flank's compliances.
     """
     clock = perf_counter()
     section = SectionForms(mesh, poissons_ratio)
@@ -105,13 +106,11 @@ def condensed_swept_sector(
     assembled = perf_counter()
     found: list[Any] = []
     while halves:
-        parts = (
+        found.append(
             _by_gradients(halves.pop(0), fold, own, sweep, group)
             if iterative
             else _condensed(halves.pop(0), fold, group)
         )
-        found.append(None if parts is None else Half(parts[0], *spanned(parts[1]), parts[2]))
-        del parts
     if len(signs) == 1:
         found = [_of_rank(found[0], comm, rank) for rank in (0, 1)]
     timings = {
@@ -131,18 +130,18 @@ def condensed_swept_sector(
     return SweptSector(even, odd, lower, fold.cut_turned, fold.flank_turned if both else None, heights, timings)
 
 
-def spanned(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Orthonormal columns (n, r), and what they are multiplied by (r, k), to give a matrix (n, k) but for `MISSING`.
+def spanned(matrix: np.ndarray, tried_first: int = 0, part: float = MISSING) -> tuple[np.ndarray, np.ndarray]:
+    """Orthonormal columns (n, r), and what they are multiplied by (r, k), to give a matrix (n, k) but for a `part`.
 
     Products of the matrix with random columns span its range (Halko, Martinsson, Tropp 2011); others tell what is
-    missing.
+    missing. tried_first: so many columns; a quarter of all when 0.
     """
     # The same numbers in every run.
     numbers, most = np.random.default_rng(0), min(matrix.shape)
     tried = numbers.standard_normal((matrix.shape[1], TRIED))
     images = matrix @ tried
     columns, rows = np.empty((len(matrix), 0)), np.empty((0, matrix.shape[1]))
-    size = max(most // 3, 1)
+    size = tried_first or max(most // 4, 1)
     while columns.shape[1] + size < most:
         more = matrix @ numbers.standard_normal((matrix.shape[1], size))
         for _ in range(2):
@@ -150,13 +149,13 @@ def spanned(matrix: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         more = np.linalg.qr(more)[0]
         columns, rows = np.hstack([columns, more]), np.vstack([rows, more.T @ matrix])
         missing = np.linalg.norm(images - columns @ (rows @ tried), axis=0)
-        if missing.max() <= MISSING * np.linalg.norm(images, axis=0).max():
+        if missing.max() <= part * np.linalg.norm(images, axis=0).max():
             return columns, rows
         size = max(most // 40, 1)
     return np.eye(len(matrix)), matrix
 
 
-def _condensed(rows: sparse.csr_matrix, fold: Fold, group) -> Parts | None:
+def _condensed(rows: sparse.csr_matrix, fold: Fold, group) -> Half | None:
     """One half; on the group's rank 0."""
     alone = group is None or group.size == 1
     factor = Factor(
@@ -167,26 +166,49 @@ def _condensed(rows: sparse.csr_matrix, fold: Fold, group) -> Parts | None:
         condensed = factor.schur()
     finally:
         factor.close()
-    return None if condensed is None else flank_free(condensed, len(fold.flank))
+    return None if condensed is None else in_shapes(*flank_free(condensed, len(fold.flank)))
 
 
-def _by_gradients(rows: sparse.csr_matrix, fold: Fold, own: range, sweep: Sweep, group) -> Parts:
+def in_shapes(flank: np.ndarray, response: np.ndarray, cut: np.ndarray) -> Half:
+    """A half of the parts of `mirrored_ring.flank_free`.
+
+    The ring adds to a flank's compliance ``response D^-1 response^T`` with D above the cut's own stiffness, so that
+    motions of the cut count by the strain energy that they take: with ``cut = U^T U`` the shapes are those of
+    ``response U^-1``. There are a quarter fewer than of the response itself.
+    """
+    energy = definite_factor(cut, "a cut")
+    shapes, to_cut = spanned(dtrsm(1.0, energy, response, side=1))
+    return Half(flank, shapes, dtrmm(1.0, energy, to_cut, side=1), cut)
+
+
+def _by_gradients(rows: sparse.csr_matrix, fold: Fold, own: range, sweep: Sweep, group) -> Half:
     # Imported here: few bodies need it.
     from fenics_gears.elasticity.face.conjugate_gradients import flank_free_by_gradients, rigid_motions
 
     height, place = np.divmod(fold.kept, len(fold.nodes))
-    return flank_free_by_gradients(
-        rows, fold, own, rigid_motions(np.column_stack([fold.nodes[place], sweep.heights[height]]), sweep.twist), group
-    )
+    motions = rigid_motions(np.column_stack([fold.nodes[place], sweep.heights[height]]), sweep.twist)
+    return in_shapes(*flank_free_by_gradients(rows, fold, own, motions, group))
 
 
 def _of_rank(half: Half | None, comm, rank: int) -> Half:
-    """The half that a rank has, on all ranks."""
-    arrays = None if half is None else [np.ascontiguousarray(each) for each in vars(half).values()]
-    shapes = comm.bcast(None if comm.rank != rank else [each.shape for each in arrays], root=rank)
-    found = [np.empty(shape) for shape in shapes]
-    for number, each in enumerate(found):
-        # mpi4py does not know the type of an array made from C's memory.
-        each[:] = arrays[number] if comm.rank == rank else 0.0
-        comm.Bcast(each, root=rank)
-    return Half(*found)
+    """The half that a rank has, on all ranks; its flank's compliance on rank 0 alone."""
+    own = comm.rank == rank
+    sizes = comm.bcast({name: each.shape for name, each in vars(half).items()} if own else None, root=rank)
+    found = {"flank": np.empty((0, 0))}
+    for name, size in sizes.items():
+        everywhere = name != "flank"
+        if not (everywhere or own or comm.rank == 0):
+            continue
+        each = np.empty(size)
+        if own:
+            # mpi4py does not know the type of an array made from C's memory.
+            each[:] = getattr(half, name)
+        if everywhere:
+            comm.Bcast(each, root=rank)
+        elif rank > 0 and own:
+            comm.Send(each, 0)
+        elif rank > 0:
+            comm.Recv(each, rank)
+        if everywhere or comm.rank == 0:
+            found[name] = each
+    return Half(**found)

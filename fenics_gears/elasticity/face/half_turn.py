@@ -19,7 +19,7 @@ from scipy import sparse
 from scipy.linalg.blas import dsyrk, dtrsm
 
 from fenics_gears.elasticity.cut_chain import CutResponse
-from fenics_gears.elasticity.face.condensed import SweptSector
+from fenics_gears.elasticity.face.condensed import MISSING, SweptSector, spanned
 from fenics_gears.elasticity.ring import cyclic, definite_factor, definite_inverse, rotation, symmetric
 from fenics_gears.errors import ComputationError
 
@@ -85,7 +85,7 @@ def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sp
 def ring_blocks(sector: SweptSector, teeth: int, offsets: int, comm=None) -> np.ndarray | None:
     """Flank compliance blocks (offsets + 1, f, f) of a ring of swept sectors, as `ring.ring_compliance`.
 
-    comm: communicator over whose ranks harmonics and products are shared out; every rank calls this, rank 0 gets the
+    comm: communicator over whose ranks harmonics and offsets are shared out; every rank calls this, rank 0 gets the
     result, the others None. Raises ComputationError where half a turn does not map the ring on itself.
     """
     basis = half_turn_basis(sector.lower, sector.heights)
@@ -96,15 +96,21 @@ def ring_blocks(sector: SweptSector, teeth: int, offsets: int, comm=None) -> np.
     shapes = np.hstack([sector.even.shapes, sector.odd.shapes])
     if sector.coast is not None:
         shapes = np.vstack([shapes, sector.coast @ np.hstack([sector.even.shapes, -sector.odd.shapes])])
-    own = shapes if comm is None else np.array_split(shapes, comm.size)[comm.rank]
-    blocks = np.empty((offsets + 1, len(own), len(shapes)))
-    for block, joint in zip(blocks, within):
-        np.matmul(own @ joint, shapes.T, out=block)
-    if comm is not None:
-        parts = comm.gather(blocks)
-        if parts is None:
-            return None
-        blocks = np.concatenate(parts, axis=1)
+    rank, ranks = (0, 1) if comm is None else (comm.rank, comm.size)
+    blocks = np.empty((offsets + 1 if rank == 0 else 1, len(shapes), len(shapes)))
+    tried = 0
+    for offset in range(rank, offsets + 1, ranks):
+        # The farther a tooth, the fewer ways in which the flanks move each other.
+        columns, rows = spanned(within[offset], tried, 0.1 * MISSING)
+        tried = max(2 * columns.shape[1] // 3, 1)
+        found = np.matmul(shapes @ columns, (shapes @ rows.T).T, out=blocks[offset if rank == 0 else 0])
+        if rank > 0:
+            comm.Send(found, 0, offset)
+    if rank > 0:
+        return None
+    for offset in range(offsets + 1):
+        if offset % ranks:
+            comm.Recv(blocks[offset], offset % ranks, offset)
     blocks[0] += sector.held()
     symmetric(blocks[0])
     return blocks
@@ -125,22 +131,25 @@ def _over_cut(sector: SweptSector, teeth: int, basis: tuple[sparse.csr_matrix, i
 def _joined_through_cuts(
     cuts: list[np.ndarray], to_cuts: list[np.ndarray], even: int, teeth: int, offsets: int, comm=None
 ) -> np.ndarray:
-    """What the ring adds to the compliance (offsets + 1, r, r) between the shapes of the even and of the odd half.
+    """What the ring adds to the compliance (offsets + 1, r, r) between the shapes of the even and of the odd half; on
+    rank `offset` of a communicator (counted on from 0 again beyond its last) that offset alone.
 
     cuts: (c, c), to_cuts: (r, c), of both halves over the basis of a cut. By block inversion (`ring.ring_compliance`),
     with each harmonic's Cholesky factor L: ``Y^T Y`` where ``L Y`` are the halves' motions by motions of the cut.
     """
     same, differing = cuts[0] + cuts[1], cuts[0] - cuts[1]
     differing[even:] *= -1.0
+    across_signs = np.ascontiguousarray(differing[:even, even:].T)
     first = len(to_cuts[0])
     motions = np.vstack(to_cuts).T
-    found = np.zeros((offsets + 1, motions.shape[1], motions.shape[1]))
+    # In LAPACK's order, as the products that are added.
+    found = np.zeros((offsets + 1, motions.shape[1], motions.shape[1])).transpose(0, 2, 1)
     for harmonic in range(teeth // 2 + 1) if comm is None else range(comm.rank, teeth // 2 + 1, comm.size):
         angle, weight = _harmonic(harmonic, teeth)
         stiffness = same + np.cos(angle) * differing
-        stiffness[:even, even:] = -np.sin(angle) * differing[:even, even:]
-        # Its upper triangle alone is read.
-        factor = definite_factor(np.asfortranarray(stiffness), "a harmonic")
+        np.multiply(across_signs, -np.sin(angle), out=stiffness[even:, :even])
+        # Transposed, it is in LAPACK's order, and its lower triangle alone is read.
+        factor = definite_factor(stiffness.T, "a harmonic")
         own, across = np.cos(0.5 * angle), np.sin(0.5 * angle)
         moved = np.array(motions, order="F")
         moved[:even, :first] *= own
@@ -157,7 +166,9 @@ def _joined_through_cuts(
         # Imported here: alone there is no need of it.
         from mpi4py import MPI
 
-        comm.Allreduce(MPI.IN_PLACE, found)
+        for offset, block in enumerate(found):
+            to = offset % comm.size
+            comm.Reduce(MPI.IN_PLACE if comm.rank == to else block, block if comm.rank == to else None, root=to)
     for block in found:
         symmetric(block)
         block[first:, :first] *= -1.0

@@ -49,7 +49,9 @@ class SectionForms:
         return tuple(self._assembled(form) for form in self._forms)
 
     def _assembled(self, form) -> sparse.csr_matrix:
-        return assembled(adapter.assemble_matrix(form))[self._order][:, self._order]
+        matrix = assembled(adapter.assemble_matrix(form))[self._order][:, self._order]
+        matrix.sort_indices()
+        return matrix
 
 
 def _forms(space, poisson, a, b, c, d):
@@ -110,25 +112,23 @@ def layer_stiffness(
     """Blocks (k, 3n) between the lower, middle and upper nodes of a layer, each in the section's frame at its own
     height; rows of dofs (k,)."""
     angles = 0.5 * twist * thickness * np.array([-1.0, 0.0, 1.0])
-    found: dict = {}
+    entries, factors = [], []
     for place, weight in zip(POINTS, WEIGHTS):
         values, slopes = shapes(place)
         slopes = slopes / (0.5 * thickness)
         turn = complex(values @ np.exp(1j * angles))
         change = complex(slopes @ np.exp(1j * angles))
         own, mixed, axial = section.at(turn, change / turn)
-        mixed_turned = mixed.T.tocsr()[dofs]
-        own, mixed, axial = own[dofs], mixed[dofs], axial[dofs]
         volume = 0.5 * thickness * weight * abs(turn) ** 2
-        for i in range(3):
-            for j in range(3):
-                part = volume * (
-                    values[i] * values[j] * own
-                    + slopes[i] * values[j] * mixed
-                    + values[i] * slopes[j] * mixed_turned
-                    + slopes[i] * slopes[j] * axial
-                )
-                found[i, j] = found[i, j] + part if (i, j) in found else part
+        # All forms have the section's pattern, so that their entries alone are added up.
+        entries += [each.data for each in (own, mixed, mixed.T.tocsr(), axial)]
+        pairs = (values, values), (slopes, values), (values, slopes), (slopes, slopes)
+        factors += [volume * np.outer(*pair).ravel() for pair in pairs]
+    added = (
+        sparse.csr_matrix((data, own.indices, own.indptr), shape=own.shape)
+        for data in np.transpose(factors) @ np.array(entries)
+    )
+    found = {divmod(number, 3): matrix[dofs] for number, matrix in enumerate(added)}
     nodes = len(section.nodes.points)
     frames = [sparse.kron(sparse.eye(nodes), rotation(angle, 3), format="csr") for angle in angles]
     return {(i, j): (frames[i].T[dofs][:, dofs] @ block @ frames[j]).tocsr() for (i, j), block in found.items()}
