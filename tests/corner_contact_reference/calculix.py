@@ -1,8 +1,8 @@
 """A pair of gears at one position as an input file of CalculiX, and the couple on the wheel from what it prints.
 
 Frame: pinion's centre at the origin, line of action y = -rb1, as in the program. The pinion's bore is held, the wheel's
-is turned by given angles; the couple that this takes is the sum over the bore's reactions. Plane strain, thickness 1
-mm.
+is turned by given angles; the couple that this takes is the sum over the bore's reactions. Six-node triangles are in
+plane strain, 1 mm thick; fifteen-node wedges are the gears over their face.
 """
 
 from __future__ import annotations
@@ -19,6 +19,8 @@ from fenics_gears.scene.data import Material
 
 # MPa per mm of overlap. At a pressure of 1500 MPa that is 1.5e-5 mm, 0.04 % of the teeth's deflection.
 PENALTY = 1e8
+# By the nodes of a cell: CalculiX's name of it, and the number of its side 01.
+CELLS = {6: ("CPE6", 1), 15: ("C3D15", 3)}
 # What CalculiX prints of a set of nodes: name, total time, a line of node and force for each.
 FORCES = r" forces \(fx,fy,fz\) for set (\S+) and time\s+(\S+)\n\n((?:\s+\d+.*\n)+)"
 
@@ -28,12 +30,15 @@ class CalculixFailed(RuntimeError):
 
 
 def placed(pair: GearPair, meshes: tuple[GearMesh, GearMesh], phase: float) -> tuple[np.ndarray, np.ndarray]:
-    """Points (n, 2), mm, of pinion and wheel where tooth 0 of both touches at `phase` mesh cycles after the path's
-    start."""
+    """Points (n, 2 or 3), mm, of pinion and wheel where tooth 0 of both touches (at z = 0) at `phase` mesh cycles after
+    the path's start."""
     xi = pair.path_start + phase * pair.base_pitch
     turns = (xi / pair.pinion.base_radius, np.pi + (pair.line_of_action_length - xi) / pair.wheel.base_radius)
     centres = (np.zeros(2), wheel_centre(pair))
-    return tuple(centre + mesh.points @ rotation(turn).T for centre, mesh, turn in zip(centres, meshes, turns))
+    return tuple(
+        np.hstack([centre + mesh.points[:, :2] @ rotation(turn).T, mesh.points[:, 2:]])
+        for centre, mesh, turn in zip(centres, meshes, turns)
+    )
 
 
 def wheel_centre(pair: GearPair) -> np.ndarray:
@@ -51,8 +56,8 @@ def couples(
     slave: int = 0,
     penalty: float = PENALTY,
 ) -> np.ndarray:
-    """Couple (k, 2), N mm per mm of face width, on the pinion's and the wheel's bore with the wheel turned by rotations
-    (k,), rad.
+    """Couple (k, 2), N mm (of triangles per mm of face width), on the pinion's and the wheel's bore with the wheel
+    turned by rotations (k,), rad.
 
     slave: the gear over whose surface contact is integrated. Raises CalculixFailed.
     """
@@ -73,41 +78,45 @@ def couples(
     centres, result = (np.zeros(2), wheel_centre(pair)), []
     for name, block in found:
         rows = np.array([line.split()[:3] for line in block.strip().splitlines()], dtype=float)
-        arm = points[gear[name]][rows[:, 0].astype(int) - 1 - first[name]] - centres[gear[name]]
+        arm = points[gear[name]][rows[:, 0].astype(int) - 1 - first[name], :2] - centres[gear[name]]
         result.append((gear[name], np.sum(arm[:, 0] * rows[:, 2] - arm[:, 1] * rows[:, 1])))
     return np.array([[value for which, value in result if which == side] for side in (0, 1)]).T
 
 
 def input_file(pair, material, meshes, points, rotations, slave, penalty) -> str:
     """The input file: one static step for each rotation (rad) of the wheel."""
-    everything = np.vstack(points)
-    lines = ["*NODE, NSET=ALL"] + [f"{i + 1}, {x:.15g}, {y:.15g}, 0." for i, (x, y) in enumerate(everything)]
+    dimensions, (cell_type, first_side) = points[0].shape[1], CELLS[meshes[0].cells.shape[1]]
+    lines = ["*NODE, NSET=ALL"] + [
+        ", ".join([str(i + 1), *(f"{each:.15g}" for each in point)] + ["0."] * (dimensions == 2))
+        for i, point in enumerate(np.vstack(points))
+    ]
     first_cell = 0
     surfaces = []
     for name, mesh, first_node in zip(("PINION", "WHEEL"), meshes, (0, len(points[0]))):
-        lines.append(f"*ELEMENT, TYPE=CPE6, ELSET={name}")
+        lines.append(f"*ELEMENT, TYPE={cell_type}, ELSET={name}")
         lines += [
             ", ".join(str(v) for v in (i + 1 + first_cell, *(cell + 1 + first_node)))
             for i, cell in enumerate(mesh.cells)
         ]
         surfaces += [f"*SURFACE, NAME={name}SURFACE, TYPE=ELEMENT"]
-        surfaces += [f"{cell + 1 + first_cell}, S{side + 1}" for cell, side in mesh.contact]
+        surfaces += [f"{cell + 1 + first_cell}, S{side + first_side}" for cell, side in mesh.contact]
         surfaces += [f"*NSET, NSET={name}HUB"] + [f"{node + 1 + first_node}," for node in mesh.hub]
         first_cell += len(mesh.cells)
     lines += surfaces
     lines += ["*MATERIAL, NAME=STEEL", "*ELASTIC", f"{material.youngs_modulus}, {material.poissons_ratio}"]
-    lines += [line for name in ("PINION", "WHEEL") for line in (f"*SOLID SECTION, ELSET={name}, MATERIAL=STEEL", "1.")]
+    for name in ("PINION", "WHEEL"):
+        lines += [f"*SOLID SECTION, ELSET={name}, MATERIAL=STEEL"] + ["1."] * (dimensions == 2)
     names = ("PINIONSURFACE", "WHEELSURFACE")
     lines += [
         "*SURFACE INTERACTION, NAME=FRICTIONLESS", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", f"{penalty:g}",
         "*CONTACT PAIR, INTERACTION=FRICTIONLESS, TYPE=SURFACE TO SURFACE", f"{names[slave]}, {names[1 - slave]}",
-        "*BOUNDARY", "PINIONHUB, 1, 2, 0.",
+        "*BOUNDARY", f"PINIONHUB, 1, {dimensions}, 0.", *["WHEELHUB, 3, 3, 0."] * (dimensions == 3),
     ]  # fmt: skip
     centre, first_node = wheel_centre(pair), len(points[0])
     for angle in rotations:
         lines += ["*STEP, INC=1000", "*STATIC, DIRECT", "1., 1.", "*BOUNDARY"]
         for node in meshes[1].hub:
-            arm = points[1][node] - centre
+            arm = points[1][node, :2] - centre
             move = rotation(angle) @ arm - arm
             lines += [f"{node + 1 + first_node}, {axis + 1}, {axis + 1}, {move[axis]:.12g}" for axis in (0, 1)]
         lines += ["*NODE PRINT, NSET=PINIONHUB", "RF", "*NODE PRINT, NSET=WHEELHUB", "RF", "*END STEP"]

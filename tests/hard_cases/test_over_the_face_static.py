@@ -1,8 +1,9 @@
-"""Rows 9 to 21 without inertia, on flanks resolved over the face; bodies without finite elements."""
+"""Rows 3 to 21 without inertia, on flanks resolved over the face; bodies without finite elements."""
 
 import numpy as np
 import pytest
 from tests.hard_cases.invariants import cycle_of, run_of
+from tests.hard_cases.test_any_scene import obeys_the_laws
 from tests.helical import BEARINGS, CROWNED, FRICTION, helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
@@ -97,6 +98,42 @@ def test_springs_from_soft_to_rigid(measured):
     assert (
         np.all(np.diff(apart[:4]) < 0.0) and apart[3] == pytest.approx(1e-3 * apart[2], rel=0.05) and apart[-1] < 1e-9
     )
+
+
+def loads():
+    """Torques from nothing to thirty times the usual, N mm, with friction and without; by day none and the largest."""
+    for torque in (0.0, 1e-12, 1.0, 200e3, 6e6):
+        for friction in ("", FRICTION):
+            by_day = friction and torque in (0.0, 6e6)
+            yield pytest.param(torque, friction, marks=() if by_day else BY_NIGHT)
+
+
+@pytest.mark.parametrize(("torque", "friction"), loads())
+def test_any_torque_is_carried(torque, friction, measured):
+    """Row 16. Exact identity (equilibrium): the wheel's couple is the load, nothing is added, no step fails; the laws
+    of contact hold at every step."""
+    found = run(friction + CROWNED + misaligned(0.01), torque=torque)
+    obeys_the_laws(found)
+    spurious = float(np.abs(found.result["reaction_couple"].sel(gear="wheel").values + torque).max())
+    limit = "1e-9 of the torque, at least 1e-9 N mm"
+    measured(f"torque {torque:g} N mm: largest spurious torque", spurious, limit, "N mm", row=16)
+    assert spurious <= 1e-9 * max(torque, 1.0)
+
+
+@pytest.mark.parametrize("helix", [40.0, pytest.param(45.0, marks=BY_NIGHT)])
+def test_steep_helix(helix, measured):
+    """Row 3. Exact identity: without friction all forces have the direction of the flanks' normal, so that the axial
+    force is the transverse one times the tangent of the base helix angle (ISO 21771: sin(beta_b) = sin(beta)
+    cos(alpha_n)), opposite on both gears."""
+    found = run(CROWNED + misaligned(0.01), helix=helix, teeth=(30, 50))
+    obeys_the_laws(found)
+    sine = np.sin(np.radians(helix)) * np.cos(np.radians(20.0))
+    wanted = 200e3 / found.model.pair.wheel.base_radius * sine / np.sqrt(1.0 - sine**2)
+    axial = found.result["reaction_z"]
+    apart = float(np.abs(np.abs(axial.values) / wanted - 1.0).max())
+    left = float(np.abs(axial.sum("gear").values).max()) / wanted
+    measured(f"helix {helix:g} deg: error of the axial force, sum of both", f"{apart:.1g}, {left:.1g}", "1e-11", row=3)
+    assert apart <= 1e-11 and left <= 1e-11
 
 
 @pytest.mark.parametrize(
