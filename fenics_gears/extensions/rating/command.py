@@ -72,8 +72,8 @@ def rate(options: argparse.Namespace) -> int:
         _show(rows)
         if end := result.attrs.get("peak_contact_pressure_beside"):
             print(
-                f"sigma_H of this run is beside the {end} of the pinion's active profile, where lines of contact end and"
-                " their line load rises (buttressing); ISO 6336-2 has no such rise."
+                f"sigma_H of this run is beside the {end} of the pinion's active profile, where lines of contact end"
+                " and their line load rises (buttressing); ISO 6336-2 has no such rise."
             )
         print(rating.of_misalignment(scene, finish))
         print(output)
