@@ -5,9 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.helical import helical_scene
+from tests.helical import BEARINGS, helical_scene
 
 from fenics_gears import SceneError, model_of
+from fenics_gears.model.description import describe
 from fenics_gears.model.face_resolution import face_discretisation, loaded_part
 from fenics_gears.scene.accuracy import FEWEST_LAYERS, LAYER_THICKNESS, LAYER_TURN, SLICES_OF_A_LAYER
 from fenics_gears.scene.data import Accuracy
@@ -137,3 +138,14 @@ def test_few_slices_under_the_load_are_warned_of():
             "accuracy.slices" in each
             for each in misaligned(amount, torque=20e3 if slices else 200e3, slices=slices).warnings
         )
+
+
+def test_check_prints_slices_layers_and_motions():
+    """Authority: docs/third_dimension.md, `gears check` prints both; motions that are unknown are told in words."""
+    scene = helical_scene(BEARINGS, accuracy="slices = 12\nlayers = 6")
+    wider = replace(scene, gears=replace(scene.gears, pinion=replace(scene.gears.pinion, face_width=32.0)))
+    rows = {label: " ".join((str(value), words)) for label, value, words in dict(describe(wider))["Model"]}
+    assert rows["slices of the face"].startswith("12,")
+    assert rows["layers of the bodies"] == "pinion 8, wheel 6, 6 of them on the common face"
+    motions = rows["motions of the gears that are unknown"]
+    assert motions.startswith("11:") and "_" not in motions and "pinion tilt about x" in motions

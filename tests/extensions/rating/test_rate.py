@@ -64,7 +64,8 @@ def test_a_run_without_speed_is_refused(tmp_path, capsys, paper_scene):
 
 def test_misalignment_over_the_face_is_counted_and_told(tmp_path, capsys):
     """By definition: the standard's F_betax is the scene's misalignment less the helix slope that corrects a part of
-    it; without either that of the tolerance class, which the aligned run has not."""
+    it; without either that of the tolerance class, which the aligned run has not. So is a contact stress beside the
+    end of lines of contact."""
     model = model_of(helical_scene())
     result = run_of(model, on_stand_in_bodies(model)).result
     # By hand, ISO 1328-1: slopes of 8.61 and 8.82 um.
@@ -83,3 +84,15 @@ def test_misalignment_over_the_face_is_counted_and_told(tmp_path, capsys):
         with open(tmp_path / "rating.csv", encoding="utf-8") as file:
             row = next(row for row in csv.DictReader(file) if row["quantity"].startswith("F_betax"))
         assert (float(row["ISO 6336"]), float(row["this run"])) == pytest.approx((standard, computed), abs=0.01)
+    beside = {"scene": helical_scene(CROWNED).text, "peak_contact_pressure_beside": "end"}
+    results.save(result.assign_attrs(beside), tmp_path / "run.nc")
+    assert main(["rate", str(tmp_path)]) == 0
+    assert "sigma_H of this run is beside the end of the pinion's active profile" in capsys.readouterr().out
+
+
+def test_a_scene_is_no_run(tmp_path, capsys):
+    """Authority: exit code 2, and what to do: `gears run` makes a run of a scene."""
+    scene = tmp_path / "mine.toml"
+    scene.write_text(helical_scene().text, encoding="utf-8")
+    assert main(["rate", str(scene)]) == 2
+    assert f"is a scene, this command takes a run: `gears run {scene}`" in capsys.readouterr().err
