@@ -71,7 +71,7 @@ class Motion(NamedTuple):
 
 class Course(NamedTuple):
     """What differs from step to step: how long they last (`durations` (s,), s), `loads` (s, k), N, and the sets (N,) as
-    `begin` takes them of a mesh cycle before, or none; `at_rest`: a position had these sets whatever the step before it.
+    `begin` takes them of a mesh cycle before, or none; `at_rest`: a position had them whatever the step before it.
     """
 
     durations: np.ndarray
