@@ -71,11 +71,13 @@ class Motion(NamedTuple):
 
 class Course(NamedTuple):
     """What differs from step to step: how long they last (`durations` (s,), s), `loads` (s, k), N, and the sets (N,) as
-    `begin` takes them of a mesh cycle before, or none."""
+    `begin` takes them of a mesh cycle before, or none; `at_rest`: a position had them whatever the step before it.
+    """
 
     durations: np.ndarray
     loads: np.ndarray
     cycle_before: np.ndarray = NO_SETS
+    at_rest: bool = False
 
 
 def solve_steps(steps: Steps, first: int, end: int, motion: Motion, course: Course) -> int:
@@ -107,7 +109,7 @@ def _unpacked(numbers, k):
 
 
 @njit(cache=True)
-def _solve_steps(done, end, block, packed, durations, loads, cycle_before):
+def _solve_steps(done, end, block, packed, durations, loads, cycle_before, at_rest):
     steps, motion = in_block(block), _unpacked(packed, loads.shape[1])
     starts, kinds, states, status = steps.starts, steps.kinds, steps.states, steps.status
     effective, k, duration = motion.stiffness, len(motion.stiffness), -1.0
@@ -125,7 +127,8 @@ def _solve_steps(done, end, block, packed, durations, loads, cycle_before):
         now, before = slice(starts[s], starts[s + 1]), slice(starts[s - 1], starts[s])
         contact = arrays_of(steps.rows[s], kinds, k, starts[s] - starts[s - 1])
         nodes, n = status[now], starts[s + 1] - starts[s]
-        begin(nodes, status[before], contact.node_before, cycle_before[now], cycle_before[before])
+        before_then = status[before] if at_rest else cycle_before[before]
+        begin(nodes, status[before], contact.node_before, cycle_before[now], before_then)
         slip_before = np.empty(0)
         if len(contact.rigid_slip):
             forces_before = steps.forces[kinds * starts[s - 1] : kinds * starts[s]]

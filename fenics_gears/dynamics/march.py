@@ -233,11 +233,11 @@ class Marcher(Stepper):
             if self.loads
             else np.tile(self.drivetrain.load, (len(steps), 1))
         )
-        done = 1
+        course, done = Course(durations, loads, known, self.at_rest), 1
         try:
             while done < len(steps):
                 begun, end = time.perf_counter(), min(done + self._at_once, len(steps))
-                solved = solve_steps(steps, done, end, self._motion, Course(durations, loads, known))
+                solved = solve_steps(steps, done, end, self._motion, course)
                 seconds = time.perf_counter() - begun
                 if solved == end:
                     # Ctrl-C is heard between two calls.

@@ -83,6 +83,8 @@ class Stepper:
         self._shared = cycle.beside(KnownSets) if not friction and cycle.alike else KnownSets()
         self._others = dict(self._shared)
         self.remembers = cycle.traits.repeats or not friction
+        # Over a face a position at rest is nearer to itself in another run than to the step before.
+        self.at_rest = cycle.traits.repeats and not friction and not self.dynamic.inert
 
     def scheme(self, step: int) -> AverageAcceleration | BackwardEuler:
         """The method over the step that ends at `step`; made anew where that step is not as long as the one before."""
@@ -104,6 +106,11 @@ class Stepper:
         cycle balance.
         """
         self._sets.clear()
+        if not self.friction and not self.dynamic.inert:
+            # A position at rest depends on no other.
+            middle = self._static_start(0)
+            self.remember(0, middle.solution.status)
+            return middle
         neighbours = [self._static_start(-1)]
         for step in (0, 1) if self.dynamic.inert else (0,):
             neighbours.append(self.step(self.static, neighbours[-1], step))
@@ -216,7 +223,9 @@ class Stepper:
                 last.solution.forces,
             )  # fmt: skip
         status = np.empty(operator.nodes, dtype=np.int8)
-        begin(status, last.solution.status, position.node_before, self.known_before(step), self.known_before(last.step))
+        before = last.solution.status
+        then = before if self.at_rest else self.known_before(last.step)
+        begin(status, before, position.node_before, self.known_before(step), then)
         solution = self._solve(scheme, last.state, position, slip_before, status, step, last.solution)
         return Record(step, scheme.advance(last.state, solution.coordinates), position, solution)
 

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
+import numpy as np
+
+from fenics_gears.contact.face import Face
 from fenics_gears.contact.mesh_cycle import SHARE_FORMED
 from fenics_gears.contact.places import face_places
 from fenics_gears.contact.window import flank_ends, node_offsets
@@ -28,16 +33,27 @@ POSITION_WITH_FRICTION, STEP_WITH_FRICTION = 3.5, 2.5
 FLANK_NODES, POWER = 17.0, 0.6
 
 
-def contact_nodes(model: Model, phases: int = 4) -> tuple[float, float]:
+# At how many phases of the mesh cycle contact nodes are counted.
+PHASES = 4
+
+
+def contact_nodes(model: Model) -> tuple[float, float]:
     """Tooth pairs in slices, and their contact nodes, on the average over the mesh cycle."""
-    pair, grid, face = model.pair, model.resolution.contact_grid, model.face
+    face, coast = model.face, model.scene.coast_flanks is not None
+    along = tuple(face.positions.tolist()), tuple(face.widths.tolist()), face.slope
+    return _contact_nodes(model.pair, model.resolution.contact_grid, along, coast, model.corner)
+
+
+# The designs of a search have the same; to count them takes as long as three steps.
+@lru_cache(maxsize=64)
+def _contact_nodes(pair, grid, along, coast, corner) -> tuple[float, float]:
+    positions, widths, slope = along
+    face = Face(np.array(positions), np.array(widths), slope)
     places = [
-        place
-        for phase in range(phases)
-        for place in face_places(pair, grid, face, phase / phases, model.scene.coast_flanks is not None, model.corner)
+        place for phase in range(PHASES) for place in face_places(pair, grid, face, phase / PHASES, coast, corner)
     ]
     nodes = sum(len(node_offsets(flank_ends(pair, place.contact_rolls), grid)) for place in places)
-    return len(places) / phases, nodes / phases
+    return len(places) / PHASES, nodes / PHASES
 
 
 def _size(model: Model, number: int) -> tuple[int, int]:
