@@ -73,7 +73,7 @@ def test_designs_share_operators_and_nothing_else(friction, always):
     operators of the first, are to the last bit what each is alone; and nothing but the first is built at whole
     steps."""
     accuracy = f"slices = 5\n{FEW}" if always else FEW
-    designs = ["", RELIEF, ERRORS, RUN_OUT, RELIEF + ERRORS, *((TILTED + RELIEF, SLOPING) if always else ())]
+    designs = ["", RUN_OUT, RELIEF + ERRORS, *((TILTED + RELIEF, SLOPING) if always else (RELIEF, ERRORS))]
     models = [
         model_of(helical_scene(always + friction + design, accuracy=accuracy, helix=12.0 if always else 0.0))
         for design in designs

@@ -11,12 +11,13 @@ from tests.effects.examples import scene_of, text_of
 from fenics_gears import ComputationError, SceneError, model_of, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.runs.timed import run_sharing
+from fenics_gears.scene.accuracy import NODE_SPACING
 from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion
 from fenics_gears.studies.accuracy import refinement, setting_runs, table
 from fenics_gears.studies.accuracy import report as reports
 from fenics_gears.studies.accuracy.measures import CURVE, MEASURES, ROOT, SPAN, judged
 from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, FLANK, IN_THE_PLANE, LENGTH, NODES, STEPS
-from fenics_gears.studies.accuracy.setting import own_setting
+from fenics_gears.studies.accuracy.setting import default_setting, half_width, own_setting
 
 TEETH = "tooth_elasticity"
 # Fewer and coarser than --quick: what is tested here is the way, not the numbers.
@@ -31,6 +32,12 @@ SETTINGS = Accuracy(
 )
 
 
+def coarse_default(scene):
+    """The program's own setting but for its flank elements and steps, which take seconds."""
+    size = half_width(scene) / 1.4
+    return replace(default_setting(scene), flank=size, spacing=NODE_SPACING * size, steps=20)
+
+
 def measured(*arguments):
     return tuple(each for each in refinement.refinements(*arguments) if each.name in MEASURED)
 
@@ -39,11 +46,10 @@ def measured(*arguments):
 def tiny():
     """Few levels for `quick`."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(refinement, "QUICK", TINY)
-        patch.setattr(refinement, "QUICK_FINE", TINY_FINE)
+        patch.setattr(refinement, "IN_THE_PLANE", replace(IN_THE_PLANE, quick_values=TINY, quick_fine=TINY_FINE))
         patch.setattr(reports, "refinements", measured)
-        # The program's defaults are condensed for seconds, and are a setting like any other.
-        patch.setattr(reports, "default_setting", lambda scene: refinement.fine(scene, quick=True))
+        for module in (refinement, reports):
+            patch.setattr(module, "default_setting", coarse_default)
         yield
 
 
