@@ -50,7 +50,7 @@ from fenics_gears.dynamics.march import Marcher
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.read import scene_from_text
-from fenics_gears.simulation.face_route import face_route
+from fenics_gears.simulation.elastic_route import elastic_route
 from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.system.progress import SilentProgress
 
@@ -62,7 +62,7 @@ def used():
 
 steps, name = int(sys.argv[1]), sys.argv[2]
 model = model_of(scene_from_text(sys.stdin.read(), name))
-gears, cycle = face_route(model, SilentProgress(), user_cache())
+gears, cycle = elastic_route(model, SilentProgress(), user_cache())
 compile_kernels(model.scene.friction is not None)
 # One position, so that all is compiled and loaded.
 cycle.position(cycle.steps // 2)
