@@ -101,7 +101,7 @@ def ring_blocks(sector: SweptSector, teeth: int, offsets: int, comm=None) -> np.
     tried = 0
     for offset in range(rank, offsets + 1, ranks):
         # The farther a tooth, the fewer ways in which the flanks move each other.
-        columns, rows = spanned(within[offset], tried, 0.1 * MISSING)
+        columns, rows = spanned(within[offset], tried, 0.01 * MISSING)
         tried = max(2 * columns.shape[1] // 3, 1)
         found = np.matmul(shapes @ columns, (shapes @ rows.T).T, out=blocks[offset if rank == 0 else 0])
         if rank > 0:
