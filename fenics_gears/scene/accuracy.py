@@ -108,8 +108,8 @@ class Accuracy(Section):
         1000,
         40,
         meaning=(
-            "slices of the common face in which contact is resolved, best a multiple of `layers`; of"
-            " three-dimensional scenes"
+            "slices of the common face in which contact is resolved, best a multiple of `layers`; the"
+            " outermost of helical pairs are cut in two, if there are 8 or more; of three-dimensional scenes"
         ),
         otherwise=(
             f"{defaults.SLICES_OF_A_LAYER} for each of the default layers; with `layers`, the multiple of it"
