@@ -30,6 +30,11 @@ class Face:
         return len(self.positions)
 
     @cached_property
+    def evenly(self) -> int:
+        """Number of slices without the cuts of the outermost ones: that `[accuracy]` speaks of."""
+        return round(float(self.widths.sum() / self.widths.max()))
+
+    @cached_property
     def cosine(self) -> float:
         """Cosine of the base helix angle: between the contact normal and the transverse plane."""
         return 1.0 / sqrt(1.0 + self.slope**2)
@@ -68,3 +73,13 @@ def even_slices(width: float, slices: int) -> tuple[np.ndarray, np.ndarray]:
     """
     size = width / slices
     return size * (np.arange(slices) - 0.5 * (slices - 1)), np.full(slices, size)
+
+
+def finer_ends(positions: np.ndarray, widths: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The same with either outermost slice cut in two.
+
+    >>> [values.tolist() for values in finer_ends(*even_slices(12.0, 3))]
+    [[-5.0, -3.0, 0.0, 3.0, 5.0], [2.0, 2.0, 4.0, 2.0, 2.0]]
+    """
+    ends, half = positions[[0, 0, -1, -1]] + 0.25 * widths[0] * np.array([-1.0, 1.0, -1.0, 1.0]), [0.5 * widths[0]] * 2
+    return np.concatenate([ends[:2], positions[1:-1], ends[2:]]), np.concatenate([half, widths[1:-1], half])

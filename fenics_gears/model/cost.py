@@ -97,7 +97,7 @@ def too_large(model: Model, cost: ExpectedCost, allowed: float) -> str:
     less = "Larger flank elements and fewer mesh cycles take less"
     if cost.ways:
         less = (
-            f"Fewer slices (accuracy.slices, here {model.face.slices}) and larger elements of the bodies"
+            f"Fewer slices (accuracy.slices, here {model.face.evenly}) and larger elements of the bodies"
             " (accuracy.body_element_size, accuracy.layers) take less"
         )
     return (

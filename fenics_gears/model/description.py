@@ -73,6 +73,7 @@ def describe(scene: Scene) -> list[tuple[str, Rows]]:
 
 def _model_rows(model: Model) -> Rows:
     grid, force = model.resolution.contact_grid, model.scene.load.wheel_torque / model.pair.wheel.base_radius
+    cut = ", the outermost cut in two" if model.face.slices > model.face.evenly else ""
     each = "normal and tangential force" if model.scene.friction is not None else "normal force"
     touching = (
         f"each with a {each} where flanks touch"
@@ -89,7 +90,7 @@ def _model_rows(model: Model) -> Rows:
         ),
         ("contact nodes of a tooth pair", f"{grid.nodes},", touching)
         if model.face.slices == 1
-        else ("slices of the face", f"{model.face.slices},", f"contact nodes in each, {touching}"),
+        else ("slices of the face", f"{model.face.evenly}{cut},", f"contact nodes in each, {touching}"),
         ("equations in time", _method(model), ""),
         *(
             []
@@ -149,7 +150,7 @@ def _face_rows(model: Model) -> Rows:
                 (f"{name} end relief", 1e3 * relief.depth, f"um, {relief.shape} over {relief.length:g} mm at {ends}")
             )
     if scene.tooth_elasticity is not None:
-        common = layers_of_common_face(scene, pair, model.face.slices)
+        common = layers_of_common_face(scene, pair, model.face.evenly)
         layers = [f"{name} {face_discretisation(model, gear).layers}" for gear, name in enumerate(GEARS)]
         found.append(("layers of the bodies", f"{', '.join(layers)},", f"{common} of them on the common face"))
     about = "um over the common face, about the pitch point in its middle"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.face import Face, even_slices
+from fenics_gears.contact.face import Face, even_slices, finer_ends
 from fenics_gears.effects import from_effects
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.geometry.gear_data import mean_youngs_modulus
@@ -33,19 +33,27 @@ MOST_SLICES_OF_A_LAYER = 4
 FEWEST_LOADED_SLICES = 6
 # Layers may be so much thicker or thinner than asked for, that slices end where they do.
 THICKER, THINNER = 1.3, 0.67
+# From so many slices on the outermost of helical pairs are cut in two.
+FEWEST_WITH_FINER_ENDS = 8
 # An overhang of less than this part of a layer belongs to the layer beside it.
 LEAST_OVERHANG = 0.1
 
 
 def face_of(scene: Scene, pair: GearPair) -> Face:
-    """The slices of the common face, all of one width."""
+    """The slices of the common face, all of one width; of helical pairs the outermost are cut in two, as layers are.
+
+    There a line of contact begins and ends, and the transmission error has a cusp. Where it is small, near a whole
+    overlap, its peak-to-peak value was up to 6 % too large without the cut (30 degrees, sharp tips), 1 % with it.
+    """
     least = _fewest_layers(scene, pair)
     slices = (
         scene.accuracy.slices
         or _multiple(scene.accuracy.layers, SLICES_OF_A_LAYER * least)
         or SLICES_OF_A_LAYER * least
     )
-    return Face(*even_slices(pair.face_width, slices), pair.slope, pair.gear_middles)
+    even = even_slices(pair.face_width, slices)
+    cut = pair.slope and slices >= FEWEST_WITH_FINER_ENDS
+    return Face(*(finer_ends(*even) if cut else even), pair.slope, pair.gear_middles)
 
 
 def layers_of_common_face(scene: Scene, pair: GearPair, slices: int) -> int:
@@ -106,7 +114,7 @@ def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: 
 
 def face_discretisation(model: Model, gear: int) -> FaceDiscretisation:
     """How the body of the pinion (0) or the wheel (1) is divided over its face."""
-    pair, common = model.pair, layers_of_common_face(model.scene, model.pair, model.face.slices)
+    pair, common = model.pair, layers_of_common_face(model.scene, model.pair, model.face.evenly)
     width, thickness = pair.face_widths[gear], pair.face_width / common
     overhang, beyond = 0.5 * (width - pair.face_width), 0
     # Layers are alike towards both ends of a gear, which halves the work: they begin with the common face where the
@@ -128,7 +136,7 @@ def check_layers(model: Model) -> None:
 def face_warnings(model: Model) -> list[str]:
     """Sentences where the layers of the bodies do not tell the slices of the face apart, and where too few slices carry
     the load."""
-    slices, layers, found = model.face.slices, layers_of_common_face(model.scene, model.pair, model.face.slices), []
+    slices, layers, found = model.face.evenly, layers_of_common_face(model.scene, model.pair, model.face.evenly), []
     if slices > MOST_SLICES_OF_A_LAYER * layers:
         found.append(
             f"accuracy.layers = {layers}: the gears' bodies have {slices / layers:.3g} slices of the face to a layer,"

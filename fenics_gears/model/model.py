@@ -127,12 +127,12 @@ class Model:
 
     @property
     def slices_and_layers(self) -> tuple[int | None, int | None]:
-        """How many slices the common face has, and layers either body in it; None of a plane scene."""
+        """How many slices of one width the common face has, and layers either body in it; None of a plane scene."""
         if not self.scene.three_dimensional:
             return None, None
         from fenics_gears.model.face_resolution import layers_of_common_face
 
-        return self.face.slices, layers_of_common_face(self.scene, self.pair, self.face.slices)
+        return self.face.evenly, layers_of_common_face(self.scene, self.pair, self.face.evenly)
 
     def solid_discretisation(self, gear: int) -> FaceDiscretisation | None:
         """How the body of the pinion (0) or the wheel (1) is divided over its face; None of a plane scene."""

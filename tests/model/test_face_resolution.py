@@ -26,9 +26,10 @@ def boundaries(model, gear):
 
 
 def slice_ends(model):
-    """z (mm) where slices begin and end."""
+    """z (mm) where slices begin and end, but for the cuts of the outermost ones."""
     face = model.face
-    return np.append(face.positions - 0.5 * face.widths, face.positions[-1] + 0.5 * face.widths[-1])
+    ends = np.append(face.positions - 0.5 * face.widths, face.positions[-1] + 0.5 * face.widths[-1])
+    return ends if face.slices == face.evenly else np.delete(ends, [1, -2])
 
 
 @pytest.mark.parametrize("wider", [0.0, 0.02, 0.7, 11.0])
@@ -64,11 +65,24 @@ def test_defaults_are_as_fine_as_they_say(helix, width):
     assert face_discretisation(model, 0).layers >= FEWEST_LAYERS
 
 
+def test_outermost_slices_of_helical_pairs_are_cut_in_two():
+    """By definition: of helical pairs alone and of many slices, which cover the common face without gaps."""
+    for helix, accuracy, cut in ((8.0, "", 1), (0.0, "", 0), (8.0, "slices = 7", 0), (8.0, "slices = 8", 1)):
+        face = model_with(CROWNED, helix=helix, accuracy=accuracy).face
+        size = 24.0 / face.evenly
+        assert face.slices == face.evenly + 2 * cut
+        assert face.widths[[0, 1, -2, -1]] == pytest.approx(size / (1 + cut)) and face.widths[2:-2] == pytest.approx(
+            size
+        )
+        assert np.diff(face.positions) == pytest.approx(0.5 * (face.widths[1:] + face.widths[:-1]))
+        assert face.widths.sum() == pytest.approx(24.0)
+
+
 def test_steeper_helices_have_more_slices():
     """Geometry: at 8 degrees the module says how many, at 38 the turn of the helix: 24 mm of 3 mm and tau = 0.7086 move
     the line by 17.0 mm, 1.566 base pitches."""
-    assert model_with(helix=8.0).face.slices == model_with(CROWNED, helix=0.0).face.slices == 24
-    assert model_with(helix=38.0).face.slices == 2 * 27
+    assert model_with(helix=8.0).face.evenly == model_with(CROWNED, helix=0.0).face.slices == 24
+    assert model_with(helix=38.0).face.evenly == 2 * 27
 
 
 @pytest.mark.parametrize(
@@ -85,7 +99,7 @@ def test_what_the_scene_asks_for_is_taken(asked, slices, layers):
     """Convention: `slices` and `layers` are as given; of one alone the other follows so that slices end where layers
     do, if a number near the default does that."""
     model = model_of(replace(helical_scene(accuracy="", helix=8.0), accuracy=asked))
-    assert model.face.slices == slices
+    assert model.face.evenly == slices
     assert [face_discretisation(model, gear).layers for gear in range(2)] == [layers, layers]
 
 
@@ -145,7 +159,7 @@ def test_check_prints_slices_layers_and_motions():
     scene = helical_scene(BEARINGS, accuracy="slices = 12\nlayers = 6")
     wider = replace(scene, gears=replace(scene.gears, pinion=replace(scene.gears.pinion, face_width=32.0)))
     rows = {label: " ".join((str(value), words)) for label, value, words in dict(describe(wider))["Model"]}
-    assert rows["slices of the face"].startswith("12,")
+    assert rows["slices of the face"].startswith("12, the outermost cut in two,")
     assert rows["layers of the bodies"] == "pinion 8, wheel 6, 6 of them on the common face"
     motions = rows["motions of the gears that are unknown"]
     assert motions.startswith("11:") and "_" not in motions and "pinion tilt about x" in motions

@@ -37,11 +37,11 @@ def test_a_setting_gives_the_face_that_it_says(scene):
     """Identity: the scene's own setting is that of its model, and a scene with a setting has its slices, layers and
     body elements."""
     own, model = own_setting(scene), model_of(scene)
-    assert (own.slices, own.layers, own.body) == (model.face.slices, face_discretisation(model, 0).layers, 1.0)
+    assert (own.slices, own.layers, own.body) == (model.face.evenly, face_discretisation(model, 0).layers, 1.0)
     again = model_of(own.of(scene))
-    assert again.face.slices == own.slices and face_discretisation(again, 1) == face_discretisation(model, 1)
+    assert again.face.evenly == own.slices and face_discretisation(again, 1) == face_discretisation(model, 1)
     other = model_of(replace(own, slices=9, layers=3, body=2.0).of(scene))
-    assert other.face.slices == 9 and face_discretisation(other, 0).layers == 3
+    assert other.face.evenly == 9 and face_discretisation(other, 0).layers == 3
     assert face_discretisation(other, 0).section_size == pytest.approx(2.0 * face_discretisation(model, 0).section_size)
 
 
