@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
 from fenics_gears.contact.formed_rows import form_rows
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, Tolerance
@@ -20,7 +19,6 @@ from fenics_gears.contact.newton import (
     RESIDUAL_NAMES,
     SINGULAR,
     THROUGH_STICK,
-    Method,
     measure,
     newton,
 )
@@ -140,19 +138,6 @@ def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> I
         )
 
 
-@njit(cache=True)
-def _newton(equations, iterate, method, history, sets):
-    """`newton`, from plain tuples: of records numba looks through the types at each call, which takes as long as a
-    step."""
-    stiffness, load, compliance, jacobian, gap, slip_before, friction, free_motion, rows = equations
-    r_scale, rule, length, force = method
-    status, forces, coordinates, displacement = iterate
-    return newton(
-        Equations(stiffness, load, compliance, jacobian, gap, slip_before, friction, free_motion, rows),
-        Iterate(status, forces, coordinates, displacement), Method(r_scale, rule, length, force), history, sets,
-    )  # fmt: skip
-
-
 def run_newton(
     problem: StepProblem,
     status: np.ndarray,
@@ -172,7 +157,7 @@ def run_newton(
     tolerance = problem.tolerance
     try:
         method = r_scale, rule, tolerance.length, tolerance.force
-        outcome, done = _newton(tuple(equations), tuple(iterate), method, history, sets)
+        outcome, done = newton(tuple(equations), tuple(iterate), method, history, sets)
     except np.linalg.LinAlgError:
         outcome, done = SINGULAR, int(np.sum(np.any(sets >= 0, axis=1)))
     result = outcome, done, iterate.forces, iterate.coordinates, iterate.displacement, iterate.status
