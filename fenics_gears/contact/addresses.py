@@ -10,7 +10,9 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from llvmlite import ir
 from numba import carray, from_dtype, njit, types
+from numba.core import cgutils
 from numba.extending import intrinsic
 
 
@@ -56,6 +58,31 @@ def _pointer_to(kind):
 
 to_number, to_integer, to_flag = (_pointer_to(kind) for kind in (types.float64, types.int64, types.boolean))
 to_set, to_row = _pointer_to(types.int8), _pointer_to(from_dtype(ROW))
+
+
+@intrinsic
+def call(typing_context, function, numbers):
+    """What the C function at an address returns of some numbers; all are int64. It is compiled once, where a compiled
+    function called by its name is compiled anew into each of its callers."""
+
+    def code(context, builder, signature, arguments):
+        values = cgutils.unpack_tuple(builder, arguments[1])
+        kind = ir.FunctionType(ir.IntType(64), [ir.IntType(64)] * len(values))
+        return builder.call(builder.inttoptr(arguments[0], kind.as_pointer()), values)
+
+    return types.int64(types.int64, numbers), code
+
+
+@intrinsic
+def not_inlined(typing_context):
+    """Keeps the compiled function in whose body it stands apart from its callers: LLVM takes much longer for one large
+    function than for its parts."""
+
+    def code(context, builder, signature, arguments):
+        builder.function.attributes.add("noinline")
+        return context.get_dummy_value()
+
+    return types.void(), code
 
 
 @njit(cache=True)

@@ -31,6 +31,8 @@ def compliance_product(block, responding, now, compliance, before, previous_comp
     for loaded in (now, before):
         for begin in loaded[2]:
             start, end = min(start, begin), max(end, begin + loaded[1].shape[1])
+    # A number that is written out in the call has it compiled once more.
+    none = np.int64(0)
     kinds, forces, numbers = len(compliance), 2 * (end - start), block.reshape(-1)
     x, y, along = np.empty(forces), np.empty(forces), np.zeros((len(directions), len(near), forces))
     for i in range(len(near)):
@@ -40,8 +42,8 @@ def compliance_product(block, responding, now, compliance, before, previous_comp
             _add(x, near[i, node], numbers, at)
             _add(y, near[i, node], numbers, at + block.shape[1])
         for d in range(len(directions)):
-            _add(along[d, i], directions[d, 0], x, 0)
-            _add(along[d, i], directions[d, 1], y, 0)
+            _add(along[d, i], directions[d, 0], x, none)
+            _add(along[d, i], directions[d, 1], y, none)
     _at_nodes(along[:kinds], start, row, now, compliance, True)
     _at_nodes(along[kinds:], start, row, before, previous_compliance, False)
 

@@ -10,12 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from numba import carray, njit
+from numba import carray, cfunc, njit
 
-from fenics_gears.contact.addresses import to_flag, to_integer, to_number
+from fenics_gears.contact.addresses import call, to_flag, to_integer, to_number
 from fenics_gears.system.memory import pages
 
 # Of a group: its first node, its slice, the place of that node among those in the slice, and how many these are.
@@ -63,7 +64,7 @@ class _Source(NamedTuple):
 
 
 # In compiled code it is a table of its arrays, and of the flags that say which rows are formed: address and shape of
-# each.
+# each; then the address of the function that forms rows.
 ARRAYS = 21
 
 
@@ -99,9 +100,10 @@ class FormedRows:
         matrix, formed = pages(n, m), np.zeros(len(rows.group), dtype=bool)
         arrays = [np.ascontiguousarray(array) for array in (*rows, *columns, *fine, *blocks, *sections)]
         arrays += [matrix, formed]
-        table = np.zeros((ARRAYS, 6), dtype=np.int64)
+        table = np.zeros((ARRAYS + 1, 6), dtype=np.int64)
         for row, array in zip(table, arrays):
             row[0], row[1 : 1 + array.ndim] = array.ctypes.data, array.shape
+        table[ARRAYS, 0] = row_former().address
         return cls(matrix, formed, by_columns, table, arrays)
 
     @property
@@ -121,13 +123,27 @@ def form_rows(address, nodes):
     where all rows are there."""
     if address == 0:
         return
+    function = carray(to_integer(address), (ARRAYS + 1, 6))[ARRAYS, 0]
+    if not call(function, (address, nodes.ctypes.data, len(nodes))):
+        raise MemoryError("no room for rows of the compliance between contact nodes")
+
+
+@cache
+def row_former():
+    """The C function behind `form_rows`, compiled or loaded where there are rows to form: a plane run does without."""
+    return cfunc("int64(int64, int64, int64)", cache=True)(_form_rows)
+
+
+def _form_rows(address, nodes, count):
+    """Returns 1; what is raised in a C function is printed and makes it return 0."""
     table = carray(to_integer(address), (ARRAYS, 6))
     formed = carray(to_flag(table[-1, 0]), table[-1, 1])
-    missing = nodes[~formed[nodes]]
+    asked = carray(to_integer(nodes), count)
+    missing = asked[~formed[asked]]
     source = _source(table)
     rows, columns = source.rows, source.columns
     if not len(missing) or not len(columns.group):
-        return
+        return 1
     widest, under = rows.on_gears[:, WIDTH].max(), 0
     for gear in range(2):
         last = columns.on_gears[gear, :, -1]
@@ -143,6 +159,7 @@ def form_rows(address, nodes):
                 _between(source, gear, group, between[gear])
         _form(source, node, between)
         formed[node] = True
+    return 1
 
 
 @njit(cache=True)

@@ -16,8 +16,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
+from llvmlite.binding import add_symbol
+from numba import carray, cfunc, njit, types
 
+from fenics_gears.contact.addresses import not_inlined, to_number
 from fenics_gears.contact.formed_rows import form_rows
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 
@@ -50,6 +52,13 @@ class Equations(NamedTuple):
     rows: int = 0
 
 
+@njit(cache=True)
+def equations_of(parts):
+    """Equations from plain tuples of them: (K, F, free motion), (C, G, gap, w_old), (friction, address of rows)."""
+    (stiffness, load, free_motion), (compliance, jacobian, gap, slip_before), (friction, rows) = parts
+    return Equations(stiffness, load, compliance, jacobian, gap, slip_before, friction, free_motion, rows)
+
+
 class Iterate(NamedTuple):
     """Sets (n,), forces p (m,), coordinates q (k,) and relative displacement u (m,); each iteration overwrites them."""
 
@@ -75,6 +84,7 @@ def solve_sets(equations, iterate):
 
     Raises numpy.linalg.LinAlgError where the sets leave the system singular.
     """
+    not_inlined()
     stiffness, load, compliance, jacobian, gap, slip_before, friction, _, unformed = equations
     status, forces, coordinates, _ = iterate
     n, k, tangential = len(gap), len(load), len(slip_before) > 0
@@ -138,7 +148,7 @@ def system_of(size):
     return matrix
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True)
 def solved(matrix, right_side, forces):
     """Solution of a linear system, in place of both; small ones without LAPACK, whose call costs more than they do.
 
@@ -146,39 +156,26 @@ def solved(matrix, right_side, forces):
     are looked for where that comes near zero, as where nodes depend on each other, and in all columns after them.
     """
     size, width = matrix.shape
-    if size > SMALL_SYSTEM:
-        return np.linalg.solve(matrix, right_side)
-    numbers, least = matrix.reshape(-1), LEAST_PIVOT * abs(matrix[0, 0]) if size else 0.0
-    for column in range(size):
-        if column >= forces or abs(matrix[column, column]) <= least:
-            _bring_pivot(matrix, right_side, column)
-        inverse, value = 1.0 / matrix[column, column], right_side[column]
-        first = column // 4 * 4
-        for row in range(column + 1, size):
-            factor = matrix[row, column] * inverse
-            right_side[row] -= factor * value
-            _subtract(numbers, row * width + first, (row + 1) * width, factor, column * width + first)
-    for column in range(size - 1, -1, -1):
-        value = right_side[column] / matrix[column, column]
-        right_side[column] = value
-        for row in range(column):
-            right_side[row] -= matrix[row, column] * value
+    if not _solve(matrix.ctypes.data, right_side.ctypes.data, size, width, forces):
+        raise np.linalg.LinAlgError("Matrix is singular to machine precision.")
     return right_side
 
 
 @njit(cache=True)
 def _bring_pivot(matrix, right_side, column):
-    """Exchange a row of a matrix that is being eliminated for the one below it with the largest entry in `column`."""
+    """Exchange a row of a matrix that is being eliminated for the one below it with the largest entry in `column`;
+    returns whether there is one."""
     pivot, largest = column, abs(matrix[column, column])
     for row in range(column + 1, len(matrix)):
         if abs(matrix[row, column]) > largest:
             pivot, largest = row, abs(matrix[row, column])
     if largest == 0.0:
-        raise np.linalg.LinAlgError("Matrix is singular to machine precision.")
+        return False
     if pivot != column:
         for other in range(column, len(matrix)):
             matrix[column, other], matrix[pivot, other] = matrix[pivot, other], matrix[column, other]
         right_side[column], right_side[pivot] = right_side[pivot], right_side[column]
+    return True
 
 
 @njit(cache=True)
@@ -195,6 +192,41 @@ def _subtract(numbers, first, end, factor, other):
         d = numbers[at + three] - factor * numbers[other + three]
         numbers[at], numbers[at + one], numbers[at + two], numbers[at + three] = a, b, c, d
         at, other = at + four, other + four
+
+
+@cfunc("int64(int64, int64, int64, int64, int64)", cache=True, error_model="numpy")
+def _solve_in_place(matrix_address, right_address, size, width, forces):
+    """`solved` from addresses; returns whether there is a solution."""
+    matrix, right_side = carray(to_number(matrix_address), (size, width)), carray(to_number(right_address), size)
+    if size > SMALL_SYSTEM:
+        try:
+            right_side[:] = np.linalg.solve(matrix, right_side)
+        except Exception:
+            # A singular matrix; compiled code tells no kinds of errors apart.
+            return 0
+        return 1
+    numbers, least = matrix.reshape(-1), LEAST_PIVOT * abs(matrix[0, 0]) if size else 0.0
+    for column in range(size):
+        weak = column >= forces or abs(matrix[column, column]) <= least
+        if weak and not _bring_pivot(matrix, right_side, column):
+            return 0
+        inverse, value = 1.0 / matrix[column, column], right_side[column]
+        first = column // 4 * 4
+        for row in range(column + 1, size):
+            factor = matrix[row, column] * inverse
+            right_side[row] -= factor * value
+            _subtract(numbers, row * width + first, (row + 1) * width, factor, column * width + first)
+    for column in range(size - 1, -1, -1):
+        value = right_side[column] / matrix[column, column]
+        right_side[column] = value
+        for row in range(column):
+            right_side[row] -= matrix[row, column] * value
+    return 1
+
+
+# Called by a name of the linker's: so it is compiled once, not into each function that solves linear systems.
+add_symbol("fenics_gears_solve_in_place", _solve_in_place.address)
+_solve = types.ExternalFunction("fenics_gears_solve_in_place", types.int64(*[types.int64] * 5))
 
 
 @njit(cache=True)

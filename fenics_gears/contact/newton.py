@@ -11,8 +11,9 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from fenics_gears.contact.addresses import not_inlined
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, STICK, next_status, presses
-from fenics_gears.contact.mixed_form import product, relative_displacement, solve_sets
+from fenics_gears.contact.mixed_form import Iterate, equations_of, product, relative_displacement, solve_sets
 
 CONVERGED, CYCLED, SINGULAR = 0, 1, 2
 OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}
@@ -197,16 +198,21 @@ def newton(equations, iterate, method, history, sets):
     """Active-set Newton from the sets of an `iterate`, which becomes the solution; its displacement is zero at first.
 
     `history` (iterations, 5) and `sets` (iterations, n) are filled with residuals and sets. Returns (outcome,
-    iterations).
+    iterations). The first three are plain tuples of four at most, `equations` three of them: through records and longer
+    ones numba looks at each call from Python, which takes as long as a step.
     """
+    not_inlined()
+    equations, iterate, method = equations_of(equations), Iterate(*iterate), Method(*method)
     status, displacement = iterate.status, iterate.displacement
     n, m = len(equations.gap), len(equations.compliance)
     outcome, iteration, limit, new = CYCLED, 0, len(history), np.empty_like(status)
+    # A number that is written out in the call has it compiled once more.
+    none = np.int64(0)
     while iteration < limit:
         _with_one_closed(status, equations, displacement)
         sets[iteration] = status
         solve_sets(equations, iterate)
-        relative_displacement(equations, iterate, 0, n)
+        relative_displacement(equations, iterate, none, n)
         if len(equations.slip_before):
             _tangents(equations, iterate)
         measure(history[iteration], equations, iterate)

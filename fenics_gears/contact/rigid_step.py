@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from fenics_gears.contact.addresses import not_inlined
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 from fenics_gears.contact.mixed_form import product, solved, system_of
 from fenics_gears.contact.newton import CONVERGED, SINGULAR
@@ -42,6 +43,7 @@ def rigid_step(equations, sides, iterate, method):
     becomes the solution. Returns (outcome, candidates tried), as `newton.newton`; SINGULAR where nothing holds the
     load.
     """
+    not_inlined()
     status, forces, coordinates, displacement = iterate
     leaders = _leaders(equations.gap, sides.on_drive_flanks)
     candidates = 1 + len(leaders) + (1 if len(leaders) == 2 and not len(sides.sliding) else 0)
@@ -98,41 +100,50 @@ def _unit_forces(equations, sides, touching):
 @njit(cache=True)
 def _solved(equations, touching, unit, forces, coordinates):
     """Fill forces (m,) and coordinates (k,) with some nodes touching; whether the drivetrain can be solved so."""
+    not_inlined()
     stiffness, load, jacobian = equations.stiffness, equations.load, equations.jacobian
     k, t = len(load), len(touching)
     forces[:] = 0.0
-    if not t:
-        if len(equations.free_motion):
-            return False
-        alone = system_of(k)
-        alone[:, :k] = stiffness
-        coordinates[:] = solved(alone, load.copy(), 0)
-        return True
+    if not t and len(equations.free_motion):
+        return False
     if t > 1 and not _independent(jacobian[touching[0]], jacobian[touching[1]]):
         return False
     # Forces are carried as lengths, by the largest stiffness, so that all entries of the matrix are of one size.
-    largest = np.abs(stiffness).max()
-    scale = largest if largest > 0.0 else 1.0
-    matrix, right = system_of(k + t), np.empty(k + t)
+    largest, matrix, right = 0.0, system_of(k + t), np.empty(k + t)
     matrix[:] = 0.0
-    matrix[:k, :k], right[:k] = stiffness, load
+    for c in range(k):
+        right[c] = load[c]
+        for d in range(k):
+            matrix[c, d], largest = stiffness[c, d], max(largest, abs(stiffness[c, d]))
+    scale = largest if largest > 0.0 else 1.0
     for a in range(t):
-        matrix[k + a, :k], right[k + a] = scale * jacobian[touching[a]], scale * equations.gap[touching[a]]
-        for row in np.flatnonzero(unit[a]):
-            matrix[:k, k + a] += scale * unit[a, row] * jacobian[row]
+        for c in range(k):
+            matrix[k + a, c] = scale * jacobian[touching[a], c]
+        right[k + a] = scale * equations.gap[touching[a]]
+        for row in range(len(forces)):
+            if unit[a, row] != 0.0:
+                for c in range(k):
+                    matrix[c, k + a] += scale * unit[a, row] * jacobian[row, c]
+    # A number that is written out in the call has it compiled once more.
+    no_forces = np.int64(0)
     try:
-        solution = solved(matrix.copy(), right.copy(), 0)
+        solution = solved(matrix.copy(), right.copy(), no_forces)
         # Iterative refinement: where slow masses are hardly any stiffness, load over stiffness is a length beside which
         # the gap is round-off.
-        for a in range(k + t):
-            right[a] -= product(matrix[a], solution)
-        solution += solved(matrix, right, 0)
+        if t:
+            for a in range(k + t):
+                right[a] -= product(matrix[a], solution)
+            correction = solved(matrix, right, no_forces)
+            for a in range(k + t):
+                solution[a] += correction[a]
     except Exception:
         # A singular matrix; compiled code tells no kinds of errors apart.
         return False
-    coordinates[:] = solution[:k]
+    for c in range(k):
+        coordinates[c] = solution[c]
     for a in range(t):
-        forces += scale * solution[k + a] * unit[a]
+        for row in range(len(forces)):
+            forces[row] += scale * solution[k + a] * unit[a, row]
     return True
 
 
@@ -140,14 +151,20 @@ def _solved(equations, touching, unit, forces, coordinates):
 def _independent(one, other):
     """Whether drive and coast flanks hold the gears in different directions; with fixed centres they do not."""
     part = product(other, one) / product(one, one)
-    return np.abs(other - part * one).max() > SAME_DIRECTION
+    for c in range(len(one)):
+        if abs(other[c] - part * one[c]) > SAME_DIRECTION:
+            return True
+    return False
 
 
 @njit(cache=True)
 def _obeys(equations, leaders, touching, forces, coordinates, method):
     """Whether nothing pulls and nothing penetrates."""
     for node in leaders:
-        if np.any(touching == node):
+        touches = False
+        for other in touching:
+            touches = touches or other == node
+        if touches:
             if forces[node] < -method.force_tolerance:
                 return False
         elif product(equations.jacobian[node], coordinates) - equations.gap[node] > method.length_tolerance:
@@ -161,6 +178,7 @@ def _set(status, unit):
     n, m = len(status), unit.shape[1]
     status[:] = OPEN
     for row in range(len(unit)):
-        for node in np.flatnonzero(unit[row, :n]):
-            sense = unit[row, n + node] if m > n else 1.0
-            status[node] = SLIP_FORWARD if sense > 0.0 else SLIP_BACKWARD if sense < 0.0 else STICK
+        for node in range(n):
+            if unit[row, node] != 0.0:
+                sense = unit[row, n + node] if m > n else 1.0
+                status[node] = SLIP_FORWARD if sense > 0.0 else SLIP_BACKWARD if sense < 0.0 else STICK

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
 from fenics_gears.contact.formed_rows import form_rows
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, Tolerance
@@ -20,7 +19,6 @@ from fenics_gears.contact.newton import (
     RESIDUAL_NAMES,
     SINGULAR,
     THROUGH_STICK,
-    Method,
     measure,
     newton,
 )
@@ -140,19 +138,6 @@ def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> I
         )
 
 
-@njit(cache=True)
-def _newton(drivetrain, contact, numbers, iterate, method, history, sets):
-    """`newton`, from plain tuples of four at most: through longer ones, and records, numba looks at each call, which
-    takes as long as a step."""
-    (stiffness, load, free_motion), (friction, rows), (r_scale, rule, length, force) = drivetrain, numbers, method
-    compliance, jacobian, gap, slip_before = contact
-    status, forces, coordinates, displacement = iterate
-    return newton(
-        Equations(stiffness, load, compliance, jacobian, gap, slip_before, friction, free_motion, rows),
-        Iterate(status, forces, coordinates, displacement), Method(r_scale, rule, length, force), history, sets,
-    )  # fmt: skip
-
-
 def run_newton(
     problem: StepProblem,
     status: np.ndarray,
@@ -168,12 +153,13 @@ def run_newton(
     tolerance, m = problem.tolerance, len(problem.compliance)
     iterate = Iterate(status.copy(), np.zeros(m), np.zeros(len(problem.load)), np.zeros(m))
     try:
-        outcome, done = _newton(
+        equations = (
             (problem.stiffness, problem.load, problem.free_motion),
             (problem.compliance, problem.jacobian, problem.gap, problem.slip_before),
             (problem.friction if friction is None else friction, problem.rows),
-            tuple(iterate), (r_scale, rule, tolerance.length, tolerance.force), history, sets,
-        )  # fmt: skip
+        )
+        method = r_scale, rule, tolerance.length, tolerance.force
+        outcome, done = newton(equations, tuple(iterate), method, history, sets)
     except np.linalg.LinAlgError:
         outcome, done = SINGULAR, int(np.sum(np.any(sets >= 0, axis=1)))
     result = outcome, done, iterate.forces, iterate.coordinates, iterate.displacement, iterate.status

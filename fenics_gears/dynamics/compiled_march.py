@@ -11,10 +11,10 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import arrays_of
+from fenics_gears.contact.addresses import arrays_of, not_inlined
 from fenics_gears.contact.formed_rows import form_rows
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.mixed_form import Equations, Iterate, product
+from fenics_gears.contact.mixed_form import Iterate, equations_of, product
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton
 from fenics_gears.contact.rigid_step import Sides, rigid_step
 from fenics_gears.dynamics.average_acceleration import advanced as advanced_by_average
@@ -114,7 +114,8 @@ def _solve_steps(done, end, block, packed, durations, loads, cycle_before, at_re
     starts, kinds, states, status = steps.starts, steps.kinds, steps.states, steps.status
     effective, k, duration = motion.stiffness, len(motion.stiffness), -1.0
     history = np.zeros((3, k, k))
-    method = Method(1.0, ALL_AT_ONCE, motion.length_tolerance, motion.force_tolerance)
+    # A number that is written out has `newton` compiled once more.
+    method = 1.0, np.int64(ALL_AT_ONCE), motion.length_tolerance, motion.force_tolerance
     residuals, most = np.empty((MOST_ITERATIONS, 5)), np.diff(starts).max()
     all_sets, coordinates = np.empty(MOST_ITERATIONS * most, dtype=np.int8), np.empty(k)
     for s in range(done[0], end):
@@ -136,15 +137,17 @@ def _solve_steps(done, end, block, packed, durations, loads, cycle_before, at_re
                 contact.rigid_slip, contact.previous_jacobian, contact.previous_columns, contact.rows_before,
                 states[s - 1, 0], forces_before,
             )  # fmt: skip
-        equations = Equations(
-            effective, load, contact.compliance, contact.jacobian, contact.gap, slip_before, motion.friction,
-            _turned(motion.free_motion, outer), contact.rows,
+        equations = (
+            (effective, load, _turned(motion.free_motion, outer)),
+            (contact.compliance, contact.jacobian, contact.gap, slip_before), (motion.friction, contact.rows),
         )  # fmt: skip
         both = slice(kinds * starts[s], kinds * starts[s + 1])
-        iterate = Iterate(nodes, steps.forces[both], coordinates, steps.displacement[both])
+        iterate = (nodes, steps.forces[both], coordinates, steps.displacement[both])
         if motion.rigid:
             sides = Sides(contact.on_drive_flanks, contact.node_pair, contact.sliding)
-            outcome, steps.iterations[s] = rigid_step(equations, sides, iterate, method)
+            outcome, steps.iterations[s] = rigid_step(
+                equations_of(equations), sides, Iterate(*iterate), Method(*method)
+            )
         else:
             sets = all_sets[: MOST_ITERATIONS * n].reshape(MOST_ITERATIONS, n)
             outcome, steps.iterations[s] = newton(equations, iterate, method, residuals, sets)
@@ -200,6 +203,7 @@ def slip_at_start(rigid_slip, previous_jacobian, columns, rows_before, position,
     Arrays as of ContactOperator, `columns` (m before, n) of the `previous_compliance`, with those loaded formed at the
     address `rows_before`; `position` (k,) and `forces` of the step before.
     """
+    not_inlined()
     displaced = np.empty(len(rigid_slip))
     for node in range(len(displaced)):
         displaced[node] = product(previous_jacobian[node], position)

@@ -57,11 +57,8 @@ class Shared(NamedTuple):
 def _works(block):
     steps = in_block(block)
     works = np.zeros((3, max(len(steps.rows) - 1, 0)))
-    if not len(steps.rows):
-        return works
-    now = _end(steps, 0)
     for s in range(1, len(steps.rows)):
-        then, now = now, _end(steps, s)
+        then, now = _end(steps, s - 1), _end(steps, s)
         shared = _shared(then, now, steps.kinds)
         rotation, changes = _normal_work(then, now, shared)
         works[ROTATION, s - 1], works[CHANGES, s - 1] = _by_shape(then, now, shared.rows) + rotation, changes

@@ -13,6 +13,7 @@ import numpy as np
 
 from fenics_gears.contact.compliance_product import compliance_product
 from fenics_gears.contact.flank_at_height import roll_angle_at_height
+from fenics_gears.contact.formed_rows import row_former
 from fenics_gears.contact.interpolation import flank_interpolation, node_average, quadrature_offsets
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
 from fenics_gears.contact.mesh_cycle import Position
@@ -70,5 +71,6 @@ def _run_once(tangential: bool, rigid: bool) -> None:
 
 
 if __name__ == "__main__":
+    row_former()
     for with_friction in (True, False):
         compile_kernels(with_friction, rigid=True)
