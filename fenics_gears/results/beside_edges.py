@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.model.model import Model
-from fenics_gears.model.modification import kinks, removals
+from fenics_gears.model.modification import kinks
 from fenics_gears.results.side_by_side import SideBySide
 
 # What a node is beside; where it is beside several, the last.
@@ -39,7 +39,7 @@ class EdgesAndKinks:
         self.half_width, self._end_slices = model.resolution.half_width, end_slices
         self._places: list[_Place] = []
         gears = model.pair.pinion, model.pair.wheel
-        for number, (gear, removal) in enumerate(zip(gears, removals(model.scene, model.pair))):
+        for number, (gear, removal) in enumerate(zip(gears, model.removal)):
             rolls = [(roll, KINK) for roll in kinks(removal)] + [(gear.tip_roll_angle, EDGE)]
             rolls += [(gear.form_roll_angle, EDGE)] if gear.undercut else []
             self._places += [_Place(number, 0.5 * gear.base_radius * roll**2, kind) for roll, kind in rolls]
