@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Iterable
 from functools import lru_cache
+from itertools import compress
 
 import numpy as np
 
@@ -93,11 +94,11 @@ def uncertified(stiffness: np.ndarray, friction: float, solved: Iterable) -> int
 
 
 def _plainly_only(stiffness: np.ndarray, friction: float, sets: list[tuple]) -> list[bool]:
-    """Whether D = 1 is a certificate, of many `sets` (operator, closed, sigma) at once: those with as many closed nodes
-    m together."""
+    """Whether D = 1 is a certificate, or D = diag(b/a) where contact alone holds the load, of many `sets` (operator,
+    closed, sigma) at once: those with as many closed nodes m together."""
     values, vectors, held = _motions(stiffness.tobytes(), len(stiffness))
-    found, of_size = [False] * len(sets), defaultdict(list)
-    if not held.all():
+    found, of_size, free = [False] * len(sets), defaultdict(list), not held.all()
+    if np.count_nonzero(~held) > 1:
         return found
     for place, (_, closed, _) in enumerate(sets):
         of_size[np.count_nonzero(closed)].append(place)
@@ -117,12 +118,17 @@ def _plainly_only(stiffness: np.ndarray, friction: float, sets: list[tuple]) -> 
                 friction * sigma[nodes],
             )
         moved = moved @ vectors
-        sliding = moved[:, :m] + share[:, :, None] * moved[:, m:]
+        normal, sliding = moved[:, :m], moved[:, :m] + share[:, :, None] * moved[:, m:]
         matrices = (
             compliance[:, :, :m]
             + compliance[:, :, m:] * share[:, None, :]
-            + (moved[:, :m] / values) @ sliding.transpose(0, 2, 1)
+            + (normal[..., held] / values[held]) @ sliding[..., held].transpose(0, 2, 1)
         )
+        if free and m:
+            a, b = normal[..., 0], sliding[..., 0]
+            apart = np.all(a * b > 0.0, axis=1)
+            places, across = list(compress(places, apart)), _across(b[apart])
+            matrices = across.transpose(0, 2, 1) @ ((b / a)[apart, :, None] * matrices[apart]) @ across
         together = _positive(matrices)
         for place, matrix in zip(places, matrices):
             found[place] = together or _positive(matrix)
@@ -137,9 +143,13 @@ def _motions(stiffness: bytes, size: int) -> tuple[np.ndarray, np.ndarray, np.nd
     return values, vectors, values > SINGULAR * max(values[-1], 0.0)
 
 
-def _across(direction: np.ndarray) -> np.ndarray:
-    """Orthonormal columns (n, n - 1) perpendicular to `direction` (n,)."""
-    return np.linalg.qr(direction[:, None], mode="complete")[0][:, 1:]
+def _across(directions: np.ndarray) -> np.ndarray:
+    """Orthonormal columns (..., n, n - 1) perpendicular to `directions` (..., n): those of the reflections that take
+    these into the first axis, but the first."""
+    mirrors = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
+    mirrors[..., 0] += np.copysign(1.0, mirrors[..., 0])
+    squares = np.sum(mirrors**2, axis=-1)[..., None, None]
+    return (np.eye(directions.shape[-1]) - 2.0 / squares * mirrors[..., :, None] * mirrors[..., None, :])[..., 1:]
 
 
 def _positive(matrix: np.ndarray) -> bool:

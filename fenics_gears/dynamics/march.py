@@ -170,7 +170,8 @@ class Marcher(Stepper):
 
         try:
             last = self.start()
-            take(Steps.of([last]))
+            if not steps:
+                take(Steps.of([last]))
             blocks = self._plain_block if self.plain or self.cycle.traits.own_solver else self._compiled_block
             for first, end in self._blocks(steps):
                 last = blocks(last, range(first, end), take, lambda step: report(step, steps))
@@ -205,8 +206,8 @@ class Marcher(Stepper):
         self, last: Record, numbers: range, take: Callable[[Steps], None], report: Callable[[int], None]
     ) -> Record:
         """Solve the steps `numbers` from the record `last` one by one; `take` gets them, also those before a failure or
-        Ctrl-C."""
-        records: list[Record] = []
+        Ctrl-C. With the first of all it gets the start of the march."""
+        records = [last] if numbers[0] == 1 else []
         try:
             for step in numbers:
                 last = self.step(self.scheme(step), last, step)
@@ -251,8 +252,9 @@ class Marcher(Stepper):
                     done += 1
                 self._report(report, numbers[done - 2])
         finally:
-            if done > 1:
-                take(steps.between(1, done))
+            taken = 0 if numbers[0] == 1 else 1
+            if done > taken:
+                take(steps.between(taken, done))
         return steps.record(done - 1)
 
     def _all_known_before(self, steps: Steps) -> np.ndarray:

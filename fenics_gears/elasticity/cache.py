@@ -15,9 +15,10 @@ import os
 import tempfile
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 
@@ -33,9 +34,15 @@ LONGEST_WRITING = 24 * 3600.0
 
 
 def content_key(inputs: dict) -> str:
-    """Hash of inputs made of numbers, strings, lists and dicts; equal inputs have equal keys on every machine."""
-    text = json.dumps(inputs, sort_keys=True, separators=(",", ":"), allow_nan=False)
+    """Hash of inputs made of numbers, strings, lists, dicts and dataclasses; equal inputs have equal keys on every
+    machine."""
+    text = json.dumps(inputs, sort_keys=True, separators=(",", ":"), allow_nan=False, default=_fields_of)
     return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _fields_of(data: Any) -> dict[str, Any]:
+    """A dataclass as JSON has it."""
+    return {field.name: getattr(data, field.name) for field in fields(data)}
 
 
 def user_cache() -> Cache:

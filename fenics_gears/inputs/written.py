@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import re
 from collections.abc import Iterator, Mapping
@@ -58,6 +59,7 @@ def _section_lines(section: Mapping[str, Any], path: tuple[str, ...]) -> Iterato
             yield from _section_lines(value, (*path, name))
 
 
+@functools.lru_cache(maxsize=1000)
 def _toml_name(name: Any) -> str:
     if not isinstance(name, str):
         raise TypeError(f"the name {name!r} is no text")

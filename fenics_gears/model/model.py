@@ -149,7 +149,7 @@ class Model:
             position, "rotation_2"
         ) + gears.pinion.teeth / gears.wheel.teeth * self.drivetrain.value(position, "rotation_1")
 
-    @property
+    @cached_property
     def stored_bytes(self) -> int:
         """Size of the result in memory: curves of all steps, and contact fields of those that are stored."""
         slots, nodes = self.touching.slots, self.resolution.contact_grid.most_nodes

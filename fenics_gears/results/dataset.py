@@ -7,6 +7,7 @@ Dimensions: `time`, all marched steps; `slot`, the tooth pairs that can touch at
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping
 from functools import cached_property
 from math import isfinite
@@ -34,9 +35,11 @@ from fenics_gears.scene.data import Scene
 
 class RunResult:
     """What a march gave: its numbers and warnings by name (`attrs`), its curves (steps, ...) by name as arrays
-    (`result["normal_force"]`), and `dataset`, all of it with labels, put together when it is asked for."""
+    (`result["normal_force"]`), and `dataset`, all of it with labels, put together when it is asked for. `seconds`: that
+    its numbers took, of which locating extremes between steps takes most."""
 
     def __init__(self, recorder: Recorder, march: March):
+        begun = time.perf_counter()
         recorder.finish()
         model = recorder.model
         self._recorder, self._curves = recorder, recorder.arrays
@@ -53,6 +56,7 @@ class RunResult:
         for sentences in from_effects(model.scene, "findings", recorder.watched):
             found += sentences
         self.attrs["warnings"] = "\n".join(found)
+        self.seconds = time.perf_counter() - begun
 
     def __getitem__(self, name: str) -> np.ndarray:
         """A curve, or another array of the result."""

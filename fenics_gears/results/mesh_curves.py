@@ -23,7 +23,7 @@ from fenics_gears.contact.laws import NO_FORCE, OPEN
 from fenics_gears.contact.mixed_form import product, solved, system_of
 from fenics_gears.dynamics.steps import Steps, forces_at, in_block, nodes_at, operator_at
 from fenics_gears.model.model import Model
-from fenics_gears.model.modification import kinks, removals
+from fenics_gears.model.modification import kinks
 from fenics_gears.results.side_by_side import SideBySide
 
 
@@ -170,7 +170,7 @@ class EdgesAndKinks:
         self.half_width, self._end_slices = model.resolution.half_width, end_slices
         self._places: list[_Place] = []
         gears = model.pair.pinion, model.pair.wheel
-        for number, (gear, removal) in enumerate(zip(gears, removals(model.scene, model.pair))):
+        for number, (gear, removal) in enumerate(zip(gears, model.removal)):
             rolls = [(roll, KINK) for roll in kinks(removal)] + [(gear.tip_roll_angle, EDGE)]
             rolls += [(gear.form_roll_angle, EDGE)] if gear.undercut else []
             self._places += [_Place(number, 0.5 * gear.base_radius * roll**2, kind) for roll, kind in rolls]

@@ -49,6 +49,7 @@ class GearStore:
         if not self._cycles:
             return self._made(model, progress, cache)
         key, of_bodies = operators_key(model), bodies_key(model)
+        of_cycle = cycle_key(model, key)
         found = self._operators.pop(key, None)
         shared = found is not None
         if found is None:
@@ -60,8 +61,8 @@ class GearStore:
         self._operators[key], self._bodies_key = found, of_bodies
         bodies, cycle = found
         cycle.kept.beside = self._taken - cycle.kept.taken
-        if cycle_key(model) != self._cycle_key:
-            self._cycle, self._cycle_key = cycle.with_gaps(gaps_of(model, cycle)) if shared else cycle, cycle_key(model)
+        if of_cycle != self._cycle_key:
+            self._cycle, self._cycle_key = cycle.with_gaps(gaps_of(model, cycle)) if shared else cycle, of_cycle
         if shared:
             bodies = tuple(replace(gear, timings={**gear.timings, **NO_TIME}) for gear in bodies)
         return bodies, self._cycle
@@ -142,9 +143,11 @@ def _divisions(model: Model, gear: int) -> tuple:
     return model.resolution.discretisation(gear), model.solid_discretisation(gear)
 
 
-def cycle_key(model: Model) -> tuple:
-    """What the contact equations of a mesh cycle depend on."""
-    return *operators_key(model), *(getattr(model.scene, section) for section in sections_of_gaps(model))
+def cycle_key(model: Model, of_operators: tuple | None = None) -> tuple:
+    """What the contact equations of a mesh cycle depend on; `of_operators`: what its operators do, where it is known
+    already."""
+    of_gaps = (getattr(model.scene, section) for section in sections_of_gaps(model))
+    return *(of_operators or operators_key(model)), *of_gaps
 
 
 def _shaping(scene: Scene) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import partial
 from typing import Any
 
@@ -59,7 +59,8 @@ def run_of(model: Model, index: int = 0, values: dict[str, str] | None = None, m
     """The run of a model, which it holds unless it can `make` it again."""
     # Root stress and gears whose settings are yet to be chosen are condensed in other ways.
     apart = model.scene.output.root_stress, model.scene.accuracy.target
-    sharing = hash((operators_key(model), apart)), hash(cycle_key(model))
+    operators = operators_key(model)
+    sharing = hash((operators, apart)), hash(cycle_key(model, operators))
     return Run(scene_key(model.scene), sharing, make or (lambda: model), index, values or {})
 
 
@@ -70,7 +71,6 @@ def _received(scene: Scene, key: str, index: int, values: dict[str, str]) -> Run
 def scene_key(scene: Scene) -> str:
     """Hash of all that a scene's result depends on: its values, however they are written, and the version of the
     program's numbers."""
-    said: dict[str, Any] = asdict(scene)
-    for words in ("title", "name", "derived", "written", "folder"):
-        del said[words]
+    words = "title", "name", "derived", "written", "folder"
+    said = {field.name: getattr(scene, field.name) for field in fields(scene) if field.name not in words}
     return content_key({"scene": said, "numbers": NUMBERS_VERSION})

@@ -164,12 +164,12 @@ class Scene:
         teeth = self.gears.pinion.teeth, self.gears.wheel.teeth
         return self.load.wheel_torque / wheel_torque(self.load.given, 1.0, teeth, self.motion.mesh_frequency)
 
-    @property
+    @cached_property
     def tooth_elasticity(self) -> tuple[Material, Material] | None:
         """What makes the flanks of pinion and wheel elastic; None for rigid ones."""
         return None if self.accuracy.model == RIGID_TEETH else self.gears.materials
 
-    @property
+    @cached_property
     def three_dimensional(self) -> bool:
         """Whether the flanks are resolved over the face: where the scene names what has no meaning in a plane."""
         leaning = self.bearings is not None and self.bearings.places is not None
@@ -185,7 +185,7 @@ class Scene:
         """How finely flanks and steps are divided by default."""
         return OVER_THE_FACE if self.three_dimensional else IN_THE_PLANE
 
-    @property
+    @cached_property
     def resolves_contact(self) -> bool:
         """Whether contact is spread over nodes of elastic flanks, so that there are pressures."""
         return self.tooth_elasticity is not None and self.accuracy.model in (None, ELASTIC)

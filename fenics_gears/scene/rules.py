@@ -183,9 +183,9 @@ def _errors_are_small(tree: Tree) -> Iterator[Problem]:
     module = quantity_at(tree, "gears", "module")
     largest = LARGEST_ERROR * (module or 0.0)
     for path, allowed, written in given(scene_text(tree), tree):
-        values = written if isinstance(written, list) else [written]
+        values = (written if isinstance(written, list) else [written]) if allowed.small else []
         size = max((abs(quantity_in(value) or 0.0) for value in values), default=0.0)
-        if allowed.small and size > largest > 0.0:
+        if size > largest > 0.0:
             message = f"is too large an error of manufacture for a module of {module:g} mm: up to {size:.4g} mm."
             yield Problem(path, as_written(written), f"{message} Allowed: up to {largest:g} mm.")
 

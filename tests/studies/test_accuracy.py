@@ -214,9 +214,16 @@ def test_the_command_prints_and_writes_table_and_picture(report, tmp_path, monke
 def test_ctrl_c_ends_it_with_nothing_written(tmp_path, monkeypatch, capsys):
     """Authority: the exit codes; 130, and no half of a comparison is kept."""
     from fenics_gears.runs import runs
+    from fenics_gears.simulation.simulate import solved
 
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(runs, "simulate", lambda scene, **options: simulate(scene, **options).assign_attrs(complete=0))
+
+    def interrupted(scene, **options):
+        result = solved(scene, **options)
+        result.attrs["complete"] = 0
+        return result
+
+    monkeypatch.setattr(runs, "solved", interrupted)
     (tmp_path / "small.toml").write_text(text_of(TEETH), encoding="utf-8")
     assert main(["accuracy", "small.toml", "--quick", "--output", "there"]) == 130
     assert "Interrupted" in capsys.readouterr().err

@@ -12,6 +12,7 @@ from fenics_gears import SceneError, model_of, scene_from_text, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.effects import SECTIONS
 from fenics_gears.runs import runs
+from fenics_gears.simulation.simulate import solved
 from fenics_gears.studies.effect_costs import measured, table
 from fenics_gears.studies.effect_costs.subsets import ALONE, BARE, LEFT_OUT, subsets_of
 
@@ -164,9 +165,9 @@ def test_a_subset_that_fails_is_a_line_with_its_reason(monkeypatch):
     def fails_with_friction(model, **options):
         if model.scene.friction is not None and model.scene.shafts is None:
             raise ComputationError("no solution at step 3\nand a history")
-        return simulate(model, **options)
+        return solved(model, **options)
 
-    monkeypatch.setattr(runs, "simulate", fails_with_friction)
+    monkeypatch.setattr(runs, "solved", fails_with_friction)
     report = measured.measure(scene_of(TEETH, "shafts", "friction"), rounds=1)
     assert {(each.name, each.reason) for each in report.skipped} == {("+ friction", "no solution at step 3")}
     assert report.row(ALONE, "shafts") is not None

@@ -14,6 +14,7 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.runs import runs
 from fenics_gears.simulation.bodies import gear_bodies
+from fenics_gears.simulation.simulate import solved
 from fenics_gears.studies.study_file import load_study
 from fenics_gears.system.progress import SilentProgress
 
@@ -137,9 +138,9 @@ def test_a_failed_case_is_a_record_and_the_others_go_on(folder, capsys, monkeypa
     def fails_once(model, **options):
         if model.scene.friction.coefficient == 0.3:
             raise ContactNotConverged([], "self-locking", time=0.1, step=3)
-        return simulate(model, **options)
+        return solved(model, **options)
 
-    monkeypatch.setattr(runs, "simulate", fails_once)
+    monkeypatch.setattr(runs, "solved", fails_once)
     study = write_study(folder, THREE)
     assert main(["study", str(study), "--output", "here"]) == 3
     assert "1 of 3 cases failed" in capsys.readouterr().err

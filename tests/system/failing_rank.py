@@ -28,7 +28,7 @@ STAGES = {
     "writing": "results:save",
     "reading a study": "studies.run_study:load_study",
     "condensing for a study": "runs.gear_store:GearStore.body",
-    "a case": "runs.runs:simulate",
+    "a case": "runs.runs:solved",
     "writing a case": "runs.folder:Folder.keep",
     "combining": "studies.run_study:save_study",
 }

@@ -204,10 +204,10 @@ def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
         ("designs", f"{len(outcome.tried)}" + (f", {failed} failed" if failed else ""), ""),
         ("runs", f"{outcome.computed} computed{rate}, {outcome.kept} kept from before", ""),
     ]
-    took, marched = outcome.of_runs
+    took, marched, numbers = outcome.of_runs
     if took:
-        words = f"{1e3 * took / outcome.computed:.3g} ms, {marched / took:.0%} of it the march"
-        rows.append(("a run", f"{words}; contact equations, extremes between steps and results the rest", ""))
+        words = f"{1e3 * took / outcome.computed:.3g} ms: march {marched / took:.0%}, extremes between steps and other"
+        rows.append(("a run", f"{words} numbers {numbers / took:.0%}, contact equations the rest", ""))
     compared = {f", {BEFORE}": outcome.before, f", {BEST}": outcome.chosen} | dict(
         zip((f" under new samples, {BEFORE}", f" under new samples, {BEST}"), outcome.fresh)
     )

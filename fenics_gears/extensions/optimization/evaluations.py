@@ -68,15 +68,16 @@ class Evaluator:
     """Evaluates designs with the processes of a `team`; runs that are in `directory` are taken from there.
 
     `designs`: how many of how many have been evaluated, for the progress; `computed`: runs that were computed here;
-    `kept`: those that were there before, beside `others` of versions with other numbers; `of_runs` (2,): seconds that
-    those computed here took, each by itself, and of these in the march.
+    `kept`: those that were there before, beside `others` of versions with other numbers; `seconds`: by the clock, with
+    the scenes and models of the runs; `of_runs` (3,): those that runs computed here took, each by itself, and of these
+    in the march and for their numbers.
     """
 
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
         self.design, self._progress = design, progress
         self.runs, self.others = Runs(Lines(directory, line_of), team), kept(directory)[1]
         self.designs, self.kept, self.computed, self.seconds = (0, 0), self.runs.kept, 0, 0.0
-        self.of_runs = np.zeros(2)
+        self.of_runs = np.zeros(3)
 
     def of_designs(self, designs: Sequence[Mapping[str, float | str]], deviations: np.ndarray) -> list[Evaluation]:
         """Designs, by the values of their variables, under deviations (samples, scatters) in parts of their limits."""
@@ -86,18 +87,20 @@ class Evaluator:
         self, trees: Sequence[Mapping[str, Any]], designs: Sequence[Mapping[str, float | str]], deviations: np.ndarray
     ) -> list[Evaluation]:
         """The same for parsed scenes; `designs` are only noted."""
+        begun = time.perf_counter()
         cases = [[self._case(each) for each in trees_of(self.design, tree, deviations)] for tree in trees]
-        self._run([case for of_tree in cases for case in of_tree if isinstance(case, Run)], len(trees))
+        self._run([case for of_tree in cases for case in of_tree if isinstance(case, Run)], len(trees), begun)
         return [self._evaluation(dict(values), of_tree, len(deviations)) for values, of_tree in zip(designs, cases)]
 
     def curves(self, trees: Sequence[Mapping[str, Any]]) -> list[np.ndarray | None]:
         """Mesh phase and transmission error (2, steps), rad, of parsed scenes; None where a run failed."""
+        begun = time.perf_counter()
         cases = [
             replace(case, key=f"{case.key} curve", values={"curve": ""})
             for case in map(self._case, trees)
             if isinstance(case, Run)
         ]
-        self._run(cases, len(trees))
+        self._run(cases, len(trees), begun)
         lines = [self.runs.known[case.key] for case in cases]
         return (
             [np.array(line["curve"]) if not isinstance(line, Failure) else None for line in lines]
@@ -126,9 +129,10 @@ class Evaluator:
             )
         ]
 
-    def _run(self, cases: list[Run], batch: int) -> None:
-        """Compute the runs of a `batch` of designs that are not kept; their processes keep them."""
-        missing, begun, known = self.runs.missing(cases), time.perf_counter(), len(self.runs.known)
+    def _run(self, cases: list[Run], batch: int, begun: float) -> None:
+        """Compute the runs of a `batch` of designs that are not kept; their processes keep them. `begun`: when their
+        scenes were, by the clock."""
+        missing, known = self.runs.missing(cases), len(self.runs.known)
         if not missing:
             return
         before, total = self.designs
@@ -190,5 +194,5 @@ def line_of(run: Run, result: RunResult) -> dict[str, Any]:
         return {"failure": worthless[0]}
     numbers = numbers_of(result)
     numbers[ERROR] *= 1e3 * result.attrs["base_radius_wheel"]
-    seconds = [result.attrs["wall_time"], result.attrs["time_march"]]
+    seconds = [result.attrs["wall_time"], result.attrs["time_march"], result.seconds]
     return {"numbers": numbers, "curve": _curve(result) if run.values else [], "seconds": seconds}

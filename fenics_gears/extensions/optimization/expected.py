@@ -19,7 +19,7 @@ from .design import Design
 MOST_HOURS = 8.0
 # Of a run beside its march: seconds, and positions whose operators extremes between steps take (measured on the paper's
 # pair and on a helical one).
-TIME_OF_A_RESULT, EXTREMES = 0.03, 22
+TIME_OF_A_RESULT, EXTREMES = 0.015, 10
 # Values of a variable at which the chosen design's goals are evaluated, over its whole range.
 VALUES = 9
 # Torques of the Harris map where the operating points have one, in parts of it.

@@ -43,7 +43,7 @@ class Outcome:
     evaluations of the chosen design at the lower limit, without scatter and at the upper limit; nothing where one
     failed. `harris`: torques (loads,), N m, and of the scene before and the chosen one curves (2, steps) of mesh phase
     and transmission error, rad. `seconds`: by the clock; `of_runs`: those of all `computed` ones together, and of these
-    in the march.
+    in the march and for their numbers.
     """
 
     design: Design
@@ -59,7 +59,7 @@ class Outcome:
     computed: int = 0
     kept: int = 0
     seconds: float = 0.0
-    of_runs: tuple[float, float] = (0.0, 0.0)
+    of_runs: tuple[float, ...] = (0.0, 0.0, 0.0)
 
     @property
     def chosen(self) -> Evaluation:
@@ -116,7 +116,7 @@ def _run(
     progress.stage("Harris map")
     outcome.harris = _harris(design, evaluator, outcome.chosen)
     outcome.computed, outcome.kept, outcome.seconds = evaluator.computed, evaluator.kept, evaluator.seconds
-    outcome.of_runs = float(evaluator.of_runs[0]), float(evaluator.of_runs[1])
+    outcome.of_runs = tuple(evaluator.of_runs.tolist())
     return outcome
 
 

@@ -27,7 +27,7 @@ from fenics_gears.runs import lines as run_lines
 from fenics_gears.runs import runs
 from fenics_gears.runs.team import Alone
 from fenics_gears.scene.read import build_scene, load_scene
-from fenics_gears.simulation.simulate import simulate
+from fenics_gears.simulation.simulate import simulate, solved
 from fenics_gears.system.progress import Interruption, SilentProgress
 
 ERROR = "peak_to_peak_transmission_error"
@@ -244,16 +244,16 @@ def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):
         relief = model.scene.tip_relief
         if relief is not None and relief.pinion.depth > 0.025:
             raise ComputationError("deep reliefs fail here")
-        return simulate(model, **arguments)
+        return solved(model, **arguments)
 
-    monkeypatch.setattr(runs, "simulate", failing)
+    monkeypatch.setattr(runs, "solved", failing)
     path = write(folder, STILL + VARIABLES + GOAL + FEW)
     outcome = found(path)
     failed = [each for each in outcome.tried if each.failure]
     assert failed and len(failed) < len(outcome.tried)
     assert all(each.failure == "deep reliefs fail here" and not each.goals for each in failed)
     assert outcome.chosen.values["tip_relief.depth"] <= 25.0 and not outcome.chosen.failure
-    monkeypatch.setattr(runs, "simulate", None)
+    monkeypatch.setattr(runs, "solved", None)
     again = found(path)
     assert again.computed == 0 and [each.failure for each in again.tried] == [each.failure for each in outcome.tried]
 
