@@ -110,6 +110,7 @@ def solve_step(
             return StepSolution(forces, coordinates, displacement, sets, spent, method)
     from fenics_gears.contact.existence import explained
 
+    _form_all(problem)
     raise explained(problem, attempts)
 
 
@@ -120,8 +121,6 @@ def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> I
     """
     newton, through, larger, smaller, from_zero, one_by_one, fixed_point = NEWTON_AND_FALLBACKS
     yield newton, lambda: run_newton(problem, status, max_iterations)
-    # The others, and what explains their failure, read the whole compliance.
-    form_rows(problem.rows, np.arange(len(problem.gap)))
     if len(problem.slip_before):
         yield through, lambda: run_newton(problem, status, max_iterations, rule=THROUGH_STICK)
         yield larger, lambda: run_newton(problem, status, max_iterations, r_scale=10.0)
@@ -132,10 +131,16 @@ def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> I
         # Imported where it is needed, which is rare.
         from fenics_gears.contact.tresca import tresca
 
+        _form_all(problem)
         yield (
             fixed_point,
             lambda: tresca(problem, status, lambda sets: run_newton(problem, sets, max_iterations, rule=THROUGH_STICK)),
         )
+
+
+def _form_all(problem: StepProblem) -> None:
+    """Form the whole compliance, which other methods than Newton's read, and what explains their failure."""
+    form_rows(problem.rows, np.arange(len(problem.gap)))
 
 
 def run_newton(
