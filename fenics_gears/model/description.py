@@ -90,7 +90,7 @@ def _model_rows(model: Model) -> Rows:
         ),
         ("contact nodes of a tooth pair", f"{grid.nodes},", touching)
         if model.face.slices == 1
-        else ("slices of the face", f"{model.face.evenly}{cut},", f"contact nodes in each, {touching}"),
+        else ("slices of the face", f"{model.face.evenly}{cut};", f"their contact nodes: {touching}"),
         ("equations in time", _method(model), ""),
         *(
             []

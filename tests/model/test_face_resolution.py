@@ -159,7 +159,7 @@ def test_check_prints_slices_layers_and_motions():
     scene = helical_scene(BEARINGS, accuracy="slices = 12\nlayers = 6")
     wider = replace(scene, gears=replace(scene.gears, pinion=replace(scene.gears.pinion, face_width=32.0)))
     rows = {label: " ".join((str(value), words)) for label, value, words in dict(describe(wider))["Model"]}
-    assert rows["slices of the face"].startswith("12, the outermost cut in two,")
+    assert rows["slices of the face"].startswith("12, the outermost cut in two;")
     assert rows["layers of the bodies"] == "pinion 8, wheel 6, 6 of them on the common face"
     motions = rows["motions of the gears that are unknown"]
     assert motions.startswith("11:") and "_" not in motions and "pinion tilt about x" in motions
