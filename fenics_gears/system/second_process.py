@@ -104,5 +104,6 @@ def serve() -> None:
         outcome = error if isinstance(error, GearsError) else ComputationError(f"{type(error).__name__}: {error}")
     pickle.dump((failed, outcome), answers, protocol=pickle.HIGHEST_PROTOCOL)
     answers.close()
+    sys.stdout.flush()
     # MPI and PETSc have nothing to put away; taking all libraries apart would take 0.4 s.
     os._exit(0)
