@@ -8,7 +8,7 @@ from tests.programs import CHECKOUT, ended
 # Contact and march in the plane and over the face, with friction, coast flanks and rigid flanks.
 PARTS = (
     "contact/test_coast_flanks_over_the_face.py", "contact/test_formed_rows.py", "contact/test_interpolation.py",
-    "contact/test_mesh_stiffness.py", "contact/test_newton.py", "contact/test_operator.py",
+    "contact/test_newton.py", "contact/test_operator.py", "results/test_mesh_stiffness.py",
     "dynamics/test_compiled_march.py", "hard_cases/test_over_the_face_any_scene.py",
 )  # fmt: skip
 
