@@ -23,6 +23,8 @@ Task = Callable[..., Any]
 Finished = Callable[[int, Any], None]
 """Called by rank 0's main thread with a task's index and its outcome, or the exception that ended it."""
 
+# Tasks for each process from which on rank 0 first does something else: of fewer the others would leave it none.
+MANY = 4
 Meanwhile = Callable[[], object]
 """What rank 0 does for the end of a job when the other ranks first have enough to compute, such as loading a library:
 the end, where they wait, is that much shorter."""
@@ -69,7 +71,7 @@ class Together:
             tick()
 
         try:
-            if left > self.size and self._meanwhile is not None:
+            if left >= MANY * self.size and self._meanwhile is not None:
                 self._meanwhile()
                 self._meanwhile = None
             for index in reversed(range(len(tasks))):

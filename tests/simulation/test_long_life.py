@@ -14,7 +14,8 @@ from fenics_gears import Load, simulate
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.effects.corner_contact import CornerContact
 
-# Bytes beside what is held after the first pair (30 pairs in the plane: 12e6); when operators stayed, five pairs took half a gigabyte more.
+# Bytes beside what is held after the first pair (30 pairs in the plane: 12e6). When operators stayed, five pairs took
+# half a gigabyte more.
 MOST_MORE = 60e6
 
 

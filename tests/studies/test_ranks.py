@@ -30,12 +30,12 @@ def test_a_study_of_more_ranks_than_cases_gives_what_it_gives_alone(folder, undr
 
 
 def test_what_the_end_needs_is_made_while_others_compute():
-    """Order of events: a worker computes while rank 0 makes it, once for a job, and not where it has its own task to
-    do at once."""
+    """Order of events: a worker computes while rank 0 makes it, once for a job, and not where there
+    are few tasks."""
     begun, made = Event(), []
     with ThreadPoolExecutor(1) as executor:
         team = Together(executor, 2, lambda: made.append(begun.wait(timeout=60)))
-        for count, times in ((2, 0), (3, 1), (3, 1)):
+        for count, times in ((7, 0), (8, 1), (8, 1)):
             found = {}
             team.run(lambda task, tick=None: begun.set() or task, range(count), found.__setitem__, lambda: None)
             assert found == {task: task for task in range(count)}
