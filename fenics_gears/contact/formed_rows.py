@@ -11,13 +11,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numba import carray, cfunc, njit
 
 from fenics_gears.contact.addresses import call, to_flag, to_integer, to_number
 from fenics_gears.system.memory import pages
+
+if TYPE_CHECKING:
+    from fenics_gears.contact.factored_sets import Factors
 
 # Of a group: its first node, its slice, the place of that node among those in the slice, and how many these are.
 BEGIN, SLICE, IN_SLICE, OF_SLICE = range(4)
@@ -64,7 +67,8 @@ class _Source(NamedTuple):
 
 
 # In compiled code it is a table of its arrays, and of the flags that say which rows are formed: address and shape of
-# each; then the address of the function that forms rows.
+# each; then the addresses of the function that forms rows, of the one that solves the mixed form with Factors, and of
+# these; the last two are 0 with friction.
 ARRAYS = 21
 
 
@@ -74,7 +78,7 @@ class FormedRows:
     give in each slice, and of the fine sections there.
 
     `matrix`: zero where it is not yet `formed` (n,); by columns where asked for. `table` and `arrays`: what rows are
-    formed of.
+    formed of. `factors`: of sets of closed nodes, without friction.
     """
 
     matrix: np.ndarray
@@ -82,6 +86,7 @@ class FormedRows:
     by_columns: bool
     table: np.ndarray
     arrays: list[np.ndarray]
+    factors: Factors | None = None
 
     @classmethod
     def of(
@@ -104,7 +109,13 @@ class FormedRows:
         for row, array in zip(table, arrays):
             row[0], row[1 : 1 + array.ndim] = array.ctypes.data, array.shape
         table[ARRAYS, 0] = row_former().address
-        return cls(matrix, formed, by_columns, table, arrays)
+        factors = None
+        if rows is columns and n == len(rows.group):
+            from fenics_gears.contact.factored_sets import Factors, sets_solver
+
+            factors = Factors(n)
+            table[ARRAYS, 1:3] = sets_solver().address, factors.table.ctypes.data
+        return cls(matrix, formed, by_columns, table, arrays, factors)
 
     @property
     def address(self) -> int:
@@ -126,6 +137,13 @@ def form_rows(address, nodes):
     function = carray(to_integer(address), (ARRAYS + 1, 6))[ARRAYS, 0]
     if not call(function, (address, nodes.ctypes.data, len(nodes))):
         raise MemoryError("no room for rows of the compliance between contact nodes")
+
+
+@njit(cache=True)
+def solver_of(address):
+    """Addresses of what solves the mixed form with Factors, and of these, of a FormedRows; 0 where there is none."""
+    table = carray(to_integer(address), (ARRAYS + 1, 6))
+    return table[ARRAYS, 1], table[ARRAYS, 2]
 
 
 @cache

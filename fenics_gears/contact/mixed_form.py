@@ -19,8 +19,8 @@ import numpy as np
 from llvmlite.binding import add_symbol
 from numba import carray, cfunc, njit, types
 
-from fenics_gears.contact.addresses import not_inlined, to_number
-from fenics_gears.contact.formed_rows import form_rows
+from fenics_gears.contact.addresses import call, not_inlined, to_number
+from fenics_gears.contact.formed_rows import form_rows, solver_of
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 
 # Unknowns up to which elimination in compiled code is faster than LAPACK.
@@ -50,13 +50,6 @@ class Equations(NamedTuple):
     friction: float
     free_motion: np.ndarray
     rows: int = 0
-
-
-@njit(cache=True)
-def equations_of(parts):
-    """Equations from plain tuples of them: (K, F, free motion), (C, G, gap, w_old), (friction, address of rows)."""
-    (stiffness, load, free_motion), (compliance, jacobian, gap, slip_before), (friction, rows) = parts
-    return Equations(stiffness, load, compliance, jacobian, gap, slip_before, friction, free_motion, rows)
 
 
 class Iterate(NamedTuple):
@@ -98,6 +91,8 @@ def solve_sets(equations, iterate):
             closed += 1
     if unformed != 0:
         form_rows(unformed, rows[:closed])
+        if closed > SMALL_SYSTEM and solve_factored(equations, iterate, rows[:closed]):
+            return
     size = closed
     if tangential:
         for b in range(closed):
@@ -136,6 +131,25 @@ def solve_sets(equations, iterate):
             if factors[b] != 0.0:
                 forces[n + rows[b]] = factors[b] * forces[rows[b]]
     coordinates[:] = solution[size:]
+
+
+@njit(cache=True)
+def solve_factored(equations, iterate, closed):
+    """As `solve_sets` for the `closed` nodes, where the contact has what solves that with factors of earlier sets
+    (`contact.factored_sets`); returns whether it has and did."""
+    solver, factors = solver_of(equations.rows)
+    if solver == 0:
+        return False
+    # Of one kind of integers: numpy makes floats of both kinds together.
+    arrays = np.empty(12, dtype=np.int64)
+    arrays[0], arrays[1], arrays[2], arrays[3] = factors, len(equations.gap), len(equations.load), len(closed)
+    arrays[4], arrays[5] = closed.ctypes.data, equations.compliance.ctypes.data
+    arrays[6], arrays[7] = equations.jacobian.ctypes.data, equations.gap.ctypes.data
+    arrays[8], arrays[9] = equations.stiffness.ctypes.data, equations.load.ctypes.data
+    arrays[10], arrays[11] = iterate.forces.ctypes.data, iterate.coordinates.ctypes.data
+    done = call(solver, (arrays.ctypes.data,))
+    # Named once more, for compiled code gives back an array as soon as nothing names it.
+    return done == 1 and len(arrays) > 0
 
 
 @njit(cache=True)
@@ -239,11 +253,16 @@ def relative_displacement(equations, iterate, first, end):
     for i in range(first, end):
         displacement[i] = product(jacobian[i], coordinates)
     for j in range(len(forces)):
-        force = forces[j]
-        if force != 0.0:
-            row = compliance[j]
-            for i in range(first, end):
-                displacement[i] -= row[i] * force
+        if forces[j] != 0.0:
+            subtract_row(displacement, compliance[j], forces[j], first, end)
+
+
+@njit(cache=True)
+def subtract_row(total, row, factor, first, end):
+    """Subtract from the numbers `first` to `end` the factor times those of a row."""
+    # Unsigned places need no look for a negative index: so they are compiled for several numbers at a time.
+    for i in range(np.uint64(first), np.uint64(end)):
+        total[i] -= row[i] * factor
 
 
 @njit(cache=True, inline="always")

@@ -9,11 +9,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
+from numba import carray, njit
 
-from fenics_gears.contact.addresses import not_inlined
+from fenics_gears.contact.addresses import not_inlined, to_number, to_set
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, STICK, next_status, presses
-from fenics_gears.contact.mixed_form import Iterate, equations_of, product, relative_displacement, solve_sets
+from fenics_gears.contact.mixed_form import Equations, Iterate, product, relative_displacement, solve_sets
 
 CONVERGED, CYCLED, SINGULAR = 0, 1, 2
 OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}
@@ -198,11 +198,9 @@ def newton(equations, iterate, method, history, sets):
     """Active-set Newton from the sets of an `iterate`, which becomes the solution; its displacement is zero at first.
 
     `history` (iterations, 5) and `sets` (iterations, n) are filled with residuals and sets. Returns (outcome,
-    iterations). The first three are plain tuples of four at most, `equations` three of them: through records and longer
-    ones numba looks at each call from Python, which takes as long as a step.
+    iterations).
     """
     not_inlined()
-    equations, iterate, method = equations_of(equations), Iterate(*iterate), Method(*method)
     status, displacement = iterate.status, iterate.displacement
     n, m = len(equations.gap), len(equations.compliance)
     outcome, iteration, limit, new = CYCLED, 0, len(history), np.empty_like(status)
@@ -232,3 +230,32 @@ def newton(equations, iterate, method, history, sets):
         status[:] = new
     relative_displacement(equations, iterate, n, m)
     return outcome, iteration
+
+
+@njit(cache=True)
+def newton_at(numbers, method):
+    """As `newton`, from arrays given by their addresses: to find the types of many arrays takes numba longer than a
+    small step.
+
+    `numbers`: how many nodes, rows, coordinates, components of the free motion and slips there are, and most
+    iterations; the address of what forms rows; the rule; then addresses, of the arrays of Equations but `friction`, of
+    Iterate, `history` and `sets`. `method` (4,): friction, and the Method's numbers but the rule.
+    """
+    n, m, k, free, slips, most, rows, rule = numbers[:8]
+    at = numbers[8:]
+    equations = Equations(
+        carray(to_number(at[0]), (k, k)),
+        carray(to_number(at[1]), k),
+        carray(to_number(at[3]), (m, m)),
+        carray(to_number(at[4]), (m, k)),
+        carray(to_number(at[5]), n),
+        carray(to_number(at[6]), slips),
+        method[0],
+        carray(to_number(at[2]), free),
+        rows,
+    )
+    iterate = Iterate(
+        carray(to_set(at[7]), n), carray(to_number(at[8]), m), carray(to_number(at[9]), k), carray(to_number(at[10]), m)
+    )
+    history, sets = carray(to_number(at[11]), (most, 5)), carray(to_set(at[12]), (most, n))
+    return newton(equations, iterate, Method(method[1], rule, method[2], method[3]), history, sets)

@@ -20,7 +20,7 @@ from fenics_gears.contact.newton import (
     SINGULAR,
     THROUGH_STICK,
     measure,
-    newton,
+    newton_at,
 )
 
 NEWTON = "newton"
@@ -157,14 +157,18 @@ def run_newton(
     sets = np.full((max_iterations, len(problem.gap)), -1, dtype=np.int8)
     tolerance, m = problem.tolerance, len(problem.compliance)
     iterate = Iterate(status.copy(), np.zeros(m), np.zeros(len(problem.load)), np.zeros(m))
+    friction = problem.friction if friction is None else friction
+    arrays = (
+        problem.stiffness, problem.load, problem.free_motion, problem.compliance, problem.jacobian, problem.gap,
+        problem.slip_before, *iterate, history, sets,
+    )  # fmt: skip
+    held = [np.ascontiguousarray(array) for array in arrays]
+    numbers = np.array(
+        [len(problem.gap), m, len(problem.load), len(problem.free_motion), len(problem.slip_before), max_iterations,
+         problem.rows, rule, *(array.ctypes.data for array in held)]
+    )  # fmt: skip
     try:
-        equations = (
-            (problem.stiffness, problem.load, problem.free_motion),
-            (problem.compliance, problem.jacobian, problem.gap, problem.slip_before),
-            (problem.friction if friction is None else friction, problem.rows),
-        )
-        method = r_scale, rule, tolerance.length, tolerance.force
-        outcome, done = newton(equations, tuple(iterate), method, history, sets)
+        outcome, done = newton_at(numbers, np.array([friction, r_scale, tolerance.length, tolerance.force]))
     except np.linalg.LinAlgError:
         outcome, done = SINGULAR, int(np.sum(np.any(sets >= 0, axis=1)))
     result = outcome, done, iterate.forces, iterate.coordinates, iterate.displacement, iterate.status

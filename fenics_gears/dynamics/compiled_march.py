@@ -14,7 +14,7 @@ from numba import njit
 from fenics_gears.contact.addresses import arrays_of, not_inlined
 from fenics_gears.contact.formed_rows import form_rows
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.mixed_form import Iterate, equations_of, product
+from fenics_gears.contact.mixed_form import Equations, Iterate, product, subtract_row
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton
 from fenics_gears.contact.rigid_step import Sides, rigid_step
 from fenics_gears.dynamics.average_acceleration import advanced as advanced_by_average
@@ -115,7 +115,7 @@ def _solve_steps(done, end, block, packed, durations, loads, cycle_before, at_re
     effective, k, duration = motion.stiffness, len(motion.stiffness), -1.0
     history = np.zeros((3, k, k))
     # A number that is written out has `newton` compiled once more.
-    method = 1.0, np.int64(ALL_AT_ONCE), motion.length_tolerance, motion.force_tolerance
+    method = Method(1.0, np.int64(ALL_AT_ONCE), motion.length_tolerance, motion.force_tolerance)
     residuals, most = np.empty((MOST_ITERATIONS, 5)), np.diff(starts).max()
     all_sets, coordinates = np.empty(MOST_ITERATIONS * most, dtype=np.int8), np.empty(k)
     for s in range(done[0], end):
@@ -137,17 +137,15 @@ def _solve_steps(done, end, block, packed, durations, loads, cycle_before, at_re
                 contact.rigid_slip, contact.previous_jacobian, contact.previous_columns, contact.rows_before,
                 states[s - 1, 0], forces_before,
             )  # fmt: skip
-        equations = (
-            (effective, load, _turned(motion.free_motion, outer)),
-            (contact.compliance, contact.jacobian, contact.gap, slip_before), (motion.friction, contact.rows),
+        equations = Equations(
+            effective, load, contact.compliance, contact.jacobian, contact.gap, slip_before, motion.friction,
+            _turned(motion.free_motion, outer), contact.rows,
         )  # fmt: skip
         both = slice(kinds * starts[s], kinds * starts[s + 1])
-        iterate = (nodes, steps.forces[both], coordinates, steps.displacement[both])
+        iterate = Iterate(nodes, steps.forces[both], coordinates, steps.displacement[both])
         if motion.rigid:
             sides = Sides(contact.on_drive_flanks, contact.node_pair, contact.sliding)
-            outcome, steps.iterations[s] = rigid_step(
-                equations_of(equations), sides, Iterate(*iterate), Method(*method)
-            )
+            outcome, steps.iterations[s] = rigid_step(equations, sides, iterate, method)
         else:
             sets = all_sets[: MOST_ITERATIONS * n].reshape(MOST_ITERATIONS, n)
             outcome, steps.iterations[s] = newton(equations, iterate, method, residuals, sets)
@@ -210,11 +208,8 @@ def slip_at_start(rigid_slip, previous_jacobian, columns, rows_before, position,
     if rows_before != 0:
         form_rows(rows_before, np.flatnonzero(forces[: len(forces) // 2]))
     for loaded in range(len(forces)):
-        force = forces[loaded]
-        if force != 0.0:
-            column = columns[loaded]
-            for node in range(len(displaced)):
-                displaced[node] -= column[node] * force
+        if forces[loaded] != 0.0:
+            subtract_row(displaced, columns[loaded], forces[loaded], np.int64(0), len(displaced))
     for node in range(len(displaced)):
         displaced[node] = rigid_slip[node] - displaced[node]
     return displaced

@@ -20,7 +20,7 @@ import numpy as np
 from numba import njit
 
 from fenics_gears.contact.laws import NO_FORCE, OPEN
-from fenics_gears.contact.mixed_form import product, solved, system_of
+from fenics_gears.contact.mixed_form import Equations, Iterate, product, solve_factored, solved, system_of
 from fenics_gears.dynamics.steps import Steps, forces_at, in_block, nodes_at, operator_at
 from fenics_gears.model.model import Model
 from fenics_gears.model.modification import kinks
@@ -58,7 +58,7 @@ def mesh_stiffness(contact, status, forces, coordinates):
     deflection = _highest(overlap, node_pair)
     # Of a gear so heavy that it does not move, the deflection is below the last digit of its rotation.
     secant = force / deflection if deflection > 0.0 else np.nan
-    return np.array([secant, _tangent(contact.compliance, closed[:count]), pairs])
+    return np.array([secant, _tangent(contact, closed[:count]), pairs])
 
 
 @njit(cache=True)
@@ -79,8 +79,18 @@ def _highest(overlap, node_pair):
 
 
 @njit(cache=True)
-def _tangent(compliance, nodes):
-    """Force (N) on some nodes of a compliance (m, m), mm/N, when all of them approach by 1 mm."""
+def _tangent(contact, nodes):
+    """Force (N) on some nodes of a contact when all of them approach by 1 mm."""
+    compliance, n = contact.compliance, len(contact.gap)
+    if contact.rows != 0 and len(compliance) == n:
+        # With all gaps closed by 1 mm and coordinates that move nothing; what was factored for the step serves.
+        still, nothing = np.eye(1), np.empty(0)
+        equations = Equations(
+            still, np.zeros(1), compliance, np.zeros((n, 1)), np.full(n, -1.0), nothing, 0.0, nothing, contact.rows
+        )
+        iterate = Iterate(np.empty(0, dtype=np.int8), np.zeros(n), np.zeros(1), nothing)
+        if solve_factored(equations, iterate, nodes):
+            return iterate.forces.sum()
     matrix = system_of(len(nodes))
     for i in range(len(nodes)):
         for j in range(len(nodes)):
