@@ -20,7 +20,7 @@ from fenics_gears.contact.addresses import call, to_flag, to_integer, to_number
 from fenics_gears.system.memory import pages
 
 if TYPE_CHECKING:
-    from fenics_gears.contact.factored_sets import Factors
+    from fenics_gears.contact.factored_compliance import Factors
 
 # Of a group: its first node, its slice, the place of that node among those in the slice, and how many these are.
 BEGIN, SLICE, IN_SLICE, OF_SLICE = range(4)
@@ -78,7 +78,7 @@ class FormedRows:
     give in each slice, and of the fine sections there.
 
     `matrix`: zero where it is not yet `formed` (n,); by columns where asked for. `table` and `arrays`: what rows are
-    formed of. `factors`: of sets of closed nodes, without friction.
+    formed of. `factors`: of closed nodes, without friction.
     """
 
     matrix: np.ndarray
@@ -111,10 +111,10 @@ class FormedRows:
         table[ARRAYS, 0] = row_former().address
         factors = None
         if rows is columns and n == len(rows.group):
-            from fenics_gears.contact.factored_sets import Factors, sets_solver
+            from fenics_gears.contact.factored_compliance import Factors, factored_solver
 
             factors = Factors(n)
-            table[ARRAYS, 1:3] = sets_solver().address, factors.table.ctypes.data
+            table[ARRAYS, 1:3] = factored_solver().address, factors.table.ctypes.data
         return cls(matrix, formed, by_columns, table, arrays, factors)
 
     @property

@@ -71,6 +71,21 @@ def _slip_factor(status, friction):
     return 0.0
 
 
+@njit(cache=True)
+def _put_entries(entries, values, places, scale):
+    """Put the values at some places, times the scale."""
+    # A function of its own, and unsigned places: so no entry is looked at for a negative index.
+    for b in range(np.uint64(len(places))):
+        entries[b] = scale * values[np.uint64(places[b])]
+
+
+@njit(cache=True)
+def _add_slip(entries, values, places, factors, scale):
+    """Add what tangential forces give that are these factors of the normal ones."""
+    for b in range(np.uint64(len(places))):
+        entries[b] += scale * factors[b] * values[np.uint64(places[b])]
+
+
 @njit(cache=True, error_model="numpy")
 def solve_sets(equations, iterate):
     """Solve the linear system of the sets of an iterate for its forces and coordinates, in place.
@@ -102,13 +117,12 @@ def solve_sets(equations, iterate):
     # Forces are carried as lengths, `unit` N each, so that all entries are of the size of a stiffness.
     unit = 1.0 / compliance[0, 0] if len(compliance) else 1.0
     matrix, right_side = system_of(size + k), np.empty(size + k)
+    scale = -unit * unit
     for a in range(size):
         row = rows[a]
-        for b in range(size):
-            value = compliance[row, rows[b]]
-            if tangential and b < closed:
-                value += factors[b] * compliance[row, n + rows[b]]
-            matrix[a, b] = -value * unit * unit
+        _put_entries(matrix[a], compliance[row], rows[:size], scale)
+        if tangential:
+            _add_slip(matrix[a], compliance[row, n:], rows[:closed], factors, scale)
         for c in range(k):
             matrix[a, size + c] = jacobian[row, c] * unit
         right_side[a] = (gap[row] if row < n else -slip_before[row - n]) * unit
@@ -135,8 +149,8 @@ def solve_sets(equations, iterate):
 
 @njit(cache=True)
 def solve_factored(equations, iterate, closed):
-    """As `solve_sets` for the `closed` nodes, where the contact has what solves that with factors of earlier sets
-    (`contact.factored_sets`); returns whether it has and did."""
+    """As `solve_sets` for the `closed` nodes without friction, where the contact has room for their factors
+    (`contact.factored_compliance`); returns whether it has and did."""
     solver, factors = solver_of(equations.rows)
     if solver == 0:
         return False
