@@ -1,10 +1,13 @@
-"""The mixed form over a face without friction, by Cholesky's factors of the compliance C between closed nodes:
+"""The mixed form over a face, by factors of the compliance between closed nodes that last from run to run.
 
-    G q - C p   = g,    K q + G^T p = F    give    (K + G^T C^-1 G) q = F + G^T C^-1 g,    p = C^-1 (G q - g)
+With C the compliance of the unknown forces p, which with friction includes what slipping nodes add, and G~ the jacobian
+of these forces,
 
-A position's factors last until other nodes are closed. Runs of a search begin with the nodes that the run before
-closed, so that their first iteration finds its factors; and what they give is the same to the last digit whatever came
-before.
+    G q - C p = g,    K q + G~^T p = F    give    (K + G~^T C^-1 G) q = F + G~^T C^-1 g,    p = C^-1 (G q - g)
+
+Factors are Cholesky's without friction, else those of elimination with pivots. A position's last until its sets change.
+The march finds there those of the mesh cycle before; a run of a search, those of the run before. What they give is the
+same to the last digit whatever came before.
 """
 
 from __future__ import annotations
@@ -17,43 +20,56 @@ from numba import carray, cfunc, njit
 from numba.extending import get_cython_function_address
 
 from fenics_gears.contact.addresses import call, to_integer, to_number
+from fenics_gears.contact.mixed_form import add_slip, put_entries
 from fenics_gears.system.memory import pages
 
-# Of the largest pivot: a compliance with smaller ones is left to elimination with a search for pivots.
+# Of the largest pivot: a compliance with smaller ones is left to elimination that looks for pivots in all unknowns.
 LEAST_PIVOT = 1e-6
-# What LAPACK is told: the factor stands left of the right sides and is a lower one, as it is or transposed; its
-# diagonal is not of ones. And bytes of its integers.
-LEFT, LOWER, PLAIN, TRANSPOSED = (ord(letter) for letter in "LLNT")
+# What LAPACK is told; and bytes of its integers.
+LOWER, TRANSPOSED = ord("L"), ord("T")
 INT = 4
+# Addresses in the table of Factors: of room, of what is factored, of pivots, and of LAPACK's functions.
+ROOM, KNOWN, PIVOTS, POTRF, POTRS, GETRF, GETRS = range(7)
 
 
 class Factors:
-    """Room for the factors between some of n nodes, which takes memory as far as it is used; `table` is for compiled
-    code: addresses of the room, of how many nodes are factored and which, and of BLAS' dtrsm and LAPACK's dpotrf."""
+    """Room for factors between some of m forces, which takes memory as far as it is used; `table` is for compiled
+    code."""
 
-    def __init__(self, nodes: int):
-        self._arrays = pages(nodes, nodes), np.zeros(nodes + 1, dtype=np.int64)
-        self.table = np.array([*(array.ctypes.data for array in self._arrays), *_library()])
+    def __init__(self, forces: int):
+        self._arrays = pages(forces, forces), np.zeros(2 * forces + 1), np.zeros(forces, dtype=np.int32)
+        self.table = np.array([*(array.ctypes.data for array in self._arrays), *_lapack()])
 
 
 @cache
-def _library() -> tuple[int, int]:
-    # Numpy in compiled code has neither of them by itself.
-    blas, lapack = "scipy.linalg.cython_blas", "scipy.linalg.cython_lapack"
-    return get_cython_function_address(blas, "dtrsm"), get_cython_function_address(lapack, "dpotrf")
+def _lapack() -> list[int]:
+    # Numpy in compiled code has no functions that solve with factors.
+    module = "scipy.linalg.cython_lapack"
+    return [get_cython_function_address(module, name) for name in ("dpotrf", "dpotrs", "dgetrf", "dgetrs")]
 
 
-class _Problem(NamedTuple):
-    """Arrays of the mixed form, and its `closed` nodes (a,); forces are in units of `unit` N per mm, so that entries
-    of the compliance are near one."""
+class _System(NamedTuple):
+    """The mixed form, m forces of n nodes: `rows` (a,) of the unknown forces, `slip` (b,) tangential forces per normal
+    one of the first b of them, none without friction; right side `opening` (a,), mm. Forces are in units of `unit`
+    N/mm, so that entries of the compliance are near one."""
 
     compliance: np.ndarray
     jacobian: np.ndarray
-    gap: np.ndarray
     stiffness: np.ndarray
     load: np.ndarray
-    closed: np.ndarray
+    rows: np.ndarray
+    slip: np.ndarray
+    opening: np.ndarray
     unit: float
+
+
+class _Factored(NamedTuple):
+    """Factors: `matrix` (a, a), by columns as LAPACK reads them, of the transposed compliance; whose they are
+    (`known`); and the `table` of Factors."""
+
+    matrix: np.ndarray
+    known: np.ndarray
+    table: np.ndarray
 
 
 @cache
@@ -64,96 +80,122 @@ def factored_solver():
 
 
 def _solve(address):
-    """Returns 1, or 0 where the compliance is not safely positive or the drivetrain is loose."""
-    at = carray(to_integer(address), 12)
-    n, k, size, table = at[1], at[2], at[3], carray(to_integer(at[0]), 4)
-    compliance = carray(to_number(at[5]), (n, n))
-    problem = _Problem(
+    """Returns 1, or 0 where the compliance is not safely regular or the drivetrain is loose."""
+    at = carray(to_integer(address), 13)
+    m, k, size, slipping, table = at[1], at[2], at[3], at[4], carray(to_integer(at[0]), 7)
+    compliance = carray(to_number(at[5]), (m, m))
+    system = _System(
         compliance,
-        carray(to_number(at[6]), (n, k)),
-        carray(to_number(at[7]), n),
-        carray(to_number(at[8]), (k, k)),
-        carray(to_number(at[9]), k),
-        carray(to_integer(at[4]), size),
+        carray(to_number(at[6]), (m, k)),
+        carray(to_number(at[7]), (k, k)),
+        carray(to_number(at[8]), k),
+        carray(to_integer(at[9]), size),
+        carray(to_number(at[10]), slipping),
+        carray(to_number(at[11]), size),
         1.0 / compliance[0, 0],
     )
-    room, nodes = carray(to_number(table[0]), n * n), carray(to_integer(table[1]), n + 1)
-    columns = room[: size * size].reshape(size, size)
-    if not _are_factored(nodes, problem.closed) and not _factor(problem, columns, nodes, table[3]):
+    factored = _Factored(
+        carray(to_number(table[ROOM]), (size, size)), carray(to_number(table[KNOWN]), 2 * m + 1), table
+    )
+    if not _are_known(factored.known, system) and not _factor(factored, system):
         return 0
-    # Right sides G and g.
-    sides = np.empty((k + 1, size))
-    for a in range(size):
-        node = problem.closed[a]
-        for c in range(k):
-            sides[c, a] = problem.jacobian[node, c]
-        sides[k, a] = problem.gap[node]
-    _put_solution(table[2], columns, sides, PLAIN)
-    products = np.dot(sides, sides.T)
-    try:
-        position = np.linalg.solve(
-            problem.stiffness / problem.unit + products[:k, :k], problem.load / problem.unit + products[:k, k]
-        )
-    except Exception:
-        # Singular; compiled code tells no kinds of errors apart.
-        return 0
-    found = (np.dot(position, sides[:k]) - sides[k]).reshape(1, size)
-    _put_solution(table[2], columns, found, TRANSPOSED)
-    forces, coordinates = carray(to_number(at[10]), n), carray(to_number(at[11]), k)
-    forces[:], coordinates[:] = 0.0, position
-    for a in range(size):
-        forces[problem.closed[a]] = problem.unit * found[0, a]
-    return 1
+    return _solve_with(factored, system, carray(to_number(at[12]), m + k))
 
 
 @njit(cache=True)
-def _are_factored(nodes, closed):
-    if nodes[0] != len(closed):
+def _are_known(known, system):
+    size, slip = len(system.rows), system.slip
+    if known[0] != size:
         return False
-    for a in range(len(closed)):
-        if nodes[a + 1] != closed[a]:
+    for a in range(size):
+        if known[1 + a] != system.rows[a]:
+            return False
+    for b in range(len(slip)):
+        if known[1 + size + b] != slip[b]:
             return False
     return True
 
 
 @njit(cache=True)
-def _factor(problem, columns, nodes, cholesky):
-    """Put Cholesky's factor L of the compliance between the closed nodes into `columns`, whose row j is column j of L,
-    by dpotrf, whose address is `cholesky`; returns whether it is safely positive."""
-    closed, size, least, largest = problem.closed, len(problem.closed), np.inf, 0.0
+def _factor(factored, system):
+    """Put the factors of a system into place; returns whether they are safely regular."""
+    compliance, slip, rows, size = system.compliance, system.slip, system.rows, len(system.rows)
+    matrix, n = factored.matrix, len(compliance) // 2
     for a in range(size):
-        _put_entries(columns[a], problem.compliance[closed[a]], closed, a, problem.unit)
-    nodes[0] = 0
-    # A letter is the first byte of its number.
-    numbers = np.array([LOWER, size, 0], dtype=np.int32)
-    at = np.int64(numbers.ctypes.data)
-    call(cholesky, (at, at + INT, columns.ctypes.data, at + INT, at + 2 * INT))
-    for j in range(size):
-        least, largest = min(least, columns[j, j]), max(largest, columns[j, j])
-    # Not positive where nodes depend on each other.
-    if numbers[2] != 0 or least**2 < LEAST_PIVOT * largest**2:
+        row = compliance[rows[a]]
+        put_entries(matrix[a], row, rows, np.int64(0) if len(slip) else a, system.unit)
+        if len(slip):
+            add_slip(matrix[a], row[n:], rows, slip, system.unit)
+    factored.known[0] = 0.0
+    if not (_lower_upper(factored) if len(slip) else _cholesky(factored)):
         return False
-    nodes[0], nodes[1 : size + 1] = size, closed
+    factored.known[0], factored.known[1 : size + 1] = size, rows
+    factored.known[size + 1 : size + 1 + len(slip)] = slip
     return True
 
 
 @njit(cache=True)
-def _put_entries(entries, values, places, first, unit):
-    """Put the values at the places from the `first` on, times the unit."""
-    # A function of its own, and unsigned places: so no entry is looked at for a negative index.
-    for b in range(np.uint64(first), np.uint64(len(places))):
-        entries[b] = unit * values[np.uint64(places[b])]
+def _cholesky(factored):
+    matrix, least, largest = factored.matrix, np.inf, 0.0
+    # A letter is the first byte of its number.
+    numbers = np.array([LOWER, len(matrix), 0], dtype=np.int32)
+    at = np.int64(numbers.ctypes.data)
+    call(factored.table[POTRF], (at, at + INT, matrix.ctypes.data, at + INT, at + 2 * INT))
+    for j in range(len(matrix)):
+        least, largest = min(least, matrix[j, j]), max(largest, matrix[j, j])
+    # Not positive where nodes depend on each other.
+    return numbers[2] == 0 and least**2 >= LEAST_PIVOT * largest**2
 
 
 @njit(cache=True)
-def _put_solution(triangular, columns, sides, kind):
-    """Put L^-1 b, or L^-T b if the `kind` is TRANSPOSED, of right sides b (s, a) in their place, by dtrsm, whose
-    address is `triangular`."""
-    # By columns as BLAS reads them: a right side is a column. A letter is the first byte of its number.
-    numbers, one = np.array([LEFT, LOWER, kind, PLAIN, len(columns), len(sides)], dtype=np.int32), np.ones(1)
-    at, scale = np.int64(numbers.ctypes.data), np.int64(one.ctypes.data)
-    rows, count = at + 4 * INT, at + 5 * INT
-    matrix, result = columns.ctypes.data, sides.ctypes.data
-    call(triangular, (at, at + INT, at + 2 * INT, at + 3 * INT, rows, count, scale, matrix, rows, result, rows))
+def _lower_upper(factored):
+    matrix, least, largest = factored.matrix, np.inf, 0.0
+    numbers = np.array([len(matrix), 0], dtype=np.int32)
+    at = np.int64(numbers.ctypes.data)
+    call(factored.table[GETRF], (at, at, matrix.ctypes.data, at, factored.table[PIVOTS], at + INT))
+    for j in range(len(matrix)):
+        least, largest = min(least, abs(matrix[j, j])), max(largest, abs(matrix[j, j]))
+    return numbers[1] == 0 and least >= LEAST_PIVOT * largest
+
+
+@njit(cache=True)
+def _put_solutions(factored, sides, slipping):
+    """Put C^-1 b of right sides b (s, a) in their place."""
+    # By columns as LAPACK reads them: a right side is a column, and the matrix is the transposed one.
+    numbers = np.array([TRANSPOSED if slipping else LOWER, len(factored.matrix), len(sides), 0], dtype=np.int32)
+    at, matrix, result = np.int64(numbers.ctypes.data), factored.matrix.ctypes.data, sides.ctypes.data
+    size, count, info = at + INT, at + 2 * INT, at + 3 * INT
+    if slipping:
+        call(factored.table[GETRS], (at, size, count, matrix, size, factored.table[PIVOTS], result, size, info))
+    else:
+        call(factored.table[POTRS], (at, size, count, matrix, size, result, size, info))
     # Named once more, for compiled code gives back an array as soon as nothing names it.
-    numbers[0] = one[0] = 0
+    numbers[3] = 0
+
+
+@njit(cache=True)
+def _solve_with(factored, system, result):
+    """Put forces (m,), N, and coordinates (k,), mm, into `result`; returns 1, or 0 where the drivetrain is loose."""
+    rows, slip, jacobian, unit = system.rows, system.slip, system.jacobian, system.unit
+    k, m, size = len(system.load), len(jacobian), len(rows)
+    n, sides, of_forces = m // 2, np.empty((k + 1, size)), np.empty((k, size))
+    sides[k] = system.opening
+    for a in range(size):
+        for c in range(k):
+            sides[c, a] = of_forces[c, a] = jacobian[rows[a], c]
+            if a < len(slip):
+                of_forces[c, a] += slip[a] * jacobian[n + rows[a], c]
+    _put_solutions(factored, sides, len(slip) > 0)
+    products = np.dot(of_forces, sides.T)
+    try:
+        position = np.linalg.solve(system.stiffness / unit + products[:, :k], system.load / unit + products[:, k])
+    except Exception:
+        # Singular; compiled code tells no kinds of errors apart.
+        return 0
+    found = np.dot(position, sides[:k]) - sides[k]
+    result[:m], result[m:] = 0.0, position
+    for a in range(size):
+        result[rows[a]] = unit * found[a]
+    for b in range(len(slip)):
+        result[n + rows[b]] += slip[b] * result[rows[b]]
+    return 1

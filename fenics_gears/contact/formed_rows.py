@@ -68,7 +68,7 @@ class _Source(NamedTuple):
 
 # In compiled code it is a table of its arrays, and of the flags that say which rows are formed: address and shape of
 # each; then the addresses of the function that forms rows, of the one that solves the mixed form with Factors, and of
-# these; the last two are 0 with friction.
+# these; the last two are 0 between other nodes than those of one position.
 ARRAYS = 21
 
 
@@ -78,7 +78,7 @@ class FormedRows:
     give in each slice, and of the fine sections there.
 
     `matrix`: zero where it is not yet `formed` (n,); by columns where asked for. `table` and `arrays`: what rows are
-    formed of. `factors`: of closed nodes, without friction.
+    formed of. `factors`: between the nodes of one position.
     """
 
     matrix: np.ndarray
@@ -110,7 +110,7 @@ class FormedRows:
             row[0], row[1 : 1 + array.ndim] = array.ctypes.data, array.shape
         table[ARRAYS, 0] = row_former().address
         factors = None
-        if rows is columns and n == len(rows.group):
+        if rows is columns:
             from fenics_gears.contact.factored_compliance import Factors, factored_solver
 
             factors = Factors(n)
@@ -142,6 +142,8 @@ def form_rows(address, nodes):
 @njit(cache=True)
 def solver_of(address):
     """Addresses of what solves the mixed form with Factors, and of these, of a FormedRows; 0 where there is none."""
+    if address == 0:
+        return 0, 0
     table = carray(to_integer(address), (ARRAYS + 1, 6))
     return table[ARRAYS, 1], table[ARRAYS, 2]
 

@@ -72,18 +72,18 @@ def _slip_factor(status, friction):
 
 
 @njit(cache=True)
-def _put_entries(entries, values, places, scale):
-    """Put the values at some places, times the scale."""
+def put_entries(entries, values, places, first, unit):
+    """Put the values at the places from the `first` on, times the unit."""
     # A function of its own, and unsigned places: so no entry is looked at for a negative index.
-    for b in range(np.uint64(len(places))):
-        entries[b] = scale * values[np.uint64(places[b])]
+    for b in range(np.uint64(first), np.uint64(len(places))):
+        entries[b] = unit * values[np.uint64(places[b])]
 
 
 @njit(cache=True)
-def _add_slip(entries, values, places, factors, scale):
-    """Add what tangential forces give that are these factors of the normal ones."""
-    for b in range(np.uint64(len(places))):
-        entries[b] += scale * factors[b] * values[np.uint64(places[b])]
+def add_slip(entries, values, places, slip, unit):
+    """Add what tangential forces give that are these parts of the normal ones."""
+    for b in range(np.uint64(len(slip))):
+        entries[b] += unit * slip[b] * values[np.uint64(places[b])]
 
 
 @njit(cache=True, error_model="numpy")
@@ -104,28 +104,32 @@ def solve_sets(equations, iterate):
             if tangential:
                 factors[closed] = _slip_factor(status[node], friction)
             closed += 1
-    if unformed != 0:
-        form_rows(unformed, rows[:closed])
-        if closed > SMALL_SYSTEM and solve_factored(equations, iterate, rows[:closed]):
-            return
+    form_rows(unformed, rows[:closed])
     size = closed
     if tangential:
         for b in range(closed):
             if status[rows[b]] == STICK:
                 rows[size] = n + rows[b]
                 size += 1
+    right_side = np.empty(size + k)
+    for a in range(size):
+        right_side[a] = gap[rows[a]] if rows[a] < n else -slip_before[rows[a] - n]
+    slip = factors[: closed if tangential else 0]
+    # Strong friction leaves the diagonal no better than other pivots.
+    weak = not tangential or friction <= WEAK_FRICTION
+    if weak and size > SMALL_SYSTEM and solve_factored(equations, iterate, rows[:size], slip, right_side):
+        return
     # Forces are carried as lengths, `unit` N each, so that all entries are of the size of a stiffness.
     unit = 1.0 / compliance[0, 0] if len(compliance) else 1.0
-    matrix, right_side = system_of(size + k), np.empty(size + k)
+    matrix = system_of(size + k)
     scale = -unit * unit
     for a in range(size):
         row = rows[a]
-        _put_entries(matrix[a], compliance[row], rows[:size], scale)
-        if tangential:
-            _add_slip(matrix[a], compliance[row, n:], rows[:closed], factors, scale)
+        put_entries(matrix[a], compliance[row], rows[:size], np.int64(0), scale)
+        add_slip(matrix[a], compliance[row, n:], rows, slip, scale)
         for c in range(k):
             matrix[a, size + c] = jacobian[row, c] * unit
-        right_side[a] = (gap[row] if row < n else -slip_before[row - n]) * unit
+        right_side[a] *= unit
     for c in range(k):
         for b in range(size):
             entry = jacobian[rows[b], c]
@@ -135,8 +139,7 @@ def solve_sets(equations, iterate):
         for d in range(k):
             matrix[size + c, size + d] = stiffness[c, d]
         right_side[size + c] = load[c]
-    # Strong friction leaves the diagonal no better than other pivots.
-    solution = solved(matrix, right_side, size if not tangential or friction <= WEAK_FRICTION else 0)
+    solution = solved(matrix, right_side, size if weak else 0)
     forces[:] = 0.0
     for a in range(size):
         forces[rows[a]] = solution[a] * unit
@@ -148,22 +151,29 @@ def solve_sets(equations, iterate):
 
 
 @njit(cache=True)
-def solve_factored(equations, iterate, closed):
-    """As `solve_sets` for the `closed` nodes without friction, where the contact has room for their factors
-    (`contact.factored_compliance`); returns whether it has and did."""
+def solve_factored(equations, iterate, rows, slip, opening):
+    """As `solve_sets` for the unknown forces in `rows`, where the contact has room for factors
+    (`contact.factored_compliance`); returns whether it has and did.
+
+    `slip`: tangential forces per normal one, none without friction; `opening`: right sides of the rows, mm.
+    """
     solver, factors = solver_of(equations.rows)
     if solver == 0:
         return False
+    m, k = equations.jacobian.shape
+    result = np.empty(m + k)
     # Of one kind of integers: numpy makes floats of both kinds together.
-    arrays = np.empty(12, dtype=np.int64)
-    arrays[0], arrays[1], arrays[2], arrays[3] = factors, len(equations.gap), len(equations.load), len(closed)
-    arrays[4], arrays[5] = closed.ctypes.data, equations.compliance.ctypes.data
-    arrays[6], arrays[7] = equations.jacobian.ctypes.data, equations.gap.ctypes.data
-    arrays[8], arrays[9] = equations.stiffness.ctypes.data, equations.load.ctypes.data
-    arrays[10], arrays[11] = iterate.forces.ctypes.data, iterate.coordinates.ctypes.data
-    done = call(solver, (arrays.ctypes.data,))
-    # Named once more, for compiled code gives back an array as soon as nothing names it.
-    return done == 1 and len(arrays) > 0
+    arrays = np.empty(13, dtype=np.int64)
+    arrays[0], arrays[1], arrays[2], arrays[3], arrays[4] = factors, m, k, len(rows), len(slip)
+    arrays[5], arrays[6] = equations.compliance.ctypes.data, equations.jacobian.ctypes.data
+    arrays[7], arrays[8] = equations.stiffness.ctypes.data, equations.load.ctypes.data
+    arrays[9], arrays[10], arrays[11] = rows.ctypes.data, slip.ctypes.data, opening.ctypes.data
+    arrays[12] = result.ctypes.data
+    done = call(solver, (arrays.ctypes.data,)) == 1
+    # Read after the call, for compiled code gives back an array as soon as nothing names it.
+    if done and len(arrays):
+        iterate.forces[:], iterate.coordinates[:] = result[:m], result[m:]
+    return done
 
 
 @njit(cache=True)

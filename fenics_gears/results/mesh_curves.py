@@ -83,13 +83,13 @@ def _tangent(contact, nodes):
     """Force (N) on some nodes of a contact when all of them approach by 1 mm."""
     compliance, n = contact.compliance, len(contact.gap)
     if contact.rows != 0 and len(compliance) == n:
-        # With all gaps closed by 1 mm and coordinates that move nothing; what was factored for the step serves.
+        # With all gaps closed by 1 mm and a coordinate that moves nothing; what was factored for the step serves.
         still, nothing = np.eye(1), np.empty(0)
         equations = Equations(
-            still, np.zeros(1), compliance, np.zeros((n, 1)), np.full(n, -1.0), nothing, 0.0, nothing, contact.rows
+            still, np.zeros(1), compliance, np.zeros((n, 1)), contact.gap, nothing, 0.0, nothing, contact.rows
         )
         iterate = Iterate(np.empty(0, dtype=np.int8), np.zeros(n), np.zeros(1), nothing)
-        if solve_factored(equations, iterate, nodes):
+        if solve_factored(equations, iterate, nodes, nothing, np.full(len(nodes), -1.0)):
             return iterate.forces.sum()
     matrix = system_of(len(nodes))
     for i in range(len(nodes)):
