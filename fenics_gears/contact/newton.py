@@ -194,15 +194,17 @@ def _same(one, other):
 
 
 @njit(cache=True)
-def newton(equations, iterate, method, history, sets):
+def newton(of_drivetrain, of_contact, others, iterate, method, history, sets):
     """Active-set Newton from the sets of an `iterate`, which becomes the solution; its displacement is zero at first.
 
     `history` (iterations, 5) and `sets` (iterations, n) are filled with residuals and sets. Returns (outcome,
-    iterations). The first three are plain tuples of four at most, `equations` three of them: through records and longer
-    ones numba looks at each call from Python, which takes as long as a step.
+    iterations). The first three, as of `equations_of`, `iterate` and `method` are plain tuples with four arrays at
+    most: numba 0.56 knows no argument again, at a call from Python, whose kind takes more than 40 bytes to write down
+    (the first 40 are lost), and looks at each of its arrays for as long as ten steps take.
     """
     not_inlined()
-    equations, iterate, method = equations_of(equations), Iterate(*iterate), Method(*method)
+    equations = equations_of((of_drivetrain, of_contact, others))
+    iterate, method = Iterate(*iterate), Method(*method)
     status, displacement = iterate.status, iterate.displacement
     n, m = len(equations.gap), len(equations.compliance)
     outcome, iteration, limit, new = CYCLED, 0, len(history), np.empty_like(status)

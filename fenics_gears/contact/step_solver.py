@@ -164,7 +164,7 @@ def run_newton(
             (problem.friction if friction is None else friction, problem.rows),
         )
         method = r_scale, rule, tolerance.length, tolerance.force
-        outcome, done = newton(equations, tuple(iterate), method, history, sets)
+        outcome, done = newton(*equations, tuple(iterate), method, history, sets)
     except np.linalg.LinAlgError:
         outcome, done = SINGULAR, int(np.sum(np.any(sets >= 0, axis=1)))
     result = outcome, done, iterate.forces, iterate.coordinates, iterate.displacement, iterate.status

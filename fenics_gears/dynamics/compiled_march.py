@@ -150,7 +150,9 @@ def _solve_steps(done, end, block, packed, durations, loads, cycle_before, at_re
             )
         else:
             sets = all_sets[: MOST_ITERATIONS * n].reshape(MOST_ITERATIONS, n)
-            outcome, steps.iterations[s] = newton(equations, iterate, method, residuals, sets)
+            outcome, steps.iterations[s] = newton(
+                equations[0], equations[1], equations[2], iterate, method, residuals, sets
+            )
         if outcome != CONVERGED:
             return
         states[s] = _advanced(motion.method, duration, states[s - 1], coordinates)
