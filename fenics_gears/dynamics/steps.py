@@ -86,7 +86,7 @@ class Steps:
         """Room for the solutions at these positions."""
         count, table = len(positions), table_of(positions)
         nodes = int(table[:, NODES].sum())
-        forces = nodes * (1 if not count or positions[0].operator.rigid_slip is None else 2)
+        forces = nodes * (1 if not count or positions[-1].operator.rigid_slip is None else 2)
         steps = cls(
             np.array(numbers, dtype=float), positions, np.zeros((count, 3, coordinates)), np.zeros(forces),
             np.zeros(forces),
