@@ -54,9 +54,7 @@ class BetweenSteps(Stepper):
         self._marched = marched
         self._before: dict[int, Record | None] = dict(records or {})
         self._solved: dict[float, Record | None] = {}
-        self._motion = Motion.of(
-            self._static_drivetrain, STATIC, self.friction, self.tolerance, cycle.traits.rigid
-        )
+        self._motion = Motion.of(self._static_drivetrain, STATIC, self.friction, self.tolerance, cycle.traits.rigid)
 
     def at(self, places: Iterable[float]) -> dict[float, Record | None]:
         """The motion at places after step 0, counted in steps; None where it has no solution, or the step before is not

@@ -4,13 +4,15 @@ Where a cubic through four steps agrees with the value in the middle of the inne
 the largest value is that of its crest, and nothing more is asked for. Elsewhere the curve is taken to stay, between two
 steps, below the straight lines through the steps on either side, as it does at corners where a tooth pair enters or
 leaves contact. Lines through further points replace these, until no crossing lies above the largest value found.
+All places are multiples of a part of a step, so that the runs of a search ask for the same ones; between two such
+places the curve is a cubic or, at a corner, a parabola on either side.
 Of a smooth curve that is known at the steps alone the largest value is that of the cubics, which is of fourth order.
 """
 
 from __future__ import annotations
 
 from collections.abc import Generator
-from math import floor, inf, isnan, log2, nan
+from math import inf, isnan, nan, sqrt
 
 import numpy as np
 
@@ -18,9 +20,8 @@ from fenics_gears.results.numbers import SAME
 
 # Values asked for at most.
 MOST_SOLVED = 20
-# How far down from the largest value a curve is followed, in parts of what is sought. What falls within less than this
-# part of a step jumps.
-NEAR, WIDTH_OF_JUMP = 50.0, 1e-3
+# How far down from the largest value a curve is followed, in parts of what is sought.
+NEAR = 25.0
 # A curve has not jumped where it falls in the next step by at least this part of the fall before. A crest is smooth
 # where the lower of the parabolas from either side is above the steps by at least this part of the higher one; between
 # steps where their curvatures are as much alike.
@@ -31,24 +32,20 @@ LIKE = 0.5
 AGREES, MIDDLE = 2.0, 0.25
 # A position is sought no nearer to a step than this part of the distance to the next.
 NEAREST = 0.02
-# Positions are sought in the middle between steps, and then where quarters, eighths and so on of a step are, next to
-# where the lines cross: so that runs that differ little ask for the same ones. They divide the interval by more than 2
-# to this power.
-HALVINGS = 3
 
 
 def highest(
-    steps: np.ndarray, values: np.ndarray, sought: float, finest: float = 0.0
+    steps: np.ndarray, values: np.ndarray, sought: float, finest: float, corners: bool = True
 ) -> Generator[float, float, tuple[float, float]]:
     """Place and largest value of a curve given at `steps` (s,) by `values` (s,): as a generator, which asks for its
-    value at one place after the other between them; that may be not a number.
+    value, which may be not a number, at one place after the other between them. These are multiples of the `finest`
+    part of a step; `corners`: between two of them the curve may be higher than both at a corner.
 
-    Between the first two and the last two steps nothing is sought, nor between places nearer than twice the `finest`
-    part of a step, of which all places are multiples; nor where the curve is level at its top: it reaches what bounds
-    it there. Ends where no crossing of lines is higher by `sought` and on either side of the largest value
+    Between the first two and the last two steps nothing is sought, nor where the curve is level at its top: it reaches
+    what bounds it there. Ends where no crossing of lines is higher by `sought` and on either side of the largest value
     the curve falls by NEAR times that in small parts, so that lines are those beside the crest; or after MOST_SOLVED.
     """
-    curve = _Curve(steps, values, sought, finest)
+    curve = _Curve(steps, values, sought, finest, corners)
     for _ in range(0 if _is_level(values) else MOST_SOLVED):
         interval, place = curve.next_place()
         found = (yield place) if interval else nan
@@ -66,24 +63,27 @@ def _is_level(values: np.ndarray) -> bool:
 
 class _Curve:
     """What a search knows of a curve: its points, and of each interval between two of them how high the curve may be
-    there and where that is (`bounds`), whether a value was `asked` for, and place and value of the crest of a cubic
-    that holds (`crests`).
+    there and where that is, whether a value was asked for, whether a cubic holds; and its crest, place and height,
+    where a cubic holds or there is no place between.
 
     Plain numbers in lists: a new point changes four intervals, for which numpy takes ten times as long.
     """
 
-    def __init__(self, steps: np.ndarray, values: np.ndarray, sought: float, finest: float):
+    def __init__(self, steps: np.ndarray, values: np.ndarray, sought: float, finest: float, corners: bool):
         self._x, self._y, self._sought, self._finest = steps.tolist(), values.tolist(), sought, finest
+        self._corners = corners
         count = max(len(values) - 1, 0)
         self._bounds, self._places, self._asked = [-inf] * count, [0.0] * count, [False] * count
-        self._cubic, self._crests = [False] * count, {}
+        self._cubic, self._crests, self._heights = [False] * count, [0.0] * count, [-inf] * count
         for interval in _rising_beyond(steps, values, sought).tolist():
             self._look_at(interval)
 
     def top(self) -> tuple[float, float]:
-        """Place and largest value of all points and of the crests of the cubics that hold."""
-        value = max(self._y)
-        return max([(self._x[self._y.index(value)], value), *self._crests.values()], key=lambda crest: crest[1])
+        """Place and largest value of all points and crests."""
+        value, crest = max(self._y), max(self._heights, default=-inf)
+        if value >= crest:
+            return self._x[self._y.index(value)], value
+        return self._crests[self._heights.index(crest)], crest
 
     def next_place(self) -> tuple[int, float]:
         """The interval in which the largest value may lie, and the place there to ask for; 0 where it is known."""
@@ -96,9 +96,9 @@ class _Curve:
             interval = 0 if known else self._steep_neighbour(top)
         if not interval:
             return 0, nan
-        start, end = self._x[interval], self._x[interval + 1]
+        start, end, part = self._x[interval], self._x[interval + 1], self._finest
         place = self._places[interval] if crossing and self._asked[interval] else 0.5 * (start + end)
-        return interval, _rounded(place, start, end, self._finest)
+        return interval, min(max(part * round(place / part), start + part), end - part)
 
     def take(self, interval: int, place: float, found: float) -> None:
         """The value found at a place in an interval, which it divides."""
@@ -107,36 +107,39 @@ class _Curve:
         self._x.insert(interval + 1, place)
         self._y.insert(interval + 1, found)
         for known, both in (
-            (self._bounds, -inf), (self._places, 0.0), (self._asked, True), (self._cubic, holds),
+            (self._bounds, -inf), (self._places, 0.0), (self._asked, True), (self._cubic, holds), (self._crests, 0.0),
+            (self._heights, -inf),
         ):  # fmt: skip
             known[interval : interval + 1] = [both, both]
-        for each in range(max(interval - 1, 1), min(interval + 3, len(self._bounds) - 1)):
+        for each in range(max(interval - 2, 1), min(interval + 4, len(self._bounds) - 1)):
             self._look_at(each)
-        cubic = [each for each, holds in enumerate(self._cubic) if holds]
-        if cubic:
-            x, y = (np.array([[of[each + k] for each in cubic] for k in range(-1, 3)]) for of in (self._x, self._y))
-            self._crests = dict(zip(cubic, zip(*(each.tolist() for each in _crests(x, y)))))
 
     def _look_at(self, interval: int) -> None:
-        """How high the curve may be in an interval."""
-        known = self._cubic[interval] or self._x[interval + 1] - self._x[interval] < 2.0 * self._finest
-        four = slice(interval - 1, interval + 3)
-        self._bounds[interval], self._places[interval] = (
-            (-inf, 0.0) if known else _bound(self._x[four], self._y[four])
-        )
+        """How high the curve may be in an interval, or is."""
+        x, y = (of[interval - 1 : interval + 3] for of in (self._x, self._y))
+        height, place, jumps = _bound(x, y)
+        divisible, cubic = x[2] - x[1] >= 2.0 * self._finest, self._cubic[interval]
+        self._bounds[interval], self._places[interval] = height if divisible and not cubic else -inf, place
+        crest = 0.0, -inf
+        if self._corners and not (divisible or cubic or jumps) and 1 < interval < len(self._x) - 3:
+            crest = _corner(*(of[interval - 2 : interval + 4] for of in (self._x, self._y)))
+        if cubic or not divisible and _is_smooth(x, y):
+            of_cubic = tuple(float(each) for each in _crests(np.array(x), np.array(y)))
+            crest = max(crest, of_cubic, key=lambda each: each[1])
+        self._crests[interval], self._heights[interval] = crest
 
     def _steep_neighbour(self, top: int) -> int:
         """The steeper of the intervals in which the curve falls below its largest value, at the point `top`, by more
         than NEAR times what is sought on either side within a step of it; 0 where neither falls by so much in itself,
-        over the part of a step in which it may jump, or both are at an end."""
+        has a place between, or both are at an end."""
         x, y, found = self._x, self._y, {}
-        near, least = NEAR * self._sought, max(2.0 * self._finest, WIDTH_OF_JUMP)
+        near = NEAR * self._sought
         for side in (-1, 1):
             end = top
             while 0 < end + side < len(y) - 1 and y[end + side] >= y[top] - near and abs(x[end + side] - x[top]) < 1.0:
                 end += side
             interval = min(end, end + side)
-            if 0 < interval < len(y) - 2 and x[interval + 1] - x[interval] >= least:
+            if 0 < interval < len(y) - 2 and x[interval + 1] - x[interval] >= 2.0 * self._finest:
                 found[interval] = y[end] - y[end + side]
         interval = max(found, key=found.__getitem__, default=0)
         return interval if interval and found[interval] > near else 0
@@ -150,9 +153,9 @@ def _rising_beyond(steps: np.ndarray, values: np.ndarray, sought: float) -> np.n
     return np.flatnonzero(highest_line > values.max() + sought) + 1
 
 
-def _bound(x: list[float], y: list[float]) -> tuple[float, float]:
-    """How high a curve may be between the middle two of four points x, y (4,); and the place that is to be solved
-    there.
+def _bound(x: list[float], y: list[float]) -> tuple[float, float, bool]:
+    """How high a curve may be between the middle two of four points x, y (4,); the place that is to be solved there;
+    and whether it may jump.
 
     That is the crossing of the lines from either side. Where one rises into the interval and the other lies far below
     its end, the curve may have jumped down anywhere: then half-way.
@@ -161,19 +164,34 @@ def _bound(x: list[float], y: list[float]) -> tuple[float, float]:
     left, right = (a - y[0]) / (x[1] - x[0]), (y[3] - b) / (x[3] - x[2])
     from_left, from_right = a + left * h, b - right * h
     if a >= b and left > 0.0 and from_right < a - LIKE * (a - b):
-        return from_left, x[1] + 0.5 * h
+        return from_left, x[1] + 0.5 * h, True
     if b > a and right < 0.0 and from_left < b - LIKE * (b - a):
-        return from_right, x[1] + 0.5 * h
+        return from_right, x[1] + 0.5 * h, True
     if left > right and from_right > a and from_left > b:
         crossing = min(max((from_right - a) / (left - right) / h, NEAREST), 1.0 - NEAREST)
-        return a + left * crossing * h, x[1] + crossing * h
-    return max(a, b), x[1] + 0.5 * h
+        return a + left * crossing * h, x[1] + crossing * h, False
+    return max(a, b), x[1] + 0.5 * h, False
 
 
-def _rounded(place: float, start: float, end: float, finest: float) -> float:
-    """The place of few digits in base 2 next to another between `start` and `end`, which have few themselves."""
-    part = max(2.0 ** (floor(log2(end - start)) - HALVINGS), finest)
-    return min(max(part * round(place / part), start + part), end - part)
+def _corner(x: list[float], y: list[float]) -> tuple[float, float]:
+    """Place and height of the crossing of the parabolas through the first and the last three of six points x, y (6,)
+    between them; no height where they do not cross there, the first from below."""
+    h = x[3] - x[2]
+    before, after = (y[2] - y[1]) / (x[2] - x[1]), (y[4] - y[3]) / (x[4] - x[3])
+    bend_before = (before - (y[1] - y[0]) / (x[1] - x[0])) / (x[2] - x[0])
+    bend_after = ((y[5] - y[4]) / (x[5] - x[4]) - after) / (x[5] - x[3])
+    # Slopes at the third and the fourth point; the first parabola less the second is c + u (b + u a), u from the third.
+    before, after = before + (x[2] - x[1]) * bend_before, after - (x[4] - x[3]) * bend_after
+    a, b, c = (
+        bend_before - bend_after,
+        before - after + 2.0 * h * bend_after,
+        y[2] - y[3] + h * (after - h * bend_after),
+    )
+    inside = b * b - 4.0 * a * c
+    if not (c < 0.0 < c + h * (b + h * a) and inside >= 0.0):
+        return 0.0, -inf
+    u = -2.0 * c / (b + sqrt(inside))
+    return x[2] + u, y[2] + u * (before + u * bend_before)
 
 
 def _differences(x, y):
@@ -186,15 +204,20 @@ def _differences(x, y):
 def _holds(x: list[float], y: list[float], place: float, found: float, most: float) -> bool:
     """Whether the cubic through four points x, y (4,), concave between the middle two, has the value `found` at a place
     in the middle there, but for `most`."""
-    slope, (one, other), third = _differences(x, y)
+    slope, (one, _), third = _differences(x, y)
     after = place - x[1]
     cubic = y[1] + after * (slope + (place - x[2]) * (one + third * (place - x[0])))
-    alike = max(one, other) < 0.0 and min(one / other, other / one) >= LIKE
-    return alike and abs(found - cubic) <= most and abs(after / (x[2] - x[1]) - 0.5) <= MIDDLE
+    return _is_smooth(x, y) and abs(found - cubic) <= most and abs(after / (x[2] - x[1]) - 0.5) <= MIDDLE
+
+
+def _is_smooth(x: list[float], y: list[float]) -> bool:
+    """Whether a curve bends alike through the first and the last three of four points x, y (4,), and down."""
+    one, other = _differences(x, y)[1]
+    return max(one, other) < 0.0 and min(one / other, other / one) >= LIKE
 
 
 def _crests(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Places and values of the crests of the cubics through each four points x, y (4, c) between the middle two; no
+    """Places and values of the crests of the cubics through each four points x, y (4, ...) between the middle two; no
     value where one has none there."""
     slope, (one, _), third = _differences(x, y)
     # It is y[1] + u (a + u (b + u third)), u from x[1] on.

@@ -11,11 +11,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from math import ceil, isfinite
+from math import ceil, isfinite, log2
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.mesh_cycle import COMMON_PLACES, Cycle
 from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.effects import common_period
@@ -26,9 +26,12 @@ from fenics_gears.results.numbers import CUBICS, SAME, SOLVED, STEPS
 
 # Up to which part of the curve's span an extremum is sought.
 SOUGHT = 1e-4
-# Over a face positions cost a hundred times as much, and slices leave a peak-to-peak value some 2 % uncertain. There
-# places divide a step by eight, so that all runs of a search ask for the same ones.
-SOUGHT_OVER_FACE, FINEST_OVER_FACE = 3e-4, 0.125
+# Places between steps divide a step by eight at least, so that runs of a search ask for the same ones, and a mesh cycle
+# by so many: friction turns, and pairs enter contact, within less.
+LARGEST_PART, PLACES = 0.125, 800
+# Over a face positions cost a hundred times as much, and slices leave a peak-to-peak value some 2 % uncertain: their
+# ripples are so long that what looks like a corner is none.
+SOUGHT_OVER_FACE = 3e-4
 # Longer periods are not held in memory.
 MOST_RECORDS = 2000
 # A position solved again is that of the march if it is as near as this part of what is sought.
@@ -78,7 +81,10 @@ class Extrema:
         )
         self._quasi_static = model.drivetrain.mass is None
         follows_statics = self._quasi_static or not model.time_scales.averages_acceleration
-        self._sought, self._finest = (SOUGHT, 0.0) if cycle.face.slices == 1 else (SOUGHT_OVER_FACE, FINEST_OVER_FACE)
+        self._sought, self._finest, self._corners = SOUGHT_OVER_FACE, LARGEST_PART, cycle.face.slices == 1
+        if self._corners:
+            wanted = 2.0 ** -ceil(log2(PLACES / cycle.steps))
+            self._sought, self._finest = SOUGHT, min(max(wanted, 1.0 / COMMON_PLACES), LARGEST_PART)
         self._way = CUBICS if not follows_statics else SOLVED if cycle.traits.divisible else STEPS
         if self._way == SOLVED:
             # Not a method of this object: with a circle of references all operators would stay until Python looks for
@@ -107,10 +113,10 @@ class Extrema:
 
     def _solved(self, quantities: Sequence[Quantity]) -> list[tuple[float, float, str]]:
         """Step, largest value, and the way, of each quantity by positions that are solved."""
-        searches = [
-            highest(*self._last_period(curve), self._sought * float(np.ptp(curve)) + _round_off(curve), self._finest)
-            for curve in (quantity.curve for quantity in quantities)
-        ]
+        searches = []
+        for curve in (quantity.curve for quantity in quantities):
+            sought = self._sought * float(np.ptp(curve)) + _round_off(curve)
+            searches.append(highest(*self._last_period(curve), sought, self._finest, self._corners))
         found, asked = [(0.0, -np.inf, SOLVED)] * len(searches), {}
 
         def answer(number: int, value: float | None) -> None:
@@ -199,7 +205,7 @@ def extremes(extrema: Extrema, curves: Mapping[str, np.ndarray], force: bool) ->
     error, of = curves["transmission_error"], extrema.transmission_error
     quantities = [Quantity(error, of), Quantity(-error, lambda record: -of(record))]
     if force:
-        quantities.append(Quantity(largest_force_over_time(curves), _largest_force_of_a_pair))
+        quantities.append(pair_force(curves))
     largest, least, *forces = extrema.largest(quantities)
     of_error: Numbers = {
         "peak_to_peak_transmission_error": largest.value + least.value,
@@ -215,6 +221,11 @@ def extremes(extrema: Extrema, curves: Mapping[str, np.ndarray], force: bool) ->
             "largest_pair_force_from": found.found_by,
         }
     return of_error, of_force
+
+
+def pair_force(curves: Mapping[str, np.ndarray]) -> Quantity:
+    """The largest normal force of a tooth pair, N."""
+    return Quantity(largest_force_over_time(curves), _largest_force_of_a_pair)
 
 
 def _largest_force_of_a_pair(record: Record) -> float:
