@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from math import ceil
 from typing import Any, NamedTuple
@@ -14,7 +14,6 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.contact.step_solver import NEWTON
 from fenics_gears.dynamics.compiled_march import NO_SETS, STATIC, Course, Motion, solve_steps
-from fenics_gears.dynamics.march import thread_pools
 from fenics_gears.dynamics.stepping import EquationsOfMotion, Stepper
 from fenics_gears.dynamics.steps import Record, Steps
 
@@ -39,7 +38,7 @@ class BetweenSteps(Stepper):
     """Solves the static motion between two steps apart from the march; the `cycle` is divisible.
 
     Without friction a solution does not depend on the step before it. With friction that step is one of the march's
-    `records`, by their numbers, or else is solved on the way from a start some steps earlier: from further back, at
+    `held` records, by its number, or else is solved on the way from a start some steps earlier: from further back, at
     most a mesh cycle, until it is what was `marched`, which says so of a record.
     """
 
@@ -48,11 +47,11 @@ class BetweenSteps(Stepper):
         cycle: Cycle,
         equations: EquationsOfMotion,
         marched: Callable[[Record], bool],
-        records: Mapping[int, Record] | None = None,
+        held: Callable[[int], Record | None] = lambda step: None,
     ):
         super().__init__(cycle, equations)
-        self._marched = marched
-        self._before: dict[int, Record | None] = dict(records or {})
+        self._marched, self._held = marched, held
+        self._before: dict[int, Record | None] = {}
         self._solved: dict[float, Record | None] = {}
         self._motion = Motion.of(self._static_drivetrain, STATIC, self.friction, self.tolerance, cycle.traits.rigid)
 
@@ -61,8 +60,7 @@ class BetweenSteps(Stepper):
         found again."""
         asked = list(dict.fromkeys(places))
         if new := [place for place in asked if place not in self._solved]:
-            with thread_pools().limit(limits=1):
-                self._solve_each(new)
+            self._solve_each(new)
         return {place: self._solved[place] for place in asked}
 
     def _solve_each(self, places: list[float]) -> None:
@@ -112,7 +110,7 @@ class BetweenSteps(Stepper):
     def _record_before(self, place: float) -> Record | None:
         before = ceil(place) - 1
         if before not in self._before:
-            self._before[before] = self._step_before(before)
+            self._before[before] = self._held(before) or self._step_before(before)
         return self._before[before]
 
     def _step_before(self, step: int) -> Record | None:

@@ -208,7 +208,7 @@ def _numbers(recorder: Recorder, march: March, result: RunResult, first: int) ->
     error = counted["transmission_error"]
     lost = [separation for separation in march.separations if separation[0] > first or first == 0]
     numbers = loss_attributes(lost, first, march.steps, model.clock)
-    extrema = Extrema(model, recorder.cycle, counted["mesh_phase"], error, march.in_periods)
+    extrema = Extrema(model, recorder.cycle, counted["mesh_phase"], error, march)
     friction: dict[str, float] = {}
     if len(error) > 1 and model.scene.friction is not None and not march.locked:
         friction = _friction_loss(counted) if largest_normal_force(result) > NO_FORCE else {}

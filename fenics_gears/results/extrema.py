@@ -17,6 +17,7 @@ import numpy as np
 
 from fenics_gears.contact.mesh_cycle import COMMON_PLACES, Cycle
 from fenics_gears.dynamics.between_steps import BetweenSteps
+from fenics_gears.dynamics.march import March, thread_pools
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.effects import common_period
 from fenics_gears.model.model import Model
@@ -59,7 +60,7 @@ class Extrema:
     """Locates the largest values of curves over the settled steps of a run.
 
     `mesh_phase`, `transmission_error` (s,), rad: of consecutive steps; the latter tells whether a position solved again
-    is that of the march. `records`: solutions of the march with friction, by step, from which positions are solved.
+    is that of the march. `march`: holds solutions with friction, from which positions are solved.
     """
 
     def __init__(
@@ -68,7 +69,7 @@ class Extrema:
         cycle: Cycle,
         mesh_phase: np.ndarray,
         transmission_error: np.ndarray,
-        records: Mapping[int, Record] | None = None,
+        march: March | None = None,
     ):
         self._model, self._cycle = model, cycle
         self._steps = np.rint(mesh_phase * cycle.steps).astype(int)
@@ -93,8 +94,8 @@ class Extrema:
             marched = partial(
                 _is_marched, model, transmission_error, self._place(0), same if self._quasi_static else np.inf
             )
-            known = {step - self._first: record for step, record in (records or {}).items()}
-            self._between = BetweenSteps(cycle, model.equations_of_motion, marched, known)
+            held = partial(_held, march, self._first)
+            self._between = BetweenSteps(cycle, model.equations_of_motion, marched, held)
 
     def largest(self, quantities: Sequence[Quantity]) -> list[Extremum]:
         """The largest value of each quantity; what they ask for between steps is solved together."""
@@ -131,10 +132,11 @@ class Extrema:
 
         for number in range(len(searches)):
             answer(number, None)
-        while asked:
-            records = self._records(asked.values())
-            for number, step in list(asked.items()):
-                answer(number, self._at(step, quantities[number], records))
+        with thread_pools().limit(limits=1):
+            while asked:
+                records = self._records(asked.values())
+                for number, step in list(asked.items()):
+                    answer(number, self._at(step, quantities[number], records))
         return found
 
     def transmission_error(self, record: Record) -> float:
@@ -187,6 +189,11 @@ def _is_marched(model: Model, transmission_error: np.ndarray, first: int, same: 
         or abs(float(model.transmission_error(record.state.position)) - transmission_error[int(record.step) + first])
         <= same
     )
+
+
+def _held(march: March | None, first: int, step: int) -> Record | None:
+    """A step of the period that begins at the step `first` of a march, where one holds it."""
+    return None if march is None else march.held(step + first)
 
 
 def repeating_steps(model: Model) -> int:
