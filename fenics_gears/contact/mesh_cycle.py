@@ -8,7 +8,7 @@ gaps alone have all operators in common, also those of places between steps that
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -17,7 +17,7 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from fenics_gears.contact.addresses import GAP, row_of
+from fenics_gears.contact.addresses import GAP, NODES, row_of
 from fenics_gears.contact.face import one_slice
 from fenics_gears.contact.mesh import Mesh, Nodes
 from fenics_gears.contact.node_before import nodes_before
@@ -66,13 +66,26 @@ class Position:
         whole = sum(array.nbytes for array in self.in_memory[1])
         return whole if not self.operator.stored.address else int(SHARE_FORMED * whole)
 
-    def with_gap(self, gap: np.ndarray) -> Position:
-        """The same position with other gaps (n,), mm; what is known of it already is not found again."""
+    def with_gap(self, gap: np.ndarray, row: np.ndarray | None = None) -> Position:
+        """The same position with other gaps (n,), mm, in one piece; what is known of it already is not found again.
+        `row`: as of `in_memory` with these gaps, where it is known."""
         opened = _Opened.__new__(_Opened)
-        opened.__dict__.update(
-            node_before=self.node_before, index=self.index, nodes=self.nodes, true=self, gap=np.ascontiguousarray(gap)
-        )
+        opened.__dict__.update(node_before=self.node_before, index=self.index, nodes=self.nodes, true=self, gap=gap)
+        if row is not None:
+            opened.__dict__["in_memory"] = row, [*self.in_memory[1], gap]
         return opened
+
+
+class StepRows:
+    """The rows (steps, r) of all positions of a mesh cycle, whatever opens them."""
+
+    table: np.ndarray | None = None
+
+    def of(self, positions: Sequence[Position]) -> np.ndarray:
+        """Those of the positions of the cycle that these rows go with."""
+        if self.table is None:
+            self.table = np.array([position.in_memory[0] for position in positions])
+        return self.table
 
 
 class _Opened(Position):
@@ -86,8 +99,9 @@ class _Opened(Position):
     def operator(self) -> ContactOperator:  # type: ignore[override]
         """That of the position with these gaps."""
         true = self.true.operator
-        operator = copy(true)
-        # As `replace`, which would form all rows.
+        # As `replace`, which would form all rows, and in a tenth of the time that `copy` takes.
+        operator = ContactOperator.__new__(ContactOperator)
+        operator.__dict__.update(true.__dict__)
         operator.__dict__.update(gap=self.gap, node_pair=true.node_pair, on_drive_flanks=true.on_drive_flanks)
         return operator
 
@@ -150,11 +164,13 @@ Deviation = Callable[[float, Position], np.ndarray]
 @dataclass(frozen=True)
 class Gaps:
     """What gaps are made of, mm along the line of action: the `profile` (n,) that the flanks themselves leave at a
-    position, that of the nodes where None; `openings` and `deviations` are added."""
+    position, that of the nodes where None; `openings` and `deviations` are added. `of_steps`: the profiles of all steps
+    of a mesh cycle one after the other, where they are known."""
 
     profile: Callable[[Position], np.ndarray] | None = None
     openings: tuple[Opening, ...] = ()
     deviations: tuple[Deviation, ...] = ()
+    of_steps: np.ndarray | None = None
 
 
 class Cycle:
@@ -179,8 +195,21 @@ class Cycle:
         """The same contact nodes and operators, which both have in common, with other gaps."""
         other = copy(self)
         other.gaps = gaps
-        other._positions = self._built if gaps.profile is None and not gaps.openings else {}
+        other._positions = self._built if gaps.profile is None and not gaps.openings else self._opened_steps(gaps)
         return other
+
+    def _opened_steps(self, gaps: Gaps) -> dict[tuple[Mesh, float], Position]:
+        """All steps of a mesh cycle with these gaps, where their profiles are known and nothing else opens them; else
+        none: each is then opened when it is asked for."""
+        keys = [(self.mesh, step) for step in range(self.steps)]
+        if gaps.of_steps is None or gaps.openings or not all(key in self._built for key in keys):
+            return {}
+        true, gap = [self._built[key] for key in keys], self.face.cosine * gaps.of_steps
+        rows = self.beside(StepRows).of(true).copy()
+        ends = np.cumsum(rows[:, NODES])
+        rows[:, GAP] = gap.ctypes.data + gap.itemsize * (ends - rows[:, NODES])
+        own = [gap[first:end] for first, end in zip([0, *ends.tolist()], ends.tolist())]
+        return {key: position.with_gap(*each) for key, position, each in zip(keys, true, zip(own, rows))}
 
     @property
     def alike(self) -> bool:
@@ -283,7 +312,7 @@ class Cycle:
         for opening in self.gaps.openings:
             gap = gap + opening(position)
         # Openings are measured along the line of action, gaps along the normal.
-        return position.with_gap(self.face.cosine * gap)
+        return position.with_gap(np.ascontiguousarray(self.face.cosine * gap))
 
     def _deviating(self, step: float, position: Position) -> Position:
         if not self.gaps.deviations:
@@ -291,4 +320,4 @@ class Cycle:
         gap = position.operator.gap
         for deviation in self.gaps.deviations:
             gap = gap + self.face.cosine * deviation(step, position)
-        return position.with_gap(gap)
+        return position.with_gap(np.ascontiguousarray(gap))

@@ -46,9 +46,12 @@ class FacingPoints:
         return self.together
 
 
-def profile_of(cycle: Cycle, removal: tuple[Removal | None, Removal | None]) -> PerPosition[np.ndarray]:
+def profile_of(
+    cycle: Cycle, removal: tuple[Removal | None, Removal | None]
+) -> tuple[PerPosition[np.ndarray], np.ndarray | None]:
     """The gaps (n,), mm, at a position of a `cycle` of flanks along the line of action from which `removal` is taken;
-    what the cycle's own flanks lack is not counted."""
+    what the cycle's own flanks lack is not counted. And those of all steps, one after the other, where they are
+    known."""
     points, averaged = cycle.beside(FacingPoints), cycle.grid.interpolation == AVERAGED
     facing = PerPosition(lambda position: _facing(cycle, position), points.known)
 
@@ -60,10 +63,13 @@ def profile_of(cycle: Cycle, removal: tuple[Removal | None, Removal | None]) -> 
         return _of_nodes(gap, at.ends, at.offsets, at.node_ends, averaged)
 
     known: dict[float, np.ndarray] = {}
-    if (together := points.of_steps(cycle.steps)) is not None:
-        of_steps = np.cumsum([len(points.known[step].offsets) for step in range(cycle.steps - 1)])
-        known = dict(enumerate(np.split(gaps(together), of_steps)))
-    return PerPosition(lambda position: gaps(facing(position)), known)
+    of_steps = None if (together := points.of_steps(cycle.steps)) is None else gaps(together)
+    if of_steps is not None:
+        first = 0
+        for step in range(cycle.steps):
+            end = first + len(points.known[step].offsets)
+            known[step], first = of_steps[first:end], end
+    return PerPosition(lambda position: gaps(facing(position)), known), of_steps
 
 
 def _joined(parts: list[Facing]) -> Facing:

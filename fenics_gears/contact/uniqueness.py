@@ -73,35 +73,33 @@ def uncertified(stiffness: np.ndarray, friction: float, solved: Iterable) -> int
 
     Cycles repeat the same operators and sets: each of them is judged once, where no node sticks.
     """
-    sets: dict[tuple, tuple] = {}
-    times: Counter[tuple] = Counter()
-    for operator, status, forces in solved:
-        n = len(status)
-        sigma = np.where(status == SLIP_BACKWARD, -1.0, 1.0)
-        stick = np.flatnonzero(status == STICK)
-        sigma[stick] = forces[n + stick] / (friction * np.maximum(forces[stick], np.finfo(float).tiny))
-        key = id(operator), sigma.tobytes(), status.tobytes()
-        times[key] += 1
-        if key not in sets:
-            sets[key] = operator, status != OPEN, sigma
-    plain = _plainly_only(stiffness, friction, list(sets.values()))
+    operators, sets, forces = zip(*solved)
+    status, ends = np.concatenate(sets), np.cumsum([len(each) for each in sets]).tolist()
+    sigma, parts = np.where(status == SLIP_BACKWARD, -1.0, 1.0), [slice(*each) for each in zip([0, *ends], ends)]
+    if (stick := status == STICK).any():
+        normal, tangential = np.hstack([each.reshape(2, -1) for each in forces])[:, stick]
+        sigma[stick] = tangential / (friction * np.maximum(normal, np.finfo(float).tiny))
+    keys = [(id(operator), sigma[own].tobytes(), status[own].tobytes()) for operator, own in zip(operators, parts)]
+    times, first = Counter(keys), {key: place for place, key in reversed(list(enumerate(keys)))}
+    judged = [(operators[place], np.flatnonzero(sets[place] != OPEN), sigma[parts[place]]) for place in first.values()]
+    plain = _plainly_only(stiffness, friction, judged)
     return sum(
         times[key]
-        for (key, (operator, closed, sigma)), certified in zip(sets.items(), plain)
+        for (key, place), (operator, _, own), certified in zip(first.items(), judged, plain)
         if not certified
-        and not is_only_solution(stiffness, operator.stored.rows, operator.jacobian, friction, closed, sigma)
+        and not is_only_solution(stiffness, operator.stored.rows, operator.jacobian, friction, sets[place] != OPEN, own)
     )
 
 
-def _plainly_only(stiffness: np.ndarray, friction: float, sets: list[tuple]) -> list[bool]:
-    """Whether D = 1 is a certificate, or D = diag(b/a) where contact alone holds the load, of many `sets` (operator,
-    closed, sigma) at once: those with as many closed nodes m together."""
+def _plainly_only(stiffness: np.ndarray, friction: float, judged: list[tuple]) -> list[bool]:
+    """Whether D = 1 is a certificate, or D = diag(b/a) where contact alone holds the load, of many at once (operator,
+    closed nodes, sigma): those with as many closed nodes m together."""
     values, vectors, held = _motions(stiffness.tobytes(), len(stiffness))
-    found, of_size, free = [False] * len(sets), defaultdict(list), not held.all()
+    found, of_size, free = [False] * len(judged), defaultdict(list), not held.all()
     if np.count_nonzero(~held) > 1:
         return found
-    for place, (_, closed, _) in enumerate(sets):
-        of_size[np.count_nonzero(closed)].append(place)
+    for place, (_, nodes, _) in enumerate(judged):
+        of_size[len(nodes)].append(place)
     for m, places in of_size.items():
         compliance, moved, share = (
             np.empty((len(places), m, 2 * m)),
@@ -109,14 +107,10 @@ def _plainly_only(stiffness: np.ndarray, friction: float, sets: list[tuple]) -> 
             np.empty((len(places), m)),
         )
         for i, place in enumerate(places):
-            operator, closed, sigma = sets[place]
-            nodes = np.flatnonzero(closed)
-            both = np.concatenate((nodes, len(closed) + nodes))
-            compliance[i], moved[i], share[i] = (
-                operator.stored.rows[nodes[:, None], both],
-                operator.jacobian[both],
-                friction * sigma[nodes],
-            )
+            operator, nodes, sigma = judged[place]
+            both = np.concatenate((nodes, len(sigma) + nodes))
+            compliance[i], moved[i] = operator.stored.rows[nodes[:, None], both], operator.jacobian[both]
+            share[i] = friction * sigma[nodes]
         moved = moved @ vectors
         normal, sliding = moved[:, :m], moved[:, :m] + share[:, :, None] * moved[:, m:]
         matrices = (

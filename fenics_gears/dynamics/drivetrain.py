@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -81,7 +82,7 @@ class Drivetrain:
         """Whether the load drives the pair from the wheel."""
         return bool(self.load[self.coordinates.index("rotation_2")] < 0.0)
 
-    @property
+    @cached_property
     def free_motion(self) -> np.ndarray:
         """How the load moves the drivetrain (k,) where, without mass, only contact holds it; empty where its stiffness
         does."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 from itertools import compress
 from math import ceil
@@ -39,8 +39,8 @@ LONGEST_BLOCK, LONGEST_BLOCK_OF_OWN_SOLVER = 512, 32
 class March:
     """A march so far.
 
-    `kept`: the last steps; `in_periods`: by number those of the last two times `period` steps, without their contact
-    operators; `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of
+    `kept`: the last steps; `period`: of the last two times as many steps the solutions are held (`held`);
+    `newton_iterations`: of every step from 1 on; `steps_by_method`: how many steps each of
     `METHODS` solved;
     `separations`: step and smallest opening (mm) of every step without contact of drive flanks; `locked`: steps at
     which friction locks a closed node (`contact.existence`); `uncertified`: how many of the `judged` last steps may
@@ -62,7 +62,7 @@ class March:
     uncertified: int = 0
     interrupted: bool = False
     seconds: float = 0.0
-    in_periods: dict[int, Record] = field(default_factory=dict)
+    _held: list[Steps] = field(default_factory=list)
     _last: list[Steps] = field(default_factory=list)
 
     def take(self, solved: Steps) -> None:
@@ -85,11 +85,17 @@ class March:
             self.separations += list(zip(solved.numbers[apart].astype(int).tolist(), openings.tolist()))
 
     def _hold(self, solved: Steps) -> None:
-        for record in solved.between(max(len(solved) - 2 * self.period, 0), len(solved)).records:
-            # Contact operators take a hundred times the memory.
-            self.in_periods[int(record.step)] = replace(record, position=None, parts=())  # type: ignore[arg-type]
-        for number in [each for each in self.in_periods if each <= self.steps - 2 * self.period]:
-            del self.in_periods[number]
+        self._held = [steps for steps in self._held if steps.numbers[-1] > self.steps - 2 * self.period]
+        # Contact operators take a hundred times the memory.
+        self._held.append(solved.without_operators())
+
+    def held(self, step: int) -> Record | None:
+        """A step without its position, where its solution is held."""
+        for steps in self._held:
+            place = int(np.searchsorted(steps.numbers, step))
+            if place < len(steps) and steps.numbers[place] == step:
+                return steps.record(place)
+        return None
 
     @cached_property
     def records(self) -> list[Record]:

@@ -4,7 +4,7 @@ treated at once."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -86,7 +86,7 @@ class Steps:
         """Room for the solutions at these positions."""
         count, table = len(positions), table_of(positions)
         nodes = int(table[:, NODES].sum())
-        forces = nodes * (1 if not count or positions[0].operator.rigid_slip is None else 2)
+        forces = nodes * (1 if not count or positions[-1].operator.rigid_slip is None else 2)
         steps = cls(
             np.array(numbers, dtype=float), positions, np.zeros((count, 3, coordinates)), np.zeros(forces),
             np.zeros(forces),
@@ -160,6 +160,12 @@ class Steps:
             self.status[nodes], self.iterations[first:end], self.methods[first:end], parts,
         )  # fmt: skip
         steps.__dict__["table"] = self.table[first:end]
+        return steps
+
+    def without_operators(self) -> Steps:
+        """These steps without positions and parts."""
+        steps = replace(self, positions=[None] * len(self), parts={})  # type: ignore[list-item]
+        steps.__dict__["starts"] = self.starts
         return steps
 
     def followed_by(self, other: Steps) -> Steps:

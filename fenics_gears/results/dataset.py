@@ -23,7 +23,7 @@ from fenics_gears.inputs.tree import GEARS
 from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.results.carried_scene import scene_attributes
 from fenics_gears.results.contact_variables import largest_normal_force, transmitted
-from fenics_gears.results.extrema import Extrema, largest_pair_force, peak_to_peak
+from fenics_gears.results.extrema import Extrema, extremes
 from fenics_gears.results.key_numbers import key_numbers, largest_root_stress, path_point_coordinate, path_point_values
 from fenics_gears.results.numbers import RUNG, loss_attributes
 from fenics_gears.results.pairs import shown_steps
@@ -208,19 +208,21 @@ def _numbers(recorder: Recorder, march: March, result: RunResult, first: int) ->
     error = counted["transmission_error"]
     lost = [separation for separation in march.separations if separation[0] > first or first == 0]
     numbers = loss_attributes(lost, first, march.steps, model.clock)
-    extrema = Extrema(model, recorder.cycle, counted["mesh_phase"], error, march.in_periods)
-    numbers |= peak_to_peak(extrema, error)
-    # The last step begins the next cycle.
-    numbers["mean_transmission_error"] = float(error[:-1].mean() if len(error) > 1 else error[0])
+    extrema = Extrema(model, recorder.cycle, counted["mesh_phase"], error, march)
+    friction: dict[str, float] = {}
     if len(error) > 1 and model.scene.friction is not None and not march.locked:
-        numbers |= _friction_loss(counted) if largest_normal_force(result) > NO_FORCE else {}
-    numbers |= key_numbers(counted, model.pair, numbers.get("friction_loss"), model.scene.motion.speed_given)
+        friction = _friction_loss(counted) if largest_normal_force(result) > NO_FORCE else {}
+    others = key_numbers(counted, model.pair, friction.get("friction_loss"), model.scene.motion.speed_given)
+    of_error, of_force = extremes(extrema, counted, "largest_pair_force" in others)
+    # The last step begins the next cycle.
+    mean = float(error[:-1].mean() if len(error) > 1 else error[0])
+    numbers |= of_error | {"mean_transmission_error": mean} | friction | others
     if recorder.stress is not None or recorder.along_face:
         labelled = result.dataset.isel(time=slice(first, None))
         numbers |= largest_root_stress(labelled)
         for along in recorder.along_face:
             numbers |= along.numbers(labelled)
-    return numbers | (largest_pair_force(extrema, counted) if "largest_pair_force" in numbers else {})
+    return numbers | of_force
 
 
 def _friction_loss(counted: Mapping[str, np.ndarray]) -> dict[str, float]:

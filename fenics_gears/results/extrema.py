@@ -8,16 +8,16 @@ one: positions are solved as without inertia.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from math import ceil, isfinite
+from math import ceil, isfinite, log2
 
 import numpy as np
 
-from fenics_gears.contact.errors import ContactNotConverged
-from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.mesh_cycle import COMMON_PLACES, Cycle
 from fenics_gears.dynamics.between_steps import BetweenSteps
+from fenics_gears.dynamics.march import March, thread_pools
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.effects import common_period
 from fenics_gears.model.model import Model
@@ -27,9 +27,12 @@ from fenics_gears.results.numbers import CUBICS, SAME, SOLVED, STEPS
 
 # Up to which part of the curve's span an extremum is sought.
 SOUGHT = 1e-4
-# Over a face positions cost a hundred times as much, and slices leave a peak-to-peak value some 2 % uncertain. There
-# places divide a step by eight, so that all runs of a search ask for the same ones.
-SOUGHT_OVER_FACE, FINEST_OVER_FACE = 3e-4, 0.125
+# Places between steps divide a step by eight at least, so that runs of a search ask for the same ones, and a mesh cycle
+# by so many: friction turns, and pairs enter contact, within less.
+LARGEST_PART, PLACES = 0.125, 800
+# Over a face positions cost a hundred times as much, and slices leave a peak-to-peak value some 2 % uncertain: their
+# ripples are so long that what looks like a corner is none.
+SOUGHT_OVER_FACE = 3e-4
 # Longer periods are not held in memory.
 MOST_RECORDS = 2000
 # A position solved again is that of the march if it is as near as this part of what is sought.
@@ -37,19 +40,27 @@ SAME_POSITION = 0.1
 
 
 @dataclass(frozen=True)
+class Quantity:
+    """A `curve` (s,) over the settled steps of a run, and its value `of` a position that is solved."""
+
+    curve: np.ndarray
+    of: Callable[[Record], float]
+
+
+@dataclass(frozen=True)
 class Extremum:
-    """A largest value, and where it is in mesh cycles since the start."""
+    """A largest value, where it is in mesh cycles since the start, and how it was located."""
 
     value: float
     mesh_phase: float
+    found_by: str
 
 
 class Extrema:
     """Locates the largest values of curves over the settled steps of a run.
 
     `mesh_phase`, `transmission_error` (s,), rad: of consecutive steps; the latter tells whether a position solved again
-    is that of the march. `records`: solutions of the march with friction, by step, from which positions are solved.
-    `found_by`: how the last one was located.
+    is that of the march. `march`: holds solutions with friction, from which positions are solved.
     """
 
     def __init__(
@@ -58,7 +69,7 @@ class Extrema:
         cycle: Cycle,
         mesh_phase: np.ndarray,
         transmission_error: np.ndarray,
-        records: Mapping[int, Record] | None = None,
+        march: March | None = None,
     ):
         self._model, self._cycle = model, cycle
         self._steps = np.rint(mesh_phase * cycle.steps).astype(int)
@@ -71,34 +82,62 @@ class Extrema:
         )
         self._quasi_static = model.drivetrain.mass is None
         follows_statics = self._quasi_static or not model.time_scales.averages_acceleration
-        self._sought, self._finest = (SOUGHT, 0.0) if cycle.face.slices == 1 else (SOUGHT_OVER_FACE, FINEST_OVER_FACE)
-        self.found_by = CUBICS if not follows_statics else SOLVED if cycle.traits.divisible else STEPS
-        if self.found_by == SOLVED:
+        self._sought, self._finest, self._corners = SOUGHT_OVER_FACE, LARGEST_PART, cycle.face.slices == 1
+        if self._corners:
+            wanted = 2.0 ** -ceil(log2(PLACES / cycle.steps))
+            self._sought, self._finest = SOUGHT, min(max(wanted, 1.0 / COMMON_PLACES), LARGEST_PART)
+        self._way = CUBICS if not follows_statics else SOLVED if cycle.traits.divisible else STEPS
+        if self._way == SOLVED:
             # Not a method of this object: with a circle of references all operators would stay until Python looks for
             # garbage.
             same = SAME_POSITION * SOUGHT * float(np.ptp(transmission_error))
             marched = partial(
                 _is_marched, model, transmission_error, self._place(0), same if self._quasi_static else np.inf
             )
-            known = {step - self._first: record for step, record in (records or {}).items()}
-            self._between = BetweenSteps(cycle, model.equations_of_motion, marched, known)
+            held = partial(_held, march, self._first)
+            self._between = BetweenSteps(cycle, model.equations_of_motion, marched, held)
 
-    def largest(self, curve: np.ndarray, of: Callable[[Record], float]) -> Extremum:
-        """The largest value of a curve (s,); `of`: its value at a position."""
-        value, round_off = float(curve.max()), SAME * float(np.abs(curve).max())
-        # The first of all that differ by round-off: cycles repeat.
-        step = float(self._steps[np.argmax(curve >= value - round_off)])
-        found = step, value
-        if self.found_by == SOLVED:
-            sought = self._sought * float(np.ptp(curve)) + round_off
-            step_in_period, highest_value = highest(
-                *self._last_period(curve), lambda step: self._at(step, curve, of), sought, self._finest
-            )
-            found = self._first + step_in_period, highest_value
-        elif self.found_by == CUBICS:
-            found = largest_of_cubics(self._steps, curve)
-        step, value = found if found[1] > value + round_off else (step, value)
-        return Extremum(value, step / self._cycle.steps)
+    def largest(self, quantities: Sequence[Quantity]) -> list[Extremum]:
+        """The largest value of each quantity; what they ask for between steps is solved together."""
+        located = self._solved(quantities) if self._way == SOLVED else [(0.0, -np.inf, self._way)] * len(quantities)
+        found = []
+        for quantity, (step, value, way) in zip(quantities, located):
+            curve = quantity.curve
+            if way == CUBICS:
+                step, value = largest_of_cubics(self._steps, curve)
+            top, round_off = float(curve.max()), _round_off(curve)
+            if value <= top + round_off:
+                # The first of all that differ by round-off: cycles repeat.
+                step, value = float(self._steps[np.argmax(curve >= top - round_off)]), top
+            found.append(Extremum(value, step / self._cycle.steps, way))
+        return found
+
+    def _solved(self, quantities: Sequence[Quantity]) -> list[tuple[float, float, str]]:
+        """Step, largest value, and the way, of each quantity by positions that are solved."""
+        searches = []
+        for curve in (quantity.curve for quantity in quantities):
+            sought = self._sought * float(np.ptp(curve)) + _round_off(curve)
+            searches.append(highest(*self._last_period(curve), sought, self._finest, self._corners))
+        found, asked = [(0.0, -np.inf, SOLVED)] * len(searches), {}
+
+        def answer(number: int, value: float | None) -> None:
+            way = STEPS if value is not None and np.isnan(value) else SOLVED
+            try:
+                # A generator begins with nothing.
+                asked[number] = searches[number].send(value)  # type: ignore[arg-type]
+            except StopIteration as end:
+                step, top = end.value
+                found[number] = self._first + step, top, way
+                asked.pop(number, None)
+
+        for number in range(len(searches)):
+            answer(number, None)
+        with thread_pools().limit(limits=1):
+            while asked:
+                records = self._records(asked.values())
+                for number, step in list(asked.items()):
+                    answer(number, self._at(step, quantities[number], records))
+        return found
 
     def transmission_error(self, record: Record) -> float:
         """The transmission error, rad, at a position."""
@@ -108,26 +147,24 @@ class Extrema:
         """Place of a step of the period among all steps."""
         return int(step) + self._first - int(self._steps[0])
 
-    def _at(self, step: float, curve: np.ndarray, of: Callable[[Record], float]) -> float:
-        """Value of a curve (s,) at a place between two steps; not a number where it cannot be solved.
+    def _records(self, steps: Iterable[float]) -> dict[float, Record | None]:
+        """What is solved at places between steps and, with inertia, at the steps on either side of them."""
+        sides = () if self._quasi_static else (-1, 0)
+        return self._between.at([each for step in steps for each in (step, *(ceil(step) + side for side in sides))])
+
+    def _at(self, step: float, quantity: Quantity, records: Mapping[float, Record | None]) -> float:
+        """Value of a quantity at a place between two steps; not a number where it cannot be solved.
 
         With inertia it is the static value and, straight between the steps, by what the curve differs from static
         values there.
         """
-        ends = (ceil(step) - 1, ceil(step))
-        try:
-            records = [self._between.at(each) for each in (step, *(() if self._quasi_static else ends))]
-        except ContactNotConverged:
-            records = [None]
-        if None in records:
-            self.found_by = STEPS
+        ends = () if self._quasi_static else (ceil(step) - 1, ceil(step))
+        solved = [record for each in (step, *ends) if (record := records[each]) is not None]
+        if len(solved) < 1 + len(ends):
             return np.nan
-        value, *static = map(of, records)
-        return (
-            value + float(np.interp(step, ends, [curve[self._place(end)] - each for end, each in zip(ends, static)]))
-            if static
-            else value
-        )
+        value, *static = map(quantity.of, solved)
+        apart = [quantity.curve[self._place(end)] - each for end, each in zip(ends, static)]
+        return value + float(np.interp(step, ends, apart)) if apart else value
 
     def _last_period(self, curve: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Steps from the first of a period and values of the last one, with a step before and after it as it repeats;
@@ -140,6 +177,10 @@ class Extrema:
         )
 
 
+def _round_off(curve: np.ndarray) -> float:
+    return SAME * float(np.abs(curve).max())
+
+
 def _is_marched(model: Model, transmission_error: np.ndarray, first: int, same: float, record: Record) -> bool:
     """Whether a position has the transmission error (s,) of the march at its step, of which step 0 has the place
     `first`; any has where `same` is infinite."""
@@ -150,6 +191,11 @@ def _is_marched(model: Model, transmission_error: np.ndarray, first: int, same: 
     )
 
 
+def _held(march: March | None, first: int, step: int) -> Record | None:
+    """A step of the period that begins at the step `first` of a march, where one holds it."""
+    return None if march is None else march.held(step + first)
+
+
 def repeating_steps(model: Model) -> int:
     """Steps of a march after which they repeat, where the solutions of so many are needed to locate extrema; else 0."""
     period = common_period(model.scene) * model.resolution.steps_per_mesh_cycle
@@ -157,26 +203,36 @@ def repeating_steps(model: Model) -> int:
     return int(period) if needed and period <= min(model.steps, MOST_RECORDS) else 0
 
 
-def peak_to_peak(extrema: Extrema, error: np.ndarray) -> dict[str, float | str]:
-    """T_EPP, rad, of the transmission error (s,), rad, where its extremes are, and how they were found."""
-    largest = extrema.largest(error, extrema.transmission_error)
-    least = extrema.largest(-error, lambda record: -extrema.transmission_error(record))
-    return {
+Numbers = dict[str, float | str]
+
+
+def extremes(extrema: Extrema, curves: Mapping[str, np.ndarray], force: bool) -> tuple[Numbers, Numbers]:
+    """T_EPP, rad, where the extremes of the transmission error are, and how they were found; and the same of the
+    largest normal force of a tooth pair, N, where it is asked for."""
+    error, of = curves["transmission_error"], extrema.transmission_error
+    quantities = [Quantity(error, of), Quantity(-error, lambda record: -of(record))]
+    if force:
+        quantities.append(pair_force(curves))
+    largest, least, *forces = extrema.largest(quantities)
+    of_error: Numbers = {
         "peak_to_peak_transmission_error": largest.value + least.value,
-        "peak_to_peak_transmission_error_from": extrema.found_by,
+        "peak_to_peak_transmission_error_from": least.found_by if largest.found_by == SOLVED else largest.found_by,
         "largest_transmission_error_mesh_phase": largest.mesh_phase,
         "least_transmission_error_mesh_phase": least.mesh_phase,
     }
+    of_force: Numbers = {}
+    for found in forces:
+        of_force = {
+            "largest_pair_force": found.value,
+            "largest_pair_force_mesh_phase": found.mesh_phase,
+            "largest_pair_force_from": found.found_by,
+        }
+    return of_error, of_force
 
 
-def largest_pair_force(extrema: Extrema, curves: Mapping[str, np.ndarray]) -> dict[str, float | str]:
-    """The largest normal force of a tooth pair, N, by its curves over the steps, where it is, and how it was found."""
-    found = extrema.largest(largest_force_over_time(curves), _largest_force_of_a_pair)
-    return {
-        "largest_pair_force": found.value,
-        "largest_pair_force_mesh_phase": found.mesh_phase,
-        "largest_pair_force_from": extrema.found_by,
-    }
+def pair_force(curves: Mapping[str, np.ndarray]) -> Quantity:
+    """The largest normal force of a tooth pair, N."""
+    return Quantity(largest_force_over_time(curves), _largest_force_of_a_pair)
 
 
 def _largest_force_of_a_pair(record: Record) -> float:

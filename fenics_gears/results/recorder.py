@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.touching import touching_at
+from fenics_gears.contact.touching import Touching, touching_at
 from fenics_gears.dynamics.march import March
 from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps
@@ -49,6 +49,20 @@ def _along_face(cycle: Cycle) -> tuple[AlongTheFace, ...]:
     return (AlongTheFace(cycle),)
 
 
+class KnownTouching:
+    """Where pairs touch over a mesh cycle, which runs on the same operators have in common (`Cycle.beside`)."""
+
+    found: Touching | None = None
+
+    def of(self, cycle: Cycle) -> Touching:
+        """In the cycle that this goes with."""
+        if self.found is None:
+            self.found = touching_at(
+                lambda step: [pair.place for pair in cycle.pairs_at(step)], cycle.steps, cycle.coast_flanks
+            )
+        return self.found
+
+
 class Recorder:
     """Takes the steps of a march, block by block; `loads`: the varying ones, the model's unless given; `stress`: root
     stress, if asked for.
@@ -67,7 +81,7 @@ class Recorder:
     ):
         self.model, self.cycle, self.stress = model, cycle, stress
         self.loads = model.loads if loads is None else loads
-        ways = touching_at(lambda step: [pair.place for pair in cycle.pairs_at(step)], cycle.steps, cycle.coast_flanks)
+        ways = cycle.beside(KnownTouching).of(cycle)
         self.first_number, self.slots = 1 + ways.latest, ways.slots
         nodes = cycle.grid.most_nodes
         self.size = sizes(model.steps + 1, model.contact_steps, self.slots, nodes, cycle.face.slices)

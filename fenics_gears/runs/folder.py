@@ -9,7 +9,7 @@ import logging
 import os
 import traceback
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from fenics_gears import results
@@ -19,6 +19,7 @@ from fenics_gears.results.files import read
 from fenics_gears.runs.record import VARIABLES, Record, record_of
 from fenics_gears.runs.run import Run
 from fenics_gears.runs.runs import Failure, failure_of
+from fenics_gears.runs.spent import seconds_of
 from fenics_gears.system.output import remove_left_over, write_whole
 
 LOGGER = logging.getLogger(__name__)
@@ -49,7 +50,11 @@ class Folder:
         result = found.dataset
         results.save(result.assign_attrs(case_key=run.key, case_values=json.dumps(run.values)), self._file(run, ENDING))
         self._file(run, FAILED_ENDING).unlink(missing_ok=True)
-        return record_of(result)
+        return replace(record_of(result), seconds=seconds_of(found))
+
+    def seconds(self, known: Record) -> tuple[float, ...]:
+        """Those of a record."""
+        return known.seconds
 
     def keep_failure(self, run: Run, error: Exception) -> Failure:
         """Write why the run failed, and its scene; the next time it is tried again."""

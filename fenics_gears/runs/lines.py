@@ -42,6 +42,10 @@ class Lines:
         append(self.directory, line)
         return _known(line)
 
+    def seconds(self, known: Line) -> list[float]:
+        """Those of a line."""
+        return known["seconds"]
+
     def keep_failure(self, run: Run, error: Exception) -> Failure:
         """Write why the run failed. What is no error of this program is not kept, so that it is tried again."""
         if not isinstance(error, GearsError) or isinstance(error, NotKept):

@@ -15,6 +15,7 @@ from fenics_gears.results.dataset import RunResult
 from fenics_gears.runs.condensing import condense, gear_tasks
 from fenics_gears.runs.gear_store import own_gear_store
 from fenics_gears.runs.run import Run
+from fenics_gears.runs.spent import Spent
 from fenics_gears.runs.team import Alone, Together
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.routes import Preparation
@@ -39,6 +40,9 @@ class Store(Protocol):
     def keep(self, run: Run, result: RunResult) -> Any:
         """Keep the result of a run."""
 
+    def seconds(self, known: Any) -> Iterable[float]:
+        """As of `spent.seconds_of`, by what is known of a run that was computed."""
+
     def keep_failure(self, run: Run, error: Exception) -> Failure:
         """Keep why a run failed; raises the error where it is none of the run."""
 
@@ -46,13 +50,14 @@ class Store(Protocol):
 class Runs:
     """The runs of a store and a team.
 
-    `known`: by key what the store has of a run, a Failure where it has none; `kept`: how many were there before.
+    `known`: by key what the store has of a run, a Failure where it has none; `kept`: how many were there before;
+    `spent`: on those that were computed here.
     """
 
     def __init__(self, store: Store, team: Alone | Together, runs: Iterable[Run] = ()):
         self._store, self._team = store, team
         self.known = store.known(runs)
-        self.kept = len(self.known)
+        self.kept, self.spent = len(self.known), Spent(team.size)
 
     def missing(self, runs: Iterable[Run]) -> list[Run]:
         """Those that are not known, each once, in the order in which they share most."""
@@ -83,9 +88,14 @@ class Runs:
             # An exception is one that the worker could not even report, such as an MPI error.
             known = failure_of(found) if isinstance(found, Exception) else found
             self.known[missing[index].key] = known
+            self.spent.count(() if isinstance(known, Failure) else self._store.seconds(known))
             finished(missing[index], known)
 
-        self._team.run(functools.partial(computed, self._store), missing, take, tick)
+        begun = time.perf_counter()
+        try:
+            self._team.run(functools.partial(computed, self._store), missing, take, tick)
+        finally:
+            self.spent.seconds += time.perf_counter() - begun
 
 
 def in_order_of_sharing(runs: Iterable[Run]) -> list[Run]:

@@ -19,7 +19,7 @@ from fenics_gears.effects import common_period, effects_on, missing_needs, witho
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.results.dataset import RunResult
-from fenics_gears.results.extrema import Extrema, largest_pair_force
+from fenics_gears.results.extrema import Extrema, pair_force
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.settled import settled_steps
 from fenics_gears.scene.data import Scene
@@ -117,7 +117,7 @@ def _largest_force(recorder: Recorder) -> float:
     """Largest normal force, N, of a tooth pair of a quasi-static march, as its own result has it."""
     curves = recorder.arrays
     extrema = Extrema(recorder.model, recorder.cycle, curves["mesh_phase"], curves["transmission_error"])
-    return float(largest_pair_force(extrema, curves)["largest_pair_force"])
+    return extrema.largest([pair_force(curves)])[0].value
 
 
 def _peaks(curves: Mapping[str, np.ndarray], force: float) -> Peaks:

@@ -91,15 +91,15 @@ def sections_of_gaps(model: Model) -> tuple[str, ...]:
 
 def gaps_of(model: Model, cycle: Cycle) -> Gaps:
     """What opens the contact nodes of a cycle of the model, or of one that shares its contact operators."""
-    profile, openings = None, ()
+    profile, of_steps, openings = None, None, ()
     if model.removal != (None, None) and reliefs_apart(model):
         # Imported here: true involutes have none.
         from fenics_gears.contact.relief_gaps import profile_of
 
-        profile = profile_of(cycle, model.removal)
+        profile, of_steps = profile_of(cycle, model.removal)
     if cycle.face.slices > 1:
         # Imported here: plane scenes have none.
         from fenics_gears.contact.face_mesh import opening_over_face
 
         openings = (opening_over_face(cycle, model.face_opening, model.coast_face_opening),)
-    return Gaps(profile, openings, tuple(from_effects(model.scene, "gaps", model)))
+    return Gaps(profile, openings, tuple(from_effects(model.scene, "gaps", model)), of_steps)

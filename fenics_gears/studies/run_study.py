@@ -14,6 +14,7 @@ from fenics_gears.runs.folder import Folder, sole_writer
 from fenics_gears.runs.record import Record
 from fenics_gears.runs.run import Run
 from fenics_gears.runs.runs import Failure, Runs
+from fenics_gears.runs.spent import Spent
 from fenics_gears.runs.team import Alone, Meanwhile, Together, ranks
 from fenics_gears.studies.combine import STUDY_FILE, combined, save_study
 from fenics_gears.studies.study import Study
@@ -27,13 +28,14 @@ LOGGER = logging.getLogger(__name__)
 @dataclass
 class Outcome:
     """Results of a study so far, and why cases failed, by the case's index; `kept`: how many results were there
-    before."""
+    before; `spent`: on the others."""
 
     study: Study
     file: Path | None = None
     kept: int = 0
     records: dict[int, Record] = field(default_factory=dict)
     failures: dict[int, str] = field(default_factory=dict)
+    spent: Spent = field(default_factory=Spent)
     interrupted: bool = False
 
 
@@ -63,7 +65,7 @@ def run_with(team: Alone | Together, study: Study, directory: Path, progress: Pr
 
 def _run(study: Study, directory: Path, team: Alone | Together, progress: Progress, quiet: bool) -> Outcome:
     runs = Runs(Folder(directory / "cases"), team, study.cases)
-    outcome, missing = Outcome(study, kept=runs.kept), runs.missing(study.cases)
+    outcome, missing = Outcome(study, kept=runs.kept, spent=runs.spent), runs.missing(study.cases)
     opening = _opening(study, runs.kept, len(missing), changed_since(study, directory), team.size)
     if not quiet:
         print(opening, file=sys.stderr, flush=True)

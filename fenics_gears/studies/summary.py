@@ -12,11 +12,7 @@ MOST_FAILURES = 5
 def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
     """Rows of label, value, unit."""
     records = outcome.records.values()
-    rows = [
-        ("cases", f"{len(outcome.study.cases)}", ""),
-        ("kept from before", f"{outcome.kept}", ""),
-        ("computed", f"{len(records) - outcome.kept}", ""),
-    ]
+    rows = [("cases", f"{len(outcome.study.cases)}", ""), *outcome.spent.rows(outcome.kept)]
     if outcome.failures:
         rows.append(("failed", f"{len(outcome.failures)}", ""))
     if records:

@@ -56,21 +56,22 @@ def in_the_plane(friction: bool, draw: np.random.Generator) -> Iterator[Model]:
 
 def spent(model: Model, store: GearStore) -> list[float]:
     """User and kernel seconds of a run, operators built, positions asked for between steps, iterations."""
-    counted, build, at = [0, 0], Cycle._build, BetweenSteps.at
+    counted, build, solve = [0, 0], Cycle._build, BetweenSteps._solve_each
 
-    def counting(place, function):
-        def counted_call(*given):
-            counted[place] += 1
-            return function(*given)
+    def counting_built(*given):
+        counted[0] += 1
+        return build(*given)
 
-        return counted_call
+    def counting_places(between, places):
+        counted[1] += len(places)
+        solve(between, places)
 
-    Cycle._build, BetweenSteps.at = counting(0, build), counting(1, at)
+    Cycle._build, BetweenSteps._solve_each = counting_built, counting_places
     before = resource.getrusage(resource.RUSAGE_SELF)
     try:
         result = completed(model, store.prepared)
     finally:
-        Cycle._build, BetweenSteps.at = build, at
+        Cycle._build, BetweenSteps._solve_each = build, solve
     after = resource.getrusage(resource.RUSAGE_SELF)
     seconds = after.ru_utime - before.ru_utime, after.ru_stime - before.ru_stime
     return [*seconds, *counted, result.attrs["newton_iterations_total"]]

@@ -1,5 +1,6 @@
 """Running a study in one process: its files, what is kept, what is computed again, and what fails."""
 
+import re
 import signal
 from pathlib import Path
 
@@ -87,7 +88,14 @@ def test_a_study_run_again_computes_only_what_is_new(folder, capsys):
     assert load("here").equals(combined)
     write_study(folder, TWO.replace('["100 Hz"', '["50 Hz", "100 Hz"'))
     assert main(["study", str(study), "--output", "here"]) == 0
-    assert "2 kept, 1 to be computed" in capsys.readouterr().err
+    said = capsys.readouterr()
+    assert "2 kept, 1 to be computed" in said.err
+    # How quick it was, and what limits: the parts of a run add up to all of it.
+    assert re.search(r"1 computed, [\d.e+-]+ per second, 2 kept from before", said.out)
+    march, numbers, beside = map(
+        int, re.search(r"march (\d+)%.* (\d+)%, contact.* (\d+)% of the time", said.out).groups()
+    )
+    assert 0 < march + numbers <= 100 and 0 <= beside <= 100
     after = stamps("here")
     assert set(before.values()) < set(after.values()) and len(after) == 3
     assert (

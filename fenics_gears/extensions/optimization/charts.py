@@ -199,15 +199,10 @@ def no_gain(outcome: Outcome) -> str:
 def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
     """Rows of label, value, unit: what was tried and computed, the goals before and after, and the chosen values."""
     failed = sum(bool(each.failure) for each in outcome.tried)
-    rate = f", {outcome.computed / outcome.seconds:.3g} runs per second" if outcome.computed and outcome.seconds else ""
     rows = [
         ("designs", f"{len(outcome.tried)}" + (f", {failed} failed" if failed else ""), ""),
-        ("runs", f"{outcome.computed} computed{rate}, {outcome.kept} kept from before", ""),
+        *outcome.spent.rows(outcome.kept),
     ]
-    took, marched, numbers = outcome.of_runs
-    if took:
-        words = f"{1e3 * took / outcome.computed:.3g} ms: march {marched / took:.0%}, extremes between steps and other"
-        rows.append(("a run", f"{words} numbers {numbers / took:.0%}, contact equations the rest", ""))
     compared = {f", {BEFORE}": outcome.before, f", {BEST}": outcome.chosen} | dict(
         zip((f" under new samples, {BEFORE}", f" under new samples, {BEST}"), outcome.fresh)
     )

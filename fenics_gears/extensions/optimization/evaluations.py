@@ -18,6 +18,7 @@ from fenics_gears.runs.lines import Lines, kept
 from fenics_gears.runs.record import numbers_of
 from fenics_gears.runs.run import Run, run_of
 from fenics_gears.runs.runs import Failure, Runs
+from fenics_gears.runs.spent import seconds_of
 from fenics_gears.runs.team import Alone, Together
 from fenics_gears.studies.scenes import NoScene, model_of_tree
 from fenics_gears.system.progress import Interruption
@@ -67,17 +68,14 @@ class Evaluation:
 class Evaluator:
     """Evaluates designs with the processes of a `team`; runs that are in `directory` are taken from there.
 
-    `designs`: how many of how many have been evaluated, for the progress; `computed`: runs that were computed here;
-    `kept`: those that were there before, beside `others` of versions with other numbers; `seconds`: by the clock, with
-    the scenes and models of the runs; `of_runs` (3,): those that runs computed here took, each by itself, and of these
-    in the march and for their numbers.
+    `designs`: how many of how many have been evaluated, for the progress; `others`: runs of versions with other numbers
+    beside those that are kept.
     """
 
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
         self.design, self._progress = design, progress
         self.runs, self.others = Runs(Lines(directory, line_of), team), kept(directory)[1]
-        self.designs, self.kept, self.computed, self.seconds = (0, 0), self.runs.kept, 0, 0.0
-        self.of_runs = np.zeros(3)
+        self.designs = 0, 0
 
     def of_designs(self, designs: Sequence[Mapping[str, float | str]], deviations: np.ndarray) -> list[Evaluation]:
         """Designs, by the values of their variables, under deviations (samples, scatters) in parts of their limits."""
@@ -89,18 +87,18 @@ class Evaluator:
         """The same for parsed scenes; `designs` are only noted."""
         begun = time.perf_counter()
         cases = [[self._case(each) for each in trees_of(self.design, tree, deviations)] for tree in trees]
-        self._run([case for of_tree in cases for case in of_tree if isinstance(case, Run)], len(trees), begun)
+        self.runs.spent.seconds += time.perf_counter() - begun
+        self._run([case for of_tree in cases for case in of_tree if isinstance(case, Run)], len(trees))
         return [self._evaluation(dict(values), of_tree, len(deviations)) for values, of_tree in zip(designs, cases)]
 
     def curves(self, trees: Sequence[Mapping[str, Any]]) -> list[np.ndarray | None]:
         """Mesh phase and transmission error (2, steps), rad, of parsed scenes; None where a run failed."""
-        begun = time.perf_counter()
         cases = [
             replace(case, key=f"{case.key} curve", values={"curve": ""})
             for case in map(self._case, trees)
             if isinstance(case, Run)
         ]
-        self._run(cases, len(trees), begun)
+        self._run(cases, len(trees))
         lines = [self.runs.known[case.key] for case in cases]
         return (
             [np.array(line["curve"]) if not isinstance(line, Failure) else None for line in lines]
@@ -129,9 +127,8 @@ class Evaluator:
             )
         ]
 
-    def _run(self, cases: list[Run], batch: int, begun: float) -> None:
-        """Compute the runs of a `batch` of designs that are not kept; their processes keep them. `begun`: when their
-        scenes were, by the clock."""
+    def _run(self, cases: list[Run], batch: int) -> None:
+        """Compute the runs of a `batch` of designs that are not kept; their processes keep them."""
         missing, known = self.runs.missing(cases), len(self.runs.known)
         if not missing:
             return
@@ -142,11 +139,6 @@ class Evaluator:
             self._progress.update(before + batch * done // len(missing), max(total, before + batch))
 
         self.runs.compute(missing, tick)
-        self.computed += len(missing)
-        self.seconds += time.perf_counter() - begun
-        lines = [self.runs.known[run.key] for run in missing]
-        took = [line["seconds"] for line in lines if not isinstance(line, Failure)]
-        self.of_runs += np.sum(took, axis=0) if took else 0.0
 
     def _evaluation(self, values: dict[str, float | str], cases: list[Run | Failure], samples: int) -> Evaluation:
         lines = [case if isinstance(case, Failure) else self.runs.known[case.key] for case in cases]
@@ -194,5 +186,4 @@ def line_of(run: Run, result: RunResult) -> dict[str, Any]:
         return {"failure": worthless[0]}
     numbers = numbers_of(result)
     numbers[ERROR] *= 1e3 * result.attrs["base_radius_wheel"]
-    seconds = [result.attrs["wall_time"], result.attrs["time_march"], result.seconds]
-    return {"numbers": numbers, "curve": _curve(result) if run.values else [], "seconds": seconds}
+    return {"numbers": numbers, "curve": _curve(result) if run.values else [], "seconds": seconds_of(result)}

@@ -14,6 +14,7 @@ from fenics_gears import ComputationError
 from fenics_gears.command_line import check_writable
 from fenics_gears.inputs.tree import Tree
 from fenics_gears.runs.folder import sole_writer
+from fenics_gears.runs.spent import Spent
 from fenics_gears.runs.team import Alone, Together, ranks
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import number_in
@@ -42,8 +43,7 @@ class Outcome:
     `along`: by variable its values and the chosen design's evaluations there, without scatter; `limits`: by scatter the
     evaluations of the chosen design at the lower limit, without scatter and at the upper limit; nothing where one
     failed. `harris`: torques (loads,), N m, and of the scene before and the chosen one curves (2, steps) of mesh phase
-    and transmission error, rad. `seconds`: by the clock; `of_runs`: those of all `computed` ones together, and of these
-    in the march and for their numbers.
+    and transmission error, rad. `spent`: on the runs that were not `kept` from before.
     """
 
     design: Design
@@ -56,10 +56,8 @@ class Outcome:
     along: dict[str, tuple[list[float | str], list[Evaluation]]] = field(default_factory=dict)
     limits: dict[str, dict[str, np.ndarray]] = field(default_factory=dict)
     harris: tuple[np.ndarray, list[list[np.ndarray | None]]] = (np.zeros(0), [])
-    computed: int = 0
     kept: int = 0
-    seconds: float = 0.0
-    of_runs: tuple[float, ...] = (0.0, 0.0, 0.0)
+    spent: Spent = field(default_factory=Spent)
 
     @property
     def chosen(self) -> Evaluation:
@@ -93,7 +91,7 @@ def _run(
     design: Design, directory: Path, team: Alone | Together, progress: Interruption, quiet: bool, any_time: bool
 ) -> Outcome:
     evaluator, deviations = Evaluator(design, directory / "runs", team, progress), samples(design)
-    work = expected_work(design, evaluator.kept)
+    work = expected_work(design, evaluator.runs.kept)
     if not any_time:
         work.check(design.title, team.size)
     if not quiet:
@@ -115,15 +113,14 @@ def _run(
     _look_around(outcome, evaluator)
     progress.stage("Harris map")
     outcome.harris = _harris(design, evaluator, outcome.chosen)
-    outcome.computed, outcome.kept, outcome.seconds = evaluator.computed, evaluator.kept, evaluator.seconds
-    outcome.of_runs = tuple(evaluator.of_runs.tolist())
+    outcome.kept, outcome.spent = evaluator.runs.kept, evaluator.runs.spent
     return outcome
 
 
 def _opening(design: Design, count: int, evaluator: Evaluator, work: Work, size: int) -> str:
     """One line on how much there is to do."""
     runs = len(design.loads.points) * count
-    kept = f" {evaluator.kept} runs are kept from before." if evaluator.kept else ""
+    kept = f" {evaluator.runs.kept} runs are kept from before." if evaluator.runs.kept else ""
     kept += (
         f" {evaluator.others} runs of a version of the program with other numbers are not used."
         if evaluator.others

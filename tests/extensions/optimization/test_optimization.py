@@ -189,12 +189,12 @@ def test_a_killed_search_repeats_nothing(folder):
     python(*call, ends=-signal.SIGKILL)
     assert len(run_lines.kept(folder / "killed" / "runs")[0]) == 5
     resumed = found(path, folder / "killed")
-    assert (resumed.kept, resumed.computed) == (5, whole.computed - 5)
+    assert (resumed.kept, resumed.spent.computed) == (5, whole.spent.computed - 5)
     keys = [line["key"] for line in lines(folder / "killed")]
-    assert len(keys) == len({*keys}) == whole.computed
+    assert len(keys) == len({*keys}) == whole.spent.computed
     assert [(each.values, each.goals) for each in resumed.tried] == [(each.values, each.goals) for each in whole.tried]
     again = found(path, folder / "killed")
-    assert (again.kept, again.computed, again.best) == (whole.computed, 0, whole.best)
+    assert (again.kept, again.spent.computed, again.best) == (whole.spent.computed, 0, whole.best)
 
 
 @pytest.mark.nightly
@@ -255,7 +255,9 @@ def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):
     assert outcome.chosen.values["tip_relief.depth"] <= 25.0 and not outcome.chosen.failure
     monkeypatch.setattr(runs, "solved", None)
     again = found(path)
-    assert again.computed == 0 and [each.failure for each in again.tried] == [each.failure for each in outcome.tried]
+    assert again.spent.computed == 0 and [each.failure for each in again.tried] == [
+        each.failure for each in outcome.tried
+    ]
 
 
 @pytest.mark.nightly
