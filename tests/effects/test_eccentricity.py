@@ -5,7 +5,6 @@ from math import cos
 
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene
 
 from fenics_gears import simulate
 from fenics_gears.contact.places import pair_places
@@ -44,17 +43,6 @@ def test_rigid_gears_have_one_harmonic_once_a_turn(rigid, paper_pair, gear, turn
     assert spectrum[turns] == pytest.approx(sign * DISTANCE * np.exp(1j * PHASE), abs=1e-12)
     spectrum[turns] = 0.0
     assert np.abs(spectrum[1:]).max() <= 1e-12
-
-
-def test_without_offset_nothing_changes(paper_scene):
-    """Omitted equals its zero limit, to the last bit, with inertia and friction."""
-    scene = coarse_scene(paper_scene, cycles=1)
-    plain, zero = (
-        simulate(scene),
-        simulate(replace(scene, eccentricity=Eccentricity(Offset(0.0, PHASE), Offset(0.0, PHASE)))),
-    )
-    for name in plain.data_vars:
-        assert np.array_equal(plain[name].values, zero[name].values, equal_nan=True)
 
 
 class _Operator:

@@ -1,4 +1,4 @@
-"""Tip relief, linear in the roll angle."""
+"""Where tip relief may begin."""
 
 from math import radians
 
@@ -9,18 +9,6 @@ from fenics_gears import GeometryError
 from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.geometry.relief import tip_reliefs
-
-
-def test_relief_from_the_highest_point_of_single_tooth_contact(paper_pair):
-    """Authority: definition (paper, Section 5): nothing below HPSTC, the depth at the tip, linear between."""
-    pinion, wheel = tip_reliefs(paper_pair, TipRelief(Relief(0.031, None), Relief(0.020, None)))
-    for relief, depth, start, gear in (
-        (pinion, 0.031, paper_pair.hpstc_roll_angles[0], paper_pair.pinion),
-        (wheel, 0.020, paper_pair.hpstc_roll_angles[1], paper_pair.wheel),
-    ):
-        fractions = np.array([-1.0, 0.0, 0.25, 0.5, 1.0])
-        rolls = start + fractions * (gear.tip_roll_angle - start)
-        assert relief(rolls) == pytest.approx(depth * np.array([0.0, 0.0, 0.25, 0.5, 1.0]), abs=1e-16)
 
 
 def test_two_pairs_are_never_both_relieved_nor_both_unrelieved(paper_pair):
@@ -40,13 +28,6 @@ def test_two_pairs_are_never_both_relieved_nor_both_unrelieved(paper_pair):
         assert removed(start + (1.0 + phase) * pitch) == (True, False)
     for phase in np.linspace(0.48, 0.99, 10):
         assert removed(start + phase * pitch) == (False, False)
-
-
-def test_relief_from_a_roll_angle_on_one_gear(paper_pair):
-    """Authority: the scene's meaning: a start of its own, and None for a gear without relief."""
-    pinion, wheel = tip_reliefs(paper_pair, TipRelief(None, Relief(0.01, 0.5)))
-    assert pinion is None
-    assert wheel.start_roll_angle == 0.5
 
 
 @pytest.mark.parametrize(
