@@ -15,6 +15,7 @@ from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.results.contact_variables import energy_variables, work_variables
+from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion, Output
 from fenics_gears.simulation.routes import prepared
@@ -32,7 +33,7 @@ def marched(paper_scene):
     with pytest.MonkeyPatch.context() as changed:
         changed.setattr(march_module, "LONGEST_BLOCK", 90)
         march = Marcher(cycle, model.equations_of_motion).run(model.steps, model.steps + 1, observe=recorder.take)
-    return model, cycle, march.records, results.dataset(recorder, march)
+    return model, cycle, march.records, RunResult(recorder, march).dataset
 
 
 def by_pair_number(model, cycle, records) -> xr.Dataset:
