@@ -32,8 +32,12 @@ def effect_states(scene: Scene) -> list[EffectState]:
     """Every effect, on or off, for a scene."""
     states, there = [], {variable.name for variable in result_variables(scene)}
     for effect in every_effect():
-        if getattr(scene, effect.section) is None:
+        data = getattr(scene, effect.section)
+        if data is None:
             states.append(EffectState(effect, False, effect.absent))
+            continue
+        if data is scene.misalignment and data.is_none:
+            states.append(EffectState(effect, True, f"{effect.absent}, flanks resolved over the face"))
             continue
         results = [variable.name for variable in effect.variables if variable.name in there]
         added = {"unknowns": effect.unknowns, "terms": effect.terms, "results": results}
