@@ -1,16 +1,15 @@
 """``[bearings]``: isotropic, different along and off the line of action, different for either shaft."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene, frictionless, quasi_static
+from tests.paper_text import PAPER as DEMO
 
 from fenics_gears import SceneError, scene_from_text, simulate
 from fenics_gears.effects.bearings import BearingPlaces, Bearings, Support
 
-DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 ISOTROPIC = 'stiffness = "0.155e6 N/mm"'
 
 

@@ -1,12 +1,12 @@
 """``[torque_ripple]``: the couple on the wheel's shaft, what it does, and what the section says when it is wrong."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from tests.coarse import COARSE, frictionless, quasi_static
 from tests.frozen_gears import frozen_marcher
+from tests.paper_text import PAPER as DEMO
 
 from fenics_gears import SceneError, scene_from_text, simulate
 from fenics_gears.contact.laws import OPEN
@@ -16,7 +16,6 @@ from fenics_gears.dynamics.torque_ripple import varying_load
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.scene.data import Motion
 
-DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 ORDER = 24.0  # of the wheel's turn: once a mesh cycle
 RIPPLE = TorqueRipple((Harmonic(ORDER, 30e3, 0.4), Harmonic(2.5, 10e3)))
 
