@@ -5,13 +5,13 @@ from math import cos
 
 import numpy as np
 import pytest
+from tests.coarse import rigid_pair
 
 from fenics_gears import simulate
 from fenics_gears.contact.places import pair_places
 from fenics_gears.contact.run_out import RunOut
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.effects import without
 from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.scene.data import Accuracy, Motion
 
@@ -22,8 +22,9 @@ PERIOD = 48  # mesh cycles until 16 and 24 teeth meet again: three turns of the 
 @pytest.fixture(scope="module")
 def rigid(paper_scene):
     """The paper's pair with rigid flanks on rigid shafts, over a hunting tooth period."""
-    bare = without(paper_scene, "tooth_elasticity", "friction", "inertia", "damping", "shafts", "bearings")
-    return replace(bare, accuracy=Accuracy(steps_per_mesh_cycle=20), motion=Motion(200.0, PERIOD, PERIOD))
+    return replace(
+        rigid_pair(paper_scene), accuracy=Accuracy(steps_per_mesh_cycle=20), motion=Motion(200.0, PERIOD, PERIOD)
+    )
 
 
 def harmonics(result, radius):

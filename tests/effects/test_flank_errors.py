@@ -5,6 +5,7 @@ from math import cos, pi
 
 import numpy as np
 import pytest
+from tests.coarse import rigid_pair
 from tests.effects.hats import hat_mean
 from tests.stand_in import stand_in_compliance
 
@@ -15,7 +16,6 @@ from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.tooth_pair import COAST, Flanks
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.effects import without
 from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors, Waviness
 from fenics_gears.scene.data import Accuracy, Motion
 
@@ -26,8 +26,9 @@ ERROR = 0.01
 @pytest.fixture(scope="module")
 def rigid(paper_scene):
     """The paper's pair with rigid flanks on rigid shafts, over a hunting tooth period."""
-    bare = without(paper_scene, "tooth_elasticity", "friction", "inertia", "damping", "shafts", "bearings")
-    return replace(bare, accuracy=Accuracy(steps_per_mesh_cycle=STEPS), motion=Motion(200.0, PERIOD, PERIOD))
+    return replace(
+        rigid_pair(paper_scene), accuracy=Accuracy(steps_per_mesh_cycle=STEPS), motion=Motion(200.0, PERIOD, PERIOD)
+    )
 
 
 @pytest.fixture(scope="module")

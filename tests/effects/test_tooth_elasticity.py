@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.coarse import rigid_pair
 
 from fenics_gears import SceneError, scene_from_text, simulate
 from fenics_gears.contact.rigid_step import SAME_GAP
-from fenics_gears.effects import without
 from fenics_gears.effects.relief import Relief
 from fenics_gears.effects.tip_relief import TipRelief
 from fenics_gears.model.modification import removals
@@ -19,8 +19,7 @@ DEPTH = 0.031
 @pytest.fixture(scope="module")
 def rigid_scene(paper_scene):
     """The paper's pair with rigid flanks, quasi-static, on rigid shafts and bearings."""
-    bare = without(paper_scene, "tooth_elasticity", "friction", "inertia", "damping", "shafts", "bearings")
-    return replace(bare, accuracy=Accuracy(), motion=Motion(200.0, 1, 1))
+    return replace(rigid_pair(paper_scene), accuracy=Accuracy(), motion=Motion(200.0, 1, 1))
 
 
 def test_true_involutes_transmit_exactly(rigid_scene):
