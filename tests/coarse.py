@@ -3,6 +3,7 @@ second."""
 
 from dataclasses import replace
 
+from fenics_gears.effects import without
 from fenics_gears.scene.data import Accuracy, Motion
 
 COARSE = Accuracy(element="P1", flank_element_size=0.12, contact_length=3.0, contact_nodes=26, steps_per_mesh_cycle=40)
@@ -26,3 +27,8 @@ def frictionless(scene):
 def teeth_alone(scene):
     """The same on rigid shafts and bearings, without inertia: only the teeth give way."""
     return replace(quasi_static(scene), shafts=None, bearings=None)
+
+
+def rigid_pair(scene):
+    """The pair with rigid flanks on rigid shafts and bearings, quasi-static."""
+    return without(scene, "tooth_elasticity", "friction", "inertia", "damping", "shafts", "bearings")

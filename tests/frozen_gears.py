@@ -8,8 +8,10 @@ import numpy as np
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.window import ContactGrid
+from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
+from fenics_gears.dynamics.steps import Record
 from fenics_gears.model.drivetrain import drivetrain
 
 GRID = ContactGrid(length=1.5, nodes=20)
@@ -55,3 +57,14 @@ def frozen_marcher(scene, pair, flanks, step, phase_step=60):
     cycle = Cycle(elastic_mesh(flanks, GRID), 100, shafts.indices, tangential=scene.friction is not None)
     friction = 0.0 if scene.friction is None else scene.friction.coefficient
     return Marcher(Frozen(cycle, phase_step), EquationsOfMotion(shafts, step, friction)), shafts
+
+
+def pushed(marcher, shafts, **speeds):
+    """The start, with speeds (mm/s) of some coordinates and the accelerations that the equations of motion then ask
+    for."""
+    rest = marcher.start()
+    velocity = np.array([speeds.get(name, 0.0) for name in shafts.coordinates])
+    acceleration = (
+        np.zeros_like(velocity) if shafts.damping is None else -np.linalg.solve(shafts.mass, shafts.damping @ velocity)
+    )
+    return Record(0, State(rest.state.position, velocity, acceleration), rest.position, rest.solution)

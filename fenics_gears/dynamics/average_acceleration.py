@@ -13,6 +13,7 @@ Without mass and damping this is the static equation at the end of the step: qua
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -29,8 +30,12 @@ class State(NamedTuple):
     acceleration: np.ndarray
 
 
-class AverageAcceleration:
-    """Effective stiffness and load of one step of length `step` (s); `inert` where the scene has inertia."""
+class Scheme:
+    """Effective stiffness and load of one step of length `step` (s), by a method's own `history` and `advanced`;
+    `inert` where the scene has inertia."""
+
+    _matrices: Callable
+    _advanced: Callable
 
     def __init__(self, drivetrain: Drivetrain, step: float):
         self.step = step
@@ -40,7 +45,7 @@ class AverageAcceleration:
             return
         mass = drivetrain.mass
         damping = drivetrain.damping if drivetrain.damping is not None else np.zeros_like(mass)
-        self._history = history(step, mass, damping)
+        self._history = self._matrices(step, mass, damping)
         self.stiffness = drivetrain.stiffness + self._history[0]
 
     def load(self, state: State, outer: np.ndarray) -> np.ndarray:
@@ -53,7 +58,7 @@ class AverageAcceleration:
         """The state at the end of the step, from its position (k,), mm."""
         if not self.inert:
             return State(position, state.velocity, state.acceleration)
-        return State(*advanced(self.step, np.array(state), position))
+        return State(*self._advanced(self.step, np.array(state), position))
 
 
 @njit(cache=True)
@@ -92,3 +97,9 @@ def with_history(load, history, states):
                 total += history[kind, i, j] * states[kind, j]
         result[i] = total
     return result
+
+
+class AverageAcceleration(Scheme):
+    """This method."""
+
+    _matrices, _advanced = staticmethod(history), staticmethod(advanced)

@@ -18,29 +18,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from fenics_gears.dynamics.average_acceleration import State, with_history
-from fenics_gears.dynamics.drivetrain import Drivetrain
-
-
-class BackwardEuler:
-    """Effective stiffness and load of one step of length `step` (s) of a drivetrain with inertia."""
-
-    inert = True
-
-    def __init__(self, drivetrain: Drivetrain, step: float):
-        self.step = step
-        mass = drivetrain.mass
-        damping = drivetrain.damping if drivetrain.damping is not None else np.zeros_like(mass)
-        self._history = history(step, mass, damping)
-        self.stiffness = drivetrain.stiffness + self._history[0]
-
-    def load(self, state: State, outer: np.ndarray) -> np.ndarray:
-        """Right-hand side (k,), N, of the step that starts from `state`, under the forces `outer` (k,), N."""
-        return with_history(outer, self._history, np.array(state))
-
-    def advance(self, state: State, position: np.ndarray) -> State:
-        """The state at the end of the step, from its position (k,), mm."""
-        return State(*advanced(self.step, np.array(state), position))
+from fenics_gears.dynamics.average_acceleration import Scheme
 
 
 @njit(cache=True)
@@ -61,3 +39,9 @@ def advanced(step, before, position):
         after[0, c], after[1, c] = position[c], (position[c] - before[0, c]) / step
         after[2, c] = (after[1, c] - before[1, c]) / step
     return after
+
+
+class BackwardEuler(Scheme):
+    """This method."""
+
+    _matrices, _advanced = staticmethod(history), staticmethod(advanced)

@@ -96,8 +96,6 @@ def _problem_of_tables(errors: GearErrors, scene, pair, gear: str) -> tuple[str,
     problem = "" if errors.file is None else _problem_of_table(errors, teeth, module, gear)
     if problem:
         return "file", problem
-    from fenics_gears.geometry.flank_deviations import measured_share
-
     for name, (measured, _) in CURVES.items():
         curves = getattr(errors, measured)
         if curves is None:
@@ -105,35 +103,36 @@ def _problem_of_tables(errors: GearErrors, scene, pair, gear: str) -> tuple[str,
         for replaced in REPLACED[name]:
             if getattr(errors, replaced) is not None:
                 return name, f"stands beside {replaced}, which the curves replace. Leave one of the two out."
+        whole = "active profile" if measured == "measured_profile" else "face"
         for curve in curves.curves:
-            if curve.tooth > teeth:
-                return (
-                    name,
-                    (
-                        f"has a curve of tooth {curve.tooth}, but the {gear} has {teeth} teeth. Allowed: teeth from 1"
-                        f" to {teeth}, counted as they mesh."
-                    ),
-                )
-            worst = max(abs(each) for each in curve.deviations)
-            if worst > LARGEST_ERROR * module:
-                return (
-                    name,
-                    (
-                        f"has a deviation of {worst:.4g} mm on tooth {curve.tooth}, too large for a module of"
-                        f" {module:g} mm. Allowed: up to {LARGEST_ERROR * module:g} mm."
-                    ),
-                )
-            share = measured_share(curve, curves.along, pair, gear)
-            if share < LEAST_MEASURED:
-                whole = "active profile" if measured == "measured_profile" else "face"
-                return (
-                    name,
-                    (
-                        f"measures {100.0 * share:.0f} % of the {whole} of tooth {curve.tooth}. Allowed: at least"
-                        f" {100.0 * LEAST_MEASURED:.0f} %; beyond its ends a curve is continued level."
-                    ),
-                )
+            if problem := _problem_of_curve(curve, curves.along, scene, pair, gear, whole):
+                return name, problem
     return "", ""
+
+
+def _problem_of_curve(curve, along, scene, pair, gear: str, whole: str) -> str:
+    """What does not fit the gear; empty where all does. `whole`: of what a curve measures a part."""
+    from fenics_gears.geometry.flank_deviations import measured_share
+
+    teeth, module = getattr(pair, gear).teeth, scene.gears.module
+    if curve.tooth > teeth:
+        return (
+            f"has a curve of tooth {curve.tooth}, but the {gear} has {teeth} teeth. Allowed: teeth from 1 to {teeth},"
+            " counted as they mesh."
+        )
+    worst = max(abs(each) for each in curve.deviations)
+    if worst > LARGEST_ERROR * module:
+        return (
+            f"has a deviation of {worst:.4g} mm on tooth {curve.tooth}, too large for a module of {module:g} mm."
+            f" Allowed: up to {LARGEST_ERROR * module:g} mm."
+        )
+    share = measured_share(curve, along, pair, gear)
+    if share < LEAST_MEASURED:
+        return (
+            f"measures {100.0 * share:.0f} % of the {whole} of tooth {curve.tooth}. Allowed: at least"
+            f" {100.0 * LEAST_MEASURED:.0f} %; beyond its ends a curve is continued level."
+        )
+    return ""
 
 
 def _problem_of_table(errors: GearErrors, teeth: int, module: float, gear: str) -> str:

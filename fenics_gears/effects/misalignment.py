@@ -35,6 +35,11 @@ class Misalignment(Section):
         " flanks, but something between coast flanks",
     )
 
+    @property
+    def is_none(self) -> bool:
+        """Whether the axes are parallel: who names zero has the flanks resolved over the face."""
+        return self.in_plane == self.out_of_plane == 0.0
+
 
 EFFECT = Effect(
     section="misalignment",

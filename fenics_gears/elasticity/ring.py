@@ -188,14 +188,10 @@ def _not_definite(what: str) -> ComputationError:
     return ComputationError(f"ring of sectors: the stiffness of {what} is not positive definite; is the hub held?")
 
 
-def centre_motion(points: np.ndarray, frame_angle: float = 0.0) -> np.ndarray:
-    """Displacement (2n, 3) of points (n, 2) per unit rigid motion (dx, dy, phi) of the gear.
-
-    The points are given in a tooth frame that stands ``frame_angle`` (rad) counter-clockwise of the one (dx, dy) is
-    given in.
-    """
+def centre_motion(points: np.ndarray) -> np.ndarray:
+    """Displacement (2n, 3) of points (n, 2) per unit rigid motion (dx, dy, phi) of the gear."""
     motion = np.empty((len(points), 2, 3))
-    motion[:, :, :2] = rotation(-frame_angle)
+    motion[:, :, :2] = np.eye(2)
     motion[:, 0, 2], motion[:, 1, 2] = -points[:, 1], points[:, 0]
     return motion.reshape(-1, 3)
 

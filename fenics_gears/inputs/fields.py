@@ -26,30 +26,19 @@ from fenics_gears.inputs.allowed import (
 
 
 def quantity(
-    limits: str,
-    example: str,
-    *,
-    meaning: str,
-    otherwise: str = "",
-    default: str = "",
-    words: Mapping[str, Any] | None = None,
-    below: str = "",
-    **marks: bool,
+    limits: str, example: str, *, meaning: str, otherwise: str = "", default: str = "", below: str = "", **marks: bool
 ) -> Any:
     """A quantity with a unit; its limits, both included, are written with units too ("0 mm to 1 m"), and so is a
     default. ``marks``: as ``Allowed`` has them."""
     kind, lowest, highest = _limits(limits)
-    words = words or {}
-    description = f'{kind} from {limits}, with its unit, such as "{example}"{_or(words)}'
     allowed = AllowedNumber(
-        description=description,
+        description=f'{kind} from {limits}, with its unit, such as "{example}"',
         meaning=meaning,
         otherwise=otherwise or default,
         kind=kind,
         unit=units.unit_of(example),
         lowest=lowest,
         highest=highest,
-        words=words,
         below=below,
         **marks,
     )

@@ -32,8 +32,12 @@ def effect_states(scene: Scene) -> list[EffectState]:
     """Every effect, on or off, for a scene."""
     states, there = [], {variable.name for variable in result_variables(scene)}
     for effect in every_effect():
-        if getattr(scene, effect.section) is None:
+        data = getattr(scene, effect.section)
+        if data is None:
             states.append(EffectState(effect, False, effect.absent))
+            continue
+        if data is scene.misalignment and data.is_none:
+            states.append(EffectState(effect, True, f"{effect.absent}, flanks resolved over the face"))
             continue
         results = [variable.name for variable in effect.variables if variable.name in there]
         added = {"unknowns": effect.unknowns, "terms": effect.terms, "results": results}
@@ -75,42 +79,24 @@ def _model_rows(model: Model) -> Rows:
     grid, force = model.resolution.contact_grid, model.scene.load.wheel_torque / model.pair.wheel.base_radius
     cut = ", the outermost cut in two" if model.face.slices > model.face.evenly else ""
     each = "normal and tangential force" if model.scene.friction is not None else "normal force"
-    touching = (
-        f"each with a {each} where flanks touch"
-        if model.scene.tooth_elasticity is not None
-        else "the first to touch carries all"
-    )
-    return [
-        *_face_rows(model),
-        *_curve_rows(model),
-        (
-            "motions of the gears that are unknown",
-            f"{len(model.drivetrain.coordinates)}:",
-            ", ".join(map(motion_in_words, model.drivetrain.coordinates)),
-        ),
-        ("contact nodes of a tooth pair", f"{grid.nodes},", touching)
-        if model.face.slices == 1
-        else ("slices of the face", f"{model.face.evenly}{cut};", f"their contact nodes: {touching}"),
-        ("equations in time", _method(model), ""),
-        *(
-            []
-            if model.scene.motion.speed_given
-            else [("time", "counts mesh cycles, 1 s each", "for the scene has no speed and needs none")]
-        ),
-        ("nominal force along the line of action", f"{force:.4g}", "N"),
-        *(
-            []
-            if model.scene.friction is None
-            else [
-                (
-                    "coefficient of friction",
-                    model.friction_coefficient,
-                    model.scene.friction.formula and f"after {model.scene.friction.formula}" or "",
-                )
-            ]
-        ),
-        *(speed_rows(model) if model.scene.motion.speed_given else []),
-    ]
+    touching, friction = "the first to touch carries all", model.scene.friction
+    if model.scene.tooth_elasticity is not None:
+        touching = f"each with a {each} where flanks touch"
+    motions = model.drivetrain.coordinates
+    rows: Rows = [*_face_rows(model), *_curve_rows(model)]
+    rows.append(("motions of the gears that are unknown", f"{len(motions)}:", ", ".join(map(motion_in_words, motions))))
+    if model.face.slices == 1:
+        rows.append(("contact nodes of a tooth pair", f"{grid.nodes},", touching))
+    else:
+        rows.append(("slices of the face", f"{model.face.evenly}{cut};", f"their contact nodes: {touching}"))
+    rows.append(("equations in time", _method(model), ""))
+    if not model.scene.motion.speed_given:
+        rows.append(("time", "counts mesh cycles, 1 s each", "for the scene has no speed and needs none"))
+    rows.append(("nominal force along the line of action", f"{force:.4g}", "N"))
+    if friction is not None:
+        origin = f"after {friction.formula}" if friction.formula else ""
+        rows.append(("coefficient of friction", model.friction_coefficient, origin))
+    return rows + (speed_rows(model) if model.scene.motion.speed_given else [])
 
 
 def _face_rows(model: Model) -> Rows:
@@ -141,9 +127,8 @@ def _face_rows(model: Model) -> Rows:
     for name in GEARS if scene.lead_modifications is not None else ():
         own = getattr(scene.lead_modifications, name)
         relief = None if own is None else own.end_relief
-        found += [
-            (f"{name} {words}", 1e3 * amount, "um") for words, amount in _amounts(own, ("crowning", "helix_slope"))
-        ]
+        amounts = _amounts(own, ("crowning", "helix_slope"))
+        found += [(f"{name} {words}", 1e3 * amount, "um") for words, amount in amounts]
         if relief is not None:
             ends = "both ends" if relief.sides == "both" else f"the {relief.sides} end"
             found.append(
@@ -167,13 +152,8 @@ def _curve_rows(model: Model) -> Rows:
         own, gear = getattr(model.scene.flank_errors, name), getattr(model.pair, name)
         zero = "in their mean" if own.anchor == MEAN else ""
         if own.measured_profile is not None:
-            rows.append(
-                (
-                    f"{name} profile curves are zero",
-                    zero or f"at diameter {2.0 * float(gear.radius(v_roll_angle(gear))):.6g} mm",
-                    "" if zero else "(V cylinder, d + 2 x m)",
-                )
-            )
+            place = zero or f"at diameter {2.0 * float(gear.radius(v_roll_angle(gear))):.6g} mm"
+            rows.append((f"{name} profile curves are zero", place, "" if zero else "(V cylinder, d + 2 x m)"))
         if own.measured_helix is not None:
             rows.append((f"{name} helix curves are zero", zero or "at mid-width", ""))
     return rows
@@ -228,18 +208,12 @@ def _accuracy_rows(model: Model) -> Rows:
         *([("elastic teeth", f"{asked.elastic_teeth}, from the scene", "")] if asked.elastic_teeth else []),
     ]
     condensation: Rows = [("condensation", resolution.condensation + origin(asked.condensation), "")]
+    rows: Rows = []
+    if asked.target:
+        how = "a run chooses settings first, by two or three coarse test runs; what follows is without a target"
+        rows.append(("target", f"{asked.target:.3%}:", how))
     return [
-        *(
-            [
-                (
-                    "target",
-                    f"{asked.target:.3%}:",
-                    "a run chooses settings first, by two or three coarse test runs; what follows is without a target",
-                )
-            ]
-            if asked.target
-            else []
-        ),
+        *rows,
         *([("model of the mesh", f"{asked.model}, from the scene", "")] if asked.model else []),
         *(elastic if model.resolution.element in SECTOR_UNKNOWNS else []),
         ("contact length", f"{resolution.contact_grid.length:.4g}", "mm" + origin(asked.contact_length)),
@@ -256,11 +230,8 @@ def _contact_fields(model: Model) -> str:
     """Of how many steps contact fields are stored."""
     if not model.scene.resolves_contact:
         return "curves are stored for all"
-    return (
-        f"curves are stored for all, contact fields for the last {model.contact_steps}"
-        if model.contact_steps
-        else "curves are stored for all, contact fields for none"
-    )
+    count = f"the last {model.contact_steps}" if model.contact_steps else "none"
+    return f"curves are stored for all, contact fields for {count}"
 
 
 # Bytes; fewer are always kept.
@@ -283,18 +254,11 @@ def _cost_rows(model: Model) -> Rows:
 
 def _cost(model: Model) -> Rows:
     cost = expected_cost(model)
-    condensing = (
-        [] if cost.condensing is None else [("meshing and condensing, unless cached", f"{cost.condensing:.1f}", "s")]
-    )
-    return [
-        *((f"unknowns of {words}", f"{count:.0f}", "") for words, count in cost.unknowns),
-        *((f"condensing {words}", way, "") for words, way in cost.ways),
-        *condensing,
-        ("marching", f"{cost.marching:.1f}", "s"),
-        ("memory", f"{cost.memory / 1e6:.0f}", "MB"),
-        *(
-            [("memory if contact operators are not kept", f"{cost.held / 1e6:.0f}", "MB")]
-            if cost.operators > NOTABLE_OPERATORS
-            else []
-        ),
-    ]
+    rows: Rows = [(f"unknowns of {words}", f"{count:.0f}", "") for words, count in cost.unknowns]
+    rows += [(f"condensing {words}", way, "") for words, way in cost.ways]
+    if cost.condensing is not None:
+        rows.append(("meshing and condensing, unless cached", f"{cost.condensing:.1f}", "s"))
+    rows += [("marching", f"{cost.marching:.1f}", "s"), ("memory", f"{cost.memory / 1e6:.0f}", "MB")]
+    if cost.operators > NOTABLE_OPERATORS:
+        rows.append(("memory if contact operators are not kept", f"{cost.held / 1e6:.0f}", "MB"))
+    return rows

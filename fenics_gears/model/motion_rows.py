@@ -24,19 +24,14 @@ def speed_rows(model: Model) -> Rows:
     ends = np.array([pair.path_start, pair.path_end])
     sliding = np.abs(sliding_speed(pair, ends, highest)) * MILLIMETRE
     pitch = 2.0 * np.pi * turns * pair.centre_distance * pair.rotation_ratio / (1.0 + pair.rotation_ratio) * MILLIMETRE
-    when = "" if model.scene.speed_ramp is None else ", at the ramp's highest speed"
+    when = "" if model.scene.speed_ramp is None else "at the ramp's highest speed"
+    speeds = f"{60.0 * turns:.5g} rpm pinion, {60.0 * turns * pair.rotation_ratio:.5g} rpm wheel"
+    slides = f"{sliding[0]:.4g} m/s at the start of contact, {sliding[1]:.4g} m/s at its end"
+    unit = f"m/s, {when}" if when else "m/s"
     return [
-        (
-            "nominal speeds",
-            f"{60.0 * turns:.5g} rpm pinion, {60.0 * turns * pair.rotation_ratio:.5g} rpm wheel",
-            when.lstrip(", "),
-        ),
-        ("pitch line velocity", float(pitch), "m/s" + when),
-        (
-            "sliding speed",
-            f"{sliding[0]:.4g} m/s at the start of contact, {sliding[1]:.4g} m/s at its end",
-            when.lstrip(", "),
-        ),
+        ("nominal speeds", speeds, when),
+        ("pitch line velocity", float(pitch), unit),
+        ("sliding speed", slides, when),
     ]
 
 
@@ -46,39 +41,23 @@ def inertia_rows(model: Model) -> Rows:
     from fenics_gears.model.drivetrain import lumped_gears
 
     rows: Rows = []
-    along = []
+    along, inertia, shafts = [], model.scene.inertia, model.scene.shafts
     for name, lumped in lumped_gears(model.scene, model.pair).items():
-        given = model.scene.inertia.of(name)
-        kinds = (("mass", "kg"), ("moment_of_inertia", "kg mm^2"))
-        for field, unit in kinds:
+        given = inertia.of(name)
+        for field, unit in (("mass", "kg"), ("moment_of_inertia", "kg mm^2")):
             origin = "" if getattr(given, field) is not None else ", of its body by the density"
             rows.append((f"{name} {field.replace('_', ' ')}", 1e3 * getattr(lumped, field), unit + origin))
         if model.scene.bearings is not None and model.scene.bearings.places_of(name) is not None:
-            rows.append(
-                (
-                    f"{name} tilting moment of inertia",
-                    1e3 * lumped.tilting_inertia,
-                    "kg mm^2, about a diameter" + ("" if given.tilting_moment_of_inertia else ": J/2 + m b^2/12"),
-                )
-            )
+            origin = "" if given.tilting_moment_of_inertia else ": J/2 + m b^2/12"
+            about = f"kg mm^2, about a diameter{origin}"
+            rows.append((f"{name} tilting moment of inertia", 1e3 * lumped.tilting_inertia, about))
         along.append(lumped.moment_of_inertia / getattr(model.pair, name).base_radius ** 2)
-    inertia = model.scene.inertia
-    if model.scene.shafts is not None or inertia.load is not None:
-        rows.append(
-            (
-                "load moment of inertia",
-                1e3 * inertia.shaft_end,
-                "kg mm^2, " + ("far end of the output shaft" if model.scene.shafts is not None else "with the wheel"),
-            )
-        )
-    rows.append(
-        (
-            "reduced mass J1 J2/(J1 rb2^2 + J2 rb1^2)",
-            1e3 * along[0] * along[1] / sum(along),
-            "kg, of both gears along the line of action",
-        )
-    )
-    return rows
+    if shafts is not None or inertia.load is not None:
+        place = "far end of the output shaft" if shafts is not None else "with the wheel"
+        rows.append(("load moment of inertia", 1e3 * inertia.shaft_end, f"kg mm^2, {place}"))
+    reduced = 1e3 * along[0] * along[1] / sum(along)
+    label = "reduced mass J1 J2/(J1 rb2^2 + J2 rb1^2)"
+    return [*rows, (label, reduced, "kg, of both gears along the line of action")]
 
 
 def period_rows(model: Model) -> Rows:
@@ -86,40 +65,24 @@ def period_rows(model: Model) -> Rows:
     period, gears = common_period(model.scene), model.scene.gears
     if period == inf:
         return [("mesh cycles of the common period", "none", "(no two mesh cycles are alike)")]
-    whole = period > 1 and period == lcm(gears.pinion.teeth, gears.wheel.teeth)
-    return [
-        (
-            "mesh cycles of the common period",
-            period,
-            "after which every tooth has met every other"
-            if whole
-            else "(all mesh cycles are alike)"
-            if period == 1
-            else "",
-        )
-    ]
+    words = "(all mesh cycles are alike)" if period == 1 else ""
+    if period > 1 and period == lcm(gears.pinion.teeth, gears.wheel.teeth):
+        words = "after which every tooth has met every other"
+    return [("mesh cycles of the common period", period, words)]
 
 
 def frequency_rows(model: Model) -> Rows:
     """Each natural frequency with the steps that a period has, and the limits of what a step resolves and samples."""
     rows: Rows = []
     for number, vibration in enumerate(model.vibrations, 1):
-        steps, unmoved = (
-            vibration.steps_per_period(model.time_step),
-            "" if vibration.excited else ", not excited by the mesh",
-        )
+        steps = vibration.steps_per_period(model.time_step)
+        unmoved = "" if vibration.excited else ", not excited by the mesh"
         motion = vibration.motion and f", {vibration.motion}"
         damped = f", damping ratio {vibration.damping_ratio:.2g}" if vibration.damping_ratio > 0.0 else ", undamped"
-        rows.append(
-            (f"mode {number}", vibration.frequency, f"Hz: {steps:.3g} steps per period{damped}{motion}{unmoved}")
-        )
-    rows.append(
-        (
-            "highest frequency that is resolved",
-            resolved_frequency(model.time_step),
-            f"Hz: by the time step, periods exact within {PERIOD_ERROR:.0%}",
-        )
-    )
+        words = f"Hz: {steps:.3g} steps per period{damped}{motion}{unmoved}"
+        rows.append((f"mode {number}", vibration.frequency, words))
+    words = f"Hz: by the time step, periods exact within {PERIOD_ERROR:.0%}"
+    rows.append(("highest frequency that is resolved", resolved_frequency(model.time_step), words))
     rows.append(("highest frequency that is sampled", 0.5 / model.time_step, "Hz: two steps per period"))
     return rows
 

@@ -80,11 +80,6 @@ class RunResult:
         )
 
 
-def dataset(recorder: Recorder, march: March) -> xr.Dataset:
-    """What was recorded of a march as a dataset."""
-    return RunResult(recorder, march).dataset
-
-
 def _variables(recorder: Recorder, first: int):
     """Name, dimensions, values and labels of each variable; `first`: the first settled step."""
     scene, arrays = recorder.model.scene, recorder.arrays

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from fenics_gears.contact.step_solver import NEWTON, PUBLISHED
 from fenics_gears.model.resolution import EVERY_STEP
@@ -17,6 +17,8 @@ KILO = 1e3
 # Lengths (um) that are round-off of positions.
 ROUND_OFF = 1e-6
 Row = tuple[str, str, str]
+# A row whose words have their units.
+Said = Iterator[tuple[str, str]]
 # Where pressure stands apart from the peak contact pressure, as it does not converge there.
 APART = {"edge": "edges", "kink": "kinks of relief"}
 
@@ -37,263 +39,172 @@ def summary_rows(dataset, stages: Sequence[tuple[str, float]] = ()) -> list[Row]
     """
     said = dataset.attrs.get("warnings", "").splitlines()
     first = [warning for warning in said if NO_MEANING in warning or FEWER_THAN_THE_PERIOD in warning]
-    rows = [*result_rows(dataset), *solver_rows(dataset), *(_said(stages) or stage_rows(dataset))]
+    spent = [(name, seconds_in_words(seconds), "") for name, seconds in stages] or stage_rows(dataset)
     return [
         *(("WARNING", warning, "") for warning in first),
-        *rows,
+        *result_rows(dataset),
+        *solver_rows(dataset),
+        *spent,
         *(("WARNING", warning, "") for warning in said if warning not in first),
     ]
 
 
-def _said(stages: Sequence[tuple[str, float]]) -> list[Row]:
-    """Wall time of the stages in the words of the progress."""
-    return [(name, seconds_in_words(seconds), "") for name, seconds in stages]
-
-
 def result_rows(dataset) -> list[Row]:
     """The results, the most important first; rows without a number in this run are left out."""
-    attributes = dataset.attrs
-    parts = (_transmission_error, _harmonics, _stiffness, _pair_force, _face, _pressure, _root_stress)
-    rows = [row for part in parts for row in part(attributes)]
-    return rows + _power(attributes) + _sliding(dataset) + _contact_loss(dataset) + _estimated_error(attributes)
+    of_numbers = (_transmission_error, _harmonics, _stiffness, _pair_force, _face, _pressure, _root_stress, _power)
+    said = [line for part in of_numbers for line in part(dataset.attrs)]
+    said += [*_sliding(dataset), *_contact_loss(dataset), *_estimated_error(dataset.attrs)]
+    return [(label, words, "") for label, words in said]
 
 
-def _transmission_error(attributes) -> list[Row]:
+def _transmission_error(found) -> Said:
     """As length along the line of action, which is that at the wheel's base circle, and as angle of the wheel."""
-    rows = []
-    for name, label in (
-        ("peak_to_peak_transmission_error", "transmission error, peak to peak"),
-        ("mean_transmission_error", "transmission error, mean"),
-    ):
-        angle = attributes.get(name, math.nan)
-        length = angle * attributes["base_radius_wheel"] * MICROMETRES
+    for name, label in (("peak_to_peak", "peak to peak"), ("mean", "mean")):
+        angle = found.get(f"{name}_transmission_error", math.nan)
+        length = angle * found["base_radius_wheel"] * MICROMETRES
         known = f"{length:.4g} um = {angle:.5g} rad" if abs(length) > ROUND_OFF else "0 um"
-        rows.append((label, known if math.isfinite(angle) else "not determined", ""))
-    return rows
+        yield f"transmission error, {label}", known if math.isfinite(angle) else "not determined"
 
 
-def _harmonics(attributes) -> list[Row]:
-    found = [attributes[name] for name in HARMONIC_NAMES if name in attributes]
-    if max(found, default=0.0) < ROUND_OFF:
-        return []
-    return (
-        [(f"harmonics of the mesh, 1 to {len(found)}", ", ".join(f"{each:.3g}" for each in found), "um")]
-        if found
-        else []
-    )
+def _harmonics(found) -> Said:
+    amplitudes = [found[name] for name in HARMONIC_NAMES if name in found]
+    if max(amplitudes, default=0.0) >= ROUND_OFF:
+        yield f"harmonics of the mesh, 1 to {len(amplitudes)}", f"{', '.join(f'{each:.3g}' for each in amplitudes)} um"
 
 
-def _stiffness(attributes) -> list[Row]:
+def _stiffness(found) -> Said:
     """The tangent, which small vibrations have; the secant counts gaps of relief and misalignment as deflection."""
-    if "mean_mesh_stiffness_tangent" not in attributes:
-        return []
-    single = attributes.get("single_pair_stiffness")
-    one = "" if single is None else f", at most {single:.4g} with one pair"
-    secant = f"{attributes['mean_mesh_stiffness']:.4g}{one}"
-    return [
-        (
-            "mesh stiffness, tangent",
-            f"{attributes['mean_mesh_stiffness_tangent']:.4g} N/(mm um) on average; force over deflection {secant}",
-            "",
+    if "mean_mesh_stiffness_tangent" in found:
+        one = (
+            f", at most {found['single_pair_stiffness']:.4g} with one pair" if "single_pair_stiffness" in found else ""
         )
-    ]
+        tangent = f"{found['mean_mesh_stiffness_tangent']:.4g} N/(mm um) on average"
+        yield "mesh stiffness, tangent", f"{tangent}; force over deflection {found['mean_mesh_stiffness']:.4g}{one}"
 
 
-def _pair_force(attributes) -> list[Row]:
-    if not attributes.get("largest_pair_force"):
-        return []
-    rows = [
-        (
-            "largest force of a tooth pair",
-            f"{attributes['largest_pair_force']:.4g} N at mesh cycle {attributes['largest_pair_force_mesh_phase']:.4g}",
-            "",
-        )
-    ]
-    if "dynamic_factor_by_force" in attributes:
-        stress = (
-            f", {attributes['dynamic_factor_by_stress']:.3f} by root stress"
-            if "dynamic_factor_by_stress" in attributes
-            else ""
-        )
-        rows.append(
-            (
-                "dynamic factor",
-                (
-                    f"{attributes['dynamic_factor_by_force']:.3f} by force of a tooth pair{stress}, over that without"
-                    " inertia"
-                ),
-                "",
-            )
-        )
-    if "dynamic_factor_unknown" in attributes:
-        rows.append(("dynamic factor", attributes["dynamic_factor_unknown"], ""))
-    return rows
+def _pair_force(found) -> Said:
+    if not found.get("largest_pair_force"):
+        return
+    place = f"at mesh cycle {found['largest_pair_force_mesh_phase']:.4g}"
+    yield "largest force of a tooth pair", f"{found['largest_pair_force']:.4g} N {place}"
+    if "dynamic_factor_by_force" in found:
+        by = "dynamic_factor_by_stress"
+        stress = f", {found[by]:.3f} by root stress" if by in found else ""
+        factor = f"{found['dynamic_factor_by_force']:.3f} by force of a tooth pair{stress}"
+        yield "dynamic factor", f"{factor}, over that without inertia"
+    if "dynamic_factor_unknown" in found:
+        yield "dynamic factor", found["dynamic_factor_unknown"]
 
 
-def _face(attributes) -> list[Row]:
+def _face(found) -> Said:
     """Load factors and overlap of flanks that are resolved over the face."""
-    if "overlap_ratio" not in attributes:
-        return []
-    rows = [
-        (
-            "contact ratio",
-            f"{attributes['total_contact_ratio']:.4g} in all, overlap ratio {attributes['overlap_ratio']:.4g}",
-            "",
-        )
-    ]
-    if "face_load_factor" in attributes:
-        rows.append(
-            (
-                "face load factor K_Hbeta",
-                f"{attributes['face_load_factor']:.3f}, of the line load averaged over the mesh cycle",
-                "",
-            )
-        )
-    if "largest_line_load_factor" in attributes:
-        edges = f", {attributes['edge_line_load_factor']:.3f} at edges" if "edge_line_load_factor" in attributes else ""
-        rows.append(
-            (
-                "largest line load over even one",
-                f"{attributes['largest_line_load_factor']:.3f} away from edges{edges}",
-                "",
-            )
-        )
-    if "transverse_load_factor" in attributes:
-        rows.append(("transverse load factor K_Halpha", f"{attributes['transverse_load_factor']:.3f}", ""))
-    return rows
+    if "overlap_ratio" in found:
+        overlap = f"overlap ratio {found['overlap_ratio']:.4g}"
+        yield "contact ratio", f"{found['total_contact_ratio']:.4g} in all, {overlap}"
+    if "face_load_factor" in found:
+        of = "of the line load averaged over the mesh cycle"
+        yield "face load factor K_Hbeta", f"{found['face_load_factor']:.3f}, {of}"
+    if "largest_line_load_factor" in found:
+        edges = f", {found['edge_line_load_factor']:.3f} at edges" if "edge_line_load_factor" in found else ""
+        yield "largest line load over even one", f"{found['largest_line_load_factor']:.3f} away from edges{edges}"
+    if "transverse_load_factor" in found:
+        yield "transverse load factor K_Halpha", f"{found['transverse_load_factor']:.3f}"
 
 
-def _pressure(attributes) -> list[Row]:
-    if not attributes.get("peak_contact_pressure") or "peak_contact_pressure_diameter" not in attributes:
-        return []
-    place = (
-        f"at mesh cycle {attributes['peak_contact_pressure_mesh_phase']:.4g}, pinion's diameter"
-        f" {attributes['peak_contact_pressure_diameter']:.4g} mm"
-    )
-    flank = ", coast flank" if attributes["peak_contact_pressure_flank"] == "coast" else ""
-    if end := attributes.get("peak_contact_pressure_beside"):
+def _pressure(found) -> Said:
+    if not found.get("peak_contact_pressure") or "peak_contact_pressure_diameter" not in found:
+        return
+    flank = ", coast flank" if found["peak_contact_pressure_flank"] == "coast" else ""
+    if end := found.get("peak_contact_pressure_beside"):
         flank += f", beside the {end} of its active profile, where lines of contact end"
-    apart = [name for name in APART if f"peak_{name}_pressure" in attributes]
-    label = "peak contact pressure" + (f", without {' and '.join(APART[name] for name in apart)}" if apart else "")
-    rows = [(label, f"{attributes['peak_contact_pressure']:.4g} MPa {place}{flank}", "")]
-    if "peak_kink_pressure" in attributes:
-        rows.append(
-            ("pressure at kinks of relief", f"{attributes['peak_kink_pressure']:.4g} MPa, more on a finer mesh", "")
-        )
-    return rows
+    apart = [words for name, words in APART.items() if f"peak_{name}_pressure" in found]
+    yield (
+        "peak contact pressure" + (f", without {' and '.join(apart)}" if apart else ""),
+        f"{found['peak_contact_pressure']:.4g} MPa at mesh cycle {found['peak_contact_pressure_mesh_phase']:.4g},"
+        f" pinion's diameter {found['peak_contact_pressure_diameter']:.4g} mm{flank}",
+    )
+    if "peak_kink_pressure" in found:
+        yield "pressure at kinks of relief", f"{found['peak_kink_pressure']:.4g} MPa, more on a finer mesh"
 
 
-def _power(attributes) -> list[Row]:
-    rows = []
-    if "input_power" in attributes:
-        rows.append(("input power", f"{attributes['input_power'] / KILO:.4g} kW", ""))
-    if "friction_loss" in attributes:
-        watts = f"{attributes['friction_power']:.4g} W = " if "friction_power" in attributes else ""
-        efficiency = (
-            f"efficiency of the mesh {attributes['mesh_efficiency']:.3%}"
-            if "mesh_efficiency" in attributes
-            else "of wedged or locked teeth, which have no efficiency"
-        )
-        rows.append(
-            ("friction loss", f"{watts}{attributes['friction_loss']:.3%} of the drive's work, {efficiency}", "")
-        )
-    return rows
+def _root_stress(found) -> Said:
+    """Largest root stress of either gear with its place, where the scene asks for it."""
+    for gear in ("pinion", "wheel"):
+        name = f"largest_root_stress_{gear}"
+        if name in found:
+            place = f"at mesh cycle {found[f'{name}_mesh_phase']:.4g}, tooth of pair {found[f'{name}_pair']}"
+            yield f"largest root stress, {gear}", f"{found[name]:.4g} MPa {place}, {found[f'{name}_fillet']} side"
 
 
-def _sliding(dataset) -> list[Row]:
+def _power(found) -> Said:
+    if "input_power" in found:
+        yield "input power", f"{found['input_power'] / KILO:.4g} kW"
+    if "friction_loss" in found:
+        watts = f"{found['friction_power']:.4g} W = " if "friction_power" in found else ""
+        efficiency = "of wedged or locked teeth, which have no efficiency"
+        if "mesh_efficiency" in found:
+            efficiency = f"efficiency of the mesh {found['mesh_efficiency']:.3%}"
+        yield "friction loss", f"{watts}{found['friction_loss']:.3%} of the drive's work, {efficiency}"
+
+
+def _sliding(dataset) -> Said:
     """The fastest sliding, and specific sliding where it is largest in size, at the start of either gear's active
     profile."""
-    if "specific_sliding" not in dataset:
-        return []
-    speed = (
-        f"{float(abs(dataset['sliding_speed']).max()) / KILO:.4g} m/s at most; " if "sliding_speed" in dataset else ""
-    )
-    lowest = dataset["specific_sliding"].min("path_point").values
-    return [("sliding", f"{speed}specific sliding {lowest[0]:.3g} pinion, {lowest[1]:.3g} wheel", "")]
+    if "specific_sliding" in dataset:
+        speed = ""
+        if "sliding_speed" in dataset:
+            speed = f"{float(abs(dataset['sliding_speed']).max()) / KILO:.4g} m/s at most; "
+        lowest = dataset["specific_sliding"].min("path_point").values
+        yield "sliding", f"{speed}specific sliding {lowest[0]:.3g} pinion, {lowest[1]:.3g} wheel"
 
 
-def _contact_loss(dataset) -> list[Row]:
+def _contact_loss(dataset) -> Said:
     """Of the drive flanks; nothing where they never touch, as where the wheel drives."""
-    attributes = dataset.attrs
-    count = attributes.get("contact_loss_count")
-    if not count or not dataset["normal_force"].max() > 0.0:
-        return []
-    return [
-        (
+    found = dataset.attrs
+    count = found.get("contact_loss_count")
+    if count and dataset["normal_force"].max() > 0.0:
+        yield (
             "contact of the drive flanks lost" if "coast_normal_force" in dataset else "contact lost",
-            (
-                f"{count} time{'s' * (count > 1)}, {attributes['contact_loss_share']:.2%} of the time, by up to"
-                f" {attributes['contact_loss_opening'] * MICROMETRES:.3g} um"
-            ),
-            "",
+            f"{count} time{'s' * (count > 1)}, {found['contact_loss_share']:.2%} of the time, by up to"
+            f" {found['contact_loss_opening'] * MICROMETRES:.3g} um",
         )
-    ]
+
+
+def _estimated_error(found) -> Said:
+    """The target, the estimated error, the setting that limits it and the chosen settings; nothing without a target."""
+    if "target" not in found:
+        return
+    parts = {name.removeprefix(ESTIMATED): error for name, error in found.items() if name.startswith(ESTIMATED)}
+    worst = max(parts, key=parts.__getitem__)
+    judged, over_face = "T_E and T_EPP", ""
+    if "slices" in found:
+        judged, over_face = "T_E, T_EPP, line load", f", {found['slices']} slices on {found['layers']} layers"
+    yield f"estimated error of {judged}", f"{found['estimated_error']:.2%}, target {found['target']:.3%}"
+    yield "what limits it", f"{worst}: {parts[worst]:.2%}"
+    yield (
+        "settings chosen",
+        f"{found['element']}, flank elements {found['flank_element_size']:.3g} mm, {found['contact_nodes']} contact"
+        f" nodes over {found['contact_length']:.3g} mm, {found['steps_per_mesh_cycle']} steps per mesh"
+        f" cycle{over_face} by {found['target_runs']} runs",
+    )
+    for remark in found["target_remarks"].splitlines():
+        yield "remark", remark
 
 
 def solver_rows(dataset) -> list[Row]:
-    """How the steps were solved."""
-    rows = []
+    """How the steps were solved, with the fallbacks of their route's own method where some needed them."""
+    rows, found = [], dataset.attrs
     if dataset.sizes["time"]:
         iterations = dataset["newton_iterations"]
-        rows.append(
-            (
-                "Newton iterations per step",
-                f"{float(iterations.mean()):.2f} on average, {int(iterations.max())} at most",
-                "",
-            )
-        )
-    return rows + _rungs(dataset.attrs)
+        mean, most = float(iterations.mean()), int(iterations.max())
+        rows.append(("Newton iterations per step", f"{mean:.2f} on average, {most} at most", ""))
+    used = {name.removeprefix(RUNG): int(count) for name, count in found.items() if name.startswith(RUNG)}
+    used.pop(PUBLISHED if found.get("condensation") == EVERY_STEP else NEWTON, None)
+    if used:
+        rows.append(("steps solved by fallbacks", ", ".join(f"{count} by {rung}" for rung, count in used.items()), ""))
+    return rows
 
 
 def stage_rows(dataset) -> list[Row]:
     """Wall time of each stage that the result carries."""
     return [(label, f"{dataset.attrs[name]:.2f}", "s") for name, label in STAGES.items() if name in dataset.attrs]
-
-
-def _root_stress(attributes) -> list[Row]:
-    """Largest root stress of either gear with its place, where the scene asks for it."""
-    rows = []
-    for gear in ("pinion", "wheel"):
-        name = f"largest_root_stress_{gear}"
-        if name in attributes:
-            place = (
-                f"at mesh cycle {attributes[f'{name}_mesh_phase']:.4g}, tooth of pair {attributes[f'{name}_pair']},"
-                f" {attributes[f'{name}_fillet']} side"
-            )
-            rows.append((f"largest root stress, {gear}", f"{attributes[name]:.4g} MPa {place}", ""))
-    return rows
-
-
-def _estimated_error(attributes) -> list[Row]:
-    """The target, the estimated error, the setting that limits it and the chosen settings; nothing without a target."""
-    if "target" not in attributes:
-        return []
-    parts = {name.removeprefix(ESTIMATED): error for name, error in attributes.items() if name.startswith(ESTIMATED)}
-    worst = max(parts, key=parts.__getitem__)
-    settings = (
-        f"{attributes['element']}, flank elements {attributes['flank_element_size']:.3g} mm,"
-        f" {attributes['contact_nodes']} contact nodes over {attributes['contact_length']:.3g} mm,"
-        f" {attributes['steps_per_mesh_cycle']} steps per mesh cycle"
-    )
-    judged = "T_E and T_EPP"
-    if "slices" in attributes:
-        judged, settings = (
-            "T_E, T_EPP, line load",
-            f"{settings}, {attributes['slices']} slices on {attributes['layers']} layers",
-        )
-    return [
-        (f"estimated error of {judged}", f"{attributes['estimated_error']:.2%}, target {attributes['target']:.3%}", ""),
-        ("what limits it", f"{worst}: {parts[worst]:.2%}", ""),
-        ("settings chosen", settings, f"by {attributes['target_runs']} runs"),
-        *(("remark", remark, "") for remark in attributes["target_remarks"].splitlines()),
-    ]
-
-
-def _rungs(attributes) -> list[Row]:
-    """How many steps needed a fallback of their route's own method; nothing where none did."""
-    own = PUBLISHED if attributes.get("condensation") == EVERY_STEP else NEWTON
-    used = {name.removeprefix(RUNG): int(count) for name, count in attributes.items() if name.startswith(RUNG)}
-    used.pop(own, None)
-    if not used:
-        return []
-    return [("steps solved by fallbacks", ", ".join(f"{count} by {rung}" for rung, count in used.items()), "")]

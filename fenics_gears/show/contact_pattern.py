@@ -21,8 +21,6 @@ ROWS = 200
 # Times the pressure of the step beside it, from which a peak is that of an edge and not of the flank.
 EDGE_PEAK = 2.0
 NOTE = "Averaged over five contact nodes; between steps the peak is interpolated along the flank."
-# The colours end at this part of the largest pressure off the edges, in which single nodes scatter.
-ABOVE_PEAK = 1.1
 GEARS = ("pinion", "wheel")
 
 
@@ -35,15 +33,10 @@ def contact_patterns(run: Run) -> list[Chart]:
     part = run.last_fields
     pressure, rolls = (part[f"{side}contact_{name}"].transpose(*order).values for name in ("pressure", "roll_angle"))
     pressure = read_off(pressure, rolls)
-    touched = (pressure > 0.0) & np.isfinite(rolls)
-    if not touched.any():
+    found = pressure[(pressure > 0.0) & np.isfinite(rolls)]
+    if not found.size:
         return []
-    found = pressure[touched]
-    # Edges press with several times as much.
-    limit = min(
-        colour_limit(found, float(found.max())),
-        ABOVE_PEAK * run.dataset.attrs.get("peak_contact_pressure", np.inf) or np.inf,
-    )
+    limit = colour_limit(run, found)
     beyond = f", beyond the colours up to {found.max():.0f} MPa" if found.max() > limit * (1 + 1e-9) else ""
     both = (rolls, rolls_on_wheel(run.pair, part, side, rolls))
     return [_pattern(run, gear, side, pressure, of_gear, limit, beyond) for gear, of_gear in enumerate(both)]

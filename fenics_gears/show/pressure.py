@@ -13,8 +13,11 @@ from fenics_gears.show.run import Run
 # Which side of the teeth: how the result's variables of that side begin, and what it is called.
 APART_NOTE = " The pressure at edges and kinks does not converge with the mesh."
 SIDES = {"": "drive flanks", "coast_": "coast flanks"}
-# A tip that enters or leaves contact presses with its edge; these few cells would leave one colour for all others.
-COMMON_SHARE, CLIPPED = 98.0, 1.2  # per cent of the cells that the colours span; times that, from which they end there
+# Edges press with several times as much as flanks, which would leave one colour for these: colours end at this part of
+# the peak pressure away from edges, in which single nodes scatter.
+ABOVE_PEAK = 1.1
+# Where that is not known: per cent of the cells that the colours span; times that, from which they end there.
+COMMON_SHARE, CLIPPED = 98.0, 1.2
 # Relative; cycles that repeat differ by less.
 SAME = 1e-6
 ROWS, MOST_COLUMNS = 260, 640
@@ -62,7 +65,7 @@ def pressure_maps(run: Run) -> list[Chart]:
 def _map(
     run: Run, side: str, pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, number: np.ndarray, named: bool
 ) -> Chart:
-    field = pressure_field(pressure, place, phase)
+    field = pressure_field(pressure, place, phase, colour_limit(run, pressure[pressure > 0.0]))
     highest = float(np.nanmax(field.values, initial=0.0))
     caption = "Contact pressure of single nodes" + (f" on the {SIDES[side]}" if named else "")
     caption += words_of_slice(run.dataset)
@@ -106,10 +109,10 @@ def _peaks(run: Run) -> str:
     return f"{words} away from edges and kinks, {' and '.join(apart)}." if apart else f"{words}."
 
 
-def pressure_field(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray) -> Field:
+def pressure_field(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, limit: float) -> Field:
     """The largest pressure (MPa) in each cell of a raster over steps and flank, from pressure and roll angle (step,
     pair, node) and the steps' mesh cycles (step,): each node under pressure reaches half-way to its neighbours and to
-    the steps before and after."""
+    the steps before and after. `limit`: where the colours end."""
     low, high = node_edges(place)
     known = (pressure > 0.0) & np.isfinite(low) & np.isfinite(high)
     finite = place[np.isfinite(place)]
@@ -128,20 +131,14 @@ def pressure_field(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray) -
     row = first[each] + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
     step = np.nonzero(known)[0][each] // group
     np.maximum.at(values, (np.clip(row, 0, ROWS - 1), step), pressure[known][each])
-    found = pressure[known]
-    highest = float(found.max(initial=0.0)) or 1.0
-    return Field(
-        columns,
-        rows,
-        np.where(np.isfinite(values), values, np.nan),
-        "Contact pressure (MPa)",
-        colour_limit(found, highest),
-        COLOURS,
-    )
+    return Field(columns, rows, np.where(np.isfinite(values), values, np.nan), "Contact pressure (MPa)", limit, COLOURS)
 
 
-def colour_limit(pressures: np.ndarray, highest: float) -> float:
-    """Where the colours of pressures (n,), MPa, end: at the highest, or below it where few are beyond."""
+def colour_limit(run: Run, pressures: np.ndarray) -> float:
+    """Where the colours of pressures (n,), MPa, end: at the highest, or below it where those at edges are beyond."""
+    highest = float(pressures.max(initial=0.0)) or 1.0
+    if peak := run.dataset.attrs.get("peak_contact_pressure"):
+        return min(highest, ABOVE_PEAK * peak)
     common = float(np.percentile(pressures, COMMON_SHARE)) if pressures.size else highest
     return common if highest > CLIPPED * common else highest
 

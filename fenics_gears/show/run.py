@@ -243,7 +243,12 @@ def design(scene: Scene) -> str:
         )
     )
     helix = f", helix angle {scene.gears.helix_angle * factor('rad', 'deg'):g}°" if scene.gears.helix_angle else ""
-    shaping = (each for each in effects_on(scene) if each.removal or each.gaps or each.section in ALONG_THE_FACE)
+    aligned = "misalignment" if scene.misalignment is not None and scene.misalignment.is_none else ""
+    shaping = (
+        each
+        for each in effects_on(scene)
+        if (each.removal or each.gaps or each.section in ALONG_THE_FACE) and each.section != aligned
+    )
     shapes = helix + "".join(f", {each.section.replace('_', ' ')}" for each in shaping)
     ripple = "" if scene.torque_ripple is None else ", torque ripple"
     return f"{friction}{shapes}{ripple}"

@@ -37,57 +37,21 @@ def work_precision(report: AccuracyReport) -> Figure:
 
 def _whole(axes: Axes, report: AccuracyReport) -> None:
     front = report.front
+
+    def draw(results, style: str, colour: str, label: str, size: float = 6.0) -> None:
+        points = [(each.times.total, each.total_error) for each in results]
+        if points:
+            axes.plot(*zip(*points), style, color=colour, markersize=size, label=label)
+
     others = [each for each in report.settings if each.name not in (OWN, DEFAULTS) and each not in front]
-    if others:
-        axes.plot(
-            [each.times.total for each in others],
-            [each.total_error for each in others],
-            "o",
-            color=GREY,
-            markersize=5,
-            label="other settings: another is quicker and more accurate",
-        )
-    axes.plot(
-        [each.times.total for each in front],
-        [each.total_error for each in front],
-        "-o",
-        color=PALETTE[0],
-        label="Pareto front: none is quicker and as accurate",
-    )
-    axes.plot(
-        report.own.times.total,
-        report.own.total_error,
-        "*",
-        color=PALETTE[1],
-        markersize=16,
-        label="the scene's own settings",
-    )
-    if report.defaults:
-        axes.plot(
-            report.defaults.times.total,
-            report.defaults.total_error,
-            "P",
-            color=PALETTE[3],
-            markersize=11,
-            label="the default settings",
-        )
-    for place, each in enumerate(report.models):
-        axes.plot(
-            each.times.total,
-            each.total_error,
-            MARKS[place + 1],
-            color=PALETTE[2],
-            markersize=8,
-            label=f"model: {each.name}",
-        )
-    axes.axhspan(
-        LEAST_SHOWN,
-        max(report.floor, LEAST_SHOWN),
-        color=GREY,
-        alpha=0.15,
-        linewidth=0,
-        label="less than the reference's own uncertainty",
-    )
+    draw(others, "o", GREY, "other settings: another is quicker and more accurate", 5.0)
+    draw(front, "-o", PALETTE[0], "Pareto front: none is quicker and as accurate")
+    draw([report.own], "*", PALETTE[1], "the scene's own settings", 16.0)
+    draw([report.defaults] if report.defaults else [], "P", PALETTE[3], "the default settings", 11.0)
+    for mark, each in zip(MARKS[1:], report.models):
+        draw([each], mark, PALETTE[2], f"model: {each.name}", 8.0)
+    unsure = "less than the reference's own uncertainty"
+    axes.axhspan(LEAST_SHOWN, max(report.floor, LEAST_SHOWN), color=GREY, alpha=0.15, linewidth=0, label=unsure)
     _logarithmic(axes, [*report.settings, *report.models], report.floor)
     _labels(axes, front)
     axes.set_title("Total error (sum of the errors of all settings, or difference from the reference)")
@@ -126,29 +90,16 @@ def _logarithmic(axes: Axes, results, floor: float) -> None:
 
 def _alone(axes: Axes, report: AccuracyReport) -> None:
     for place, result in enumerate(report.refinements):
-        points = [
-            (each.times.total, judged(each.errors)) for each in result.levels if judged(each.errors) > LEAST_SHOWN
-        ]
+        points = [(each.times.total, judged(each.errors)) for each in result.levels]
+        points = [(seconds, error) for seconds, error in points if error > LEAST_SHOWN]
         if not points:
             continue
         order, expected = result.order("T_E"), result.refinement.expected
-        aside = f" ({result.refinement.why})" if result.refinement.name == CONDENSATION else ""
-        note = (
-            aside
-            if expected is None
-            else f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
-        )
-        style = "-" if expected is not None else ":"
-        colour = PALETTE[place % len(PALETTE)]
-        axes.plot(
-            *zip(*points),
-            style,
-            marker=MARKS[place],
-            color=colour,
-            markersize=5.5,
-            linewidth=1.3,
-            label=result.refinement.name + note,
-        )
+        look = {"marker": MARKS[place], "color": PALETTE[place % len(PALETTE)], "markersize": 5.5, "linewidth": 1.3}
+        style, note = ":", f" ({result.refinement.why})" if result.refinement.name == CONDENSATION else ""
+        if expected is not None:
+            style, note = "-", f" (order {'none' if order is None else f'{order:.1f}'}, expected {expected:g})"
+        axes.plot(*zip(*points), style, label=result.refinement.name + note, **look)
     axes.set_xscale("log")
     axes.set_yscale("log")
     _percent_over_seconds(axes)

@@ -42,11 +42,8 @@ def iso_route(model: Model, progress: Progress, cache: Cache | None, job: Job | 
     return (), iso_cycle(model)
 
 
-def table_cycle(model: Model, bodies: Bodies, loads: tuple[float, ...] = LOADS) -> tuple[Bodies, Cycle]:
-    """The mesh cycle of a stiffness table of the full contact; the bodies' `time_condense` has what the table took.
-
-    `loads`: in parts of the force that the scene transmits.
-    """
+def table_cycle(model: Model, bodies: Bodies) -> tuple[Bodies, Cycle]:
+    """The mesh cycle of a stiffness table of the full contact; the bodies' `time_condense` has what the table took."""
     begun, resolution = perf_counter(), model.resolution
     full = Cycle(
         elastic_mesh(flanks_of(model, bodies), resolution.contact_grid, model.corner),
@@ -56,11 +53,11 @@ def table_cycle(model: Model, bodies: Bodies, loads: tuple[float, ...] = LOADS) 
     )
     force = abs(model.scene.load.wheel_torque) / model.pair.wheel.base_radius
     force = force or DEFLECTION_WITHOUT_LOAD * model.scene.gears.module * mesh_stiffness(model.scene)
-    table = stiffness_table(full, 0, force, loads)
+    table = stiffness_table(full, 0, force, LOADS)
     first, second = bodies
     spent = first.timings["time_condense"] + perf_counter() - begun
     first = replace(first, timings={**first.timings, "time_condense": spent})
-    return (first, second), _cycle(model, table.springs, len(loads) - 1)
+    return (first, second), _cycle(model, table.springs, len(LOADS) - 1)
 
 
 def iso_cycle(model: Model) -> Cycle:

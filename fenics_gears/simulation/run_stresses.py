@@ -10,7 +10,7 @@ import xarray as xr
 
 from fenics_gears.contact.tooth_pair import coast_place, drive_place
 from fenics_gears.effects import effects_on
-from fenics_gears.elasticity.cache import Cache, user_cache
+from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.elasticity.element_nodes import ElementNodes
 from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery
 from fenics_gears.elasticity.ring import rotation
@@ -111,11 +111,11 @@ class RunStresses:
     scene: the one that was run. Raises SceneError where the run has no elastic teeth, or met its contact by remeshing.
     """
 
-    def __init__(self, result: xr.Dataset, scene: Scene, cache: Cache | None = None):
+    def __init__(self, result: xr.Dataset, scene: Scene):
         self.model = model_of(scene)
         self._check()
         self.result = contact_times(result)
-        _, self.cycle = prepared(self.model, SilentProgress(), cache if cache is not None else user_cache())
+        _, self.cycle = prepared(self.model, SilentProgress(), user_cache())
         self.recoveries = tuple(recovery_of(self.model, gear) for gear in (0, 1))
 
     def __enter__(self) -> Self:

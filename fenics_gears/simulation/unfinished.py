@@ -7,24 +7,24 @@ from pathlib import Path
 import xarray as xr
 
 from fenics_gears.dynamics.march import March
-from fenics_gears.elasticity.cache import Cache, user_cache
+from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import model_of
 from fenics_gears.results.journal import read
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import result_of, root_stress_of
-from fenics_gears.system.progress import Progress, SilentProgress
+from fenics_gears.system.progress import SilentProgress
 
 NOT_ENDED = "not ended"
 
 
-def unfinished(directory: Path, progress: Progress | None = None, cache: Cache | None = None) -> xr.Dataset:
+def unfinished(directory: Path) -> xr.Dataset:
     """The result as it would be if the run had been interrupted after the last step of its journal; `complete` 0,
     `stopped` NOT_ENDED.
 
     The gears are those of the cache, or condensed again. Raises ComputationError where the journal cannot be read.
     """
-    progress, cache = progress or SilentProgress(), cache or user_cache()
+    progress, cache = SilentProgress(), user_cache()
     recorded = read(directory)
     model = model_of(recorded.scene)
     gears, cycle = prepared(model, progress, cache)

@@ -20,7 +20,8 @@ SPACINGS = ("linear", "logarithmic")
 MOST_VALUES = 100_000
 # "50 .. 500 N m in 10", "... in 10, logarithmic", "50 .. 500 N m by 50 N m".
 RANGE_IN_WORDS = re.compile(
-    r"(?P<start>.+?)\s*\.\.\s*(?P<stop>.+?)(?:\s+in\s+(?P<count>\d+)(?P<spacing>\s*,?\s*logarithmic)?|\s+by\s+(?P<step>.+?))?"
+    r"(?P<start>.+?)\s*\.\.\s*(?P<stop>.+?)"
+    r"(?:\s+in\s+(?P<count>\d+)(?P<spacing>\s*,?\s*logarithmic)?|\s+by\s+(?P<step>.+?))?"
 )
 
 

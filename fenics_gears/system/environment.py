@@ -70,10 +70,10 @@ def local_ranks(environment=os.environ):
     return _largest(environment, LOCAL_COUNTS)
 
 
-def on_terminal_of_its_own(environment=os.environ):
+def on_terminal_of_its_own():
     """Whether this process's terminal is nobody's: Open MPI and MPICH start each process on a pseudo-terminal, whatever
     mpirun itself writes to."""
-    return any(name in environment for name in RANK_COUNTS[:2])
+    return any(name in os.environ for name in RANK_COUNTS[:2])
 
 
 def _largest(environment, names):

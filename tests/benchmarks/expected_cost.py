@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 import resource
 import subprocess
 import sys
@@ -76,24 +75,25 @@ mesh_cycles = 2
 def cases() -> dict[str, str]:
     """Text of each example's scene by its name."""
     from tests.effects.examples import EXAMPLES
+    from tests.paper_text import without
 
     paper = PAPER.read_text(encoding="utf-8")
     found = {path.stem: path.read_text(encoding="utf-8") for path in DEMOS}
     found |= {
-        f"paper - {name}": _without(paper, *names)
+        f"paper - {name}": without(paper, *names)
         for name, *names in (("friction", "friction"), ("inertia", "inertia", "damping"), ("shafts", "shafts"))
     }
-    bare = _without(paper, "friction", "inertia", "damping", "shafts", "bearings")
-    found |= {"paper, bare": bare, "paper, rigid flanks": _without(bare, "gears.material", "accuracy")}
+    bare = without(paper, "friction", "inertia", "damping", "shafts", "bearings")
+    found |= {"paper, bare": bare, "paper, rigid flanks": without(bare, "gears.material", "accuracy")}
     more = [
         name
         for name in EXAMPLES
         if f"[{name}]" not in paper and name not in ("tooth_elasticity", "body_meshes", "speed_ramp")
     ]
     found |= {f"paper + {name}": f"{paper}\n{EXAMPLES[name]}" for name in more}
-    found["paper, ISO 6336"] = _without(paper, "accuracy") + '\n[accuracy]\nmodel = "ISO 6336-1"\n'
+    found["paper, ISO 6336"] = without(paper, "accuracy") + '\n[accuracy]\nmodel = "ISO 6336-1"\n'
     found["paper, its own condensation"] = (
-        _without(bare, "accuracy")
+        without(bare, "accuracy")
         + '\n[accuracy]\ncondensation = "every step"\ncontact_nodes = 11\nsteps_per_mesh_cycle = 10\n'
     )
     found |= {
@@ -104,12 +104,6 @@ def cases() -> dict[str, str]:
         HELICAL_PAIR + '[accuracy]\nslices = 40\nlayers = 4\nbody_element_size = "1.8 mm"\nsteps_per_mesh_cycle = 40\n'
     )
     return found | {"23/47": LARGER_PAIR, "23/47 + coast_flanks": LARGER_PAIR + "[coast_flanks]\n"}
-
-
-def _without(text: str, *sections: str) -> str:
-    for section in sections:
-        text = re.sub(rf"^\[{re.escape(section)}\]\n(?:(?!\[).*\n)*", "", text, flags=re.MULTILINE)
-    return text
 
 
 def measure(name: str) -> dict[str, float]:

@@ -167,14 +167,6 @@ def test_pictures_of_a_study_are_those_of_its_report(simulation, capsys, tmp_pat
     assert files(tmp_path) == ["speeds/study.nc"]
 
 
-def test_ctrl_c_keeps_what_was_done(simulation, capsys, tmp_path):
-    """Authority: docs/promises.md; marked incomplete, exit code 130."""
-    simulation.outcome = small_result(complete=0)
-    assert main(["run", str(DEMO), "--output", "here"]) == 130
-    assert results.load(tmp_path / "here/run.nc").attrs["complete"] == 0
-    assert "marked incomplete: here/run.nc" in capsys.readouterr().err
-
-
 def test_ctrl_c_waits_for_the_end_of_a_step(simulation, tmp_path):
     """Authority: issue 2; a real signal in the middle of a step ends the march between two steps, and the handler is
     given back."""

@@ -1,15 +1,8 @@
-"""The laws [9], [11], [24], [25] written out, to judge solutions by something the solver does not use."""
+"""The laws [9], [11], [25] written out, to judge solutions by something the solver does not use."""
 
 from __future__ import annotations
 
 import numpy as np
-
-
-def project(normal, tangential, u_n, gap, slip, r_n, r_t, friction):
-    """The right-hand sides of [24] and [25] for one node: (p_n, p_t) that the laws ask for."""
-    pressed = max(normal + r_n * (u_n - gap), 0.0)
-    limit = friction * max(normal, 0.0)
-    return pressed, min(max(tangential + r_t * slip, -limit), limit)
 
 
 def law_residual(

@@ -77,13 +77,6 @@ def one_node(friction, coupling=0.0, load=100.0, stiffness=0.0, arm=0.0, gap=0.0
     )
 
 
-@pytest.mark.parametrize("friction", [0.1, 0.5, 0.9])
-def test_friction_against_the_load_raises_the_normal_force(friction):
-    """Exact: a node whose friction has the arm `a` against the load F carries F/(1 - mu a)."""
-    problem = one_node(friction, arm=1.0)
-    assert solve_step(problem, all_open(problem)).forces[0] == pytest.approx(100.0 / (1.0 - friction), rel=1e-12)
-
-
 @pytest.mark.parametrize("friction", [1.0, 1.5, 2.0])
 def test_friction_that_undoes_the_normal_force_locks(friction):
     """Exact: from mu a = 1 on the node sticks and jams, with the force that the slip asks for, 1 mm over 3e-6 mm/N, not

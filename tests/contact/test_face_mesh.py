@@ -110,33 +110,6 @@ def test_any_start_and_a_whole_cycle_ahead(model):
         np.testing.assert_allclose(one.gap, other.gap, atol=1e-12)
 
 
-def test_torques_are_as_the_tooth_numbers_and_axial_forces_as_the_helix(model):
-    """Statics: without friction T1/rb1 = T2/rb2 = the forces' transverse part; the axial part is its tangent of the
-    base helix angle."""
-    if model.scene.friction is not None:
-        pytest.skip("without friction")
-    cycle = face_cycle(model, face_of(5, slope=0.2))
-    record = marched(model, cycle, 4)[-1]
-    operator, pair = record.position.operator, model.pair
-    from fenics_gears.contact.operator import COORDINATES, displacement_jacobian
-
-    rows = displacement_jacobian(
-        operator.pairs, operator.base_radii, operator.normal_lever_arms, False, face=cycle.face
-    )
-    reaction = dict(zip(COORDINATES, rows.T @ record.solution.forces))
-    transverse = model.scene.load.wheel_torque / pair.wheel.base_radius
-    for name, value in (
-        ("rotation_1", 1.0),
-        ("rotation_2", 1.0),
-        ("centre_x1", 1.0),
-        ("centre_x2", -1.0),
-        ("axial_1", -0.2),
-        ("axial_2", 0.2),
-    ):
-        assert abs(reaction[name]) == pytest.approx(abs(value) * transverse, rel=1e-12), name
-    assert reaction["axial_1"] == pytest.approx(-reaction["axial_2"], rel=1e-12)
-
-
 def test_slices_refined(model):
     """Known order: the mean over slices of what varies along the face is the midpoint rule, of second order."""
     if model.scene.friction is not None:

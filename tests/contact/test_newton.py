@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import nnls
-from tests.contact.laws_of_contact import law_residual, project
+from tests.contact.laws_of_contact import law_residual
 from tests.contact.problems import all_open, random_problem
 
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
@@ -46,20 +46,6 @@ def test_frictional_step_against_enumeration_of_all_sets():
         solution = solve_step(problem, all_open(problem))
         assert found
         assert all(solution.forces == pytest.approx(forces, abs=1e-6) for forces in found)
-
-
-def test_projections_hold_at_a_solution():
-    """[24], [25]: a solution is a fixed point of the projections for any r."""
-    problem = random_problem(5, friction=0.2)
-    solution, n = solve_step(problem, all_open(problem)), 8
-    for r in (1e2, 1e5, 1e9):
-        for j in range(n):
-            slip = solution.displacement[n + j] + problem.slip_before[j]
-            p_n, p_t = project(
-                solution.forces[j], solution.forces[n + j], solution.displacement[j], problem.gap[j], slip, r, r, 0.2
-            )
-            assert p_n == pytest.approx(solution.forces[j], abs=1e-6)
-            assert p_t == pytest.approx(solution.forces[n + j], abs=1e-6)
 
 
 def test_warm_start_at_the_solution_takes_one_iteration():

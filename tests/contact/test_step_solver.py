@@ -174,15 +174,6 @@ def test_gears_that_jam_need_divided_steps(absent, nodes, steps, paper_scene, pa
         assert residual["wrong_way"] <= 1e-10 * np.abs(forces).max()
 
 
-@pytest.mark.nightly
-def test_gears_that_lock_say_so(paper_scene, paper_pair, stand_in_flanks):
-    """A march that ends without a solution, even in steps 64 times as short: typed, with the reason."""
-    with pytest.raises(SelfLocking, match="self-locking: with a friction coefficient of 5 ") as failure:
-        jammed(paper_scene, paper_pair, stand_in_flanks, ("bearings",), 13, 40)
-    assert [attempt[0] for attempt in failure.value.attempts] == [*NEWTON_AND_FALLBACKS, HALVED]
-    assert len(failure.value.partial.records) == failure.value.step
-
-
 class Refusing(Cycle):
     """A cycle that has no solution in steps longer than `longest` (in steps)."""
 

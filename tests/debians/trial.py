@@ -21,11 +21,11 @@ OF_RANKS = (
     "tests/hard_cases/test_row_06_condensation.py", "tests/hard_cases/test_row_07_patch_test.py",
 )  # fmt: skip
 QUICK = (
-    "tests/setup", "tests/commands/test_cli.py", "tests/elasticity/test_known_solutions.py",
+    "tests/setup", "tests/commands/test_cli.py", "tests/elasticity/test_web.py",
     "tests/studies/test_ranks.py",
     "tests/show/test_stress_picture.py",
 )  # fmt: skip
-QUICK_OF_RANKS = ("tests/elasticity/test_known_solutions.py", "tests/elasticity/test_ring.py")
+QUICK_OF_RANKS = ("tests/elasticity/test_web.py", "tests/elasticity/test_ring.py")
 RESULTS = "/results"
 OF_EACH_RANK = 'exec ./gears test -rfEs -p no:cacheprovider --junitxml=$rank.xml "$@" >$rank.log 2>&1'
 # mpirun as root, which containers are: as the Dockerfile has it.

@@ -8,7 +8,7 @@ from demos.real_pairs import pairs
 from demos.real_pairs.picture import picture
 from tests.coarse import COARSE
 
-from fenics_gears import load_scene, lumped_gears, model_of, simulate
+from fenics_gears import load_scene, lumped_gears, model_of
 
 SCENES = [load_scene(pairs.HERE / f"{name}.toml") for name in pairs.SCENES]
 
@@ -30,27 +30,6 @@ def test_pairs_are_what_their_sources_say():
             mass = density * np.pi * radius**2 * scene.gears.face_width
             assert 1e3 * lumped.mass == pytest.approx(mass, rel=1e-3)
             assert 1e3 * lumped.moment_of_inertia == pytest.approx(0.5 * mass * radius**2, rel=5e-3)
-
-
-@pytest.mark.nightly
-def test_at_a_crawl_a_real_pair_is_quasi_static():
-    """Limit: at a hundredth of the lowest natural frequency inertia changes the transmission error's height by less
-    than 1 % of it."""
-    scene = replace(SCENES[2], accuracy=replace(COARSE, contact_length=1.0))
-    slow = replace(
-        scene,
-        motion=replace(
-            scene.motion,
-            mesh_frequency=0.01 * model_of(scene).vibrations[0].frequency,
-            mesh_cycles=2,
-            recorded_cycles=1,
-        ),
-    )
-    heights = [
-        simulate(each).attrs["peak_to_peak_transmission_error"]
-        for each in (slow, replace(slow, inertia=None, damping=None))
-    ]
-    assert heights[0] == pytest.approx(heights[1], rel=0.01)
 
 
 def test_table_and_picture_have_every_pair(monkeypatch):

@@ -14,6 +14,7 @@ import matplotlib
 import pytest
 from tests.docs.blocks import PAGES, ROOT, blocks, in_text, name_of
 from tests.docs.commands_page import commands, parser
+from tests.paper_text import PAPER as DEMO
 
 from fenics_gears import as_toml, results, scene_from_text, simulate
 from fenics_gears.extensions.optimization.design_file import load_design
@@ -27,7 +28,6 @@ RUN_ELSEWHERE = {
     "docs/adding_an_extension.md": "tests/extensions/test_adding_an_extension.py",
 }
 PROMPT = ">>> "
-DEMO = (ROOT / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 # What stands for a number or a word in the pages' commands.
 STAND_FOR = {"N": "2", "SECONDS": "2", "PHASE": "0.25", "TORQUE": "437 N m", "SPEED": "750 rpm"}
 STARTERS = ("mpirun", "srun")

@@ -20,7 +20,7 @@ from fenics_gears.effects.friction import Friction
 from fenics_gears.effects.speed_ramp import SpeedRamp
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import Model, model_of
-from fenics_gears.results import dataset
+from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import RIGID_TEETH, Accuracy, Motion
 from fenics_gears.simulation.elastic_route import mesh_cycle
@@ -59,7 +59,7 @@ def marched(model: Model, cycle, plain: bool):
         march, failure = Marcher(cycle, model.equations_of_motion, plain).run(model.steps, 1, observe=recorder.take), ""
     except ContactNotConverged as failed:
         march, failure = failed.partial, str(failed)
-    return march, dataset(recorder, march), failure
+    return march, RunResult(recorder, march).dataset, failure
 
 
 def assert_the_same(model: Model, cycle) -> set[str]:

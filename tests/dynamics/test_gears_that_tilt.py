@@ -10,11 +10,9 @@ from tests.stand_in import stand_in_body
 from fenics_gears.contact.face import Face, even_slices
 from fenics_gears.contact.face_mesh import face_mesh, opening_over_face
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps
-from fenics_gears.contact.operator import COORDINATES, displacement_jacobian
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
-from fenics_gears.dynamics.tilting import moved
 from fenics_gears.effects.bearings import BearingPlaces, Bearings, Support
 from fenics_gears.geometry.helix import Helix
 from fenics_gears.model.drivetrain import drivetrain
@@ -109,26 +107,6 @@ def test_all_balances_of_either_gear_are_closed(helical):
                 )
 
 
-def test_rows_of_the_contact_nodes_are_the_kinematics_of_rigid_gears(helical):
-    """Two derivations: the operator's rows, and the cross products of points that `test_tilting` checks by rotation
-    matrices."""
-    mesh = helical[1]
-    directions = np.array([[mesh.pair.cosine, 0.0, -mesh.pair.cosine * mesh.pair.slope], [0.0, 1.0, 0.0]])
-
-    for index in range(0, STEPS, 3):
-        operator = mesh.cycle.position(index).operator
-        rows = displacement_jacobian(
-            operator.pairs, operator.base_radii, operator.normal_lever_arms, True, face=operator.face
-        )
-        node = 0
-        for pair in operator.pairs:
-            for arm in pair.pinion_lever_arm:
-                for kind, direction in enumerate(directions):
-                    expected = moved(mesh.pair, COORDINATES, (arm, pair.place.height), direction)
-                    assert rows[kind * operator.nodes + node] == pytest.approx(expected, rel=1e-9, abs=1e-9)
-                node += 1
-
-
 def test_the_tilt_follows_the_misalignment(paper_scene, stand_in_flanks):
     """Limit: bearings so near to each other that nothing else holds the tilt let the flanks align, whatever the
     misalignment; far ones do not."""
@@ -142,29 +120,6 @@ def test_the_tilt_follows_the_misalignment(paper_scene, stand_in_flanks):
         ]
         loads[half] = np.bincount(slices, record.solution.forces, SLICES)
     assert np.ptp(loads[0.5]) < 0.02 * loads[0.5].mean() and np.ptp(loads[1e4]) > 0.5 * loads[1e4].mean()
-
-
-def test_far_bearings_and_a_held_axis_are_the_plane_ones(paper_scene, stand_in_flanks):
-    """Limit: tilting stiffness grows as the square of the distance; the error of shafts that do not tilt falls by 1e4
-    where the distance grows by 1e2."""
-    flanks = with_helix(stand_in_flanks)
-    plane, near, far = (
-        Mesh(
-            paper_scene,
-            flanks,
-            replace(BEARINGS, axial_stiffness=None if half is None else 1e6 * half**2, places=places),
-        ).marched()
-        for half, places in (
-            (None, None),
-            (1e4, BearingPlaces((-1e4, 1e4), (-1e4, 1e4))),
-            (1e6, BearingPlaces((-1e6, 1e6), (-1e6, 1e6))),
-        )
-    )
-    states, coarse, fine = (
-        np.array([record.state.position for record in records])[:, :7] for records in (plane, near, far)
-    )
-    errors = [np.abs(each - states).max() for each in (coarse, fine)]
-    assert errors[0] < 1e-5 * np.abs(states).max() and errors[1] < 1.1e-4 * errors[0] + 1e-12
 
 
 def test_compiled_and_plain_march_are_the_same(helical):

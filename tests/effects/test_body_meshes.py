@@ -8,15 +8,12 @@ import numpy as np
 import pytest
 from tests.effects.examples import MESHES, text_of
 
-from fenics_gears import SceneError, model_of, scene_from_text, simulate
+from fenics_gears import SceneError, scene_from_text, simulate
 from fenics_gears.commands.cli import main
-from fenics_gears.elasticity.body_mesh_file import write_body_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.scene.data import Motion
-from meshes.root_crack import cracked_gear_mesh
 
 TEETH = "tooth_elasticity"
-COARSE = {"element": "P1", "flank_element_size": 0.4, "body_element_size": 3.0}
 
 
 def text_with(meshes: str, *sections: str) -> str:
@@ -27,36 +24,8 @@ def text_with(meshes: str, *sections: str) -> str:
 
 
 @pytest.fixture(scope="module")
-def healthy(tmp_path_factory):
-    """Mesh files of both gears, all teeth whole, as the coarse scene's sectors are meshed."""
-    directory = tmp_path_factory.mktemp("meshes")
-    model = model_of(scene_from_text(text_of(TEETH)))
-    for number, name in enumerate(("pinion", "wheel")):
-        gear = getattr(model.pair, name)
-        sizes = replace(model.resolution.discretisation(number), **COARSE).sizes(gear)
-        write_body_mesh(cracked_gear_mesh(gear, sizes, {}), directory / f"{name}.msh")
-    return directory
-
-
-@pytest.fixture(scope="module")
 def cache(tmp_path_factory):
     return Cache(tmp_path_factory.mktemp("cache"))
-
-
-@pytest.mark.parametrize("sections", [("shafts", "inertia", "damping", "friction", "tip_relief", "flank_errors")])
-def test_whole_meshes_of_healthy_gears_change_nothing(sections, healthy, cache):
-    """Exact identity: both gears from files, every result variable that of the rings of sectors but for the digits of a
-    mesh file."""
-    files = "\n".join(f'{name} = "{healthy / name}.msh"' for name in ("pinion", "wheel"))
-    meshed = scene_from_text(text_with(files, *sections))
-    results = [
-        simulate(replace(each, motion=Motion(200.0, 2, 2)), cache=cache)
-        for each in (meshed, replace(meshed, body_meshes=None))
-    ]
-    assert set(results[0]) == set(results[1])
-    for name in ("transmission_error", "pair_normal_force", "contact_pressure", "rotation"):
-        found, expected = (result[name].values for result in results)
-        assert np.nanmax(np.abs(found - expected)) <= 1e-8 * np.nanmax(np.abs(expected))
 
 
 @pytest.fixture(scope="module")

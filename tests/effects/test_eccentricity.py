@@ -5,14 +5,13 @@ from math import cos
 
 import numpy as np
 import pytest
-from tests.coarse import coarse_scene
+from tests.coarse import rigid_pair
 
 from fenics_gears import simulate
 from fenics_gears.contact.places import pair_places
 from fenics_gears.contact.run_out import RunOut
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.effects import without
 from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.scene.data import Accuracy, Motion
 
@@ -23,8 +22,9 @@ PERIOD = 48  # mesh cycles until 16 and 24 teeth meet again: three turns of the 
 @pytest.fixture(scope="module")
 def rigid(paper_scene):
     """The paper's pair with rigid flanks on rigid shafts, over a hunting tooth period."""
-    bare = without(paper_scene, "tooth_elasticity", "friction", "inertia", "damping", "shafts", "bearings")
-    return replace(bare, accuracy=Accuracy(steps_per_mesh_cycle=20), motion=Motion(200.0, PERIOD, PERIOD))
+    return replace(
+        rigid_pair(paper_scene), accuracy=Accuracy(steps_per_mesh_cycle=20), motion=Motion(200.0, PERIOD, PERIOD)
+    )
 
 
 def harmonics(result, radius):
@@ -44,17 +44,6 @@ def test_rigid_gears_have_one_harmonic_once_a_turn(rigid, paper_pair, gear, turn
     assert spectrum[turns] == pytest.approx(sign * DISTANCE * np.exp(1j * PHASE), abs=1e-12)
     spectrum[turns] = 0.0
     assert np.abs(spectrum[1:]).max() <= 1e-12
-
-
-def test_without_offset_nothing_changes(paper_scene):
-    """Omitted equals its zero limit, to the last bit, with inertia and friction."""
-    scene = coarse_scene(paper_scene, cycles=1)
-    plain, zero = (
-        simulate(scene),
-        simulate(replace(scene, eccentricity=Eccentricity(Offset(0.0, PHASE), Offset(0.0, PHASE)))),
-    )
-    for name in plain.data_vars:
-        assert np.array_equal(plain[name].values, zero[name].values, equal_nan=True)
 
 
 class _Operator:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.paper_text import PAPER
 
 from fenics_gears import SceneError, gear_pair, load_scene, scene_from_text
 from fenics_gears.commands.shared import checked_model
@@ -12,7 +13,6 @@ from fenics_gears.effects.flank_errors_sections import GearErrors
 from fenics_gears.geometry.flank_deviations import flank_deviations
 
 DEMOS = Path(__file__).parents[2] / "demos"
-PAPER = (DEMOS / "lundvall2004.toml").read_text(encoding="utf-8")
 PITCHES = [3.0, -3.0, *(0.0,) * 14]
 
 

@@ -25,18 +25,17 @@ DEPTH = 0.02
 KINDS = {"tip_relief": (TipRelief, tip_reliefs), "root_relief": (RootRelief, root_reliefs)}
 
 
-def test_root_relief_runs_from_lpstc_to_the_form_circle(paper_pair):
-    """Definition: nothing above LPSTC, the depth at the form circle, linear or parabolic between."""
-    fractions = np.array([-1.0, 0.0, 0.25, 0.5, 1.0])
+@pytest.mark.parametrize("section", KINDS)
+def test_relief_runs_from_single_contact_to_the_end_of_the_flank(paper_pair, section):
+    """Definition: nothing before HPSTC (LPSTC), the depth at the tip (form circle), linear or parabolic between."""
+    (kind, curves), fractions = KINDS[section], np.array([-1.0, 0.0, 0.25, 0.5, 1.0])
+    point, end = ("hpstc", "tip") if section == "tip_relief" else ("lpstc", "form")
+    gears = tuple(zip((paper_pair.pinion, paper_pair.wheel), getattr(paper_pair, f"{point}_roll_angles")))
     for shape, power in ((LINEAR, 1), (PARABOLIC, 2)):
-        relief = Relief(DEPTH, shape=shape)
-        gears = (
-            (paper_pair.pinion, paper_pair.lpstc_roll_angles[0]),
-            (paper_pair.wheel, paper_pair.lpstc_roll_angles[1]),
-        )
-        for curve, (gear, start) in zip(root_reliefs(paper_pair, RootRelief(relief, relief)), gears):
-            rolls = start + fractions * (gear.form_roll_angle - start)
-            assert curve(rolls) == pytest.approx(DEPTH * np.maximum(fractions, 0.0) ** power, abs=1e-16)
+        reliefs = Relief(DEPTH, shape=shape), Relief(2.0 * DEPTH, shape=shape)
+        for curve, (gear, start), relief in zip(curves(paper_pair, kind(*reliefs)), gears, reliefs):
+            rolls = start + fractions * (getattr(gear, f"{end}_roll_angle") - start)
+            assert curve(rolls) == pytest.approx(relief.depth * np.maximum(fractions, 0.0) ** power, abs=1e-16)
 
 
 @pytest.mark.parametrize("section", KINDS)
@@ -45,7 +44,8 @@ def test_a_start_may_be_a_roll_angle_or_a_diameter(paper_pair, section):
     kind, curves = KINDS[section]
     roll = radians(22.0)
     diameter = 2.0 * float(paper_pair.pinion.radius(roll))
-    by_roll, _ = curves(paper_pair, kind(Relief(DEPTH, roll), None))
+    by_roll, none = curves(paper_pair, kind(Relief(DEPTH, roll), None))
+    assert none is None
     by_diameter, wheel = curves(paper_pair, kind(Relief(DEPTH, Measured(diameter, "a length")), Relief(DEPTH, 0.4)))
     assert by_diameter.start_roll_angle == pytest.approx(by_roll.start_roll_angle, rel=1e-14)
     assert wheel.start_roll_angle == 0.4
@@ -168,3 +168,40 @@ def test_gaps_open_by_the_removal_there(paper_scene, paper_pair, stand_in_flanks
 def _operator(pair, flanks, scene, grid, step):
     flanks = Flanks(pair, flanks.compliance, removals(scene, pair))
     return Cycle(elastic_mesh(flanks, grid), 20, [5], tangential=False).position(step).operator
+
+
+def test_two_pairs_are_never_both_relieved_nor_both_unrelieved(paper_pair):
+    """Authority: what HPSTC means: a pair in single contact touches where neither flank is relieved; in double contact
+    one pair touches where the pinion, the other where the wheel is relieved."""
+    pinion, wheel = tip_reliefs(paper_pair, TipRelief(Relief(0.031, None), Relief(0.031, None)))
+
+    def removed(position):
+        return (
+            pinion(paper_pair.pinion_roll_angle(position)) > 0.0,
+            wheel(paper_pair.wheel_roll_angle(position)) > 0.0,
+        )
+
+    start, pitch = paper_pair.path_start, paper_pair.base_pitch
+    for phase in np.linspace(0.01, 0.46, 10):
+        assert removed(start + phase * pitch) == (False, True)
+        assert removed(start + (1.0 + phase) * pitch) == (True, False)
+    for phase in np.linspace(0.48, 0.99, 10):
+        assert removed(start + phase * pitch) == (False, False)
+
+
+@pytest.mark.parametrize(
+    ("relief", "said"),
+    [
+        (Relief(0.01, radians(41.0)), ["41 deg", "40.19 deg (tip)", "tip_relief.pinion.start"]),
+        (Relief(0.01, radians(2.0)), ["2 deg", "2.904 deg (form circle)", "tip_relief.pinion.start"]),
+        (Relief(-0.01, None), ["tip_relief", "-0.01 mm"]),
+        (Relief(float("nan"), None), ["tip_relief", "nan"]),
+    ],
+)
+def test_relief_off_the_flank_is_refused(paper_pair, relief, said):
+    """Authority: house rule on errors: what, which gear, the value, what is allowed, the field."""
+    with pytest.raises(GeometryError) as refused:
+        tip_reliefs(paper_pair, TipRelief(relief, None))
+    assert str(refused.value).startswith("pinion: tip")
+    for part in said:
+        assert part in str(refused.value)

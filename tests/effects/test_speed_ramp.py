@@ -3,13 +3,14 @@ wrong."""
 
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from tests.coarse import COARSE, frictionless
 from tests.frozen_gears import frozen_marcher
+from tests.paper_text import PAPER as DEMO
+from tests.paper_text import without
 
 from fenics_gears import Load, SceneError, model_of, scene_from_text, simulate
 from fenics_gears.contact.errors import ContactNotConverged
@@ -22,7 +23,6 @@ from fenics_gears.scene.data import Motion
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.progress import SilentProgress
 
-DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 UP, DOWN = RampClock(100.0, 300.0, 80, 480, 40), RampClock(300.0, 100.0, 0, 400, 40)
 
 
@@ -49,9 +49,8 @@ def test_a_wrong_section_is_refused(lines, said):
 
 def test_a_ramp_needs_inertia():
     """Authority: without mass nothing depends on speed."""
-    bare = re.sub(r"^\[(inertia|damping)\].*?(?=^\[)", "", DEMO, flags=re.M | re.S)
     with pytest.raises(SceneError) as refused:
-        scene_from_text(bare + '[speed_ramp]\nend_frequency = "260 Hz"\n')
+        scene_from_text(without(DEMO, "inertia", "damping") + '[speed_ramp]\nend_frequency = "260 Hz"\n')
     assert "[speed_ramp]\n    needs the section [inertia]" in str(refused.value)
 
 

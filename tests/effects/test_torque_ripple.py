@@ -1,12 +1,12 @@
 """``[torque_ripple]``: the couple on the wheel's shaft, what it does, and what the section says when it is wrong."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from tests.coarse import COARSE, frictionless, quasi_static
 from tests.frozen_gears import frozen_marcher
+from tests.paper_text import PAPER as DEMO
 
 from fenics_gears import SceneError, scene_from_text, simulate
 from fenics_gears.contact.laws import OPEN
@@ -14,10 +14,8 @@ from fenics_gears.dynamics.average_acceleration import State
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.dynamics.torque_ripple import varying_load
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
-from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.scene.data import Motion
 
-DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 ORDER = 24.0  # of the wheel's turn: once a mesh cycle
 RIPPLE = TorqueRipple((Harmonic(ORDER, 30e3, 0.4), Harmonic(2.5, 10e3)))
 
@@ -55,32 +53,6 @@ def test_a_wrong_section_is_refused(harmonics, said):
     with pytest.raises(SceneError) as refused:
         scene_from_text(DEMO + f"[torque_ripple]\nharmonics = {harmonics}\n")
     assert said in str(refused.value) and "Allowed: " in str(refused.value)
-
-
-@pytest.mark.parametrize("static", [True, False], ids=["quasi-static", "dynamic"])
-def test_a_vanishing_ripple_is_none(paper_scene, static):
-    """Exact limit: an amplitude of 1e-9 N mm leaves the result of a scene without the section, to round-off."""
-    scene = coarse(quasi_static(paper_scene) if static else paper_scene)
-    off, on = (
-        simulate(replace(scene, torque_ripple=ripple)) for ripple in (None, TorqueRipple((Harmonic(1.0, 1e-9),)))
-    )
-    assert set(on) - set(off) == {"wheel_couple"}
-    for name in off:
-        # The account's terms are round-off beside the work that passes through.
-        size = np.nanmax(np.abs(off["work_input" if name.startswith(("work_", "energy")) else name].values)) or 1.0
-        assert on[name].values == pytest.approx(off[name].values, rel=1e-9, abs=1e-9 * size, nan_ok=True), name
-
-
-def test_the_right_side_is_the_couples_work_by_finite_differences(paper_scene, paper_pair):
-    """Finite differences (exact, being linear): the forces on the coordinates are the derivative of couple times
-    rotation of the shaft's end."""
-    shafts, angle = drivetrain(paper_scene, paper_pair), 0.01
-    forces = varying_load(RIPPLE, shafts, angle)(7.0)
-    couple = sum(each.amplitude * np.cos(each.order * 7.0 * angle + each.phase) for each in RIPPLE.harmonics)
-    moved = 1e-3 * np.eye(len(shafts.coordinates))
-    turned = np.array([shafts.value(each, "shaft_end") for each in moved])
-    assert forces == pytest.approx(couple * turned / 1e-3, rel=1e-12)
-    assert np.count_nonzero(forces) == 2
 
 
 def test_quasi_static_transmission_error_follows_the_couple(paper_scene):

@@ -9,7 +9,6 @@ from tests.effects.examples import text_of
 
 from fenics_gears import Load, SceneError, scene_from_text, simulate
 from fenics_gears.effects import result_variables
-from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors
 from fenics_gears.effects.misalignment import Misalignment
 from fenics_gears.scene.data import Motion
@@ -94,15 +93,3 @@ def test_constant_helix_slope_is_a_misalignment(paper_scene):
         by_errors.pinion_helix_slope.values == pytest.approx(np.full(16, 0.008))
         and not by_errors.wheel_helix_form.values.any()
     )
-
-
-def test_wobble_in_the_plane_of_action_is_a_misalignment_of_that_step(paper_scene):
-    """Identity: when the leaning axis of a spur pinion lies in the plane of action, the gap is that of axes which are
-    so far from parallel."""
-    scene = frictionless(teeth_alone(coarse_scene(paper_scene, cycles=1)))
-    accuracy = replace(COARSE, steps_per_mesh_cycle=5, contact_nodes=14, slices=4, layers=2, body_element_size=2.5)
-    scene = replace(scene, accuracy=accuracy, motion=Motion(200.0, 1, 1))
-    wobbling = simulate(replace(scene, misalignment=Misalignment(), eccentricity=Eccentricity(Offset(wobble=0.01))))
-    leaning = simulate(replace(scene, misalignment=Misalignment(in_plane=-0.01)))
-    first = [each.line_load.isel(contact_time=0).values for each in (wobbling, leaning)]
-    assert first[0] == pytest.approx(first[1], abs=1e-6) and np.ptp(first[0]) > 50.0

@@ -1,16 +1,13 @@
 """The ring of sectors: reciprocity, rigid motion, what it refuses. Against brute force and its kernel: hard cases 5 and
 6."""
 
-from math import pi
-
-import numpy as np
 import pytest
 from tests.coarse_sector import relative
 from tests.whole_gear import whole_gear_compliance, whole_gear_mesh
 
 from fenics_gears import ComputationError
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.ring import centre_motion, condensed_sector, ring_compliance
+from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
 
 
 def test_every_tooth_is_the_same_and_teeth_behind_are_the_transpose(pinion, steel, coarse_sector):
@@ -29,9 +26,3 @@ def test_cuts_that_do_not_match_are_refused(pinion, coarse_sector):
     sector = condensed_sector(coarse_sector("P1"), ELEMENTS["P1"], 0.3)
     with pytest.raises(ComputationError, match="do not match"):
         ring_compliance(sector, pinion.teeth + 1, 1)
-
-
-def test_centre_motion_in_a_turned_frame():
-    """Exact identity: the rotation of a point about the centre does not depend on the frame, (dx, dy) turns with it."""
-    motion = centre_motion(np.array([[2.0, 0.0]]), 0.5 * pi)
-    np.testing.assert_allclose(motion, [[0.0, 1.0, 0.0], [-1.0, 0.0, 2.0]], atol=1e-15)

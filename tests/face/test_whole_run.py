@@ -1,6 +1,6 @@
 """A helical pair with finite element bodies from scene to result: statics without friction on rigid shafts."""
 
-from math import radians, tan
+from math import radians
 
 import numpy as np
 import pytest
@@ -48,14 +48,6 @@ def test_torques_are_as_the_numbers_of_teeth(scene, result):
     teeth = scene.gears.pinion.teeth / scene.gears.wheel.teeth
     np.testing.assert_allclose(pinion / wheel, teeth, rtol=1e-12)
     np.testing.assert_allclose(wheel, scene.load.wheel_torque, rtol=1e-9)
-
-
-def test_axial_force_is_the_tangential_one_times_the_tangent_of_the_helix(scene, result):
-    """Exact: F_a = F_t tan(beta) with F_t at the reference cylinder, opposite on the two gears."""
-    radius = 0.5 * scene.gears.wheel.teeth * MODULE / np.cos(HELIX_ANGLE)
-    pinion, wheel = result.reaction_z.values.T
-    np.testing.assert_allclose(pinion, -wheel, rtol=1e-12)
-    np.testing.assert_allclose(np.abs(wheel), scene.load.wheel_torque / radius * tan(HELIX_ANGLE), rtol=1e-9)
 
 
 def test_line_load_adds_up_to_the_normal_force(result):

@@ -69,15 +69,6 @@ def test_misalignment_opens_what_tilted_helicoids_do(helix_angle, hand, misalign
             assert opening == pytest.approx(contact_gap(pair, misalignment, position, z), abs=5e-6)
 
 
-@pytest.mark.parametrize("helix_angle", [0.0, 29.0])
-def test_misalignment_is_a_wedge_about_the_middle_of_the_face(helix_angle):
-    """Authority: exact; in the plane of action the gap at the pitch point opens in proportion to z, half the amount at
-    either end; out of it nothing opens."""
-    pair, z = gear_pair(data_of(helix_angle)), np.array([-15.0, 0.0, 15.0])
-    assert face_opening(pair, None, Misalignment(in_plane=0.012), z) == pytest.approx([-0.006, 0.0, 0.006], abs=1e-18)
-    assert np.all(face_opening(pair, None, Misalignment(out_of_plane=0.012), z) == 0.0)
-
-
 AMOUNTS = {
     # At -15, -7.5, 0, 7.5 and 15 mm of a face of 30 mm.
     "crowning": (LeadModification(crowning=6.0), [6.0, 1.5, 0.0, 1.5, 6.0]),

@@ -8,7 +8,6 @@ import pytest
 
 from fenics_gears import GearPair, gear_pair, involute_function, load_scene, mesh_factor, single_stiffness
 from fenics_gears.geometry.characteristics import characteristics
-from fenics_gears.scene.data import GearData, GearPairData, Material
 
 PROFILE_ENDS = "start of active profile (SAP)", "end of active profile (EAP)"
 SCENES = Path(__file__).parents[1] / "benchmarks" / "third_dimension" / "cited"
@@ -50,12 +49,17 @@ CITED = {
 }  # fmt: skip
 
 
+def cited(name):
+    """The gears of a scene that is entered from what its source prints."""
+    return load_scene(SCENES / f"{name}.toml").gears
+
+
 @pytest.mark.parametrize("scene", CITED)
 def test_scenes_of_cited_helical_pairs(scene):
     """Other programs: GEARpie (REPORT/H501.txt), a notebook of Drivetrain Hub (geometry, chapter 3), KISSsoft by a
     public program; all as the scenes say, to the digits printed. Left out is the notebook's backlash: it is the radial
     play times 2 sin(alpha_w), the first term of what the involutes have, 5 % more."""
-    rows = {label: value for label, value, _ in characteristics(gear_pair(load_scene(SCENES / f"{scene}.toml").gears))}
+    rows = {label: value for label, value, _ in characteristics(gear_pair(cited(scene)))}
     for label, printed in CITED[scene].items():
         digits = len(str(printed).split(".")[1])
         assert rows[label] == pytest.approx(printed, abs=(0.51 if digits < 5 else 5.0) * 10.0**-digits), label
@@ -64,19 +68,7 @@ def test_scenes_of_cited_helical_pairs(scene):
 @pytest.fixture
 def standard_s_example():
     """ISO/TR 6336-30:2017, example 1: m_n 8, z 17/103, beta 15.8 deg, addendum 1, dedendum 1.4, tip radius 0.39."""
-    stretch = 1.0 / cos(radians(15.8))
-    gears = [
-        GearData(
-            teeth,
-            shift,
-            8.0 * (teeth * stretch + 2.0 * (shift + 1.0)),
-            8.0 * (teeth * stretch + 2.0 * (shift - 1.4)),
-            50.0,
-            0.39,
-        )
-        for teeth, shift in ((17, 0.145), (103, 0.0))
-    ]
-    return GearPairData(8.0, radians(20.0), 500.0, 100.0, *gears, Material(206e3, 0.3), helix_angle=radians(15.8))
+    return cited("iso_tr_6336_30")
 
 
 def test_helical_pair_of_the_standard_s_example(standard_s_example):

@@ -15,7 +15,7 @@ from fenics_gears.contact.operator import displacement_jacobian
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.elasticity.compliance import Bodies
 from fenics_gears.model.model import Model
-from fenics_gears.results import dataset
+from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.simulation.elastic_route import mesh_cycle
 from fenics_gears.simulation.rigid_route import rigid_cycle
@@ -62,7 +62,7 @@ def run_of(model: Model, bodies: Bodies | None) -> Run:
         march, failure = marcher.run(model.steps, model.steps + 1, observe=recorder.take), None
     except ContactNotConverged as failed:
         march, failure = failed.partial, failed
-    result = dataset(recorder, march)
+    result = RunResult(recorder, march).dataset
     for name, variable in result.data_vars.items():
         assert np.all(np.isfinite(variable)) or name.endswith(without_number), name
     return Run(model, marcher, list(march.records), result, failure)

@@ -12,7 +12,7 @@ from tests.helical import BEARINGS, CROWNED, FRICTION, INERTIA, SHAFTS, helical_
 
 from fenics_gears import model_of
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.results import dataset
+from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 
 DAMPED = INERTIA + '\n[damping]\nstiffness_proportional = "3e-6 s"\nmass_proportional = "500 1/s"\n'
@@ -30,7 +30,7 @@ def with_torque(more, part, **changes):
         Recorder(model, cycle, loads=load),
     )
     march = marcher.run(model.steps, model.steps + 1, observe=recorder.take)
-    return Run(model, marcher, list(march.records), dataset(recorder, march))
+    return Run(model, marcher, list(march.records), RunResult(recorder, march).dataset)
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.coarse import COARSE
-from tests.frozen_gears import frozen_marcher
+from tests.frozen_gears import frozen_marcher, pushed
 
 from fenics_gears import gear_pair, simulate
 from fenics_gears.dynamics.average_acceleration import State
@@ -24,17 +24,6 @@ def march(marcher, record, steps):
     for step in range(1, steps + 1):
         records.append(marcher.step(marcher.dynamic, records[-1], step))
     return records
-
-
-def pushed(marcher, shafts, **speeds):
-    """The start, with speeds (mm/s) of some coordinates and the accelerations that the equations of motion then ask
-    for."""
-    rest = marcher.start()
-    velocity = np.array([speeds.get(name, 0.0) for name in shafts.coordinates])
-    acceleration = (
-        np.zeros_like(velocity) if shafts.damping is None else -np.linalg.solve(shafts.mass, shafts.damping @ velocity)
-    )
-    return Record(0, State(rest.state.position, velocity, acceleration), rest.position, rest.solution)
 
 
 @pytest.mark.parametrize("damped", [True, False])

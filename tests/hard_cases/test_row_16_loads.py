@@ -37,14 +37,6 @@ def test_any_torque_is_carried(absent, friction, torque, coarse, measured):
     assert difference <= 1e-9 * max(torque, 1.0)
 
 
-def test_no_load_no_force(coarse, measured):
-    """Exact: without torque the teeth touch and nothing is transmitted, at no node."""
-    result = simulate(frictionless(replace(teeth_alone(coarse), load=replace(coarse.load, wheel_torque=0.0))))
-    largest = np.abs(result.contact_pressure.fillna(0.0).values).max()
-    measured("torque 0: largest pressure anywhere", largest, "1e-9", "MPa")
-    assert largest <= 1e-9
-
-
 def test_contact_narrower_than_a_node_spacing_carries_the_load(coarse, measured):
     """Exact identity: T = rb2 sum p with one closed node a pair or two; and the scene is told that it does not resolve
     contact."""

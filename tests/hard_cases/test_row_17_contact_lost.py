@@ -13,7 +13,7 @@ from fenics_gears import model_of, simulate
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.effects.coast_flanks import CoastFlanks
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.results import dataset
+from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Motion
 from fenics_gears.show.motion import pair_forces
@@ -42,7 +42,7 @@ def with_torque(scene, part):
     change = (lambda step: (part(step) - 1.0) * model.drivetrain.load,)
     marcher = Marcher(cycle, replace(model.equations_of_motion, loads=change))
     recorder = Recorder(model, cycle, loads=change)
-    return dataset(recorder, marcher.run(model.steps, 1, observe=recorder.take))
+    return RunResult(recorder, marcher.run(model.steps, 1, observe=recorder.take)).dataset
 
 
 @pytest.mark.parametrize("absent", [("shafts", "bearings"), ()], ids=["teeth alone", "whole drivetrain"])

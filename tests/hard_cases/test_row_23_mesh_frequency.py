@@ -47,15 +47,6 @@ def test_low_end_is_quasi_static_and_does_not_ring(coarse, friction, damping, me
     assert cycles[2] <= 1.05 * cycles[0]
 
 
-def test_difference_to_quasi_static_vanishes_with_the_frequency(coarse, measured):
-    """Known orders: 1 with damping, whose force goes with velocity; 2 without."""
-    for name, scene, order in (("damped", coarse, 1.0), ("undamped", frictionless(replace(coarse, damping=None)), 2.0)):
-        far, near = difference(scene, 0.1).max(), difference(scene, 0.01).max()
-        found = np.log10(far / near)
-        measured(f"order of this difference in mesh frequency, {name}", found, f"{order:g}")
-        assert found == pytest.approx(order, abs=0.1)
-
-
 def test_high_end_is_the_rigid_mean_motion(coarse, measured):
     """Newton's law: far above every natural frequency the mesh force's fluctuation meets mass alone, the ripple falls
     as 1/f^2, and what the start leaves to ring shows as a drift of the cycles' means, here over a period of the slowest

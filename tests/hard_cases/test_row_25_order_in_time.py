@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 from tests.contact.sliding_block import SlidingBlock
-from tests.frozen_gears import frozen_marcher
+from tests.frozen_gears import frozen_marcher, pushed
 
 from fenics_gears.contact.laws import SLIP_BACKWARD, SLIP_FORWARD, STICK, Tolerance
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution
@@ -17,18 +17,6 @@ from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import EquationsOfMotion
 from fenics_gears.dynamics.steps import Record
-
-
-def pushed(marcher, shafts, speed):
-    """Static equilibrium with the pinion's hub pushed at `speed` (mm/s along its base circle); acceleration from the
-    equations of motion."""
-    rest = marcher.start()
-    push = np.zeros(len(shafts.coordinates))
-    push[shafts.coordinates.index("rotation_1")] = speed
-    acceleration = (
-        np.zeros_like(push) if shafts.damping is None else -np.linalg.solve(shafts.mass, shafts.damping @ push)
-    )
-    return rest, Record(0, State(rest.state.position, push, acceleration), rest.position, rest.solution)
 
 
 def tied_solution(rest, shafts, closed, push, duration):
@@ -50,7 +38,7 @@ def tied_errors(paper_scene, paper_pair, stand_in_flanks, counts, scheme=None):
     for steps in counts:
         marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, duration / steps)
         # Small enough a push that no node changes its status.
-        rest, record = pushed(marcher, shafts, 0.2)
+        rest = record = pushed(marcher, shafts, rotation_1=0.2)
         closed = np.flatnonzero(rest.solution.status == SLIP_FORWARD)
         stepped = marcher.dynamic if scheme is None else scheme(shafts, duration / steps)
         exact = tied_solution(rest, shafts, closed, record.state.velocity, duration)
@@ -81,7 +69,7 @@ def bounce(scene, pair, flanks, steps, speed):
     """Position after 4 ms of a hub pushed at `speed`, the steps at which the closed nodes changed, and those at which
     the teeth parted."""
     marcher, shafts = frozen_marcher(replace(scene, damping=None), pair, flanks, 4e-3 / steps)
-    _, record = pushed(marcher, shafts, speed)
+    record = pushed(marcher, shafts, rotation_1=speed)
     touching, changes, parted = record.solution.status, 0, 0
     for step in range(1, steps + 1):
         record = marcher.step(marcher.dynamic, record, step)

@@ -23,6 +23,7 @@ from tests.hard_cases.scene_fields import (
     scene_with,
     whole_scene,
 )
+from tests.paper_text import without
 from tests.studies.conftest import ACCURACY
 
 import fenics_gears.simulation.simulate
@@ -319,7 +320,7 @@ def test_any_value_in_any_field_is_taken_or_refused(every):
     for field, value, missing in list(product(fields(), ANY_VALUE, LEFT_OUT))[::every]:
         text = scene_with(field.path, value)
         if missing:
-            text = re.sub(rf"^\[{missing}\].*?(?=^\[|\Z)", "", text, flags=re.M | re.S)
+            text = without(text, missing)
         try:
             scene = scene_from_text(text)
         except GeometryError as error:

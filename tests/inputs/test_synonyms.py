@@ -1,16 +1,14 @@
 """What engineers call a field that has another name here. Authority: the schema itself, and ISO 21771's and ISO 1328's
 symbols."""
 
-from pathlib import Path
-
 import pytest
+from tests.paper_text import PAPER as DEMO
 
 from fenics_gears import SceneError, scene_from_text
 from fenics_gears.inputs.problem import meant
 from fenics_gears.inputs.synonyms import SYNONYMS
 from fenics_gears.scene.schema import known_paths
 
-DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 FIELDS = {".".join(path) for path in known_paths()}
 
 

@@ -5,14 +5,12 @@ Authority of every test here: the scene's format and hard case 26. A refusal nam
 value and what is allowed.
 """
 
-from pathlib import Path
-
 import pytest
+from tests.paper_text import PAPER as DEMO
 
 from fenics_gears import SceneError, scene_from_text
 from fenics_gears.effects.flank_errors_sections import GearErrors
 
-DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 PERIOD = '"hunting tooth period"'
 
 

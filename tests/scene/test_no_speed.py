@@ -1,11 +1,9 @@
 """Scenes that need no speed. Authority: quasi-static equilibrium and Coulomb's law, which know no rate: a sequence of
 positions has no time."""
 
-import re
-from pathlib import Path
-
 import numpy as np
 import pytest
+from tests.paper_text import PAPER, without
 from tests.stand_in import stand_in_compliance
 
 from fenics_gears import scene_from_text, simulate
@@ -14,18 +12,8 @@ from fenics_gears.results import shown
 from fenics_gears.scene.data import Motion
 from fenics_gears.simulation.elastic_route import mesh_cycle
 
-DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
-
-
-def without(text, *sections):
-    """The scene without some sections."""
-    for section in sections:
-        text = re.sub(rf"^\[{section}\].*?(?=^\[|\Z)", "", text, flags=re.M | re.S)
-    return text
-
-
 TIMES = ("time_mesh", "time_compile", "time_condense")
-STATIC = without(DEMO, "inertia", "damping")
+STATIC = without(PAPER, "inertia", "damping")
 SPEEDLESS = without(STATIC, "motion")
 
 

@@ -10,6 +10,8 @@ from fenics_gears import GeometryError, SceneError, gear_pair, scene_from_text
 from fenics_gears.commands.cli import main
 from fenics_gears.effects.lead_modifications import EndRelief, LeadModification, LeadModifications
 from fenics_gears.effects.misalignment import Misalignment
+from fenics_gears.model.description import effect_states
+from fenics_gears.show.run import conditions
 
 STRETCH = 1.0 / cos(radians(15.0))
 TIPS, ROOTS = [[f"{3.0 * (z * STRETCH + 2.0 * height):.6f}" for z in (20, 33)] for height in (1.0, -1.25)]
@@ -168,3 +170,11 @@ def test_check_shows_the_third_dimension(tmp_path, capsys):
         "misalignment in plane 12 um",
     ):  # fmt: skip
         assert any(line.startswith(words) for line in shown), (words, shown)
+
+
+def test_a_misalignment_of_zero_is_none():
+    """Authority: the words: axes are parallel; the flanks are resolved over the face all the same."""
+    scene = scene_from_text(SPUR + '[misalignment]\nin_plane = "0 um"\n')
+    assert "misalignment" not in conditions(scene)
+    (state,) = [each for each in effect_states(scene) if each.effect.section == "misalignment"]
+    assert (state.on, state.words, state.adds) == (True, "parallel axes, flanks resolved over the face", "")

@@ -5,14 +5,15 @@ written, what is allowed and the nearest known name; the exit code is 2; nothing
 """
 
 import re
-from pathlib import Path
+from functools import partial
 
 import pytest
+from tests import paper_text
+from tests.paper_text import PAPER as DEMO
 
 from fenics_gears import SceneError, scene_from_text
 from fenics_gears.commands.cli import main
 
-DEMO = (Path(__file__).parents[2] / "demos" / "lundvall2004.toml").read_text(encoding="utf-8")
 UNTITLED = DEMO[DEMO.index("[gears]") :]
 RELIEF = '\n[tip_relief]\ndepth = "31 um"\nstart = "HPSTC"\n'
 
@@ -106,9 +107,7 @@ def test_a_wrong_scene_is_refused(refusal, old, new, field, fragments):
         assert fragment in message
 
 
-def without(section, text=DEMO):
-    """The scene without one section."""
-    return re.sub(rf"^\[{section}\].*?(?=^\[|\Z)", "", text, flags=re.M | re.S)
+without = partial(paper_text.without, DEMO)
 
 
 @pytest.mark.parametrize(
@@ -140,7 +139,7 @@ def without(section, text=DEMO):
             ["[tip_relief.weel]\n", 'Did you mean "wheel"?'],
         ),
         (
-            without("shafts", without("bearings")).replace('"0.5e-3 1/s"', '"0 1/s"'),
+            without("shafts", "bearings").replace('"0.5e-3 1/s"', '"0 1/s"'),
             ['damping.stiffness_proportional = "0.4e-3 s"', "no stiffness without [shafts] or [bearings]"],
         ),
         (
@@ -253,7 +252,7 @@ def test_sections_that_do_not_fit_are_refused(refusal, text, fragments):
 
 def test_every_mistake_is_named_at_once(refusal):
     """Authority: the interface; a person corrects a file once."""
-    text = without("inertia", DEMO + RELIEF)
+    text = paper_text.without(DEMO + RELIEF, "inertia")
     for section, key, value in [
         ("gears", "module", "4.5"),
         ("gears.pinion", "teeth", "true"),

@@ -59,24 +59,6 @@ def test_every_case_is_what_a_run_of_its_scene_gives(folder):
 
 
 @pytest.mark.usefixtures("undrawn")
-def test_cases_that_differ_in_relief_are_what_runs_of_their_scenes_give(folder):
-    """Authority: exact identity; they share contact operators, and each has gaps of its own. The run of each scene
-    alone is the reference."""
-    study = write_study(
-        folder,
-        '[set]\ntip_relief.start = "HPSTC"\n[sweep]\ntip_relief.depth = ["1e-6 um", "31 um"]\nfriction = ["absent",'
-        ' "present"]\n',
-    )
-    assert main(["study", str(study), "--quiet"]) == 0
-    combined = load("results/study")
-    for case in load_study(study).cases:
-        alone, row = simulate(case.scene), combined.isel(depth=case.index // 2, friction=case.index % 2)
-        for name in ("transmission_error", "normal_force"):
-            assert np.array_equal(row[name].values, alone[name].values)
-    assert not np.array_equal(combined["transmission_error"][0], combined["transmission_error"][1])
-
-
-@pytest.mark.usefixtures("undrawn")
 def test_a_study_run_again_computes_only_what_is_new(folder, capsys):
     """Authority: inode and time of each file; cases are found by content, wherever they stand in the sweep."""
     study = write_study(folder, TWO)

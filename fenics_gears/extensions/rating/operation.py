@@ -70,13 +70,17 @@ class Operation:
         return first * second / (first + second)
 
 
-def solid_reduced_mass(pair: GearPair, density: float = 7.83e-6) -> float:
-    """Reduced mass (kg/mm of face width) of two solid gears of a density (kg/mm^3), ISO 6336-1:2006 eq. (30): discs of
-    the mean of tip and root diameter."""
+# Density of steel, kg/mm^3.
+DENSITY = 7.83e-6
+
+
+def solid_reduced_mass(pair: GearPair) -> float:
+    """Reduced mass (kg/mm of face width) of two solid steel gears, ISO 6336-1:2006 eq. (30): discs of the mean of tip
+    and root diameter."""
 
     def mass(gear) -> float:
         mean = gear.tip_radius + gear.root_radius
-        return 0.125 * pi * density * mean**4 / (4.0 * gear.base_radius**2)
+        return 0.125 * pi * DENSITY * mean**4 / (4.0 * gear.base_radius**2)
 
     first, second = mass(pair.pinion), mass(pair.wheel)
     return first * second / (first + second)

@@ -4,7 +4,7 @@ stresses that the run has computed."""
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import nan
+from math import isnan, nan
 
 import numpy as np
 import xarray as xr
@@ -38,11 +38,17 @@ def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[Row]:
     """The rows of a run. Raises SceneError for a scene without speed, load or elastic teeth."""
     operation = _operation(scene)
     factors, found = load_factors(operation, finish), result.attrs
+    face = found.get("face_load_factor", nan)
     flank, roots = flank_stress(operation, finish, factors), root_stresses(operation, finish, factors)
     rows = [
         Row("K_v, dynamic factor", "1", factors.dynamic, found.get("dynamic_factor_by_force", nan)),
-        _misalignment_row(operation, finish, scene),
-        Row("K_Hbeta, face load factor", "1", factors.face, found.get("face_load_factor", nan)),
+        Row(
+            "F_betax, misalignment over the face",
+            "um",
+            mesh_misalignment(operation, finish),
+            nan if isnan(face) else abs(operation.misalignment or 0.0),
+        ),
+        Row("K_Hbeta, face load factor", "1", factors.face, face),
         Row("K_Halpha, transverse load factor", "1", factors.transverse, found.get("transverse_load_factor", nan)),
     ]
     pressure = found.get("peak_contact_pressure", nan)
@@ -102,20 +108,13 @@ def _misalignment(scene: Scene, pair: GearPair) -> float | None:
     return 1e3 * pair.face_width * float(np.polyfit(z, face_opening(pair, leads, scene.misalignment, z), 1)[0])
 
 
-def _misalignment_row(operation: Operation, finish: Finish, scene: Scene) -> Row:
-    """That which K_Hbeta counts; a run in the plane has none."""
-    computed = abs(operation.misalignment or 0.0) if scene.three_dimensional else nan
-    return Row("F_betax, misalignment over the face", "um", mesh_misalignment(operation, finish), computed)
-
-
 def of_misalignment(scene: Scene, finish: Finish) -> str:
     """A sentence on the misalignment that the standard's K_Hbeta counts, and whether the run has the same."""
     if _misalignment(scene, gear_pair(scene.gears)) is not None:
         which = "the scene's misalignment and helix slopes (method C, less running-in)"
         return f"K_Hbeta of ISO 6336 is of {which}; shafts do not bend in it."
-    own = ", which this run has not" if scene.three_dimensional else ""
     which = f"helix slopes of tolerance class {finish.tolerance_class} (method C)"
-    return f"K_Hbeta of ISO 6336 is of {which}{own}: the scene has no misalignment."
+    return f"K_Hbeta of ISO 6336 is of {which}, which this run has not: the scene has no misalignment."
 
 
 def _tip_relief(scene: Scene) -> float:

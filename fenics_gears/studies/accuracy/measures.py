@@ -53,21 +53,11 @@ def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> 
     return found
 
 
-def judged_answer(run: xr.Dataset, every: int = 1) -> Answer:
-    """The measures that settings are judged by; `every`: take every n-th step only, as in a quasi-static run of
-    longer steps.
-
-    The curve (n,), mm at the wheel's base circle, is T_E at the steps of the last mesh cycle, of which the last has
-    phase 1, its mean removed.
-    T_EPP does not depend on `every`: its extremes are located between steps.
-    """
-    last_cycle = run["transmission_error"].values[_last_cycle(run)]
-    if len(last_cycle) % every:
-        raise ValueError(
-            f"every {every}-th of {len(last_cycle)} steps in a mesh cycle: these are no steps of equal length; take a"
-            " divisor"
-        )
-    curve, height = last_cycle[every - 1 :: every], run.attrs["peak_to_peak_transmission_error"]
+def judged_answer(run: xr.Dataset) -> Answer:
+    """The measures that settings are judged by: the curve (n,), mm at the wheel's base circle, is T_E at the steps of
+    the last mesh cycle, of which the last has phase 1, its mean removed; and T_EPP."""
+    curve = run["transmission_error"].values[_last_cycle(run)]
+    height = run.attrs["peak_to_peak_transmission_error"]
     radius = run.attrs["base_radius_wheel"]
     found = {CURVE: (curve - curve.mean()) * radius, SPAN: np.array([height * radius])}
     return found | _over_face(run) if "face_position" in run.dims else found

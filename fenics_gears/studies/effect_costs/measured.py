@@ -5,7 +5,7 @@ from __future__ import annotations
 import statistics
 import time
 from dataclasses import dataclass, replace
-from math import nan
+from math import isnan, nan
 
 import xarray as xr
 
@@ -83,8 +83,8 @@ class EffectReport:
 
     @property
     def of_face(self) -> tuple[str, ...]:
-        """The numbers of a row that a report over the face tells beside the others."""
-        return ("face_load_factor", "peak_pressure") if self.scene.three_dimensional else ()
+        """The numbers that a report tells beside the others where runs have a load over their face."""
+        return () if all(isnan(row.face_load_factor) for row in self.rows) else ("face_load_factor", "peak_pressure")
 
     def row(self, kind: str, effect: str = "") -> Row | None:
         """The row of that kind of subset; None where it is not there."""

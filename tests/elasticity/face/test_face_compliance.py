@@ -9,6 +9,7 @@ from scipy import sparse
 from scipy.sparse.linalg import spsolve
 from tests.coarse_sector import PINION, STEEL
 from tests.elasticity.face.swept import GEAR, TWISTED, condense_swept, mesh
+from tests.elasticity.test_coast_flank import difference
 from tests.whole_gear import whole_gear_mesh
 
 from fenics_gears import ComputationError, SceneError
@@ -34,11 +35,6 @@ COARSEST = FaceDiscretisation(9.0, 1, 3.0, 0.006)
 TWISTED_PINION = FaceDiscretisation(
     2.7, 3, 15.0, tan(radians(15.0)) / PINION.reference_radius, overhang=4.0, overhang_layers=1
 )
-
-
-def difference(first, second):
-    """In the Frobenius norm, relative."""
-    return np.linalg.norm(first - second) / np.linalg.norm(second)
 
 
 @pytest.fixture(scope="module")

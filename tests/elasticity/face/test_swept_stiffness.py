@@ -54,16 +54,6 @@ def test_energy_of_uniform_strain(twist):
     assert energy == pytest.approx(3.0 * area * density * (1.0 - twist**4 / 480.0), rel=1e-10)
 
 
-def test_left_hand_is_the_mirror_image_of_the_right_hand():
-    """Exact symmetry: z -> -z turns a left-hand body into a right-hand one, node for node."""
-    right, left = (swept_stiffness(section(), Sweep(TWISTED.boundaries, twist)) for twist in (TWIST, -TWIST))
-    heights = len(TWISTED.heights)
-    flip = sparse.kron(
-        np.eye(heights)[::-1], sparse.kron(sparse.eye(len(section().nodes.points)), np.diag([1.0, 1.0, -1.0]))
-    )
-    assert relative(flip @ left @ flip.T - right, right) < 1e-14
-
-
 def test_body_without_variation_along_the_face_is_the_plane_section():
     """Exact identity: with u_z held and loads even along z, displacements are those in plane strain of the section's
     own mesh at any height."""

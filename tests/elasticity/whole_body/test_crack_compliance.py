@@ -97,9 +97,3 @@ def test_a_crack_softens_its_tooth_as_its_stress_intensities_say(angle):
     softer = work(crack) - work(None)
     expected = [released(crack, stress) for stress in whole_tooth()]
     assert softer == pytest.approx(expected, rel=0.1)
-
-
-def test_a_deeper_crack_softens_more_and_a_load_at_the_tip_more_than_one_below():
-    """Energy release is positive at every depth, and bending grows with the load's lever arm."""
-    softer = [work(RootCrack(depth)) - work(None) for depth in (1.5, 3.0)]
-    assert (np.diff(softer, axis=0) > 0.0).all() and (np.diff(softer, axis=1) > 0.0).all() and (softer[0] > 0.0).all()

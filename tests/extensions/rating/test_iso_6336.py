@@ -1,9 +1,10 @@
 """The rating's formulas against numbers that other programs print."""
 
 from dataclasses import replace
-from math import cos, hypot, radians, sqrt
+from math import hypot, radians, sqrt
 
 import pytest
+from tests.geometry.test_published_pairs import cited
 
 from fenics_gears import gear_pair
 from fenics_gears.extensions.rating.finish import Finish
@@ -31,14 +32,7 @@ def operation(data, pinion_torque, speed, tip_relief=0.0):
 def example():
     """ISO/TR 6336-30:2017, example 1: 17 and 103 teeth, m_n 8 mm, 15.8 deg, tip diameters 159.66 and 872.35 mm, 9 kN m
     at 360 1/min, relief of 70 um."""
-    stretch = 1.0 / cos(radians(15.8))
-    gears = [
-        GearData(teeth, shift, tip, 8.0 * (teeth * stretch + 2.0 * (shift - 1.4)), 50.0, 0.39)
-        for teeth, shift, tip in ((17, 0.145, 159.66), (103, 0.0, 872.35))
-    ]
-    return operation(
-        GearPairData(8.0, radians(20.0), 500.0, 100.0, *gears, STEEL, helix_angle=radians(15.8)), 9e6, 360.0, 70.0
-    )
+    return operation(cited("iso_tr_6336_30"), 9e6, 360.0, 70.0)
 
 
 def test_the_standard_s_example(example):
@@ -74,16 +68,7 @@ FZG_C = (
     {"Z_H": 2.342, "Z_eps": 0.920, "Y_F": (1.689, 1.583), "Y_S": (1.851, 1.917), "Y_beta": 1.0},
 )
 H501 = (
-    GearPairData(
-        3.5,
-        radians(20.0),
-        91.501,
-        23.0,
-        GearData(20, 0.1809, 80.672, 64.986, 30.0, 0.3),
-        GearData(30, 0.0891, 116.264, 100.578, 30.0, 0.3),
-        STEEL,
-        helix_angle=radians(15.0),
-    ),
+    cited("fzg_h501"),
     {"Z_H": 2.335, "Z_eps": 0.871, "Y_F": (1.479, 1.490), "Y_S": (2.047, 2.036), "Y_beta": 0.932},
 )
 

@@ -68,7 +68,9 @@ def test_missing_shift_of_a_helical_gear_follows_from_the_centre_distance(tmp_pa
         *((flank, "addendum_modification_coefficient", None) for flank in rexs.WHEEL_FLANKS),
         (rexs.STAGE, "center_distance", touching, "mm"),
     )
-    assert scene_of(tmp_path, model)[0].gears.wheel.profile_shift == pytest.approx(0.125, abs=1e-8)
+    scene, found = scene_of(tmp_path, model)
+    assert scene.gears.wheel.profile_shift == pytest.approx(0.125, abs=1e-8)
+    assert "gears.wheel.profile_shift" in assumed_fields(found)
 
 
 @pytest.mark.parametrize("angles", [(20.0, 20.0), (20.0, -19.0), (20.0, 0.0)])

@@ -85,17 +85,6 @@ def test_what_no_part_says_is_of_the_standard_and_told(tmp_path):
     assert found.text.count("# assumed: ") == len(found.assumed)
 
 
-def test_missing_shift_follows_from_the_centre_distance(paper_pair, tmp_path):
-    """At the centre distance without backlash, which geometry.pair computes its own way, the other gear's shift comes
-    out."""
-    shifts = [(flank, "addendum_modification_coefficient", None) for flank in rexs.WHEEL_FLANKS]
-    scene, found = scene_of(
-        tmp_path, changed(*shifts, (rexs.STAGE, "center_distance", paper_pair.centre_distance_without_backlash, "mm"))
-    )
-    assert scene.gears.wheel.profile_shift == pytest.approx(0.125, abs=1e-8)
-    assert "gears.wheel.profile_shift" in assumed_fields(found)
-
-
 def test_each_gear_has_its_own_material_and_width(tmp_path):
     """Where they differ; where they do not, it is the pair's."""
     model = rexs.with_component(
