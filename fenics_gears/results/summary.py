@@ -53,7 +53,7 @@ def _said(stages: Sequence[tuple[str, float]]) -> list[Row]:
 def result_rows(dataset) -> list[Row]:
     """The results, the most important first; rows without a number in this run are left out."""
     attributes = dataset.attrs
-    parts = (_transmission_error, _harmonics, _stiffness, _pair_force, _face, _pressure, _root_stress)
+    parts = (_transmission_error, _harmonics, _stiffness, _pair_force, _face, _shafts, _pressure, _root_stress)
     rows = [row for part in parts for row in part(attributes)]
     return rows + _power(attributes) + _sliding(dataset) + _contact_loss(dataset) + _estimated_error(attributes)
 
@@ -161,6 +161,27 @@ def _face(attributes) -> list[Row]:
     if "transverse_load_factor" in attributes:
         rows.append(("transverse load factor K_Halpha", f"{attributes['transverse_load_factor']:.3f}", ""))
     return rows
+
+
+def _shafts(attributes) -> list[Row]:
+    """What shafts that bend do to the axes, and the largest force on a bearing."""
+    if "largest_bearing_force" not in attributes:
+        return []
+    return [
+        *(
+            (
+                f"{label} of the axes, mean",
+                f"{attributes[f'mean_axis_{name}_in_plane']:.4g} um in the plane of action,"
+                f" {attributes[f'mean_axis_{name}_out_of_plane']:.4g} um out of it{over}",
+                "",
+            )
+            for name, label, over in (
+                ("inclination", "inclination", ", over the common face"),
+                ("offset", "offset", ""),
+            )
+        ),
+        ("largest force of a bearing", f"{attributes['largest_bearing_force']:.4g}", "N"),
+    ]
 
 
 def _pressure(attributes) -> list[Row]:
