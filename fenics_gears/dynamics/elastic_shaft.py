@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import pairwise
 from math import inf
 from typing import TYPE_CHECKING, NamedTuple
@@ -31,6 +31,9 @@ NUMBERS = {"pinion": "1", "wheel": "2"}
 # Gauss points between two places of a shaft: exact for the polynomials of a cylinder, and for a cone, whose section is
 # in the denominator: its flexibility is right to 1e-10 while one diameter is at most ten times the other.
 OF_CYLINDER, OF_CONE = 2, 30
+
+
+gauss_rule = cache(np.polynomial.legendre.leggauss)
 
 
 class Properties(NamedTuple):
@@ -62,7 +65,7 @@ def properties(sections: Sequence[ShaftSection], material: tuple[float, float], 
     parts, begin, stops = [], 0.0, sorted(stops)
     for section in sections:
         end = begin + section.length
-        points, weights = np.polynomial.legendre.leggauss(OF_CONE if section.tapered else OF_CYLINDER)
+        points, weights = gauss_rule(OF_CONE if section.tapered else OF_CYLINDER)
         for left, right in pairwise([begin, *(each for each in stops if begin < each < end), end]):
             half = 0.5 * (right - left)
             places = left + half * (1.0 + points)

@@ -77,8 +77,9 @@ _EACH = AllowedTables(
     empty="For a centre that is fixed, leave it out.",
     most=MOST_BEARINGS,
     meaning="bearings of a shaft with sections, also written as tables `[[bearings.pinion]]`: `at`, from the left end"
-    " of the shaft, and `radial_stiffness`, `axial_stiffness` and `tilting_stiffness`, or in their place a"
-    " `stiffness_matrix` over x, y, z and the tilts about x and y",
+    " of the shaft; `radial_stiffness`, and `axial_stiffness` and `tilting_stiffness`, which are 0 unless given; or in"
+    " their place a `stiffness_matrix` over x along and y off the line of action, z along the axis, and the tilts about"
+    " x and y",
     otherwise="the stiffness is that of the gear's centre",
 )
 

@@ -57,9 +57,9 @@ _SECTIONS = AllowedTables(
     singular="section",
     empty="For a rigid shaft, leave it out.",
     most=MOST_SECTIONS,
-    meaning="parts of the shaft from its left to its right end, which is the end from which a driving pinion is seen to"
-    " turn counter-clockwise: the shaft then bends, twists and stretches on bearings of its own,"
-    " `[[bearings.pinion]]` or `[[bearings.wheel]]`",
+    meaning="parts of the shaft from left to right, the right end being that from which a driving pinion is seen to"
+    " turn counter-clockwise: it then bends, twists and stretches on bearings of its own, `[[bearings.pinion]]` or"
+    " `[[bearings.wheel]]`",
     otherwise="only `torsional_stiffness` gives way",
 )
 

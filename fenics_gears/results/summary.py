@@ -167,21 +167,16 @@ def _shafts(attributes) -> list[Row]:
     """What shafts that bend do to the axes, and the largest force on a bearing."""
     if "largest_bearing_force" not in attributes:
         return []
-    return [
-        *(
-            (
-                f"{label} of the axes, mean",
-                f"{attributes[f'mean_axis_{name}_in_plane']:.4g} um in the plane of action,"
-                f" {attributes[f'mean_axis_{name}_out_of_plane']:.4g} um out of it{over}",
-                "",
-            )
-            for name, label, over in (
-                ("inclination", "inclination", ", over the common face"),
-                ("offset", "offset", ""),
-            )
-        ),
-        ("largest force of a bearing", f"{attributes['largest_bearing_force']:.4g}", "N"),
+    rows = [
+        (
+            f"{kind} of the axes, mean",
+            f"{attributes[f'mean_axis_{kind}_in_plane']:.4g} um in the plane of action,"
+            f" {attributes[f'mean_axis_{kind}_out_of_plane']:.4g} um out of it{over}",
+            "",
+        )
+        for kind, over in (("inclination", ", over the common face"), ("offset", ""))
     ]
+    return [*rows, ("largest force of a bearing", f"{attributes['largest_bearing_force']:.4g}", "N")]
 
 
 def _pressure(attributes) -> list[Row]:
