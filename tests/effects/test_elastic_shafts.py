@@ -10,6 +10,9 @@ from tests.helical import helical_scene, on_stand_in_bodies
 from fenics_gears import SceneError, model_of, scene_from_text
 from fenics_gears.dynamics.elastic_shaft import shear_coefficient
 from fenics_gears.scene.write import section_trees, text_of
+from fenics_gears.show.bent_shafts import bent_shafts
+from fenics_gears.show.plots import run_figures
+from fenics_gears.show.run import Run
 
 FEW = "slices = 5\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8"
 INPUT = """
@@ -117,6 +120,26 @@ def test_axes_and_lines_are_those_of_the_gears(run):
             at_gear = np.interp(shaft.gear_at, gear["shaft_place"].values, line)
             assert at_gear == pytest.approx(gear[f"centre_{axis}"].values[-1], rel=1e-9)
     assert np.abs(result["energy_defect"].values).max() <= 1e-9 * result["energy"].values.max()
+
+
+def test_the_drawing_shows_gears_bearings_and_deflection_to_scale(run):
+    """Identity: the drawn shafts are as long and as thick as the scene's, and off their axes by the magnified
+    deflection; bearings stand on the lines, and a picture is drawn of it."""
+    model, result = run
+    scale, *lines = bent_shafts(Run(result))
+    times = float(scale.caption.split("magnified ")[1].split()[0])
+    shaft, _, bearings = scale.curves[:3]
+    own = model.drivetrain.elastic[0]
+    assert np.ptp(shaft.x) == pytest.approx(own.length)
+    upper, lower = np.split(shaft.y[:-1], 2)
+    assert upper - lower[::-1] == pytest.approx(np.repeat([28.0, 35.0], 9))
+    axis = result["shaft_deflection_x"].sel(gear="pinion").values.mean(axis=0)
+    assert 0.5 * (upper + lower[::-1])[[0, -1]] == pytest.approx(times * axis[[0, -1]])
+    from_left = bearings.x - shaft.x.min()
+    assert from_left == pytest.approx([12.0, 85.0])
+    assert bearings.y / times == pytest.approx(np.interp(from_left, np.linspace(0.0, own.length, len(axis)), axis))
+    assert lines[0].curves[0].y == pytest.approx(1e3 * axis)
+    assert "shafts.png" in run_figures(result)
 
 
 def test_the_scene_is_written_and_read_again():
