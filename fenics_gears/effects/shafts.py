@@ -11,7 +11,7 @@ from fenics_gears.effects.tooth_elasticity import material_name, poissons_ratio,
 from fenics_gears.geometry.gear_data import MATERIALS, Material
 from fenics_gears.inputs.fields import choice, declared, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.section import AllowedTables, Section
+from fenics_gears.inputs.section import AllowedTables, Section, allowed_in
 from fenics_gears.inputs.tree import SHAFTS, Tree, shafts_with_sections, table
 from fenics_gears.inputs.written import as_written
 
@@ -131,13 +131,13 @@ def shafts_are_complete(tree: Tree) -> Iterator[Problem]:
     both = table(tree, "shafts")
     if both is None:
         return
+    yield from _each_gives_way(both)
     if shafts_with_sections(tree):
         # Imported here: few scenes have any.
         from fenics_gears.effects.elastic_shaft_rules import rules_of_elastic_shafts
 
         yield from rules_of_elastic_shafts(tree)
         return
-    yield from _sections_have_these_fields(both)
     if "torsional_stiffness" in both:
         return
     missing, example = [name for name in SHAFTS if name not in both], 'Allowed: such as "0.203e9 N mm/rad"'
@@ -157,10 +157,17 @@ def shafts_are_complete(tree: Tree) -> Iterator[Problem]:
         )
 
 
-def _sections_have_these_fields(both: Tree) -> Iterator[Problem]:
-    """Places, seat and material are those of a shaft with sections."""
+def _each_gives_way(both: Tree) -> Iterator[Problem]:
+    """A shaft that is named has a stiffness or sections; places, seat and material are those of sections."""
     for shaft in SHAFTS:
-        own = table(both, shaft) or {}
+        own = table(both, shaft)
+        if own is None or "sections" in own:
+            continue
+        if "torsional_stiffness" not in own:
+            allowed = allowed_in(Shaft, "torsional_stiffness").description
+            yield Problem(
+                ("shafts", shaft, "torsional_stiffness"), None, f"is missing. Allowed: {allowed}; or sections."
+            )
         for name in ("gear_at", "torque_at", "seat", "material"):
             if name in own:
                 message = "has no effect: it is of a shaft with sections. Add sections, or leave it out."

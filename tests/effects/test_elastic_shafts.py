@@ -188,6 +188,11 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
         ),
         ('[shafts]\ntorsional_stiffness = "1e8 N mm/rad"\n' + INPUT + PINION, "shafts.torsional_stiffness .* whose"),
         ('[shafts.input]\ngear_at = "10 mm"\ntorsional_stiffness = "1e8 N mm/rad"', "gear_at .* has no effect"),
+        (INPUT + PINION + "[shafts.output]\n", "shafts.output.torsional_stiffness.* is missing.* or sections"),
+        (
+            INPUT + PINION + "[shafts.output]\ntorsional_stiffness = '1e8 N mm/rad'\ngear_at = '5 mm'",
+            "output.gear_at.* no effect",
+        ),
         (ELASTIC + '[inertia]\nmass = "2 kg"\nmoment_of_inertia = "0.02 kg m^2"\n', "inertia.* cannot stand beside"),
         (INPUT.replace("torque_at", 'seat = "integral"\ntorque_at') + PINION, "shafts.input.seat"),
     ],
