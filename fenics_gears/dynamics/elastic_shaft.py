@@ -29,9 +29,10 @@ if TYPE_CHECKING:
 MOTIONS = ("centre_x", "centre_y", "axial_", "tilt_x", "tilt_y")
 NUMBERS = {"pinion": "1", "wheel": "2"}
 # Gauss points between two places of a shaft: exact for the polynomials of a cylinder, and for a cone, whose section is
-# in the denominator: its flexibility is right to 1e-10 while one diameter is at most ten times the other.
-OF_CYLINDER, OF_CONE = 2, 30
-
+# in the denominator: its flexibility is right to 1e-9 while its wall is nowhere more than ten times the thinnest.
+OF_CYLINDER, OF_CONE, STEEPEST_CONE = 2, 30, 10.0
+# Part of the largest stiffness, tilts taken over the shaft's length, below which a motion is free.
+LEAST_HELD = 1e-12
 
 gauss_rule = cache(np.polynomial.legendre.leggauss)
 
@@ -226,7 +227,3 @@ def free_motions(shaft: ElasticShaft) -> list[str]:
     free = vectors[:, values <= LEAST_HELD * max(values[-1], 0.0)]
     words = ("moves along x", "moves along y", "moves along its axis", "tilts about x", "tilts about y")
     return [word for word, part in zip(words, np.linalg.norm(free, axis=1)) if part > 0.1]
-
-
-# Part of the largest stiffness, tilts taken over the shaft's length, below which a motion is free.
-LEAST_HELD = 1e-12

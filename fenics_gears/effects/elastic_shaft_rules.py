@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions
+from fenics_gears.dynamics.elastic_shaft import STEEPEST_CONE, ElasticShaft, free_motions
 from fenics_gears.effects.bearings import Bearing, Stiffnesses
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import Problem
@@ -96,10 +96,16 @@ def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
 
 def _sections_are_solid(found: ElasticShaft, shaft: str) -> Iterator[str]:
     for number, section in enumerate(found.sections, 1):
-        if section.bore >= min(section.diameter, section.right_diameter):
+        thin, thick = sorted((section.diameter, section.right_diameter))
+        if section.bore >= thin:
             yield (
                 f"shafts.{shaft}.sections: the bore of {section.bore:g} mm at place {number} leaves nothing of the"
-                f" diameter of {min(section.diameter, section.right_diameter):g} mm; allowed are smaller ones"
+                f" diameter of {thin:g} mm; allowed are smaller ones"
+            )
+        elif thick - section.bore > STEEPEST_CONE * (thin - section.bore):
+            yield (
+                f"shafts.{shaft}.sections: the wall of the cone at place {number} is {thick - section.bore:g} mm at one"
+                f" end, more than {STEEPEST_CONE:g} times that at the other; divide it into two cones"
             )
 
 

@@ -169,6 +169,10 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
         ),
         (INPUT.replace('"0 mm"', '"131 mm"') + PINION, "shafts.input.torque_at = 131 mm: is beyond"),
         (INPUT.replace('bore = "8 mm"', 'bore = "28 mm"') + PINION, "the bore of 28 mm at place 1 leaves nothing"),
+        (
+            INPUT.replace('bore = "8 mm"', 'bore = "8 mm", end_diameter = "9 mm"') + PINION,
+            "the cone at place 1 .* divide",
+        ),
         (INPUT + PINION.replace('radial_stiffness = "0.3e6 N/mm"', ""), "place 1, has no radial_stiffness"),
         (ELASTIC.replace("[3e5, 1e4, 0", "[3e5, 2e4, 0"), "stiffness_matrix .* is not symmetric: 20000 in row 1"),
         (ELASTIC.replace("[0, 0, 2e5", "[0, 0, -2e5"), "stiffness_matrix .* is not positive"),
