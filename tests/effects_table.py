@@ -29,7 +29,7 @@ def page() -> str:
     for each in every_effect():
         for found in each.variables:
             beside = f", only with `[{effect_named(found.needs).written}]`" if found.needs else ""
-            beside += f", only with `{found.field}`" if found.field else ""
+            beside += f", only with `{found.field.replace(' or ', '` or `')}`" if found.field else ""
             beside += ", only of three-dimensional scenes" if found.over_face else ""
             lines.append(f"| `{found.name}` | {found.units} | {found.long_name} | `[{each.written}]`{beside} |")
     return "\n".join(lines) + "\n"

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from math import isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +19,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
+    from fenics_gears.dynamics.elastic_shaft import ElasticShaft
     from fenics_gears.dynamics.tilting import MeshOverFace
     from fenics_gears.effects.bearings import Bearings
     from fenics_gears.effects.damping import Damping
@@ -43,9 +45,7 @@ SIDE = {name: gear for name, (gear, _) in TRANSLATIONS.items()} | {
     "shaft_twist": "wheel",
 }
 SIDE |= {name: "pinion" if name.endswith("1") else "wheel" for name in FACE_COORDINATES}
-# Coordinates that the bearings' springs act on, and what of a gear is moved, by the first word of the coordinate's
-# name.
-ON_BEARINGS = {*TRANSLATIONS, *FACE_COORDINATES}
+# What of a gear is moved, by the first word of the coordinate's name.
 MOVED = {
     "centre": "mass",
     "axial": "mass",
@@ -61,7 +61,8 @@ class Drivetrain:
 
     `coordinates`: their names; `radii` (k,): mm per rad of a rotation, 1 for a translation; `stiffness` (k, k), N/mm;
     `load` (k,), N; `mass` (k, k), N s^2/mm, and `damping` (k, k), N s/mm, or None where the scene has none. `mesh`: how
-    the coordinates move flanks that have a width; None in the plane.
+    the coordinates move flanks that have a width; None in the plane. `elastic`: the shafts that also bend, and
+    `bearing_stiffness` (k, k), N/mm, the part of the stiffness that is in the bearings.
     """
 
     coordinates: tuple[str, ...]
@@ -71,11 +72,18 @@ class Drivetrain:
     mass: np.ndarray | None
     damping: np.ndarray | None
     mesh: MeshOverFace | None = None
+    elastic: tuple[ElasticShaft, ...] = ()
+    bearing_stiffness: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
 
     @property
     def indices(self) -> list[int]:
         """Positions of the coordinates among COORDINATES."""
         return [COORDINATES.index(name) for name in self.coordinates]
+
+    @property
+    def bearings(self) -> int:
+        """Number of the bearings of shafts that also bend."""
+        return sum(len(shaft.bearings) for shaft in self.elastic)
 
     @property
     def driven_backwards(self) -> bool:
@@ -119,13 +127,14 @@ class Drivetrain:
 @dataclass(frozen=True)
 class Supports:
     """Shafts, bearings, masses and damping of a drivetrain, None where a scene has none; `gears`: "pinion" and "wheel"
-    as lumped masses."""
+    as lumped masses; `elastic`: the shafts that also bend."""
 
     shafts: Shafts | None = None
     bearings: Bearings | None = None
     inertia: Inertia | None = None
     gears: Mapping[str, LumpedGear] = field(default_factory=dict)
     damping: Damping | None = None
+    elastic: tuple[ElasticShaft, ...] = ()
 
 
 def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stiffness: float) -> Drivetrain:
@@ -138,14 +147,19 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
     radii = np.array([1.0 if MOVED[_kind(name)] == "mass" else getattr(pair, SIDE[name]).base_radius for name in names])
     stiffness, mass, mesh = np.zeros((len(names), len(names))), None, None
     if supports.bearings is not None:
-        for name, (gear, direction) in TRANSLATIONS.items():
-            stiffness[names.index(name), names.index(name)] = supports.bearings.of(gear, direction)
+        for name, side in TRANSLATIONS.items():
+            if (own := supports.bearings.of(*side)) is not None:
+                stiffness[names.index(name), names.index(name)] = own
         if supports.bearings.places is not None:
             from fenics_gears.dynamics.tilting import add_bearings
 
             add_bearings(stiffness, names, supports.bearings)
-    if supports.shafts is not None:
-        _add_torsion(stiffness, names, supports.shafts)
+    in_bearings = stiffness.copy()
+    for shaft in supports.elastic:
+        shaft.add_to(stiffness, names, shaft.stiffness)
+        shaft.add_to(in_bearings, names, shaft.bearing_stiffness)
+    for name, torsion in _torsion(supports).items():
+        stiffness[names.index(name), names.index(name)] += torsion
     if supports.inertia is not None:
         mass = _mass(names, supports.inertia, supports.gears)
     scale = np.outer(1.0 / radii, 1.0 / radii)
@@ -154,7 +168,8 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
         from fenics_gears.dynamics.tilting import mesh_over_face
 
         mesh = mesh_over_face(pair, names)
-    undamped = Drivetrain(names, radii, stiffness, forces_of_torque(names, radii, wheel_torque), mass, None, mesh)
+    load = forces_of_torque(names, radii, wheel_torque)
+    undamped = Drivetrain(names, radii, stiffness, load, mass, None, mesh, supports.elastic, in_bearings * scale)
     if supports.damping is None or mass is None:
         return undamped
     return replace(undamped, damping=_damping(supports.damping, undamped, mesh_stiffness))
@@ -166,12 +181,11 @@ def forces_of_torque(names: tuple[str, ...], radii: np.ndarray, torque: float) -
 
 
 def _moving_coordinates(supports: Supports) -> tuple[str, ...]:
-    moving = {"rotation_2"}
+    moving = {"rotation_2", *_torsion(supports)}
     if supports.bearings is not None:
-        moving.update(TRANSLATIONS)
+        moving.update(name for name, side in TRANSLATIONS.items() if supports.bearings.of(*side) is not None)
         moving.update(_leaning(supports.bearings))
-    if supports.shafts is not None:
-        moving.update(("rotation_1", "shaft_twist"))
+    moving.update(name for shaft in supports.elastic for name in shaft.coordinates)
     return tuple(name for name in COORDINATES if name in moving)
 
 
@@ -186,10 +200,16 @@ def _kind(name: str) -> str:
     return name.partition("_")[0]
 
 
-def _add_torsion(stiffness: np.ndarray, names: tuple[str, ...], shafts: Shafts) -> None:
-    """Input shaft between the prescribed rotation and phi1; output shaft, whose twist is phi3 - phi2 [4]-[6]."""
-    for name, shaft in (("rotation_1", "input"), ("shaft_twist", "output")):
-        stiffness[names.index(name), names.index(name)] += shafts.of(shaft)
+def _torsion(supports: Supports) -> dict[str, float]:
+    """Torsional stiffness (N mm/rad) of the shafts that twist, by coordinate: the input shaft's between the prescribed
+    rotation and phi1; the output shaft's, whose twist is phi3 - phi2 [4]-[6]."""
+    found = {}
+    for name, shaft in (("rotation_1", "input"), ("shaft_twist", "output")) if supports.shafts is not None else ():
+        bent = [each.torsional_stiffness for each in supports.elastic if each.gear == SIDE[name]]
+        torsion = bent[0] if bent else supports.shafts.of(shaft)
+        if torsion is not None and isfinite(torsion):
+            found[name] = torsion
+    return found
 
 
 def _mass(names: tuple[str, ...], inertia: Inertia, gears: Mapping[str, LumpedGear]) -> np.ndarray:

@@ -165,7 +165,7 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
     found = COMMON_VARIABLES + tuple(
         found
         for found, data in there
-        if (not found.field or getattr(data, found.field) is not None)
+        if (not found.field or any(getattr(data, name) is not None for name in found.field.split(" or ")))
         and (scene.three_dimensional or not found.over_face)
     )
     if scene.three_dimensional:

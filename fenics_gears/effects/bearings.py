@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
-from fenics_gears.inputs.fields import quantities, quantity
+from fenics_gears.inputs.allowed import AllowedMatrix, Matrix
+from fenics_gears.inputs.fields import declared, quantities, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.section import Section
-from fenics_gears.inputs.tree import GEARS, Tree, given_for, quantity_at, quantity_in, table
+from fenics_gears.inputs.section import AllowedTables, Section
+from fenics_gears.inputs.tree import GEARS, Tree, given_for, quantity_at, quantity_in, shafts_with_sections, table
 from fenics_gears.inputs.written import as_written
 
 DIRECTIONS = ("x", "y")
+STIFFNESSES = ("stiffness", "stiffness_x", "stiffness_y")
 # Bearings nearer to each other than so many modules stand on one spot: nothing would hold the tilt.
 LEAST_SPAN = 0.1
+MOST_BEARINGS = 20
 
 
 def _stiffness(meaning: str, otherwise: str):
@@ -31,10 +34,59 @@ def _places(gear: str):
     )
 
 
+def _of_bearing(limits: str, example: str, meaning: str, default: str = "", otherwise: str = ""):
+    return quantity(limits, example, meaning=meaning, default=default, otherwise=otherwise)
+
+
 @dataclass(frozen=True)
-class Support(Section):
-    """``[bearings.pinion]`` and ``[bearings.wheel]``; fields that are left out are those of ``[bearings]``, and the
-    defaults hold if that section leaves them out too."""
+class Bearing(Section):
+    """A bearing of a shaft with sections: stiff across the axis, along it and against tilting, or by a matrix."""
+
+    at: float = _of_bearing("0 mm to 100 m", "12 mm", "its place, from the left end of the shaft")
+    radial_stiffness: float | None = _of_bearing(
+        "1e-6 N/mm to 1e15 N/mm", "0.3e6 N/mm", "across the axis", otherwise="`stiffness_matrix`"
+    )
+    axial_stiffness: float = _of_bearing("0 N/mm to 1e15 N/mm", "0.1e6 N/mm", "along the axis", "0 N/mm")
+    tilting_stiffness: float = _of_bearing(
+        "0 N mm/rad to 1e24 N mm/rad", "1e8 N mm/rad", "against tilting", "0 N mm/rad"
+    )
+    stiffness_matrix: Matrix | None = declared(
+        AllowedMatrix(
+            description="five rows of five bare numbers in N, mm and rad, symmetric and not negative",
+            size=5,
+            meaning="stiffness over x, y, z and the tilts about x and y, in place of the other stiffnesses",
+            otherwise="from the other stiffnesses",
+        )
+    )
+
+    @property
+    def matrix(self) -> Matrix:
+        """Stiffness over x along and y off the line of action, z along the axis, and tilts about x and y."""
+        if self.stiffness_matrix is not None:
+            return self.stiffness_matrix
+        radial, tilting = self.radial_stiffness or 0.0, self.tilting_stiffness
+        diagonal = (radial, radial, self.axial_stiffness, tilting, tilting)
+        return tuple(tuple(each if row == column else 0.0 for column in range(5)) for row, each in enumerate(diagonal))
+
+
+_EACH = AllowedTables(
+    description='a list of bearings, such as [{ at = "12 mm", radial_stiffness = "0.3e6 N/mm" }], each with the fields'
+    f" {', '.join(each.name for each in fields(Bearing))}",
+    section=Bearing,
+    singular="bearing",
+    empty="For a centre that is fixed, leave it out.",
+    most=MOST_BEARINGS,
+    meaning="bearings of a shaft with sections, also written as tables `[[bearings.pinion]]`: `at`, from the left end"
+    " of the shaft; `radial_stiffness`, and `axial_stiffness` and `tilting_stiffness`, which are 0 unless given; or in"
+    " their place a `stiffness_matrix` over x along and y off the line of action, z along the axis, and the tilts about"
+    " x and y",
+    otherwise="the stiffness is that of the gear's centre",
+)
+
+
+@dataclass(frozen=True)
+class Stiffnesses(Section):
+    """What holds a gear's centre."""
 
     stiffness: float | None = _stiffness(
         "stiffness in all directions across the axis", "from `stiffness_x` and `stiffness_y`"
@@ -53,6 +105,14 @@ class Support(Section):
 
 
 @dataclass(frozen=True)
+class Support(Stiffnesses):
+    """``[bearings.pinion]`` and ``[bearings.wheel]``; fields that are left out are those of ``[bearings]``, and the
+    defaults hold if that section leaves them out too."""
+
+    each: tuple[Bearing, ...] | None = declared(_EACH)
+
+
+@dataclass(frozen=True)
 class BearingPlaces(Section):
     """``[bearings.places]``: where the bearings stand along the shafts, each of them with half of the stiffness. The
     shafts are rigid, and the gears tilt on them."""
@@ -64,7 +124,7 @@ class BearingPlaces(Section):
 
 
 @dataclass(frozen=True)
-class Bearings(Support):
+class Bearings(Stiffnesses):
     """``[bearings]``: stiffness of the support of each gear, the same in all directions or separate along (x) and off
     (y) the line of action.
 
@@ -76,8 +136,9 @@ class Bearings(Support):
     wheel: Support | None = None
     places: BearingPlaces | None = None
 
-    def of(self, gear: str, direction: str) -> float:
-        """Stiffness (N/mm) of the "pinion"'s or the "wheel"'s support in "x" or "y"."""
+    def of(self, gear: str, direction: str) -> float | None:
+        """Stiffness (N/mm) of the "pinion"'s or the "wheel"'s support in "x" or "y"; None where it has none, or stands
+        on bearings of its own."""
         own = getattr(self, gear)
         stiffness = None if own is None else own.along(direction)
         return self.along(direction) if stiffness is None else stiffness
@@ -85,6 +146,16 @@ class Bearings(Support):
     def axial(self, gear: str) -> float | None:
         """Axial stiffness (N/mm) of the "pinion"'s or the "wheel"'s shaft; None where it is held."""
         return own_or_shared(getattr(self, gear), self, "axial_stiffness")
+
+    @property
+    def each(self) -> tuple[Bearing, ...] | None:
+        """The bearings of both shafts with sections; None where there are none."""
+        return self.each_of("pinion") + self.each_of("wheel") or None
+
+    def each_of(self, gear: str) -> tuple[Bearing, ...]:
+        """The bearings of the shaft with sections that the "pinion" or the "wheel" is on; empty where it is on none."""
+        own = getattr(self, gear)
+        return () if own is None or own.each is None else own.each
 
     def places_of(self, gear: str) -> tuple[float, ...] | None:
         """Places (2,), mm, of the bearings of the "pinion"'s or the "wheel"'s shaft, from the gear's mid-width; None
@@ -97,11 +168,20 @@ def supports_are_complete(tree: Tree) -> Iterator[Problem]:
     both = table(tree, "bearings")
     if both is None:
         return
+    listed = [gear for gear in GEARS if "each" in (table(both, gear) or {})]
+    bent = shafts_with_sections(tree)
+    if listed or bent:
+        # Imported here: few scenes have any.
+        from fenics_gears.effects.elastic_shaft_rules import rules_of_listed_bearings
+
+        yield from rules_of_listed_bearings(tree, both, listed)
     missing = [
         (gear, direction)
         for gear in GEARS
         for direction in DIRECTIONS
         if not given_for(both, gear) & {"stiffness", f"stiffness_{direction}"}
+        # Beside a shaft with bearings of its own a gear that names nothing is held.
+        if not (listed or bent) or given_for(both, gear) & {*STIFFNESSES}
     ]
     example = 'Allowed: such as "0.155e6 N/mm"'
     if len(missing) == 4:
@@ -189,7 +269,7 @@ EFFECT = Effect(
         ResultVariable("centre_x", "mm", "displacement of the centre along the line of action", dims=("time", "gear")),
         ResultVariable("centre_y", "mm", "displacement of the centre off the line of action", dims=("time", "gear")),
         *(
-            ResultVariable(name, units, words, dims=("time", "gear"), field="places")
+            ResultVariable(name, units, words, dims=("time", "gear"), field="places or each")
             for name, units, words in (
                 ("axial_position", "mm", "displacement of the gear along its axis"),
                 ("tilt_x", "rad", "tilt of the gear about the line of action"),

@@ -26,7 +26,8 @@ OF_SLICES = ("contact_time", "slot", "face_position")
 class ResultVariable:
     """One variable of the result: its name, its units and its long name for labels; ``needs``: another effect without
     which it is not there;
-    ``dims``: its dimensions; ``field``: the field of the effect's own section without which it is not there;
+    ``dims``: its dimensions; ``field``: the field of the effect's own section without which it is not there, or
+    several, "places or each", of which one is enough;
     ``over_face``: whether it is there in three-dimensional scenes only."""
 
     name: str

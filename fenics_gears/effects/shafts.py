@@ -1,4 +1,5 @@
-"""``[shafts]``: torsion of the input and the output shaft (``dynamics.drivetrain``)."""
+"""``[shafts]``: torsion of the input and the output shaft (``dynamics.drivetrain``), or shafts that also bend
+(``dynamics.elastic_shaft``)."""
 
 from __future__ import annotations
 
@@ -6,24 +7,101 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
-from fenics_gears.inputs.fields import quantity
+from fenics_gears.effects.tooth_elasticity import material_name, poissons_ratio, youngs_modulus
+from fenics_gears.geometry.gear_data import MATERIALS, Material
+from fenics_gears.inputs.fields import choice, declared, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.section import Section
-from fenics_gears.inputs.tree import Tree, table
+from fenics_gears.inputs.section import AllowedTables, Section, allowed_in
+from fenics_gears.inputs.tree import SHAFTS, Tree, shafts_with_sections, table
+from fenics_gears.inputs.written import as_written
 
-SHAFTS = ("input", "output")
+MOST_SECTIONS = 100
 
 
 def _stiffness(meaning: str, otherwise: str = ""):
     return quantity("1e-6 N mm/rad to 1e24 N mm/rad", "0.203e9 N mm/rad", meaning=meaning, otherwise=otherwise)
 
 
+def _length(example: str, meaning: str, **otherwise: str):
+    return quantity("0 mm to 100 m", example, meaning=meaning, **otherwise)
+
+
+def _size(example: str, meaning: str, otherwise: str = ""):
+    return quantity("0.1 mm to 100 m", example, meaning=meaning, otherwise=otherwise)
+
+
+@dataclass(frozen=True)
+class ShaftSection(Section):
+    """A part of a shaft between two steps, a cylinder or a cone, with a bore."""
+
+    length: float = _size("32 mm", "length along the axis")
+    diameter: float = _size("28 mm", "outer diameter; of a cone that of its left end")
+    end_diameter: float | None = _size("35 mm", "diameter of a cone's right end", "a cylinder")
+    bore: float = _length("8 mm", "diameter of the bore", default="0 mm")
+
+    @property
+    def tapered(self) -> bool:
+        """Whether it is a cone."""
+        return self.right_diameter != self.diameter
+
+    @property
+    def right_diameter(self) -> float:
+        """Outer diameter of the right end, mm."""
+        return self.diameter if self.end_diameter is None else self.end_diameter
+
+
+_SECTIONS = AllowedTables(
+    description="a list of sections, each with a length, a diameter and, if any, a bore and the end_diameter of a cone,"
+    ' such as [{ length = "32 mm", diameter = "28 mm", bore = "8 mm" }, { length = "60 mm", diameter = "35 mm" }]',
+    section=ShaftSection,
+    singular="section",
+    empty="For a rigid shaft, leave it out.",
+    most=MOST_SECTIONS,
+    meaning="parts of the shaft from left to right, the right end being that from which a driving pinion is seen to"
+    " turn counter-clockwise: it then bends, twists and stretches on bearings of its own, `[[bearings.pinion]]` or"
+    " `[[bearings.wheel]]`",
+    otherwise="only `torsional_stiffness` gives way",
+)
+
+
+@dataclass(frozen=True)
+class ShaftMaterial(Section):
+    """``[shafts.input.material]`` and ``[shafts.output.material]``; what is left out is that of the gear."""
+
+    name: str | None = material_name("the gear's")
+    youngs_modulus: float | None = youngs_modulus("that of the `name`, or the gear's")
+    poissons_ratio: float | None = poissons_ratio("that of the `name`, or the gear's")
+
+    def constants(self, gear: Material) -> tuple[float, float]:
+        """Young's modulus, N/mm^2, and Poisson's ratio of the shaft of a gear that is made of something."""
+        named = gear if self.name is None else MATERIALS[self.name][0]
+        own = (self.youngs_modulus, self.poissons_ratio)
+        usual = (named.youngs_modulus, named.poissons_ratio)
+        modulus, ratio = (number if each is None else each for each, number in zip(own, usual))
+        return modulus, ratio
+
+
 @dataclass(frozen=True)
 class Shaft(Section):
     """``[shafts.input]`` and ``[shafts.output]``: the shaft between the prescribed rotation and the pinion, and that
-    between wheel and load."""
+    between wheel and load. A shaft of `sections` is a Timoshenko beam; one that has nothing beside it is rigid."""
 
-    torsional_stiffness: float = _stiffness("torsional stiffness of this shaft")
+    alternatives = (("torsional_stiffness", "sections"),)
+
+    torsional_stiffness: float | None = _stiffness("torsional stiffness of this shaft", "it follows from `sections`")
+    sections: tuple[ShaftSection, ...] | None = declared(_SECTIONS)
+    gear_at: float | None = _length(
+        "58 mm", "middle of the gear's face, from the left end", otherwise="required with `sections`"
+    )
+    torque_at: float | None = _length(
+        "0 mm", "where the motor or the load is coupled, from the left end", otherwise="required with `sections`"
+    )
+    seat: str | None = choice(
+        "rigid over its width",
+        meaning="how the gear sits: the shaft does not give way within the gear's face width",
+        default="rigid over its width",
+    )
+    material: ShaftMaterial = ShaftMaterial()
 
 
 @dataclass(frozen=True)
@@ -36,15 +114,31 @@ class Shafts(Section):
     input: Shaft | None = None
     output: Shaft | None = None
 
-    def of(self, shaft: str) -> float:
-        """Torsional stiffness (N mm/rad) of the "input" or the "output" shaft."""
+    def of(self, shaft: str) -> float | None:
+        """Torsional stiffness (N mm/rad) of the "input" or the "output" shaft; None where it has sections or is
+        rigid."""
         return own_or_shared(getattr(self, shaft), self, "torsional_stiffness")
+
+    @property
+    def sections(self) -> dict[str, Shaft] | None:
+        """The shafts that have sections, by the gears on them; None where there are none."""
+        both = zip(("pinion", "wheel"), (self.input, self.output))
+        return {gear: each for gear, each in both if each is not None and each.sections is not None} or None
 
 
 def shafts_are_complete(tree: Tree) -> Iterator[Problem]:
-    """Either shaft has a stiffness."""
+    """Either shaft has a stiffness, or one of them sections."""
     both = table(tree, "shafts")
-    if both is None or "torsional_stiffness" in both:
+    if both is None:
+        return
+    yield from _each_gives_way(both)
+    if shafts_with_sections(tree):
+        # Imported here: few scenes have any.
+        from fenics_gears.effects.elastic_shaft_rules import rules_of_elastic_shafts
+
+        yield from rules_of_elastic_shafts(tree)
+        return
+    if "torsional_stiffness" in both:
         return
     missing, example = [name for name in SHAFTS if name not in both], 'Allowed: such as "0.203e9 N mm/rad"'
     if len(missing) == 2:
@@ -63,16 +157,70 @@ def shafts_are_complete(tree: Tree) -> Iterator[Problem]:
         )
 
 
+def _each_gives_way(both: Tree) -> Iterator[Problem]:
+    """A shaft that is named has a stiffness or sections; places, seat and material are those of sections."""
+    for shaft in SHAFTS:
+        own = table(both, shaft)
+        if own is None or "sections" in own:
+            continue
+        if "torsional_stiffness" not in own:
+            allowed = allowed_in(Shaft, "torsional_stiffness").description
+            yield Problem(
+                ("shafts", shaft, "torsional_stiffness"), None, f"is missing. Allowed: {allowed}; or sections."
+            )
+        for name in ("gear_at", "torque_at", "seat", "material"):
+            if name in own:
+                message = "has no effect: it is of a shaft with sections. Add sections, or leave it out."
+                yield Problem(("shafts", shaft, name), as_written(own[name]) or "", message)
+
+
+def check(shafts: Shafts, scene, pair) -> None:
+    """Raise SceneError where gears, couplings and bearings do not fit their shafts."""
+    if shafts.sections is not None:
+        from fenics_gears.effects.elastic_shaft_rules import check_shafts
+
+        check_shafts(scene, pair)
+
+
+# Departures of the axes are those of [misalignment], and as large over the common face.
+OF_AXES = (
+    ("axis_inclination_in_plane", "um", "misalignment by the load in the plane of action, over the common face"),
+    (
+        "axis_inclination_out_of_plane",
+        "um",
+        "misalignment by the load out of the plane of action, over the common face",
+    ),
+    ("axis_offset_in_plane", "um", "distance that the load adds between the axes along the line of action"),
+    ("axis_offset_out_of_plane", "um", "displacement of the wheel's axis against the pinion's off the line of action"),
+)
+OF_BEARINGS = (
+    ("bearing_force_x", "N", "force of the shaft on its bearing along the line of action"),
+    ("bearing_force_y", "N", "force of the shaft on its bearing off the line of action"),
+    ("bearing_force_z", "N", "axial force of the shaft on its bearing"),
+    ("bearing_moment_x", "N mm", "moment of the shaft on its bearing about the line of action"),
+    ("bearing_moment_y", "N mm", "moment of the shaft on its bearing about the direction off the line of action"),
+)
+OF_LINES = ("contact_time", "gear", "shaft_point")
+DEFLECTIONS = (
+    ("shaft_deflection_x", "mm", "displacement of the shaft's axis along the line of action"),
+    ("shaft_deflection_y", "mm", "displacement of the shaft's axis off the line of action"),
+)
+
+
 EFFECT = Effect(
     section="shafts",
-    description="elastic torsion of the input and the output shaft",
+    description="elastic torsion of the input and the output shaft, or shafts that also bend",
     absent="the prescribed rotation acts on the pinion and the load torque on the wheel directly",
     fields=Shafts,
     unknowns=("rotation of the pinion", "rotation of the far end of the output shaft"),
-    terms=("torsional springs",),
+    terms=("torsional springs; of shafts with sections also those of bending and stretching",),
     variables=(
         ResultVariable("shaft_end_rotation", "rad", "rotation of the far end of the output shaft"),
         ResultVariable("energy_shafts", "N mm", "elastic energy of the shafts"),
+        *(ResultVariable(*each, field="sections") for each in OF_AXES),
+        *(ResultVariable(*each, dims=("time", "bearing"), field="sections") for each in OF_BEARINGS),
+        *(ResultVariable(*each, dims=OF_LINES, field="sections") for each in DEFLECTIONS),
     ),
     rules=shafts_are_complete,
+    check=check,
 )

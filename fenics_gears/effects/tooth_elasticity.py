@@ -16,15 +16,18 @@ from fenics_gears.inputs.tree import GEARS, Tree, material_sections, table
 CONSTANTS = ("youngs_modulus", "poissons_ratio")
 
 
-def _youngs_modulus(otherwise: str):
+def youngs_modulus(otherwise: str):
+    """A field of Young's modulus."""
     return quantity("1 kPa to 1e9 GPa", "206 GPa", meaning="Young's modulus", otherwise=otherwise)
 
 
-def _poissons_ratio(otherwise: str):
+def poissons_ratio(otherwise: str):
+    """A field of Poisson's ratio."""
     return number(0.3, meaning="Poisson's ratio", above=-1, below=0.5, otherwise=otherwise)
 
 
-def _name(otherwise: str):
+def material_name(otherwise: str):
+    """A field of a material by name."""
     listed = "; ".join(
         f"{name} {each.youngs_modulus / 1e3:g} GPa, {each.poissons_ratio:g}"
         + (f", yield strength {each.yield_strength:g} MPa" if each.yield_strength else "")
@@ -51,9 +54,9 @@ class MaterialText(Section):
     """``[gears.material]``: material of both gears, by `name` or by both constants. Without this section the flanks are
     rigid."""
 
-    name: str | None = _name("both constants are required")
-    youngs_modulus: float | None = _youngs_modulus("that of the `name`")
-    poissons_ratio: float | None = _poissons_ratio("that of the `name`")
+    name: str | None = material_name("both constants are required")
+    youngs_modulus: float | None = youngs_modulus("that of the `name`")
+    poissons_ratio: float | None = poissons_ratio("that of the `name`")
     yield_strength: float | None = _yield_strength("that of the `name`, if it has one")
 
 
@@ -62,9 +65,9 @@ class OwnMaterialText(Section):
     """``[gears.pinion.material]`` and ``[gears.wheel.material]``; fields that are left out are those of
     ``[gears.material]``."""
 
-    name: str | None = _name("from `[gears.material]`")
-    youngs_modulus: float | None = _youngs_modulus("that of the `name`, or from `[gears.material]`")
-    poissons_ratio: float | None = _poissons_ratio("that of the `name`, or from `[gears.material]`")
+    name: str | None = material_name("from `[gears.material]`")
+    youngs_modulus: float | None = youngs_modulus("that of the `name`, or from `[gears.material]`")
+    poissons_ratio: float | None = poissons_ratio("that of the `name`, or from `[gears.material]`")
     yield_strength: float | None = _yield_strength(
         "that of the `name`, if it has one; from `[gears.material]` where this section names no other material"
     )

@@ -13,6 +13,9 @@ from fenics_gears.inputs.written import as_written
 
 # The longest path that Linux takes.
 LONGEST_FILE_NAME = 4096
+Matrix = tuple[tuple[float, ...], ...]
+# Parts of the largest entry that a matrix may depart by from a symmetric, positive one.
+ROUND_OFF = 1e-9
 
 
 class Refused(ValueError):
@@ -264,3 +267,34 @@ def _quantity(value: Any, unit: str, words: Any, *kinds: str) -> tuple[float, st
         return units.of_kind(value, *kinds)
     except units.QuantityError as error:
         raise Refused(str(error) + did_you_mean(value, words)) from None
+
+
+@dataclass(frozen=True, kw_only=True)
+class AllowedMatrix(Allowed):
+    """A stiffness matrix: ``size`` rows of as many bare numbers, symmetric and not negative."""
+
+    size: int
+
+    def convert(self, value: Any) -> Matrix:
+        """The rows."""
+        import numpy as np
+
+        rows = value if isinstance(value, list) and all(isinstance(row, list) for row in value) else []
+        numbers = [each for row in rows for each in row if isinstance(each, (int, float)) and type(each) is not bool]
+        if {len(rows), *map(len, rows)} != {self.size} or len(list(filter(isfinite, numbers))) != self.size**2:
+            raise Refused(f"is not {self.size} rows of {self.size} numbers.")
+        matrix = np.array(numbers, dtype=float).reshape(self.size, self.size)
+        apart, round_off = np.abs(matrix - matrix.T), ROUND_OFF * np.abs(matrix).max()
+        if apart.max() > round_off:
+            row, column = (int(each) for each in np.unravel_index(apart.argmax(), apart.shape))
+            places = f"{matrix[row, column]:g} in row {row + 1}, but {matrix[column, row]:g} in column {row + 1}"
+            raise Refused(f"is not symmetric: {places}.")
+        # Each motion by what gives its stiffness the size of the others'.
+        size = np.sqrt(np.maximum(np.abs(np.diag(matrix)), round_off or 1.0))
+        if np.linalg.eigvalsh(matrix / np.outer(size, size))[0] < -ROUND_OFF:
+            raise Refused("is not positive: in one motion it would push on by itself.")
+        return tuple(tuple(float(each) for each in row) for row in 0.5 * (matrix + matrix.T))
+
+    def spelled(self, value: Matrix) -> list[list[float]]:
+        """The rows."""
+        return [list(row) for row in value]

@@ -11,6 +11,7 @@ from fenics_gears.inputs.problem import Path, nearest
 
 Tree = Mapping[str, Any]
 GEARS = ("pinion", "wheel")
+SHAFTS = ("input", "output")  # of pinion and wheel
 MOST_TEETH = 1000
 # In modules. Real errors of manufacture are far smaller; the model moves flanks by them but not their points of
 # contact.
@@ -40,6 +41,25 @@ def given_for(both: Tree, gear: str) -> set[str]:
     """Names that a section gives for the "pinion" or the "wheel": those for both gears, and those of the gear's own
     section."""
     return {*both, *(table(both, gear) or {})}
+
+
+def shafts_with_sections(tree: Tree) -> list[str]:
+    """The shafts, "input" and "output", that a parsed scene divides into sections."""
+    return [shaft for shaft in SHAFTS if value_at(tree, "shafts", shaft, "sections") is not None]
+
+
+def written_out(tree: dict[str, Any]) -> dict[str, Any]:
+    """A parsed file without what is written short: a material that is only named, ``material = "steel"``, is a section
+    with that name, and bearings that are listed, ``[[bearings.pinion]]``, are in the gear's section."""
+    gears, shafts, bearings = (table(tree, name) or {} for name in ("gears", "shafts", "bearings"))
+    homes = (gears, *(table(gears, gear) for gear in GEARS), *(table(shafts, shaft) for shaft in SHAFTS))
+    for home in homes:
+        if home is not None and isinstance(home.get("material"), str):
+            home["material"] = {"name": home["material"]}
+    for gear in GEARS:
+        if isinstance(bearings.get(gear), list):
+            bearings[gear] = {"each": bearings[gear]}
+    return tree
 
 
 def quantity_at(tree: Tree, *path: str) -> float | None:
@@ -91,6 +111,7 @@ OVER_THE_FACE: tuple[Path, ...] = (
     ("lead_modifications",),
     ("misalignment",),
     ("bearings", "places"),
+    *(("shafts", shaft, "sections") for shaft in SHAFTS),
 )
 
 

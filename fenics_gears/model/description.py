@@ -12,7 +12,7 @@ from fenics_gears.geometry.flank_deviations import v_roll_angle
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.cost import SECTOR_UNKNOWNS, expected_cost
 from fenics_gears.model.model import Model, model_of
-from fenics_gears.model.motion_rows import Rows, frequency_rows, inertia_rows, motion_in_words, period_rows, speed_rows
+from fenics_gears.model.motion_rows import Rows, frequency_rows, inertia_rows, period_rows, speed_rows, unknown_rows
 from fenics_gears.model.plane_strain import NOTABLE as NOTABLE_STIFFNESS
 from fenics_gears.model.plane_strain import too_stiff
 from fenics_gears.scene.data import ISO_6336, Scene
@@ -82,9 +82,7 @@ def _model_rows(model: Model) -> Rows:
     touching, friction = "the first to touch carries all", model.scene.friction
     if model.scene.tooth_elasticity is not None:
         touching = f"each with a {each} where flanks touch"
-    motions = model.drivetrain.coordinates
-    rows: Rows = [*_face_rows(model), *_curve_rows(model)]
-    rows.append(("motions of the gears that are unknown", f"{len(motions)}:", ", ".join(map(motion_in_words, motions))))
+    rows: Rows = [*_face_rows(model), *_curve_rows(model), *unknown_rows(model)]
     if model.face.slices == 1:
         rows.append(("contact nodes of a tooth pair", f"{grid.nodes},", touching))
     else:

@@ -12,6 +12,7 @@ from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.drivetrain import LumpedGear
+    from fenics_gears.dynamics.elastic_shaft import ElasticShaft
     from fenics_gears.geometry.section import CrossSection
 
 
@@ -21,8 +22,17 @@ def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
     Raises SceneError for a load so heavy that the wheel is nothing beside it.
     """
     gears = {} if scene.inertia is None else lumped_gears(scene, pair)
-    supports = Supports(scene.shafts, scene.bearings, scene.inertia, gears, scene.damping)
+    supports = Supports(scene.shafts, scene.bearings, scene.inertia, gears, scene.damping, _elastic(scene, pair))
     return assembled(pair, scene.load.wheel_torque, supports, mesh_stiffness(scene))
+
+
+def _elastic(scene: Scene, pair: GearPair) -> tuple[ElasticShaft, ...]:
+    """The shafts that also bend, of pinion and wheel."""
+    if scene.shafts is None or scene.shafts.sections is None:
+        return ()
+    from fenics_gears.effects.elastic_shaft_rules import elastic_shaft
+
+    return tuple(elastic_shaft(scene, pair, gear) for gear in scene.shafts.sections)
 
 
 def mesh_stiffness(scene: Scene) -> float:

@@ -153,7 +153,7 @@ class Model:
     def stored_bytes(self) -> int:
         """Size of the result in memory: curves of all steps, and contact fields of those that are stored."""
         slots, nodes = self.touching.slots, self.resolution.contact_grid.most_nodes
-        size = sizes(self.steps + 1, self.contact_steps, slots, nodes, self.face.slices)
+        size = sizes(self.steps + 1, self.contact_steps, slots, nodes, self.face.slices, self.drivetrain.bearings)
         return counted_bytes(stored_arrays(self.scene, size), size)
 
     @cached_property

@@ -60,6 +60,20 @@ def inertia_rows(model: Model) -> Rows:
     return [*rows, (label, reduced, "kg, of both gears along the line of action")]
 
 
+def unknown_rows(model: Model) -> Rows:
+    """The shafts that bend, with how stiff they are where the gear is, and the motions that are unknown."""
+    rows: Rows = []
+    for shaft in model.drivetrain.elastic:
+        places = ", ".join(f"{bearing.at:g}" for bearing in shaft.bearings)
+        rows.append((f"shaft of the {shaft.gear}", shaft.length, f"mm, on bearings at {places} mm from its left end"))
+        x, y, axial, *_ = 1e-3 / np.diag(np.linalg.inv(shaft.stiffness))
+        words = f"{x:.4g} along x, {y:.4g} along y, {axial:.4g} axially"
+        rows.append((f"its stiffness at the {shaft.gear}", words, "N/um, with its bearings"))
+    names = model.drivetrain.coordinates
+    motions = ", ".join(map(motion_in_words, names))
+    return [*rows, ("motions of the gears that are unknown", f"{len(names)}:", motions)]
+
+
 def period_rows(model: Model) -> Rows:
     """Mesh cycles of the common period: after it all that differs between cycles repeats."""
     period, gears = common_period(model.scene), model.scene.gears

@@ -16,6 +16,8 @@ from fenics_gears.scene.data import Scene
 
 # Stress points of either fillet of a tooth, `elasticity.fillet_points`; the last is the one at the 30 degree tangent.
 FILLET_POINTS, FILLET_POINTS_OVER_FACE = 24, 12
+# Points of a shaft at which its deflection is given.
+SHAFT_POINTS = 41
 ROOT_STRESS = {
     "root_stress": ("contact_time", "gear", "slot", "fillet_point"),
     "root_stress_maximum": ("time", "gear", "slot"),
@@ -40,11 +42,12 @@ def fillet_points(slices: int) -> int:
     return FILLET_POINTS if slices == 1 else FILLET_POINTS_OVER_FACE
 
 
-def sizes(steps: int, contact_steps: int, slots: int, nodes: int, slices: int = 1) -> dict[str, int]:
+def sizes(steps: int, contact_steps: int, slots: int, nodes: int, slices: int = 1, bearings: int = 0) -> dict[str, int]:
     """Length of each dimension of a result with so many steps, of which the contact fields of so many are stored, over
-    so many `slices` of the face."""
+    so many `slices` of the face, and of shafts on so many `bearings`."""
     return {
         "face_position": slices,
+        "bearing": bearings, "shaft_point": SHAFT_POINTS,
         "time": steps, "contact_time": contact_steps, "slot": slots, "contact_node": nodes,
         "gear": 2, "fillet": 2, "fillet_point": 2 * fillet_points(slices),
     }  # fmt: skip

@@ -34,6 +34,7 @@ WITH_ROOT_STRESS = "`[output] root_stress` with `[inertia]`"
 OVER_FACE = "the flanks are resolved over the face"
 OVER_FACE_WITH_LOAD = "the flanks are resolved over the face and loaded"
 OVER_FACE_WITH_FIELDS = "as `transverse_load_factor`, and contact fields are stored"
+WITH_SECTIONS = "a shaft has `sections`"
 WITH_FILES = "the scene names files (`[body_meshes]`, tables of `[flank_errors]`)"
 WITH_TARGET = "`[accuracy] target`"
 IN_STUDIES = "the run is a study's case"
@@ -191,6 +192,12 @@ _ROWS = (
         "the same of the line load near the ends of the face and where a line of contact ends at a tip or form circle",
         f"{OVER_FACE_WITH_FIELDS}, and an edge is loaded",
     ),
+    *(
+        (f"mean_axis_{kind}_{plane}", "um", f"mean of `axis_{kind}_{plane}`", WITH_SECTIONS)
+        for kind in ("inclination", "offset")
+        for plane in ("in_plane", "out_of_plane")
+    ),
+    ("largest_bearing_force", "N", "largest force of a shaft on one of its bearings", WITH_SECTIONS),
     (
         "transverse_load_factor",
         "1",

@@ -17,7 +17,7 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.rigid_step import SAME_GAP
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 from fenics_gears.dynamics.clock import Clock
-from fenics_gears.dynamics.drivetrain import ON_BEARINGS, Drivetrain
+from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.energy_account import account, mean_load, quadratic
 from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps, forces_at, in_block, operator_at, smallest_openings
@@ -167,12 +167,11 @@ def energy_variables(scene: Scene, drivetrain: Drivetrain, steps: Steps) -> dict
     parts = {}
     if scene.tooth_elasticity is not None:
         parts["energy_teeth"] = energy_of_teeth(steps)
-    on_bearings = np.array([name in ON_BEARINGS for name in drivetrain.coordinates])
     positions, velocities = steps.states[:, 0], steps.states[:, 1]
     if scene.bearings is not None:
-        parts["energy_bearings"] = 0.5 * quadratic(positions * on_bearings, drivetrain.stiffness)
+        parts["energy_bearings"] = 0.5 * quadratic(positions, drivetrain.bearing_stiffness)
     if scene.shafts is not None:
-        parts["energy_shafts"] = 0.5 * quadratic(positions * ~on_bearings, drivetrain.stiffness)
+        parts["energy_shafts"] = 0.5 * quadratic(positions, drivetrain.stiffness - drivetrain.bearing_stiffness)
     if scene.inertia is not None:
         parts["energy_kinetic"] = 0.5 * quadratic(velocities, drivetrain.mass)
     parts["energy"] = sum(parts.values(), np.zeros(len(steps)))

@@ -39,14 +39,18 @@ if TYPE_CHECKING:
 WATCHED = "watched: "
 
 
-def _along_face(cycle: Cycle) -> tuple[AlongTheFace, ...]:
+def _along_face(model: Model, cycle: Cycle) -> tuple[AlongTheFace, ...]:
     """What there is beside the results of one slice; nothing in the plane."""
     if cycle.face.slices == 1:
         return ()
     # Imported here: plane scenes have none.
     from fenics_gears.results.face_variables import AlongTheFace
 
-    return (AlongTheFace(cycle),)
+    if not model.drivetrain.elastic:
+        return (AlongTheFace(cycle),)
+    from fenics_gears.results.bent_shafts import BentShafts
+
+    return (BentShafts(cycle, model.drivetrain),)
 
 
 class KnownTouching:
@@ -84,7 +88,9 @@ class Recorder:
         ways = cycle.beside(KnownTouching).of(cycle)
         self.first_number, self.slots = 1 + ways.latest, ways.slots
         nodes = cycle.grid.most_nodes
-        self.size = sizes(model.steps + 1, model.contact_steps, self.slots, nodes, cycle.face.slices)
+        self.size = sizes(
+            model.steps + 1, model.contact_steps, self.slots, nodes, cycle.face.slices, model.drivetrain.bearings
+        )
         self.stored = stored_arrays(model.scene, self.size)
         self._room = self._room_for(journal)
         self.kept: Kept = self._room
@@ -97,7 +103,7 @@ class Recorder:
         self._waiting: list[Steps] = []
         self._last: Steps | None = None
         self._worked: dict[str, float] = {}
-        self.along_face = _along_face(cycle)
+        self.along_face = _along_face(model, cycle)
         self._layouts = cycle.beside(KnownLayouts)
         self._singular = EdgesAndKinks(model, next((along.end_slices for along in self.along_face), None))
         self._layouts.forget_beyond(cycle.steps)
@@ -197,7 +203,7 @@ class Recorder:
         if scene.bearings is not None:
             values["centre_x"] = both("centre_x1", "centre_x2")
             values["centre_y"] = both("centre_y1", "centre_y2")
-            if scene.bearings.places is not None:
+            if scene.bearings.places is not None or scene.bearings.each is not None:
                 values |= {name: both(f"{name}1", f"{name}2") for name in ("tilt_x", "tilt_y")}
                 values["axial_position"] = both("axial_1", "axial_2")
         if scene.shafts is not None:

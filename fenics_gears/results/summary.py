@@ -51,7 +51,17 @@ def summary_rows(dataset, stages: Sequence[tuple[str, float]] = ()) -> list[Row]
 
 def result_rows(dataset) -> list[Row]:
     """The results, the most important first; rows without a number in this run are left out."""
-    of_numbers = (_transmission_error, _harmonics, _stiffness, _pair_force, _face, _pressure, _root_stress, _power)
+    of_numbers = (
+        _transmission_error,
+        _harmonics,
+        _stiffness,
+        _pair_force,
+        _face,
+        _shafts,
+        _pressure,
+        _root_stress,
+        _power,
+    )
     said = [line for part in of_numbers for line in part(dataset.attrs)]
     said += [*_sliding(dataset), *_contact_loss(dataset), *_estimated_error(dataset.attrs)]
     return [(label, words, "") for label, words in said]
@@ -109,6 +119,18 @@ def _face(found) -> Said:
         yield "largest line load over even one", f"{found['largest_line_load_factor']:.3f} away from edges{edges}"
     if "transverse_load_factor" in found:
         yield "transverse load factor K_Halpha", f"{found['transverse_load_factor']:.3f}"
+
+
+def _shafts(found) -> Said:
+    """What shafts that bend do to the axes, and the largest force on a bearing."""
+    if "largest_bearing_force" in found:
+        for kind, over in (("inclination", ", over the common face"), ("offset", "")):
+            inside, outside = (found[f"mean_axis_{kind}_{plane}"] for plane in ("in_plane", "out_of_plane"))
+            yield (
+                f"{kind} of the axes, mean",
+                f"{inside:.4g} um in the plane of action, {outside:.4g} um out of it{over}",
+            )
+        yield "largest force of a bearing", f"{found['largest_bearing_force']:.4g} N"
 
 
 def _pressure(found) -> Said:

@@ -13,14 +13,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import chain
 from math import cos, tan
-from typing import Any
 
 from fenics_gears.effects.tooth_elasticity import material_of
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse, tip_radius_with_room
 from fenics_gears.geometry.gear_data import MATERIALS, RACKS, GearData, GearPairData, Web
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.inputs.tree import GEARS, LOADS, table, wheel_torque
+from fenics_gears.inputs.tree import GEARS, LOADS, wheel_torque
 from fenics_gears.scene.data import Derived, Load, Motion
 from fenics_gears.scene.gear_schema import Gear as GearText
 from fenics_gears.scene.gear_schema import Gears
@@ -28,15 +27,6 @@ from fenics_gears.scene.schema import LoadText
 
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
 NOTABLE_OVERLAP = 0.01
-
-
-def with_material_sections(tree: dict[str, Any]) -> dict[str, Any]:
-    """A parsed file in which a material that is only named, ``material = "steel"``, is a section with that name."""
-    gears = table(tree, "gears") or {}
-    for home in (gears, *(table(gears, gear) for gear in GEARS)):
-        if home is not None and isinstance(home.get("material"), str):
-            home["material"] = {"name": home["material"]}
-    return tree
 
 
 def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:

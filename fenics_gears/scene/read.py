@@ -13,9 +13,10 @@ from typing import Any
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.inputs.problem import Problem, did_you_mean, line_numbers, listed
+from fenics_gears.inputs.tree import written_out
 from fenics_gears.inputs.written import WrittenFloat, as_toml, as_written
 from fenics_gears.scene import data
-from fenics_gears.scene.drawing import gear_pair_data, load_data, with_material_sections
+from fenics_gears.scene.drawing import gear_pair_data, load_data
 from fenics_gears.scene.rules import broken_rules
 from fenics_gears.scene.schema import checked_sections, without_echoes
 from fenics_gears.system import user_file
@@ -55,10 +56,10 @@ def name_of(path: Path) -> str:
 
 
 def parsed(text: str, source: str) -> dict[str, Any]:
-    """What a TOML text holds, its numbers as they were written, and a material's name as its section. Raises
+    """What a TOML text holds, its numbers as they were written, and what is written short as its section. Raises
     SceneError, which calls the text `source`."""
     try:
-        tree = with_material_sections(tomllib.loads(text, parse_float=WrittenFloat))
+        tree = written_out(tomllib.loads(text, parse_float=WrittenFloat))
     except (ValueError, RecursionError) as error:
         raise SceneError(
             f"{source}: is not valid TOML: {_why_no_toml(error)}\nNothing was computed or written."

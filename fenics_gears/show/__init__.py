@@ -8,5 +8,5 @@ PICTURE_FILES = (
     "contact_pressure.png",
     "order_spectrum.png",
 )
-# Those of runs whose flanks are resolved over the face.
-FACE_PICTURE_FILES = ("contact_pattern.png", "line_load.png")
+# Those of runs whose flanks are resolved over the face; the last one of shafts that bend.
+FACE_PICTURE_FILES = ("contact_pattern.png", "line_load.png", "shafts.png")

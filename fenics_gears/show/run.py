@@ -179,7 +179,12 @@ class Run:
         from fenics_gears.show.contact_pattern import contact_patterns
         from fenics_gears.show.line_load import line_loads
 
-        return {"Contact pattern": contact_patterns, "Line load along the face": line_loads}
+        found = {"Contact pattern": contact_patterns, "Line load along the face": line_loads}
+        if "bearing" not in self.dataset.dims:
+            return found
+        from fenics_gears.show.bent_shafts import bent_shafts
+
+        return found | {"Shafts under load": bent_shafts}
 
     @cached_property
     def last_fields(self) -> xr.Dataset:

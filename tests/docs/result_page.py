@@ -72,7 +72,7 @@ def _variables(result: xr.Dataset, variables: Sequence[ResultVariable]) -> list[
     rows = []
     for each in variables:
         if (each.field or each.over_face) and each.name not in result:
-            where = f"with `{each.field}`" if each.field else "of three-dimensional scenes"
+            where = f"with `{each.field.replace(' or ', '` or `')}`" if each.field else "of three-dimensional scenes"
             rows.append((f"`{each.name}`", ", ".join(each.dims), each.units, f"{each.long_name} (only {where})"))
             continue
         name, dimensions, units, words = _row(result, each.name)

@@ -28,7 +28,8 @@ CLASS = "[flank_errors]\ntolerance_class = 6\n"
             WOBBLE,
             (
                 'eccentricity.wheel.wobble = "10 um"\n    is of three-dimensional scenes: allowed beside'
-                " gears.helix_angle, [lead_modifications], [misalignment] or bearings.places."
+                " gears.helix_angle, [lead_modifications], [misalignment], bearings.places,"
+                " shafts.input.sections or shafts.output.sections."
             ),
         ),
         (HELIX, "flank_errors.pinion.helix_slope = a list\n    is of three-dimensional scenes"),

@@ -42,7 +42,9 @@ PLANE = "plane"
 
 def in_the_plane(scene: Scene) -> Scene:
     """The scene without what makes it three-dimensional, in plane strain; of a helical pair the transverse section, as
-    a spur pair."""
+    a spur pair. Shafts that bend, with their bearings, are left out."""
+    if scene.shafts is not None and scene.shafts.sections is not None:
+        scene = replace(scene, shafts=None, bearings=None)
     gears, bearings = scene.gears, scene.bearings
     lean = cos(gears.helix_angle)
     pinion, wheel = (

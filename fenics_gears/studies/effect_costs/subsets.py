@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from fenics_gears.effects import SECTIONS, effect_named, effects_on, every_effect, without
-from fenics_gears.inputs.tree import over_the_face
+from fenics_gears.inputs.tree import over_the_face, written_out
 from fenics_gears.inputs.written import WrittenFloat
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.rules import broken_rules
@@ -130,7 +130,7 @@ def largest_valid(left: Sections, problem: Valid) -> Sections | None:
 
 def _problem(scene: Scene, sections: Sections) -> str:
     """What is wrong with the scene's text when only those effects are left in it; empty where nothing is."""
-    tree = tomllib.loads(scene.text, parse_float=WrittenFloat)
+    tree = written_out(tomllib.loads(scene.text, parse_float=WrittenFloat))
     for each in every_effect():
         if each.section not in sections:
             *homes, name = each.within or (each.section,)

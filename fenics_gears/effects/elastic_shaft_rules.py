@@ -1,0 +1,162 @@
+"""What is wrong with shafts that have sections, and with the bearings that they turn in. Not an effect by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from fenics_gears.dynamics.elastic_shaft import STEEPEST_CONE, ElasticShaft, free_motions
+from fenics_gears.effects.bearings import Bearing, Stiffnesses
+from fenics_gears.errors import SceneError
+from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.section import names_in
+from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, shafts_with_sections, table, value_at
+from fenics_gears.inputs.written import as_written
+
+# Bearings of a shaft (mm) that are no further apart, and ends that stand out by as little, are so by round-off.
+ROUND_OFF = 1e-9
+BESIDE_MATRIX = ("radial_stiffness", "axial_stiffness", "tilting_stiffness")
+
+
+def rules_of_elastic_shafts(tree: Tree) -> Iterator[Problem]:
+    """A shaft with sections says where gear and torque are and has bearings of its own; there is no inertia beside
+    it."""
+    both = table(tree, "shafts") or {}
+    if "torsional_stiffness" in both:
+        message = (
+            "stands beside a shaft with sections, so that it is not clear whose it is. Leave it out, or give it to"
+            " [shafts.input] or [shafts.output]."
+        )
+        yield Problem(("shafts", "torsional_stiffness"), as_written(both["torsional_stiffness"]), message)
+    for shaft in shafts_with_sections(tree):
+        for name in ("gear_at", "torque_at"):
+            if name not in (table(both, shaft) or {}):
+                message = 'is missing. Allowed: a length from the left end of the shaft, such as "58 mm".'
+                yield Problem(("shafts", shaft, name), None, message)
+        gear = GEARS[SHAFTS.index(shaft)]
+        if value_at(tree, "bearings", gear, "each") is None:
+            message = (
+                f"is missing: nothing holds [shafts.{shaft}], which has sections. Add its bearings, each as a table"
+                f" [[bearings.{gear}]] with at and radial_stiffness."
+            )
+            yield Problem(("bearings", gear), None, message)
+    if "inertia" in tree:
+        message = (
+            "cannot stand beside shafts with sections, whose own mass and vibrations are not computed. Leave [inertia]"
+            " out for quasi-static runs, or give the shafts as torsional_stiffness and [bearings] with places."
+        )
+        yield Problem(("inertia",), "", message)
+
+
+def rules_of_listed_bearings(tree: Tree, both: Tree, listed: Sequence[str]) -> Iterator[Problem]:
+    """Bearings that are listed are those of a shaft with sections, and the only ones of that gear."""
+    for gear in listed:
+        shaft = SHAFTS[GEARS.index(gear)]
+        own = table(both, gear) or {}
+        if shaft not in shafts_with_sections(tree):
+            message = (
+                f"are bearings of a shaft with sections. Add sections to [shafts.{shaft}], or give [bearings.{gear}] a"
+                " stiffness."
+            )
+            yield Problem(("bearings", gear), "", message)
+        beside = [((gear, name), own[name]) for name in names_in(Stiffnesses) if name in own]
+        places = table(both, "places") or {}
+        beside += [(("places", gear), places[gear])] if gear in places else []
+        for path, written in beside:
+            message = f"stands beside [[bearings.{gear}]], which are all of the {gear}'s bearings. Leave one out."
+            yield Problem(("bearings", *path), as_written(written) or "", message)
+    for name in names_in(Stiffnesses) if listed else ():
+        if name in both:
+            other = next((gear for gear in GEARS if gear not in listed), "")
+            message = f"stands beside [[bearings.{listed[0]}]], so that it is not clear whose it is. Leave it out" + (
+                f", or give it to [bearings.{other}]." if other else "."
+            )
+            yield Problem(("bearings", name), as_written(both[name]), message)
+
+
+def check_shafts(scene: Any, pair: Any) -> None:
+    """Raise SceneError for all that does not fit along the shafts of a scene, or is not held by their bearings."""
+    wrong: list[str] = []
+    for gear, shaft in zip(GEARS, SHAFTS):
+        if gear in scene.shafts.sections:
+            found = elastic_shaft(scene, pair, gear)
+            wrong += [*_sections_are_solid(found, shaft), *_places_are_on_the_shaft(found, shaft)]
+            wrong += _bearings_hold(found)
+    if wrong:
+        raise SceneError("; ".join(wrong))
+
+
+def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
+    """The shaft with sections on which the "pinion" or the "wheel" of a scene sits."""
+    shaft, number = scene.shafts.sections[gear], GEARS.index(gear)
+    constants = shaft.material.constants(scene.gears.materials[number])
+    width, bearings = pair.face_widths[number], scene.bearings.each_of(gear)
+    return ElasticShaft(gear, shaft.sections, constants, shaft.gear_at, width, shaft.torque_at, bearings)
+
+
+def _sections_are_solid(found: ElasticShaft, shaft: str) -> Iterator[str]:
+    for number, section in enumerate(found.sections, 1):
+        thin, thick = sorted((section.diameter, section.right_diameter))
+        if section.bore >= thin:
+            yield (
+                f"shafts.{shaft}.sections: the bore of {section.bore:g} mm at place {number} leaves nothing of the"
+                f" diameter of {thin:g} mm; allowed are smaller ones"
+            )
+        elif thick - section.bore > STEEPEST_CONE * (thin - section.bore):
+            yield (
+                f"shafts.{shaft}.sections: the wall of the cone at place {number} is {thick - section.bore:g} mm at one"
+                f" end, more than {STEEPEST_CONE:g} times that at the other; divide it into two cones"
+            )
+
+
+def _places_are_on_the_shaft(found: ElasticShaft, shaft: str) -> Iterator[str]:
+    """The gear's whole face and the coupling are on the shaft, and bearings beside the gear."""
+    length, half, width = found.length, 0.5 * found.seat, f"{found.seat:g} mm"
+    if length < found.seat - ROUND_OFF:
+        yield (
+            f"shafts.{shaft}.sections: are {length:g} mm long in all, shorter than the {found.gear}'s face of {width};"
+            " lengthen them"
+        )
+    elif not half - ROUND_OFF <= found.gear_at <= length - half + ROUND_OFF:
+        yield (
+            f"shafts.{shaft}.gear_at = {found.gear_at:g} mm: the {found.gear}'s face of {width} reaches beyond the"
+            f" shaft, which is {length:g} mm long; allowed is {half:g} mm to {length - half:g} mm"
+        )
+    if found.torque_at > length + ROUND_OFF:
+        yield f"shafts.{shaft}.torque_at = {found.torque_at:g} mm: is beyond the shaft, which is {length:g} mm long"
+    for number, bearing in enumerate(found.bearings, 1):
+        name = f"bearings.{found.gear}: the bearing at {bearing.at:g} mm, place {number},"
+        if bearing.at > length + ROUND_OFF:
+            yield f"{name} is beyond the shaft, which is {length:g} mm long"
+        elif abs(bearing.at - found.gear_at) < half - ROUND_OFF:
+            yield (
+                f"{name} overlaps the gear, whose face reaches from {found.gear_at - half:g} mm to"
+                f" {found.gear_at + half:g} mm; move it out"
+            )
+        yield from _stiffness_is_given_once(bearing, name)
+
+
+def _stiffness_is_given_once(bearing: Bearing, name: str) -> Iterator[str]:
+    if bearing.stiffness_matrix is None and bearing.radial_stiffness is None:
+        yield f'{name} has no radial_stiffness; allowed is such as "0.3e6 N/mm", or a stiffness_matrix'
+    beside = [each for each in BESIDE_MATRIX if getattr(bearing, each)]
+    if bearing.stiffness_matrix is not None and beside:
+        yield f"{name} has {beside[0]} beside its stiffness_matrix, which is all of its stiffness; leave one out"
+
+
+def _bearings_hold(found: ElasticShaft) -> Iterator[str]:
+    """The bearings leave no motion free."""
+    free = free_motions(found)
+    if free:
+        count = len(found.bearings)
+        held = "one bearing holds" if count == 1 else f"{count} bearings hold"
+        remedies = {
+            "along its axis": "give one of them an axial_stiffness",
+            "tilts": "add a second bearing at another place, or give one a tilting_stiffness",
+            "moves along x": "add a bearing with a radial_stiffness",
+        }
+        remedy = "; ".join(words for motion, words in remedies.items() if any(motion in each for each in free))
+        yield (
+            f"bearings.{found.gear}: {held} the shaft, which freely {' and '.join(free)}"
+            + (f": {remedy}" if remedy else "")
+        )

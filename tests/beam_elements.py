@@ -1,0 +1,51 @@
+"""Two-node Timoshenko elements of a textbook, as an authority for shafts: J. S. Przemieniecki, Theory of Matrix
+Structural Analysis (1968), section 5.6. Nothing is shared with the program but the shear coefficient, which is checked
+by itself."""
+
+import numpy as np
+
+FIVE = 5
+
+
+def element(length, modulus, ratio, outer, bore, shear):
+    """Stiffness (10, 10) over x, y, z, tilt x and tilt y of both ends of a cylinder."""
+    area, second = np.pi * (outer**2 - bore**2) / 4.0, np.pi * (outer**4 - bore**4) / 64.0
+    phi = 12.0 * modulus * second / (shear * modulus / (2.0 * (1.0 + ratio)) * area * length**2)
+    own, other, cross = (4.0 + phi) * length**2, (2.0 - phi) * length**2, 6.0 * length
+    bending = modulus * second / ((1.0 + phi) * length**3) * np.array([
+        [12.0, cross, -12.0, cross], [cross, own, -cross, other],
+        [-12.0, -cross, 12.0, -cross], [cross, other, -cross, own],
+    ])  # fmt: skip
+    found = np.zeros((10, 10))
+    found[np.ix_([0, 4, 5, 9], [0, 4, 5, 9])] = bending
+    # A positive tilt about x moves what lies further along the axis to negative y.
+    turned = np.diag([1.0, -1.0, 1.0, -1.0])
+    found[np.ix_([1, 3, 6, 8], [1, 3, 6, 8])] = turned @ bending @ turned
+    found[np.ix_([2, 7], [2, 7])] = modulus * area / length * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    return found
+
+
+def condensed(shaft, shear, seat_stiffness=1.0):
+    """Stiffness (5, 5) at the middle of the gear of an elastic shaft of cylinders, by elements between all its places
+    and a Schur complement; `shear`: coefficient of a section by its outer and inner diameter; `seat_stiffness`: of
+    what the gear sits on, against the shaft."""
+    ends = np.cumsum([0.0, *(each.length for each in shaft.sections)])
+    seat = shaft.gear_at - 0.5 * shaft.seat, shaft.gear_at + 0.5 * shaft.seat
+    places = sorted({*ends, *seat, shaft.gear_at, *(each.at for each in shaft.bearings)})
+    stiffness = np.zeros((FIVE * len(places),) * 2)
+    for number, (left, right) in enumerate(zip(places, places[1:])):
+        section = shaft.sections[int(np.searchsorted(ends, 0.5 * (left + right))) - 1]
+        modulus = shaft.material[0] * (seat_stiffness if seat[0] <= left and right <= seat[1] else 1.0)
+        of_both = slice(FIVE * number, FIVE * (number + 2))
+        stiffness[of_both, of_both] += element(
+            right - left, modulus, shaft.material[1], section.diameter, section.bore,
+            shear(section.diameter, section.bore),
+        )  # fmt: skip
+    for bearing in shaft.bearings:
+        own = slice(FIVE * places.index(bearing.at), FIVE * (places.index(bearing.at) + 1))
+        stiffness[own, own] += bearing.matrix
+    kept = np.arange(FIVE) + FIVE * places.index(shaft.gear_at)
+    others = np.setdiff1d(np.arange(len(stiffness)), kept)
+    return stiffness[np.ix_(kept, kept)] - stiffness[np.ix_(kept, others)] @ np.linalg.solve(
+        stiffness[np.ix_(others, others)], stiffness[np.ix_(others, kept)]
+    )

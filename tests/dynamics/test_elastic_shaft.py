@@ -1,0 +1,205 @@
+"""A gear on an elastic shaft: deflections in closed form, elements of a textbook, and limits that other models have."""
+
+from dataclasses import replace
+from math import inf, pi
+
+import numpy as np
+import pytest
+from tests.beam_elements import condensed
+
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions, shear_coefficient
+from fenics_gears.effects.bearings import Bearing, BearingPlaces, Bearings, Support
+from fenics_gears.effects.shafts import Shaft, ShaftMaterial, Shafts, ShaftSection
+from fenics_gears.model.drivetrain import drivetrain
+
+STEEL = (206e3, 0.3)
+E, G = STEEL[0], STEEL[0] / 2.6
+STIFF = 1e12  # N/mm, of bearings that hardly give way; what they give is in the closed forms.
+LOAD = 1e3
+
+
+def shaft(sections, gear_at, bearings, torque_at=0.0, seat=0.0):
+    return ElasticShaft("pinion", tuple(sections), STEEL, gear_at, seat, torque_at, tuple(bearings))
+
+
+def area(diameter, bore=0.0):
+    return pi / 4.0 * (diameter**2 - bore**2)
+
+
+def second(diameter, bore=0.0):
+    return pi / 64.0 * (diameter**4 - bore**4)
+
+
+def shear(diameter, bore=0.0):
+    return float(shear_coefficient(STEEL[1], np.array(bore / diameter)))
+
+
+def pushed(found, motion):
+    """Motions of the gear's middle under a load along one of them."""
+    return np.linalg.solve(found.stiffness, LOAD * np.eye(5)[motion])
+
+
+def test_the_shear_coefficient_is_cowpers():
+    """Authority: Cowper 1966, table 1: 6 (1 + nu) / (7 + 6 nu) of a solid circle, 2 (1 + nu) / (4 + 3 nu) of a thin
+    tube."""
+    assert shear_coefficient(0.3, np.array([0.0, 1.0])) == pytest.approx([7.8 / 8.8, 2.6 / 4.9], rel=1e-14)
+
+
+@pytest.mark.parametrize("place", [30.0, 45.0, 82.0])
+@pytest.mark.parametrize(("motion", "tilt", "sense"), [(0, 4, 1.0), (1, 3, -1.0)])
+def test_a_simply_supported_shaft_bends_as_in_closed_form(place, motion, tilt, sense):
+    """Exact: F a^2 b^2 / 3 E I L + F a b / (kappa G A L), and the supports' part by the lever rule; the slope from the
+    same."""
+    length, diameter, bore = 120.0, 24.0, 10.0
+    found = shaft(
+        [ShaftSection(length, diameter, bore=bore)], place, [Bearing(0.0, STIFF, 1e5), Bearing(length, STIFF)]
+    )
+    a, b = place, length - place
+    bending, shearing = E * second(diameter, bore), shear(diameter, bore) * G * area(diameter, bore)
+    own = a**2 * b**2 / (3.0 * bending * length) + a * b / (shearing * length)
+    supports = ((b / length) ** 2 + (a / length) ** 2) / STIFF
+    moved = pushed(found, motion)
+    assert moved[motion] == pytest.approx(LOAD * (own + supports), rel=1e-10)
+    slope = a * b * (b - a) / (3.0 * bending * length) + (b - a) / (2.0 * shearing * length)
+    # With shear the section keeps its tilt, that of bending alone.
+    slope -= (b - a) / (2.0 * shearing * length)
+    assert moved[tilt] * sense == pytest.approx(LOAD * (slope + (a - b) / length**2 / STIFF), rel=1e-8, abs=1e-12)
+
+
+def test_an_overhung_gear_bends_its_shaft_as_in_closed_form():
+    """Exact: F c^2 (l + c) / 3 E I + F c (1 + c/l) / (kappa G A), c the overhang, and what the bearings give."""
+    span, overhang, diameter = 80.0, 35.0, 25.0
+    found = shaft(
+        [ShaftSection(span + overhang, diameter)], span + overhang, [Bearing(0.0, STIFF, 1e5), Bearing(span, STIFF)]
+    )
+    bending, shearing = E * second(diameter), shear(diameter) * G * area(diameter)
+    share = overhang / span
+    own = overhang**2 * (span + overhang) / (3.0 * bending) + overhang * (1.0 + share) / shearing
+    assert pushed(found, 0)[0] == pytest.approx(LOAD * (own + (share**2 + (1.0 + share) ** 2) / STIFF), rel=1e-10)
+
+
+def test_a_stepped_shaft_a_cone_and_axial_force():
+    """Exact: a cantilever of two cylinders by the integral of M^2 / E I; stretching of the same and of a cone, 4 F L /
+    (pi E d1 d2); bending of a cone to a point load at its end, 64 F L^3 / (3 pi E d1^3 d2)."""
+    clamp = Bearing(0.0, STIFF, STIFF, 1e18)
+    steps = [ShaftSection(40.0, 30.0), ShaftSection(60.0, 20.0)]
+    found = shaft(steps, 100.0, [clamp])
+    thick, thin = E * second(30.0), E * second(20.0)
+    bent = 60.0**3 / (3.0 * thin) + (100.0**3 - 60.0**3) / (3.0 * thick)
+    sheared = sum(each.length / (shear(each.diameter) * G * area(each.diameter)) for each in steps)
+    assert pushed(found, 0)[0] == pytest.approx(LOAD * (bent + sheared + 1.0 / STIFF + 100.0**2 / 1e18), rel=1e-9)
+    assert pushed(found, 0)[4] == pytest.approx(
+        LOAD * (60.0**2 / (2.0 * thin) + (100.0**2 - 60.0**2) / (2.0 * thick) + 100.0 / 1e18), rel=1e-9
+    )
+    stretched = sum(each.length / (E * area(each.diameter)) for each in steps)
+    assert pushed(found, 2)[2] == pytest.approx(LOAD * (stretched + 1.0 / STIFF), rel=1e-10)
+    cone = shaft([ShaftSection(50.0, 40.0, 4.0)], 50.0, [clamp])
+    conical = 4.0 * 50.0 / (pi * E * 40.0 * 4.0)
+    assert pushed(cone, 2)[2] == pytest.approx(LOAD * (conical + 1.0 / STIFF), rel=1e-10)
+    bent = 64.0 * 50.0**3 / (3.0 * pi * E * 40.0**3 * 4.0)
+    sheared = conical * E / (shear(1.0) * G)
+    assert pushed(cone, 0)[0] == pytest.approx(LOAD * (bent + sheared + 1.0 / STIFF + 50.0**2 / 1e18), rel=1e-9)
+
+
+def test_torsion_of_steps_and_of_a_cone():
+    """Exact: sum of L / G J; a cone's 32 L (1/d1^3 - 1/d2^3) / (3 pi G (d2 - d1)). None within the gear's seat."""
+    sections = [ShaftSection(40.0, 30.0, bore=12.0), ShaftSection(50.0, 20.0, 35.0), ShaftSection(30.0, 35.0)]
+    bearings = [Bearing(10.0, 1e5, 1e5), Bearing(70.0, 1e5)]
+    found = shaft(sections, 110.0, bearings, seat=20.0)
+    cone = 32.0 * 50.0 * (20.0**-3 - 35.0**-3) / (3.0 * pi * G * 15.0)
+    twisted = 40.0 / (G * 2.0 * second(30.0, 12.0)) + cone + 10.0 / (G * 2.0 * second(35.0))
+    assert found.torsional_stiffness == pytest.approx(1.0 / twisted, rel=1e-12)
+    assert replace(found, torque_at=104.0).torsional_stiffness == inf
+
+
+MATRIX = np.array([
+    [3e5, 2e4, 1e3, -4e5, 9e5], [2e4, 4e5, 2e3, -8e5, 3e5], [1e3, 2e3, 1e5, 1e4, 2e4],
+    [-4e5, -8e5, 1e4, 5e7, 1e6], [9e5, 3e5, 2e4, 1e6, 6e7],
+])  # fmt: skip
+STEPS = (ShaftSection(32.0, 28.0, bore=8.0), ShaftSection(60.0, 35.0), ShaftSection(30.0, 22.0, bore=5.0))
+ON_THREE = (
+    Bearing(12.0, 3e5, 1e5),
+    Bearing(88.0, stiffness_matrix=tuple(map(tuple, MATRIX))),
+    Bearing(115.0, 2e5, 0.0, 4e6),
+)
+
+
+def test_the_stiffness_is_that_of_a_textbooks_elements():
+    """Brute force: elements of a textbook between all places, condensed. Bearings of all kinds on either side of the
+    gear, one with a matrix that couples everything."""
+    found = shaft(STEPS, 55.0, ON_THREE, seat=18.0)
+    # Elements cannot be rigid: what their flexibility leaves is in proportion to it, and extrapolated.
+    by_elements = 2.0 * condensed(found, shear, 2e4) - condensed(found, shear, 1e4)
+    size = np.outer(*2 * [np.sqrt(np.diag(by_elements))])
+    assert found.stiffness / size == pytest.approx(by_elements / size, abs=1e-8)
+    free = replace(found, seat=0.0)
+    assert free.stiffness / size == pytest.approx(condensed(free, shear) / size, abs=1e-9)
+
+
+def test_deflection_lines_go_through_gear_and_bearings():
+    """Identity: places on the line move as the gear and as the shaft in its bearings do, and beyond the last bearing
+    the line is straight."""
+    found = shaft(STEPS, 55.0, ON_THREE[:2], seat=18.0)
+    places = np.array([55.0, 12.0, 88.0, 100.0, 110.0, 120.0, 49.0])
+    lines = found.deflection(places)
+    assert lines[0] == pytest.approx(np.eye(5), abs=1e-14)
+    assert lines[1:3].reshape(10, 5) == pytest.approx(found.at_bearings, rel=1e-9, abs=1e-15)
+    assert lines[5] - lines[4] == pytest.approx(lines[4] - lines[3], abs=1e-13)
+    # Within the seat it is the gear's own.
+    assert lines[6, 0] == pytest.approx([1.0, 0.0, 0.0, 0.0, -6.0], abs=1e-14)
+
+
+def test_stiff_shafts_are_the_rigid_ones_with_places(paper_scene, paper_pair):
+    """Limit: Young's modulus of 1e30 gives the matrix of rigid shafts on the same bearings to round-off."""
+    places, at = ((-40.0, 60.0), (-30.0, 75.0)), 100.0
+    scene = replace(paper_scene, inertia=None, damping=None)
+    rigid = replace(
+        scene, shafts=Shafts(1e8), bearings=Bearings(0.2e6, axial_stiffness=0.07e6, places=BearingPlaces(*places))
+    )
+    stiff = [
+        Shaft(sections=(ShaftSection(200.0, 30.0),), gear_at=at, torque_at=at, material=ShaftMaterial(None, 1e30, 0.3))
+        for _ in places
+    ]
+    listed = [Support(each=(Bearing(at + left, 0.1e6, 0.07e6), Bearing(at + right, 0.1e6))) for left, right in places]
+    found = drivetrain(
+        replace(scene, shafts=Shafts(None, *stiff), bearings=Bearings(None, pinion=listed[0], wheel=listed[1])),
+        paper_pair,
+    )
+    wanted = drivetrain(rigid, paper_pair)
+    # The coupling is at the gear, so that nothing twists.
+    kept = [wanted.coordinates.index(name) for name in found.coordinates]
+    assert set(wanted.coordinates) - set(found.coordinates) == {"rotation_1", "shaft_twist"}
+    assert found.stiffness == pytest.approx(wanted.stiffness[np.ix_(kept, kept)], rel=1e-14, abs=1e-9)
+    assert found.bearing_stiffness == pytest.approx(found.stiffness, rel=1e-14, abs=1e-9)
+
+
+def test_the_twist_is_that_of_a_torsional_spring(paper_scene, paper_pair):
+    """Identity: the torsion of a shaft with sections acts as the torsional stiffness that it has, on either side."""
+    scene = replace(paper_scene, inertia=None, damping=None, bearings=None)
+    own = Shaft(sections=(ShaftSection(120.0, 30.0),), gear_at=100.0, torque_at=0.0)
+    bearings = Support(each=(Bearing(10.0, 1e5, 1e5), Bearing(60.0, 1e5)))
+    width = paper_pair.face_widths[0]
+    twisted = G * 2.0 * second(30.0) / (100.0 - 0.5 * width)
+    wanted = drivetrain(replace(scene, shafts=Shafts(twisted)), paper_pair)
+    for side, gear, name in (("input", "pinion", "rotation_1"), ("output", "wheel", "shaft_twist")):
+        other = {"input": "output", "output": "input"}[side]
+        shafts = Shafts(None, **{side: own, other: Shaft(twisted)})
+        found = drivetrain(replace(scene, shafts=shafts, bearings=Bearings(**{gear: bearings})), paper_pair)
+        assert {"rotation_1", "rotation_2", "shaft_twist"} <= set(found.coordinates)
+        place, there = found.coordinates.index(name), wanted.coordinates.index(name)
+        assert found.stiffness[place] == pytest.approx(np.eye(len(found.load))[place] * wanted.stiffness[there, there])
+        assert found.load[place] == wanted.load[there]
+
+
+@pytest.mark.parametrize(
+    ("bearings", "free"),
+    [
+        ([Bearing(10.0, 1e5, 1e4)], ["tilts about x", "tilts about y"]),
+        ([Bearing(10.0, 1e5), Bearing(60.0, 1e5)], ["moves along its axis"]),
+        ([Bearing(10.0, 1e5, 1e4, 1e6)], []),
+        ([Bearing(10.0, 1e5, 1e4), Bearing(60.0, 1e5)], []),
+    ],
+)
+def test_motions_that_bearings_leave_free(bearings, free):
+    """Exact: which of five motions of a rigid shaft have no stiffness."""
+    assert free_motions(shaft([ShaftSection(100.0, 30.0)], 80.0, bearings)) == free

@@ -1,0 +1,217 @@
+"""Gears on elastic shafts in whole runs, on bodies without finite elements: statics, the condensed compliance by hand,
+and what is refused."""
+
+import numpy as np
+import pytest
+from tests.beam_elements import condensed
+from tests.hard_cases.invariants import run_of
+from tests.helical import helical_scene, on_stand_in_bodies
+
+from fenics_gears import SceneError, model_of, scene_from_text
+from fenics_gears.dynamics.elastic_shaft import shear_coefficient
+from fenics_gears.scene.write import section_trees, text_of
+from fenics_gears.show.bent_shafts import bent_shafts
+from fenics_gears.show.plots import run_figures
+from fenics_gears.show.run import Run
+
+FEW = "slices = 5\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8"
+INPUT = """
+[shafts.input]
+sections = [{ length = "40 mm", diameter = "28 mm", bore = "8 mm" }, { length = "90 mm", diameter = "35 mm" }]
+gear_at = "114 mm"
+torque_at = "0 mm"
+"""
+PINION = """
+[[bearings.pinion]]
+at = "12 mm"
+radial_stiffness = "0.3e6 N/mm"
+axial_stiffness = "0.1e6 N/mm"
+[[bearings.pinion]]
+at = "85 mm"
+radial_stiffness = "0.4e6 N/mm"
+tilting_stiffness = "1e7 N mm/rad"
+"""
+OUTPUT = """
+[shafts.output]
+sections = [{ length = "150 mm", diameter = "40 mm" }]
+gear_at = "60 mm"
+torque_at = "150 mm"
+material = "ductile cast iron"
+"""
+ROWS = "[[3e5, 1e4, 0, 0, 2e5], [1e4, 3e5, 0, 1e5, 0], [0, 0, 2e5, 0, 0], [0, 1e5, 0, 1e7, 0], [2e5, 0, 0, 0, 1e7]]"
+WHEEL = f"""
+[[bearings.wheel]]
+at = "20 mm"
+stiffness_matrix = {ROWS}
+[[bearings.wheel]]
+at = "110 mm"
+radial_stiffness = "0.4e6 N/mm"
+"""
+ELASTIC = INPUT + PINION + OUTPUT + WHEEL
+GEARS = ("pinion", "wheel")
+
+
+def shear(outer, bore):
+    return float(shear_coefficient(0.3, np.array(bore / outer)))
+
+
+@pytest.fixture(scope="module", params=[0.0, 15.0], ids=["spur", "helical"])
+def run(request):
+    """The model of a run with friction on two elastic shafts, and its result."""
+    more = ELASTIC + "[friction]\ncoefficient = 0.05\n[lead_modifications.pinion]\ncrowning = '4 um'\n"
+    model = model_of(helical_scene(more, helix=request.param, offset=2.0, accuracy=FEW))
+    found = run_of(model, on_stand_in_bodies(model))
+    assert found.failure is None
+    return model, found.result
+
+
+def near(found, wanted, part=1e-10):
+    assert np.abs(found - wanted).max() <= part * np.abs(wanted).max()
+
+
+def test_bearings_carry_what_the_gear_puts_on_its_shaft(run):
+    """Exact: forces and moments of all bearings of a shaft balance those of the contact on its gear, about its
+    mid-width; the torque of the contact is the load's where nothing but friction and contact act on the wheel."""
+    model, result = run
+    for shaft in model.drivetrain.elastic:
+        own = [name.startswith(shaft.gear) for name in result["bearing"].values]
+        gear = result.sel(gear=shaft.gear)
+        force = {axis: result[f"bearing_force_{axis}"].values[:, own] for axis in "xyz"}
+        arms = result["bearing_place"].values[own] - shaft.gear_at
+        scale = np.abs(result["normal_force"].values).max()
+        for axis in "xyz":
+            assert np.abs(force[axis].sum(axis=1) - gear[f"reaction_{axis}"].values).max() <= 1e-10 * scale
+        for axis, across, sense in (("x", "y", -1.0), ("y", "x", 1.0)):
+            moment = result[f"bearing_moment_{axis}"].values[:, own] + sense * arms * force[across]
+            difference = moment.sum(axis=1) - gear[f"reaction_moment_{axis}"].values
+            assert np.abs(difference).max() <= 1e-10 * scale * 100.0
+    assert np.abs(result["reaction_couple"].sel(gear="wheel").values) == pytest.approx(200e3, rel=1e-10)
+
+
+def test_gears_move_by_the_compliance_of_elements_under_their_own_reactions(run):
+    """Brute force: the compliance of a textbook's elements, applied to the forces and moments of the recorded contact,
+    gives the recorded motions of the gears. What the gear sits on is extrapolated to rigid."""
+    model, result = run
+    for shaft in model.drivetrain.elastic:
+        gear = result.sel(gear=shaft.gear)
+        names = ("reaction_x", "reaction_y", "reaction_z", "reaction_moment_x", "reaction_moment_y")
+        loads = np.array([gear[name].values for name in names])
+        stiffness = 2.0 * condensed(shaft, shear, 2e4) - condensed(shaft, shear, 1e4)
+        moved = np.linalg.solve(stiffness, loads)
+        for name, wanted in zip(("centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y"), moved):
+            near(gear[name].values, wanted, 1e-6)
+
+
+def test_axes_and_lines_are_those_of_the_gears(run):
+    """Identity: inclination and offset are the difference of both gears' tilts and displacements in the middle of the
+    common face; the lines pass the gears' middles with the gears' displacement; the energy account closes."""
+    model, result = run
+    width, middles = model.pair.face_width, np.array(model.pair.gear_middles)
+    tilt = {axis: result[f"tilt_{axis}"].values for axis in "xy"}
+    near(result["axis_inclination_in_plane"].values, 1e3 * width * (tilt["y"][:, 1] - tilt["y"][:, 0]))
+    near(result["axis_inclination_out_of_plane"].values, 1e3 * width * (tilt["x"][:, 0] - tilt["x"][:, 1]))
+    along = result["centre_x"].values - middles * tilt["y"]
+    near(result["axis_offset_in_plane"].values, 1e3 * (along[:, 1] - along[:, 0]))
+    for shaft in model.drivetrain.elastic:
+        gear = result.sel(gear=shaft.gear)
+        for axis in "xy":
+            line = gear[f"shaft_deflection_{axis}"].values[-1]
+            # Within the seat the shaft is straight.
+            at_gear = np.interp(shaft.gear_at, gear["shaft_place"].values, line)
+            assert at_gear == pytest.approx(gear[f"centre_{axis}"].values[-1], rel=1e-9)
+    assert np.abs(result["energy_defect"].values).max() <= 1e-9 * result["energy"].values.max()
+
+
+def test_the_drawing_shows_gears_bearings_and_deflection_to_scale(run):
+    """Identity: the drawn shafts are as long and as thick as the scene's, and off their axes by the magnified
+    deflection; bearings stand on the lines, and a picture is drawn of it."""
+    model, result = run
+    scale, *lines = bent_shafts(Run(result))
+    times = float(scale.caption.split("magnified ")[1].split()[0])
+    shaft, _, bearings = scale.curves[:3]
+    own = model.drivetrain.elastic[0]
+    assert np.ptp(shaft.x) == pytest.approx(own.length)
+    upper, lower = np.split(shaft.y[:-1], 2)
+    assert upper - lower[::-1] == pytest.approx(np.repeat([28.0, 35.0], 9))
+    axis = result["shaft_deflection_x"].sel(gear="pinion").values.mean(axis=0)
+    assert 0.5 * (upper + lower[::-1])[[0, -1]] == pytest.approx(times * axis[[0, -1]])
+    from_left = bearings.x - shaft.x.min()
+    assert from_left == pytest.approx([12.0, 85.0])
+    assert bearings.y / times == pytest.approx(np.interp(from_left, np.linspace(0.0, own.length, len(axis)), axis))
+    assert lines[0].curves[0].y == pytest.approx(1e3 * axis)
+    assert "shafts.png" in run_figures(result)
+
+
+def test_the_scene_is_written_and_read_again():
+    """Identity: a scene made of the data alone reads as the same."""
+    scene = helical_scene(ELASTIC, accuracy=FEW)
+    scene.__dict__.pop("text")
+    again = scene_from_text(text_of(scene), scene.name)
+    assert (again.shafts, again.bearings) == (scene.shafts, scene.bearings)
+    assert section_trees(again) == section_trees(scene)
+
+
+ONE = PINION[: PINION.index("[[bearings.pinion]]", 5)]
+PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        (INPUT.replace("114 mm", "125 mm") + PINION, "shafts.input.gear_at = 125 mm: .* reaches beyond the shaft"),
+        (INPUT + ONE, "bearings.pinion: one bearing holds .* tilts about x and tilts about y: add a second bearing"),
+        (INPUT + PINION.replace('axial_stiffness = "0.1e6 N/mm"', ""), "freely moves along its axis: give one"),
+        (INPUT + PINION.replace("85 mm", "110 mm"), "the bearing at 110 mm, place 2, overlaps the gear"),
+        (INPUT + PINION.replace("85 mm", "131 mm"), "the bearing at 131 mm, place 2, is beyond the shaft"),
+        (
+            INPUT.replace('40 mm"', '4 mm"').replace('90 mm"', '9 mm"') + PINION,
+            "sections: are 13 mm long in all, shorter than the pinion's face of 24 mm",
+        ),
+        (INPUT.replace('"0 mm"', '"131 mm"') + PINION, "shafts.input.torque_at = 131 mm: is beyond"),
+        (INPUT.replace('bore = "8 mm"', 'bore = "28 mm"') + PINION, "the bore of 28 mm at place 1 leaves nothing"),
+        (
+            INPUT.replace('bore = "8 mm"', 'bore = "8 mm", end_diameter = "9 mm"') + PINION,
+            "the cone at place 1 .* divide",
+        ),
+        (INPUT + PINION.replace('radial_stiffness = "0.3e6 N/mm"', ""), "place 1, has no radial_stiffness"),
+        (ELASTIC.replace("[3e5, 1e4, 0", "[3e5, 2e4, 0"), "stiffness_matrix .* is not symmetric: 20000 in row 1"),
+        (ELASTIC.replace("[0, 0, 2e5", "[0, 0, -2e5"), "stiffness_matrix .* is not positive"),
+        (ELASTIC.replace(", [2e5, 0, 0, 0, 1e7]", ""), "is not 5 rows of 5 numbers"),
+        (
+            ELASTIC.replace('at = "20 mm"\n', 'at = "20 mm"\naxial_stiffness = "1 N/mm"\n'),
+            "beside its stiffness_matrix",
+        ),
+        (INPUT + PINION + PLACED, "bearings.places.pinion .* stands beside"),
+        (INPUT + '[bearings]\nstiffness = "1e5 N/mm"\n' + PINION, "bearings.stiffness .* not clear whose"),
+        (INPUT + "[bearings.pinion]\nstiffness = '1e5 N/mm'\n", "bearings.pinion.* is missing: nothing holds"),
+        (PINION, "bearings.pinion.* are bearings of a shaft with sections"),
+        (INPUT.replace('torque_at = "0 mm"', "") + PINION, "shafts.input.torque_at.* is missing"),
+        (
+            INPUT.replace("gear_at", 'torsional_stiffness = "1e8 N mm/rad"\ngear_at') + PINION,
+            "shafts.input.sections .* stands beside torsional_stiffness",
+        ),
+        ('[shafts]\ntorsional_stiffness = "1e8 N mm/rad"\n' + INPUT + PINION, "shafts.torsional_stiffness .* whose"),
+        ('[shafts.input]\ngear_at = "10 mm"\ntorsional_stiffness = "1e8 N mm/rad"', "gear_at .* has no effect"),
+        (INPUT + PINION + "[shafts.output]\n", "shafts.output.torsional_stiffness.* is missing.* or sections"),
+        (
+            INPUT + PINION + "[shafts.output]\ntorsional_stiffness = '1e8 N mm/rad'\ngear_at = '5 mm'",
+            "output.gear_at.* no effect",
+        ),
+        (ELASTIC + '[inertia]\nmass = "2 kg"\nmoment_of_inertia = "0.02 kg m^2"\n', "inertia.* cannot stand beside"),
+        (INPUT.replace("torque_at", 'seat = "integral"\ntorque_at') + PINION, "shafts.input.seat"),
+    ],
+)
+def test_what_does_not_fit_is_refused_before_any_computation(more, said):
+    """Authority: the issue's list of bad input; each message names what is wrong, and where."""
+    with pytest.raises(SceneError, match=f"(?s){said}"):
+        model_of(helical_scene(more, accuracy=""))
+
+
+def test_a_side_that_names_nothing_is_rigid():
+    """Authority: docs/scene.md. The other side may have sections, a torsional stiffness or a support of its own."""
+    alone = model_of(helical_scene(INPUT + PINION, accuracy=FEW)).drivetrain
+    of_pinion = {"centre_x1", "centre_y1", "axial_1", "tilt_x1", "tilt_y1", "rotation_1"}
+    assert set(alone.coordinates) == of_pinion | {"rotation_2"}
+    beside = '[shafts.output]\ntorsional_stiffness = "1e8 N mm/rad"\n[bearings.wheel]\nstiffness = "1e5 N/mm"\n'
+    both = model_of(helical_scene(INPUT + PINION + beside, accuracy=FEW)).drivetrain
+    assert set(both.coordinates) - set(alone.coordinates) == {"centre_x2", "centre_y2", "shaft_twist"}
