@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.laws import NO_FORCE, OPEN
-from fenics_gears.contact.mixed_form import product, solved, system_of
+from fenics_gears.contact.laws import NO_FORCE, OPEN, SLIP_FORWARD
+from fenics_gears.contact.mixed_form import Iterate, equations_of, product, solve_sets
 from fenics_gears.dynamics.steps import Steps, forces_at, in_block, nodes_at, operator_at
 from fenics_gears.model.model import Model
 from fenics_gears.model.modification import kinks
@@ -58,7 +58,7 @@ def mesh_stiffness(contact, status, forces, coordinates):
     deflection = _highest(overlap, node_pair)
     # Of a gear so heavy that it does not move, the deflection is below the last digit of its rotation.
     secant = force / deflection if deflection > 0.0 else np.nan
-    return np.array([secant, _tangent(contact.compliance, closed[:count]), pairs])
+    return np.array([secant, _tangent(contact, closed[:count]), pairs])
 
 
 @njit(cache=True)
@@ -79,13 +79,16 @@ def _highest(overlap, node_pair):
 
 
 @njit(cache=True)
-def _tangent(compliance, nodes):
-    """Force (N) on some nodes of a compliance (m, m), mm/N, when all of them approach by 1 mm."""
-    matrix = system_of(len(nodes))
-    for i in range(len(nodes)):
-        for j in range(len(nodes)):
-            matrix[i, j] = compliance[nodes[i], nodes[j]]
-    return solved(matrix, np.ones(len(nodes)), len(nodes)).sum()
+def _tangent(contact, nodes):
+    """Force (N) on some nodes when all of them approach by 1 mm: over the approach under a force of 1 N, solved as a
+    step, so that what the march knows of the compliance serves."""
+    n = len(contact.gap)
+    status, coordinates, nothing = np.full(n, OPEN, dtype=np.int8), np.zeros(1), np.empty(0)
+    status[nodes] = SLIP_FORWARD
+    motion, none = (np.zeros((1, 1)), np.ones(1), nothing), np.zeros(n)
+    parts = motion, (contact.compliance, np.ones((n, 1)), none, nothing), (0.0, contact.rows)
+    solve_sets(equations_of(parts), Iterate(status, np.zeros(n), coordinates, nothing))
+    return 1.0 / coordinates[0]
 
 
 Curves = dict[str, np.ndarray]
