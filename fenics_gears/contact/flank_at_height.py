@@ -11,38 +11,44 @@ from numba import njit
 NEWTON_STEPS = 60
 # The step just taken squares what is left.
 CLOSE = 1e-10
+# Rises above the contact point, in base radii and parts of the roll angle squared, where a series begins near the root.
+NEAR = 0.2
 # A height may lie below the start of the involute by round-off.
 ROUND_OFF = 4e-16
 
 
-def flank_at_height(base_radius: float, contact_roll_angle: float, height) -> tuple[np.ndarray, np.ndarray]:
+def flank_at_height(base_radius: float, contact_roll_angle, height) -> tuple[np.ndarray, np.ndarray]:
     """Roll angle (rad) and ``x`` (mm, as of `geometry.involute.flank_point`) of the flank point at a height ``h`` (mm,
-    any shape).
+    any shape); the roll angle (rad) of contact is that of all heights or of each.
 
     ``nan`` where the involute has no such point: below ``base_radius cos(contact_roll_angle)``, where it starts, and
     above the height at which it turns away.
     """
     heights = np.asarray(height, dtype=float)
-    rolls, x = _points(base_radius, contact_roll_angle, heights.reshape(-1))
+    contact = np.broadcast_to(np.asarray(contact_roll_angle, dtype=float), heights.shape)
+    rolls, x = _points(base_radius, np.ascontiguousarray(contact).reshape(-1), heights.reshape(-1))
     return rolls.reshape(heights.shape), x.reshape(heights.shape)
 
 
-def roll_angle_at_height(base_radius: float, contact_roll_angle: float, height) -> np.ndarray:
+def roll_angle_at_height(base_radius: float, contact_roll_angle, height) -> np.ndarray:
     """The roll angle (rad) alone."""
     return flank_at_height(base_radius, contact_roll_angle, height)[0]
 
 
 @njit(cache=True)
-def _points(base_radius, contact, heights):
+def _points(base_radius, contacts, heights):
     """Newton in ``s = v^2/2`` (arc length over base radius), in which ``dh/ds = rb cos(vc - v)``: h is convex in s
-    below the contact point and concave above it, so steps from the contact point never pass the root."""
-    lowest, turning = math.cos(contact) - ROUND_OFF, contact + 0.5 * math.pi
+    below the contact point and concave above it, so steps from the contact point never pass the root. Near the
+    contact point they begin so close to the root that they cannot miss it."""
     rolls, x = np.full(len(heights), np.nan), np.full(len(heights), np.nan)
     for point in range(len(heights)):
-        target = heights[point] / base_radius
-        if not lowest <= target < turning:
+        contact, target = contacts[point], heights[point] / base_radius
+        if not math.cos(contact) - ROUND_OFF <= target < contact + 0.5 * math.pi:
             continue
-        half_square = 0.5 * contact**2
+        half_square, rise = 0.5 * contact**2, target - 1.0
+        if abs(rise) <= NEAR * contact**2:
+            # dh/ds is 1 - (vc - v)^2/2 there, and vc - v nearly (sc - s)/vc.
+            half_square += rise + rise**3 / (6.0 * contact**2)
         for _ in range(NEWTON_STEPS):
             roll = math.sqrt(2.0 * half_square)
             slope = math.cos(contact - roll)

@@ -131,8 +131,10 @@ def test_coast_flanks_are_the_drive_flanks_turned_over(real):
         """Contact nodes of either flank at the same position on its own line of action."""
         rolls = position / pair.pinion.base_radius, (pair.line_of_action_length - position) / pair.wheel.base_radius
         drive = tooth_pair(replace(flanks, removal=(None, None)), grid, place(index, flank, slice_, rolls))
-        seen = interpolations(
-            pairing.sections, grid, drive.place, drive.offsets, flank_points(pair, drive.place, drive.offsets)[0]
+        arms = pair.pinion.base_radius, pair.wheel.base_radius
+        at = flank_points(pair, drive.place.contact_rolls, arms, drive.offsets)[0]
+        (seen,) = interpolations(
+            pairing.sections, grid, [drive.place], (drive.offsets, np.array([0, len(drive.offsets)])), at
         )
         return FacePair(**vars(drive), coarse=seen)
 
