@@ -11,7 +11,7 @@ from fenics_gears.contact.face import Face
 from fenics_gears.contact.face_pairing import FacePair, FacePairing
 from fenics_gears.contact.mesh import Mesh, MeshTraits, flank_nodes
 from fenics_gears.contact.mesh_cycle import Cycle, Opening, PerPosition, Position
-from fenics_gears.contact.operator import over_nodes, per_node
+from fenics_gears.contact.operator import node_ends, over_nodes, per_node
 from fenics_gears.contact.places import face_places
 from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, interpolations, rolls_of
 from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles
@@ -46,9 +46,8 @@ def face_mesh(
         found = flank_nodes(flanks, grid, corner, list(first.values()))
         if not found:
             return ()
-        there, ends = [each.place for each in found], np.cumsum([0, *(len(each.offsets) for each in found)])
-        offsets = over_nodes(found, "offsets"), ends
-        seen = interpolations(pairing.sections, grid, there, offsets, rolls_of(pair, there, offsets))
+        there, at = [each.place for each in found], (over_nodes(found, "offsets"), node_ends(found))
+        seen = interpolations(pairing.sections, grid, there, at, rolls_of(pair, there, at))
         made = {alike(each.place): FacePair(**vars(each), coarse=coarse) for each, coarse in zip(found, seen)}
         return tuple(_in_slice(made[alike(place)], place) for place in places if alike(place) in made)
 

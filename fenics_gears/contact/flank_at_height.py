@@ -17,45 +17,62 @@ NEAR = 0.2
 ROUND_OFF = 4e-16
 
 
-def flank_at_height(base_radius: float, contact_roll_angle, height) -> tuple[np.ndarray, np.ndarray]:
+def flank_at_height(base_radius: float, contact_roll_angle: float, height) -> tuple[np.ndarray, np.ndarray]:
     """Roll angle (rad) and ``x`` (mm, as of `geometry.involute.flank_point`) of the flank point at a height ``h`` (mm,
-    any shape); the roll angle (rad) of contact is that of all heights or of each.
+    any shape).
 
     ``nan`` where the involute has no such point: below ``base_radius cos(contact_roll_angle)``, where it starts, and
     above the height at which it turns away.
     """
     heights = np.asarray(height, dtype=float)
-    contact = np.broadcast_to(np.asarray(contact_roll_angle, dtype=float), heights.shape)
-    rolls, x = _points(base_radius, np.ascontiguousarray(contact).reshape(-1), heights.reshape(-1))
+    rolls, x = _points(base_radius, contact_roll_angle, heights.reshape(-1))
     return rolls.reshape(heights.shape), x.reshape(heights.shape)
 
 
-def roll_angle_at_height(base_radius: float, contact_roll_angle, height) -> np.ndarray:
+def roll_angle_at_height(base_radius: float, contact_roll_angle: float, height) -> np.ndarray:
     """The roll angle (rad) alone."""
     return flank_at_height(base_radius, contact_roll_angle, height)[0]
 
 
 @njit(cache=True)
-def _points(base_radius, contacts, heights):
+def _points(base_radius, contact, heights):
+    rolls, x = np.empty(len(heights)), np.empty(len(heights))
+    for point in range(len(heights)):
+        rolls[point], x[point] = _point(base_radius, contact, heights[point])
+    return rolls, x
+
+
+@njit(cache=True)
+def points_of_pairs(base_radius, sense, contact_rolls, lever_arms, offsets, ends):
+    """Roll angles (n,), rad, and x (n,), mm, of the flank points at offsets (n,), mm, from the lines of action of many
+    pairs, those of each from its place in `ends` (P + 1,) on; `contact_rolls` (P,), rad, and `lever_arms` (P,), mm, of
+    these lines; `sense`: of offsets, -1 on the pinion, +1 on the wheel."""
+    rolls, x = np.empty(len(offsets)), np.empty(len(offsets))
+    for pair in range(len(contact_rolls)):
+        for point in range(ends[pair], ends[pair + 1]):
+            height = lever_arms[pair] + sense * offsets[point]
+            rolls[point], x[point] = _point(base_radius, contact_rolls[pair], height)
+    return rolls, x
+
+
+@njit(cache=True)
+def _point(base_radius, contact, height):
     """Newton in ``s = v^2/2`` (arc length over base radius), in which ``dh/ds = rb cos(vc - v)``: h is convex in s
     below the contact point and concave above it, so steps from the contact point never pass the root. Near the
     contact point they begin so close to the root that they cannot miss it."""
-    rolls, x = np.full(len(heights), np.nan), np.full(len(heights), np.nan)
-    for point in range(len(heights)):
-        contact, target = contacts[point], heights[point] / base_radius
-        if not math.cos(contact) - ROUND_OFF <= target < contact + 0.5 * math.pi:
-            continue
-        half_square, rise = 0.5 * contact**2, target - 1.0
-        if abs(rise) <= NEAR * contact**2:
-            # dh/ds is 1 - (vc - v)^2/2 there, and vc - v nearly (sc - s)/vc.
-            half_square += rise + rise**3 / (6.0 * contact**2)
-        for _ in range(NEWTON_STEPS):
-            roll = math.sqrt(2.0 * half_square)
-            slope = math.cos(contact - roll)
-            residual = target - slope + roll * math.sin(contact - roll)
-            half_square = max(half_square + residual / slope, 0.0)
-            if abs(residual) <= CLOSE:
-                break
+    target = height / base_radius
+    if not math.cos(contact) - ROUND_OFF <= target < contact + 0.5 * math.pi:
+        return np.nan, np.nan
+    half_square, rise = 0.5 * contact**2, target - 1.0
+    if abs(rise) <= NEAR * contact**2:
+        # dh/ds is 1 - (vc - v)^2/2 there, and vc - v nearly (sc - s)/vc.
+        half_square += rise + rise**3 / (6.0 * contact**2)
+    for _ in range(NEWTON_STEPS):
         roll = math.sqrt(2.0 * half_square)
-        rolls[point], x[point] = roll, base_radius * (math.sin(contact - roll) + roll * math.cos(contact - roll))
-    return rolls, x
+        slope = math.cos(contact - roll)
+        residual = target - slope + roll * math.sin(contact - roll)
+        half_square = max(half_square + residual / slope, 0.0)
+        if abs(residual) <= CLOSE:
+            break
+    roll = math.sqrt(2.0 * half_square)
+    return roll, base_radius * (math.sin(contact - roll) + roll * math.cos(contact - roll))

@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 from numba import njit
@@ -112,21 +113,20 @@ def _element(vertex_arc, arc, side):
 
 
 @njit(cache=True)
-def _averaging_weights(offsets, ends, rolls, contact_rolls, flanks, gear, order):
+def _averaging_weights(offsets, ends, rolls, contact_rolls, flank_rolls, flanks, gear, order):
     """Exact averages of the element's shape functions: Gauss on every piece between contact nodes and element vertices.
 
-    Of the nodes of many pairs, from `ends` (P + 1,) on; `rolls`: roll angle of each contact node; `flanks`: roll angles
-    of the nodes of one flank after the other, from where on each has its own (F + 1,), and which flank a pair is on
-    (P,); `gear`: base radius and sense, -1 on the pinion, where y = rb - h, +1 on the wheel, y = h - rb. Returns
-    weights node by node, the first flank node of each, and the width (P,) of weights.
+    Of the nodes of many pairs, from `ends` (P + 1,) on; `rolls`: roll angle of each contact node; `flank_rolls`: those
+    of the nodes of one flank after the other, and `flanks` (2, P): where those of a pair's flank begin and end; `gear`:
+    base radius and sense, -1 on the pinion, where y = rb - h, +1 on the wheel, y = h - rb. Returns weights node by
+    node, the first flank node of each, and the width (P,) of weights.
     """
-    flank_rolls, flank_ends, flank_of = flanks
     base_radius, n, pairs = gear[0], len(offsets), len(contact_rolls)
     vertex_arcs = 0.5 * base_radius * flank_rolls**2
     arcs, lowest, widths, size = 0.5 * base_radius * rolls**2, np.empty(n, np.int64), np.empty(pairs, np.int64), 0
     for pair in range(pairs):
-        on_flank = vertex_arcs[flank_ends[flank_of[pair]] : flank_ends[flank_of[pair] + 1]]
-        vertices = on_flank[::order]
+        # In one piece: a search in an array with gaps copies it.
+        vertices = vertex_arcs[flanks[0, pair] : flanks[1, pair] : order].copy()
         first, last, most = ends[pair], ends[pair + 1], 0
         for node in range(first, last):
             beside = arcs[max(node - 1, first) : min(node + 2, last)]
@@ -136,9 +136,9 @@ def _averaging_weights(offsets, ends, rolls, contact_rolls, flanks, gear, order)
         size += (last - first) * widths[pair]
     near, firsts, begin = np.zeros(size), order * lowest, 0
     for pair in range(pairs):
-        on_flank = vertex_arcs[flank_ends[flank_of[pair]] : flank_ends[flank_of[pair] + 1]]
+        on_flank = vertex_arcs[flanks[0, pair] : flanks[1, pair]]
         own = slice(ends[pair], ends[pair + 1])
-        vertices, end = on_flank[::order], begin + (ends[pair + 1] - ends[pair]) * widths[pair]
+        vertices, end = on_flank[::order].copy(), begin + (ends[pair + 1] - ends[pair]) * widths[pair]
         firsts[own] = np.minimum(firsts[own], len(on_flank) - widths[pair])
         found = near[begin:end].reshape((ends[pair + 1] - ends[pair], widths[pair]))
         arrays, numbers = (offsets[own], arcs[own], vertices), (gear[0], gear[1], contact_rolls[pair])
@@ -205,12 +205,12 @@ class Seeing:
 def flank_interpolations(seeing: Seeing) -> list[FlankInterpolation]:
     """Averaged trace of the flank's elements for the contact nodes of each pair."""
     # Most flanks are alike.
-    places, sizes = {id(rolls): rolls for rolls in seeing.flank_rolls}, [len(rolls) for rolls in seeing.flank_rolls]
-    numbers, distinct = {each: number for number, each in enumerate(places)}, list(places.values())
-    flanks = np.array([numbers[id(rolls)] for rolls in seeing.flank_rolls])
+    distinct, sizes = {id(rolls): rolls for rolls in seeing.flank_rolls}, [len(rolls) for rolls in seeing.flank_rolls]
+    begins = dict(zip(distinct, accumulate(map(len, distinct.values()), initial=0)))
+    first_rolls = np.array([begins[id(rolls)] for rolls in seeing.flank_rolls])
     near, first, widths = _averaging_weights(
-        seeing.offsets, seeing.ends, seeing.rolls, seeing.contact_rolls,
-        (np.concatenate(distinct), np.cumsum([0, *map(len, distinct)]), flanks), (seeing.base_radius, seeing.sense),
+        seeing.offsets, seeing.ends, seeing.rolls, seeing.contact_rolls, np.concatenate(list(distinct.values())),
+        np.stack([first_rolls, first_rolls + sizes]), np.array([seeing.base_radius, seeing.sense]),
         seeing.element_order,
     )  # fmt: skip
     ends, found, begin = seeing.ends.tolist(), [], 0

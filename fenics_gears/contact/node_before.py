@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.operator import over_nodes
+from fenics_gears.contact.operator import node_ends, over_nodes
 from fenics_gears.contact.tooth_pair import PairNodes
 
 
@@ -17,18 +17,14 @@ def nodes_before(pairs: tuple[PairNodes, ...], previous: tuple[PairNodes, ...], 
     """
     earlier = {_key(pair): place for place, pair in enumerate(previous)}
     same = np.array([earlier.get(_key(pair), -1) for pair in pairs], dtype=np.int64)
-    now, before = (
-        (over_nodes(each, "offsets"), np.cumsum([0, *(len(pair.offsets) for pair in each)]))
-        for each in (pairs, previous)
-    )
-    return _nodes_before(now, before, same, spacing)
+    now, before = ((over_nodes(each, "offsets"), node_ends(each)) for each in (pairs, previous))
+    return _nodes_before(*now, *before, same, spacing)
 
 
 @njit(cache=True)
-def _nodes_before(now, before, same, spacing):
+def _nodes_before(offsets, ends, offsets_before, ends_before, same, spacing):
     """From offsets (n,), mm, and ends (P + 1,) of each pair's nodes, now and before; `same` (P,): the pair before, -1
     for none."""
-    (offsets, ends), (offsets_before, ends_before) = now, before
     found = np.full(len(offsets), -1)
     for pair in range(len(same)):
         if same[pair] >= 0:

@@ -10,7 +10,7 @@ import numpy as np
 
 from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, Points
 from fenics_gears.contact.mesh_cycle import Cycle, PerPosition, Position
-from fenics_gears.contact.operator import over_nodes
+from fenics_gears.contact.operator import node_ends, over_nodes
 from fenics_gears.contact.tooth_pair import DRIVE, Removal, facing_points, seen_gap
 
 
@@ -88,10 +88,9 @@ def _joined(parts: list[Facing]) -> Facing:
 def _facing(cycle: Cycle, position: Position) -> Facing:
     view: Averages | Points = INTERPOLATIONS[cycle.grid.interpolation]
     pairs = position.operator.pairs
-    offsets, ends = over_nodes(pairs, "offsets"), np.cumsum([0, *(len(pair.offsets) for pair in pairs)])
-    points, contact_rolls = view.points(ends), np.array([pair.place.contact_rolls for pair in pairs]).reshape(-1, 2).T
-    rolls, _, gap = facing_points(
-        cycle.pair, (None, None), np.repeat(contact_rolls, np.diff(points), axis=1), view.places(offsets, ends)
-    )
+    offsets, ends = over_nodes(pairs, "offsets"), node_ends(pairs)
+    points, contact_rolls = view.points(ends), np.array([pair.place.contact_rolls for pair in pairs])
+    contact_rolls = np.ascontiguousarray(contact_rolls.reshape(-1, 2).T)
+    rolls, _, gap = facing_points(cycle.pair, contact_rolls, view.places(offsets, ends), points)
     drive = np.repeat(np.array([pair.place.flank == DRIVE for pair in pairs], dtype=bool), np.diff(points))
     return Facing(rolls, gap, drive, points, offsets, ends)

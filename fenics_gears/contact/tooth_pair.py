@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.flank_at_height import flank_at_height
+from fenics_gears.contact.flank_at_height import points_of_pairs
 from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, FlankInterpolation, Points, Seeing, hats_of
 from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles, ends_of, offsets_of
 from fenics_gears.elasticity.compliance import FlankCompliance
@@ -115,28 +116,45 @@ class ToothPair(PairNodes):
     interpolation: tuple[FlankInterpolation, FlankInterpolation]
 
 
-# Of pinion and wheel, numbers or arrays.
+# Of pinion and wheel.
 Both = tuple[np.ndarray, np.ndarray]
 
 
-def flank_points(pair: GearPair, contact_rolls, lever_arms, offsets: np.ndarray) -> tuple[Both, Both]:
-    """Roll angles (rad) and x (mm, of `flank_at_height`), of pinion and wheel, at offsets (mm, any shape) from lines of
-    action; contact roll angles (rad) and lever arms (mm) there are those of all offsets or of each."""
-    rolls_1, x_1 = flank_at_height(pair.pinion.base_radius, contact_rolls[0], lever_arms[0] - offsets)
-    rolls_2, x_2 = flank_at_height(pair.wheel.base_radius, contact_rolls[1], lever_arms[1] + offsets)
+def flank_points(
+    pair: GearPair, contact_rolls: np.ndarray, lever_arms: np.ndarray, offsets: np.ndarray, ends: np.ndarray
+) -> tuple[Both, Both]:
+    """Roll angles (rad) and x (mm, of `flank_at_height`), of pinion and wheel, at offsets (n,), mm, from the lines of
+    action of many pairs, of each from its place in `ends` (P + 1,) on; contact roll angles (2, P), rad, and lever arms
+    (2, P), mm, of these lines."""
+    radii = pair.pinion.base_radius, pair.wheel.base_radius
+    (rolls_1, x_1), (rolls_2, x_2) = (
+        points_of_pairs(radius, sense, rolls, arms, offsets, ends)
+        for radius, sense, rolls, arms in zip(radii, SENSES, contact_rolls, lever_arms)
+    )
     return (rolls_1, rolls_2), (x_1, x_2)
 
 
 def facing_points(
-    pair: GearPair, removal: tuple[Removal | None, Removal | None], contact_rolls, offsets: np.ndarray
+    pair: GearPair, contact_rolls: np.ndarray, offsets: np.ndarray, ends: np.ndarray
 ) -> tuple[Both, Both, np.ndarray]:
-    """Flank points that face each other along the line of action at offsets (mm, any shape); contact roll angles (rad)
-    as of `flank_points`.
+    """Points of involutes that face each other along the line of action; arguments as of `flank_points`.
 
     Their roll angles (rad) and distances from T1, T2 (mm), each of pinion and wheel, and the gap (mm).
     """
-    rolls, distances = flank_points(pair, contact_rolls, (pair.pinion.base_radius, pair.wheel.base_radius), offsets)
-    gap = pair.line_of_action_length - distances[1] - distances[0]
+    radii = np.array([[pair.pinion.base_radius], [pair.wheel.base_radius]])
+    rolls, distances = flank_points(pair, contact_rolls, np.repeat(radii, len(ends) - 1, axis=1), offsets, ends)
+    return rolls, distances, pair.line_of_action_length - distances[1] - distances[0]
+
+
+def facing_points_at(
+    pair: GearPair,
+    removal: tuple[Removal | None, Removal | None],
+    contact_rolls: tuple[float, float],
+    offsets: np.ndarray,
+) -> tuple[Both, Both, np.ndarray]:
+    """The same of one pair whose contact roll angles (rad) are given, with material removed from either flank."""
+    alone = np.array([0, len(offsets)])
+    rolls, distances, gap = facing_points(pair, np.array(contact_rolls)[:, None], offsets, alone)
     for removed, roll in zip(removal, rolls):
         if removed is not None:
             gap = gap + removed(roll)
@@ -156,19 +174,19 @@ def tooth_pairs(flanks: Flanks, grid: ContactGrid, places: Sequence[Place]) -> l
     if not len(there):
         return []
     places, ends, view = [places[at] for at in there], _ends(counts[there]), INTERPOLATIONS[grid.interpolation]
-    at, points = view.places(offsets, ends), np.diff(view.points(ends))
-    rolls, distances, gap = facing_points(flanks.pair, (None, None), np.repeat(every[:, there], points, axis=1), at)
-    for flank in {place.flank for place in places}:
-        own = np.repeat([place.flank == flank for place in places], points)
-        for removed, roll in zip(flanks.removal if flank == DRIVE else (), rolls):
+    at, points = view.places(offsets, ends), view.points(ends)
+    rolls, distances, gap = facing_points(flanks.pair, every[:, there], at, points)
+    if flanks.removal != (None, None):
+        drive = np.repeat([place.flank == DRIVE for place in places], np.diff(points))
+        for removed, roll in zip(flanks.removal, rolls):
             if removed is not None:
-                gap[own] += removed(roll[own])
+                gap[drive] += removed(roll[drive])
     return nodes_on_flanks(flanks, grid, places, (offsets, ends), distances[0] - distances[1], gap)
 
 
 def _ends(counts: np.ndarray) -> np.ndarray:
     """Where groups of so many (P,) begin, one after the other, and the last one ends (P + 1,)."""
-    return np.concatenate([[0], np.cumsum(counts)])
+    return np.array([0, *accumulate(counts.tolist())])
 
 
 @njit(cache=True)
@@ -220,14 +238,14 @@ def nodes_on_flanks(
 def _lever_arms(pair: GearPair, places: Sequence[Place]) -> np.ndarray:
     """Lever arms (2, P), mm, of the places' lines of action about the centres of pinion and wheel."""
     radii = pair.pinion.base_radius, pair.wheel.base_radius
-    return np.array([radii if place.line is None else place.line.lever_arms for place in places]).T
+    arms = np.array([radii if place.line is None else place.line.lever_arms for place in places])
+    return np.ascontiguousarray(arms.T)
 
 
 def rolls_of(pair: GearPair, places: Sequence[Place], nodes: tuple[np.ndarray, np.ndarray]) -> Both:
     """Roll angles (n,), rad, of contact nodes, as of `nodes_on_flanks`, on pinion and wheel."""
-    (offsets, ends), contact_rolls = nodes, np.array([place.contact_rolls for place in places]).T
-    on_nodes = (np.repeat(values, np.diff(ends), axis=1) for values in (contact_rolls, _lever_arms(pair, places)))
-    return flank_points(pair, *on_nodes, offsets)[0]
+    contact_rolls = np.ascontiguousarray(np.array([place.contact_rolls for place in places]).T)
+    return flank_points(pair, contact_rolls, _lever_arms(pair, places), *nodes)[0]
 
 
 def interpolations(
@@ -236,11 +254,14 @@ def interpolations(
     """How contact nodes, as of `nodes_on_flanks`, see the nodes of either flank at each place; `rolls` (n,), rad: their
     roll angles on pinion and wheel."""
     (offsets, ends), gears, found = nodes, (flanks.pair.pinion, flanks.pair.wheel), []
-    arms = _lever_arms(flanks.pair, places)
+    apart = np.zeros((2, 1))
+    if any(place.line is not None for place in places):
+        # Offsets from the line at the gear's own base radius.
+        arms = _lever_arms(flanks.pair, places) - np.array([[gear.base_radius] for gear in gears])
+        apart = np.repeat(arms, np.diff(ends), axis=1)
     for number, (gear, own, sense, flank) in enumerate(zip(gears, rolls, SENSES, flanks.compliance)):
         seeing = Seeing(
-            # Offsets from the line at the gear's own base radius.
-            offsets + sense * np.repeat(arms[number] - gear.base_radius, np.diff(ends)), ends, own,
+            offsets + sense * apart[number], ends, own,
             np.array([place.contact_rolls[number] for place in places]),
             [flank.rolls_of(place.ahead(number)) for place in places], gear.base_radius, sense, flank.element_order,
         )  # fmt: skip

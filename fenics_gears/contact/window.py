@@ -135,20 +135,22 @@ def node_offsets(ends: Ends, grid: ContactGrid) -> np.ndarray:
 def offsets_of(ends: np.ndarray, grid: ContactGrid) -> tuple[np.ndarray, np.ndarray]:
     """The same of flanks with many ends (P, 2, 2), one after the other; and how many each has (P,)."""
     inner = np.inf if grid.inner_length is None else grid.inner_length
-    sizes = grid.length, grid.spacing, max(0.5 * inner, grid.spacing)
-    return _offsets(ends, sizes, grid.most_nodes, (grid.edge_cells, grid.evenly, grid.beside_an_edge))
+    sizes = np.array([grid.length, grid.spacing, max(0.5 * inner, grid.spacing)])
+    return _offsets(ends, sizes, grid.most_nodes, grid.edge_cells, grid.evenly, grid.beside_an_edge)
 
 
 @njit(cache=True)
-def _offsets(ends, sizes, most, tables):
-    length, spacing, near = sizes
+def _offsets(ends, sizes, most, cells, evenly, beside_an_edge):
+    length, spacing, near = sizes[0], sizes[1], sizes[2]
     half, found, counts, last = 0.5 * length, np.empty(most * len(ends)), np.zeros(len(ends), dtype=np.int64), 0
     for flank in range(len(ends)):
         tip_1, form_2, form_1, tip_2 = ends[flank, 0, 0], ends[flank, 0, 1], ends[flank, 1, 0], ends[flank, 1, 1]
         start, end = max(tip_1, form_2, -half), min(form_1, tip_2, half)
         if not end - start > 1e-9 * length:
             continue
-        offsets = _in_window((start, end), (tip_1 >= form_2, tip_2 <= form_1), (half, spacing), tables)
+        offsets = _in_window(
+            (start, end), (tip_1 >= form_2, tip_2 <= form_1), (half, spacing), (cells, evenly, beside_an_edge)
+        )
         # Beside an edge within the window: as far beyond it, or beyond the line.
         # A node by itself has no cell to average over.
         low = start if start > -half else min(-near, end - 2.0 * near)

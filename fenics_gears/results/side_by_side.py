@@ -16,6 +16,7 @@ from fenics_gears.contact.operator import (
     COORDINATES,
     ContactOperator,
     displacement_jacobian,
+    node_ends,
     node_slices,
     over_nodes,
     per_node,
@@ -50,7 +51,7 @@ class Layout:
         self.area = lengths * operator.face.contact_widths[self.slice]
         self.at_end = np.abs(self.offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
         rolls = np.array([pair.place.contact_rolls for pair in pairs]).reshape(-1, 2).T
-        ends, of_flanks = np.cumsum([0, *counts]), ends_of(cycle.pair, rolls)
+        ends, of_flanks = node_ends(pairs), ends_of(cycle.pair, rolls)
         if cycle.grid.inner_length is not None:
             self.at_end |= _at_inner_end(cycle, self.offsets, ends, of_flanks)
         self.on_edge = self.arcs = None
