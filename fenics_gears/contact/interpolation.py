@@ -79,6 +79,18 @@ def quadrature_offsets(offsets: np.ndarray) -> np.ndarray:
 
 
 @njit(cache=True)
+def offsets_of_cells(offsets: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """The same of the nodes of many pairs, each from its place in `ends` (P + 1,) on, one after the other."""
+    found, last = np.empty(len(GAUSS_POINTS) * (len(offsets) - len(ends) + 1)), 0
+    for pair in range(len(ends) - 1):
+        for cell in range(ends[pair], ends[pair + 1] - 1):
+            for point in GAUSS_POINTS:
+                found[last] = offsets[cell] + (offsets[cell + 1] - offsets[cell]) * point
+                last += 1
+    return found
+
+
+@njit(cache=True)
 def node_average(offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Average over each node's function (n,) of `values` given at `quadrature_offsets(offsets)`."""
     sums, integrals = np.zeros(len(offsets)), np.zeros(len(offsets))
@@ -117,16 +129,16 @@ def _averaging_weights(offsets, ends, rolls, contact_rolls, flank_rolls, flanks,
     """Exact averages of the element's shape functions: Gauss on every piece between contact nodes and element vertices.
 
     Of the nodes of many pairs, from `ends` (P + 1,) on; `rolls`: roll angle of each contact node; `flank_rolls`: those
-    of the nodes of one flank after the other, and `flanks` (2, P): where those of a pair's flank begin and end; `gear`:
-    base radius and sense, -1 on the pinion, where y = rb - h, +1 on the wheel, y = h - rb. Returns weights node by
-    node, the first flank node of each, and the width (P,) of weights.
+    of the nodes of one flank after the other, and `flanks` (2, P): where those of a pair's flank begin and their
+    number; `gear`: base radius and sense, -1 on the pinion, where y = rb - h, +1 on the wheel, y = h - rb. Returns
+    weights node by node, the first flank node of each, and the width (P,) of weights.
     """
     base_radius, n, pairs = gear[0], len(offsets), len(contact_rolls)
     vertex_arcs = 0.5 * base_radius * flank_rolls**2
     arcs, lowest, widths, size = 0.5 * base_radius * rolls**2, np.empty(n, np.int64), np.empty(pairs, np.int64), 0
     for pair in range(pairs):
         # In one piece: a search in an array with gaps copies it.
-        vertices = vertex_arcs[flanks[0, pair] : flanks[1, pair] : order].copy()
+        vertices = vertex_arcs[flanks[0, pair] : flanks[0, pair] + flanks[1, pair] : order].copy()
         first, last, most = ends[pair], ends[pair + 1], 0
         for node in range(first, last):
             beside = arcs[max(node - 1, first) : min(node + 2, last)]
@@ -136,7 +148,7 @@ def _averaging_weights(offsets, ends, rolls, contact_rolls, flank_rolls, flanks,
         size += (last - first) * widths[pair]
     near, firsts, begin = np.zeros(size), order * lowest, 0
     for pair in range(pairs):
-        on_flank = vertex_arcs[flanks[0, pair] : flanks[1, pair]]
+        on_flank = vertex_arcs[flanks[0, pair] : flanks[0, pair] + flanks[1, pair]]
         own = slice(ends[pair], ends[pair + 1])
         vertices, end = on_flank[::order].copy(), begin + (ends[pair + 1] - ends[pair]) * widths[pair]
         firsts[own] = np.minimum(firsts[own], len(on_flank) - widths[pair])
@@ -205,13 +217,12 @@ class Seeing:
 def flank_interpolations(seeing: Seeing) -> list[FlankInterpolation]:
     """Averaged trace of the flank's elements for the contact nodes of each pair."""
     # Most flanks are alike.
-    distinct, sizes = {id(rolls): rolls for rolls in seeing.flank_rolls}, [len(rolls) for rolls in seeing.flank_rolls]
+    distinct = {id(rolls): rolls for rolls in seeing.flank_rolls}
     begins = dict(zip(distinct, accumulate(map(len, distinct.values()), initial=0)))
-    first_rolls = np.array([begins[id(rolls)] for rolls in seeing.flank_rolls])
+    firsts, sizes = [begins[id(rolls)] for rolls in seeing.flank_rolls], [len(rolls) for rolls in seeing.flank_rolls]
     near, first, widths = _averaging_weights(
         seeing.offsets, seeing.ends, seeing.rolls, seeing.contact_rolls, np.concatenate(list(distinct.values())),
-        np.stack([first_rolls, first_rolls + sizes]), np.array([seeing.base_radius, seeing.sense]),
-        seeing.element_order,
+        np.array([firsts, sizes]), np.array([seeing.base_radius, seeing.sense]), seeing.element_order,
     )  # fmt: skip
     ends, found, begin = seeing.ends.tolist(), [], 0
     for size, width, start, end in zip(sizes, widths.tolist(), ends, ends[1:]):
@@ -244,14 +255,11 @@ class Averages:
     the weights of the flank's nodes; `points`: where the places of each pair begin and end.
     """
 
-    seen, of_flank = staticmethod(node_averages), staticmethod(flank_interpolations)
-
-    def places(self, offsets: np.ndarray, ends: np.ndarray) -> np.ndarray:
-        """The quadrature offsets of one pair after the other."""
-        cell = np.ones(len(offsets), dtype=bool)
-        cell[ends[1:] - 1] = False
-        first = np.flatnonzero(cell)
-        return (offsets[first, None] + (offsets[first + 1] - offsets[first])[:, None] * GAUSS_POINTS).ravel()
+    places, seen, of_flank = (
+        staticmethod(offsets_of_cells),
+        staticmethod(node_averages),
+        staticmethod(flank_interpolations),
+    )
 
     def points(self, ends: np.ndarray) -> np.ndarray:
         """Where they begin and end (P + 1,)."""
@@ -292,4 +300,4 @@ class Points:
 
 # By their names in a scene.
 AVERAGED, COLLOCATED = "averaged", "collocated"
-INTERPOLATIONS = {AVERAGED: Averages(), COLLOCATED: Points()}
+INTERPOLATIONS: dict[str, Averages | Points] = {AVERAGED: Averages(), COLLOCATED: Points()}

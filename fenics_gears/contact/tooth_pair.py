@@ -141,8 +141,8 @@ def facing_points(
 
     Their roll angles (rad) and distances from T1, T2 (mm), each of pinion and wheel, and the gap (mm).
     """
-    radii = np.array([[pair.pinion.base_radius], [pair.wheel.base_radius]])
-    rolls, distances = flank_points(pair, contact_rolls, np.repeat(radii, len(ends) - 1, axis=1), offsets, ends)
+    radii = np.array([[gear.base_radius] * (len(ends) - 1) for gear in (pair.pinion, pair.wheel)])
+    rolls, distances = flank_points(pair, contact_rolls, radii, offsets, ends)
     return rolls, distances, pair.line_of_action_length - distances[1] - distances[0]
 
 
@@ -175,7 +175,7 @@ def tooth_pairs(flanks: Flanks, grid: ContactGrid, places: Sequence[Place]) -> l
         return []
     places, ends, view = [places[at] for at in there], _ends(counts[there]), INTERPOLATIONS[grid.interpolation]
     at, points = view.places(offsets, ends), view.points(ends)
-    rolls, distances, gap = facing_points(flanks.pair, every[:, there], at, points)
+    rolls, distances, gap = facing_points(flanks.pair, np.ascontiguousarray(every[:, there]), at, points)
     if flanks.removal != (None, None):
         drive = np.repeat([place.flank == DRIVE for place in places], np.diff(points))
         for removed, roll in zip(flanks.removal, rolls):

@@ -12,7 +12,7 @@ from functools import cache
 import numpy as np
 
 from fenics_gears.contact.compliance_product import compliance_product
-from fenics_gears.contact.flank_at_height import roll_angle_at_height
+from fenics_gears.contact.flank_at_height import points_of_pairs, roll_angle_at_height
 from fenics_gears.contact.formed_rows import fine_section, row_former, uncertain_slices
 from fenics_gears.contact.interpolation import (
     AVERAGED,
@@ -49,9 +49,10 @@ def _run_once(tangential: bool, rigid: bool) -> None:
     offsets = np.array([-0.1, 0.1])
     rolls = roll_angle_at_height(40.0, 0.5, 40.0 + offsets)
     interpolation = flank_interpolation(offsets, rolls, 40.0, 0.5, 1.0, np.linspace(0.4, 0.6, 5), 1)
-    at = quadrature_offsets(offsets)
-    node_average(offsets, roll_angle_at_height(40.0, 0.5, 40.0 + at))
-    seen_gap(INTERPOLATIONS[AVERAGED], offsets, np.array([0, 2]), at.ravel())
+    node_average(offsets, roll_angle_at_height(40.0, 0.5, 40.0 + quadrature_offsets(offsets)))
+    view, ends = INTERPOLATIONS[AVERAGED], np.array([0, 2])
+    seen_gap(view, offsets, ends, view.places(offsets, ends))
+    points_of_pairs(40.0, 1.0, np.array([0.5]), np.array([40.0]), offsets, ends)
     node_offsets(((-0.1, -0.2), (0.1, 0.2)), ContactGrid(1.0, 5))
     kinds = 2 if tangential else 1
     seen, earlier = (0, interpolation.near, interpolation.first), np.zeros((1, 2, kinds, 2))
