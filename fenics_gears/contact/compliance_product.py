@@ -39,17 +39,17 @@ def compliance_product(block, responding, now, compliance, before, previous_comp
         x[:], y[:] = 0.0, 0.0
         for node in range(near.shape[1]):
             at = 2 * (first[i] + node) * block.shape[1] + 2 * start
-            _add(x, near[i, node], numbers, at)
-            _add(y, near[i, node], numbers, at + block.shape[1])
+            add_multiple(x, near[i, node], numbers, at)
+            add_multiple(y, near[i, node], numbers, at + block.shape[1])
         for d in range(len(directions)):
-            _add(along[d, i], directions[d, 0], x, none)
-            _add(along[d, i], directions[d, 1], y, none)
+            add_multiple(along[d, i], directions[d, 0], x, none)
+            add_multiple(along[d, i], directions[d, 1], y, none)
     _at_nodes(along[:kinds], start, row, now, compliance, True)
     _at_nodes(along[kinds:], start, row, before, previous_compliance, False)
 
 
 @njit(cache=True)
-def _add(total, weight, values, first):
+def add_multiple(total, weight, values, first):
     """Add weight times the values from `first` on."""
     # A function of its own, and unsigned places (no look for a negative index): so the loop is compiled for several
     # numbers at a time.

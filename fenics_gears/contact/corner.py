@@ -10,13 +10,14 @@ and the fillet of an undercut gear is one more such edge.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from fenics_gears.contact.flank_at_height import flank_at_height
 from fenics_gears.contact.interpolation import INTERPOLATIONS
-from fenics_gears.contact.tooth_pair import SENSES, Flanks, Line, Place, ToothPair, nodes_on_flanks
+from fenics_gears.contact.tooth_pair import DRIVE, SENSES, Flanks, Line, Place, ToothPair, nodes_on_flanks
 from fenics_gears.contact.window import ContactGrid, Ends, node_offsets, window
 from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
@@ -112,20 +113,39 @@ def edge_position(edge: TipEdge, contact_roll: float, point: np.ndarray | None =
 def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theoretical: Place) -> ToothPair | None:
     """The contact nodes of the flanks at a theoretical place, tip edges included, or None where their window is
     empty."""
-    pair = flanks.pair
-    place = corner_place(pair, corner, theoretical)
-    gears, line = (pair.pinion, pair.wheel), place.line_in(pair)
-    offsets = node_offsets(edge_ends(pair, corner, place), grid)
-    if not len(offsets):
-        return None
-    at, removals = INTERPOLATIONS[grid.interpolation].places(offsets), flanks.removal_at(place)
+    return next(iter(corner_pairs(flanks, grid, corner, [theoretical])), None)
+
+
+def corner_pairs(
+    flanks: Flanks, grid: ContactGrid, corner: CornerContact, theoretical: Sequence[Place]
+) -> list[ToothPair]:
+    """The same of those theoretical places whose window is not empty."""
+    pair, view, found = flanks.pair, INTERPOLATIONS[grid.interpolation], []
+    for place in (corner_place(pair, corner, each) for each in theoretical):
+        offsets = node_offsets(edge_ends(pair, corner, place), grid)
+        if len(offsets):
+            at = view.places(offsets, np.array([0, len(offsets)]))
+            found.append((place, offsets, *_distances(flanks, corner, place, at)))
+    if not found:
+        return []
+    places, counts = [place for place, *_ in found], [len(offsets) for _, offsets, *_ in found]
+    offsets, x_1, x_2, lengths = (np.concatenate([each[at] for each in found]) for at in range(1, 5))
+    nodes = offsets, np.cumsum([0, *counts])
+    return nodes_on_flanks(flanks, grid, places, nodes, x_1 - x_2, lengths - x_1 - x_2)
+
+
+def _distances(flanks: Flanks, corner: CornerContact, place: Place, offsets: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Distances (mm) of pinion's and wheel's surface from their foot on the place's line at offsets (n,), mm, and the
+    line's length (n,), mm."""
+    line, removals = place.line_in(flanks.pair), flanks.removal if place.flank == DRIVE else (None, None)
+    gears = flanks.pair.pinion, flanks.pair.wheel
     x_1, x_2 = (
-        _surface(gear, edge, roll, arm + sense * at, removal)
+        _surface(gear, edge, roll, arm + sense * offsets, removal)
         for gear, edge, roll, arm, sense, removal in zip(
             gears, corner.edges, place.contact_rolls, line.lever_arms, SENSES, removals
         )
     )
-    return nodes_on_flanks(flanks, grid, place, offsets, (x_1, x_2), line.length - x_1 - x_2)
+    return x_1, x_2, np.full(len(offsets), line.length)
 
 
 def edge_ends(pair: GearPair, corner: CornerContact, place: Place) -> Ends:

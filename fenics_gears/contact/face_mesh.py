@@ -11,9 +11,9 @@ from fenics_gears.contact.face import Face
 from fenics_gears.contact.face_pairing import FacePair, FacePairing
 from fenics_gears.contact.mesh import Mesh, MeshTraits, flank_nodes
 from fenics_gears.contact.mesh_cycle import Cycle, Opening, PerPosition, Position
-from fenics_gears.contact.operator import per_node
+from fenics_gears.contact.operator import node_ends, over_nodes, per_node
 from fenics_gears.contact.places import face_places
-from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, flank_points, interpolations
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, interpolations, rolls_of
 from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
@@ -35,30 +35,33 @@ def face_mesh(
     pair, coast = flanks.pair, flanks.compliance[0].flanks == 2
     pairing = FacePairing(flanks, bodies, face)
 
-    def nodes_of(place: Place) -> FacePair | None:
-        nodes = flank_nodes(flanks, grid, corner, place)
-        if nodes is None:
-            return None
-        rolls = flank_points(pair, nodes.place, nodes.offsets)[0]
-        coarse = interpolations(pairing.sections, grid, nodes.place, nodes.offsets, rolls)
-        return FacePair(**vars(nodes), coarse=coarse)
+    def alike(place: Place) -> tuple[int, int, float]:
+        return place.flank, place.index, face.shifts[place.slice]
 
     def nodes(phase: float) -> tuple[PairNodes, ...]:
-        found, alike = [], {}
-        for place in face_places(pair, grid, face, phase, coast, corner):
+        places, first = face_places(pair, grid, face, phase, coast, corner), {}
+        for place in places:
             # Slices of a spur pair are all alike.
-            key = place.flank, place.index, face.shifts[place.slice]
-            if key not in alike:
-                alike[key] = nodes_of(place)
-            same = alike[key]
-            if same is not None:
-                found.append(replace(same, place=replace(same.place, slice=place.slice, height=place.height)))
-        return tuple(found)
+            first.setdefault(alike(place), place)
+        found = flank_nodes(flanks, grid, corner, list(first.values()))
+        if not found:
+            return ()
+        there, at = [each.place for each in found], (over_nodes(found, "offsets"), node_ends(found))
+        seen = interpolations(pairing.sections, grid, there, at, rolls_of(pair, there, at))
+        made = {alike(each.place): FacePair(**vars(each), coarse=coarse) for each, coarse in zip(found, seen)}
+        return tuple(_in_slice(made[alike(place)], place) for place in places if alike(place) in made)
 
     return Mesh(
         pair, grid, nodes, pairing.response, traits=MeshTraits(divisible=True, repeats=True),
         bodies=flanks.compliance, coast_flanks=coast, corner=corner, face=face,
     )  # fmt: skip
+
+
+def _in_slice(pair: FacePair, place: Place) -> FacePair:
+    """The nodes of a pair in the slice of a place that is like its own."""
+    if pair.place.slice == place.slice:
+        return pair
+    return replace(pair, place=replace(pair.place, slice=place.slice, height=place.height))
 
 
 def opening_over_face(cycle: Cycle, drive: OverFace, coast: OverFace | None = None) -> Opening:

@@ -16,27 +16,13 @@ import numpy as np
 
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.face import Face
-from fenics_gears.contact.fine_sections import OnSections, fine_sections, stacked
-from fenics_gears.contact.formed_rows import (
-    BEGIN,
-    DOF,
-    IN_SLICE,
-    OF_SLICE,
-    PLACE,
-    PLANE_DOF,
-    SECTION,
-    SLICE,
-    TOOTH,
-    WIDTH,
-    Fine,
-    FormedRows,
-    Side,
-    form_rows,
-)
+from fenics_gears.contact.fine_sections import BEGIN, IN_SLICE, OF_SLICE, SLICE, TOOTH, Fine, Side, stacked
+from fenics_gears.contact.formed_rows import FormedRows, fine_section, form_rows, uncertain_slices
 from fenics_gears.contact.interpolation import FlankInterpolation
-from fenics_gears.contact.operator import Passage, Response, count_of, node_slices, per_node, turned
-from fenics_gears.contact.pairing import of_full_rank
+from fenics_gears.contact.operator import Passage, Response, turned
+from fenics_gears.contact.pairing import LAYER, SMALLEST_PIVOT, dependent_rows
 from fenics_gears.contact.tooth_pair import Flanks, Place, ToothPair
+from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.elasticity.slice_averages import on_slices, slice_averages
 from fenics_gears.errors import ComputationError
@@ -58,7 +44,10 @@ class FacePairing:
     def __init__(self, flanks: Flanks, bodies: tuple[FaceCompliance, FaceCompliance], face: Face):
         self.face, self._nodes = face, tuple(len(body.roll_angle) for body in bodies)
         self.sections = Flanks(flanks.pair, (bodies[0].plane, bodies[1].plane), flanks.removal)
-        self._fine, self._shares = tuple(map(stacked, flanks.compliance)), face.cosine / face.widths
+        first, second = flanks.compliance
+        self._fine, self._shares = (stacked(first), stacked(second)), face.cosine / face.widths
+        self._softest = np.array([_softest(section) for section in flanks.compliance])
+        self._largest = sum(section.between(0, 0).diagonal().max() for section in flanks.compliance)
         self._bodies = tuple(
             (
                 on_slices(
@@ -75,47 +64,51 @@ class FacePairing:
         """How the contact nodes of a passage yield; dependent rows have a thin layer each (`contact.pairing`)."""
         pairs: Sequence[FacePair] = passage.pairs
         previous: Sequence[FacePair] | None = passage.previous
-        angles = turned(self.sections.pair, passage.advance)
-        now = self._side(pairs, previous is not None)
-        before = None if previous is None else self._side(previous, True)
-        fine, fine_before, dependent = self._fine_sections(now, pairs, before, previous, angles)
-        compliance, earlier = self._rows(now, now, fine), None
-        if before is not None:
+        now, angles = self._side(pairs, previous is not None), turned(self.sections.pair, passage.advance)
+        layers = np.zeros(self.face.slices)
+        compliance, earlier = self._rows(now, now, layers), None
+        if previous is not None:
             # The tangents as they stood before. Reciprocal, so that rows are those of nodes before, as the march reads
             # them.
             tangents = now._replace(axes=np.stack([self._axes(gear, pairs, True, angles[gear]) for gear in GEARS]))
-            earlier = self._rows(before, tangents, fine_before, by_columns=True)
-        if len(pairs):
-            # Its first number is the size that others are measured by.
-            form_rows(compliance.address, np.zeros(1, dtype=np.int64))
+            earlier = self._rows(self._side(previous, True), tangents, np.zeros_like(layers), by_columns=True)
+        if not len(pairs):
+            return Response(compliance, earlier)
+        dependent = self._dependent(compliance, layers)
+        # Its first number is the size that others are measured by.
+        form_rows(compliance.address, np.zeros(1, dtype=np.int64))
         return Response(compliance, earlier, dependent)
 
-    def _rows(self, rows: Side, columns: Side, fine: Fine, by_columns: bool = False) -> FormedRows:
-        for (blocks, sections), own, other in zip(self._bodies, rows.on_gears, columns.on_gears):
+    def _rows(self, rows: Side, columns: Side, layers: np.ndarray, by_columns: bool = False) -> FormedRows:
+        same = rows.groups[SLICE][:, None] == columns.groups[SLICE]
+        for (blocks, sections), fine, own, other in zip(self._bodies, self._fine, rows.on_gears, columns.on_gears):
             _check_known(min(len(blocks), len(sections)) // 2, own[TOOTH], other[TOOTH])
+            _check_sections(fine, own[TOOTH][:, None] - other[TOOTH], (rows.flanks[:, None], columns.flanks), same)
+        fine = Fine(*self._fine, self._shares, layers)
         return FormedRows.of(self._bodies, rows, columns, fine, by_columns)
 
     def _side(self, pairs: Sequence[FacePair], tangential: bool) -> Side:
         """The pairs' nodes, along normal and tangent."""
-        nodes, places = node_slices(pairs), [pair.place for pair in pairs]
-        views = np.array([pair.coarse for pair in pairs], dtype=object).reshape(-1, 2).T
-        first, near = np.empty((2, count_of(pairs)), dtype=np.int64), _widest(views, count_of(pairs))
-        on_gears = np.empty((2, 6, len(pairs)), dtype=np.int64)
-        slices = np.array([place.slice for place in places], dtype=np.int64)
-        flanks = np.array([place.flank for place in places], dtype=np.int64)
+        counts, places = np.array([len(pair.offsets) for pair in pairs], dtype=np.int64), [pair.place for pair in pairs]
+        slices, flanks = (np.array([getattr(place, name) for place in places], np.int64) for name in ("slice", "flank"))
+        begins, on_gears = np.cumsum(counts) - counts, np.empty((2, 6, len(pairs)), dtype=np.int64)
+        first, near, _ = _together([pair.coarse for pair in pairs])
         for gear, count in enumerate(self._nodes):
-            lowest, under = np.empty(len(pairs), dtype=np.int64), 0
-            for group, (view, own) in enumerate(zip(views[gear], nodes)):
-                width, lowest[group] = view.near.shape[1], view.first.min()
-                first[gear, own], near[gear, own, :width] = under + view.first - lowest[group], view.near
-                on_gears[gear, PLACE, group], last = under, view.first.max() + width
-                on_gears[gear, WIDTH, group] = last - lowest[group]
-                under += last - lowest[group]
-            on_gears[gear, TOOTH] = [place.ahead(gear) for place in places]
-            on_gears[gear, SECTION], on_gears[gear, DOF] = flanks * self.face.slices + slices, 3 * lowest
-            on_gears[gear, PLANE_DOF] = 2 * (count * flanks + lowest)
-        axes = np.stack([self._axes(gear, pairs, tangential) for gear in GEARS])
-        return Side(per_node(pairs, np.arange(len(pairs))), first, _groups(nodes, slices), on_gears, near, axes)
+            widths = np.array([pair.coarse[gear].near.shape[1] for pair in pairs], dtype=np.int64)
+            # Groups always have nodes.
+            lowest = np.minimum.reduceat(first[gear], begins) if len(pairs) else counts
+            under = np.maximum.reduceat(first[gear], begins) + widths - lowest if len(pairs) else counts
+            beside = np.cumsum(under) - under
+            first[gear] += np.repeat(beside - lowest, counts)
+            teeth = np.array([place.ahead(gear) for place in places], dtype=np.int64)
+            section, plane_dof = flanks * self.face.slices + slices, 2 * (count * flanks + lowest)
+            on_gears[gear] = teeth, under, beside, section, 3 * lowest, plane_dof
+        axes, group = np.stack([self._axes(gear, pairs, tangential) for gear in GEARS]), np.arange(len(pairs))
+        fine = _together([pair.interpolation for pair in pairs], padded=False)
+        return Side(
+            np.repeat(group, counts), first, _groups(begins, counts, slices), on_gears, near, axes, flanks, fine[0],
+            fine[1], *fine[2],
+        )  # fmt: skip
 
     def _axes(self, gear: int, pairs: Sequence[FacePair], tangential: bool, turned: float | None = None) -> np.ndarray:
         """Directions (P, d, 5) of contact in the tooth's frame, in the body and in its section: of normal and tangent,
@@ -128,83 +121,87 @@ class FacePairing:
             axes[:, 0, 2] = [self.face.axial_share(gear, place.turn) for place in places]
         return axes
 
-    def _fine_sections(self, now: Side, pairs, before: Side | None, previous, turned) -> tuple[Fine, Fine, int]:
-        """Compliance of the fine sections in each slice, between the nodes now and by those before; the dependent
-        rows."""
-        axes, kinds = now.axes[..., 3:], now.axes.shape[2]
-        if before is not None:
-            earlier = [_plane_directions(gear, [pair.place for pair in pairs], True, turned[gear]) for gear in GEARS]
-            axes = np.concatenate([axes, earlier], axis=2)
-        nodes = _on_sections(now, pairs, axes)
-        nodes_before = (
-            _on_sections(now, (), axes[:, :0])
-            if before is None
-            else _on_sections(before, previous, before.axes[..., 3:])
-        )
-        counts, counts_before = (_in_slices(each.groups, self.face.slices) for each in (nodes, nodes_before))
-        begins, size = self._places((kinds * counts) ** 2)
-        begins_before, size_before = self._places(2 * counts * counts_before)
-        fine, by_earlier = (
-            Fine(np.zeros(each), np.maximum(at, 0), self._shares)
-            for each, at in ((size, begins), (size_before, begins_before))
-        )
-        fine_sections(self._fine, nodes, nodes_before, begins, begins_before, fine.numbers, by_earlier.numbers)
-        return fine, by_earlier, self._dependent(fine, begins, kinds * counts)
-
-    def _places(self, sizes: np.ndarray) -> tuple[np.ndarray, int]:
-        """Where sections (S,) begin that take so many numbers, and the end of the last. Slices of a spur pair are all
-        alike: -1 but for the first."""
-        if self.face.slope == 0.0:
-            return np.where(np.arange(len(sizes)) == 0, 0, -1), int(sizes[0])
-        return np.cumsum(sizes) - sizes, int(sizes.sum())
-
-    def _dependent(self, fine: Fine, begins: np.ndarray, rows: np.ndarray) -> int:
+    def _dependent(self, compliance: FormedRows, layers: np.ndarray) -> int:
         """Dependent rows of all slices; sections that have some get a thin layer."""
-        if np.isnan(fine.numbers.sum()):
-            raise ComputationError(
-                "compliance over the face: flanks touch that are further apart than the sections' compliance is known;"
-                " ask flank_compliance for a larger reach"
-            )
-        found = dependent = 0
-        for begin, count in zip(begins, rows):
-            if begin >= 0:
-                section = fine.numbers[begin : begin + count**2].reshape(count, count)
-                section[:], dependent = of_full_rank(section)
-            found += dependent
-        return found
+        # Of weights that are never more than twice one together.
+        least = MARGIN * SMALLEST_PIVOT * 4.0 * self._largest
+        dependent, known = 0, {}
+        for number in np.flatnonzero(uncertain_slices(compliance.address, self._softest, least)).tolist():
+            # Slices of a spur pair are all alike.
+            shift = self.face.shifts[number]
+            if shift not in known:
+                section = fine_section(compliance.address, number)
+                section = section.reshape(2 * [section.shape[0] * section.shape[1]]) / self._shares[number]
+                found = dependent_rows(section)
+                known[shift] = found, LAYER * section.diagonal().max() if found else 0.0
+            found, layers[number] = known[shift]
+            dependent += found
+        return dependent
 
 
-def _on_sections(side: Side, pairs: Sequence[FacePair], axes: np.ndarray) -> OnSections:
-    places = [pair.place for pair in pairs]
-    flanks = np.array([place.flank for place in places], dtype=np.int64)
-    groups, teeth = side.groups[:, : len(pairs)], side.on_gears[:, TOOTH, : len(pairs)]
-    return OnSections.of(
-        groups, flanks, np.ascontiguousarray(teeth), np.ascontiguousarray(axes), [pair.interpolation for pair in pairs]
+# A section is taken to have no smaller eigenvalue than this part of its largest entry, if its flanks by themselves have
+# not; where that is so, nodes are looked at by a margin for how flanks that touch together differ from one alone.
+SOFTEST, MARGIN = 1e-3, 1e3
+
+
+def _softest(section: FlankCompliance) -> float:
+    """A compliance, mm per N/mm, below which the eigenvalues of a section surely are not; 0 where there is none."""
+    flanks = [section.between(0, 0, (side, side)) for side in range(section.flanks)]
+    least = SOFTEST * max(flank.diagonal().max() for flank in flanks)
+    try:
+        for flank in flanks:
+            np.linalg.cholesky(flank - least * np.eye(len(flank)))
+    except np.linalg.LinAlgError:
+        return 0.0
+    return least
+
+
+def _together(views: Sequence[tuple[FlankInterpolation, FlankInterpolation]], padded: bool = True):
+    """How all nodes see both gears: the first flank node (2, n); weights (2, n, w) with zeros behind the narrower ones,
+    or those of one group after the other; and where these begin and how many there are for a node (2, P)."""
+    widths = np.array([[view[gear].near.shape[1] for view in views] for gear in GEARS], dtype=np.int64)
+    sizes = np.array([[view[gear].near.size for view in views] for gear in GEARS], dtype=np.int64)
+    first = np.array([_joined([view[gear].first for view in views], np.int64) for gear in GEARS])
+    begins, flat = (
+        (np.cumsum(sizes) - sizes.ravel()).reshape(2, -1),
+        [_joined([view[gear].near.ravel() for view in views], float) for gear in GEARS],
     )
+    if not padded:
+        return first, np.concatenate(flat), (begins, widths)
+    near = np.zeros((2, first.shape[1], widths.max(initial=1)))
+    for gear in GEARS:
+        there = np.arange(near.shape[2]) < np.repeat(widths[gear], sizes[gear] // widths[gear])[:, None]
+        near[gear][there] = flat[gear]
+    return first, near, (begins, widths)
 
 
-def _in_slices(groups: np.ndarray, slices: int) -> np.ndarray:
-    """Number of contact nodes in each slice (S,)."""
-    found = np.zeros(slices, dtype=np.int64)
-    found[groups[SLICE]] = groups[OF_SLICE]
-    return found
+def _joined(arrays: Sequence[np.ndarray], kind) -> np.ndarray:
+    return np.concatenate([np.empty(0, kind), *arrays]).astype(kind, copy=False)
 
 
-def _widest(views: np.ndarray, nodes: int) -> np.ndarray:
-    """Room for the weights (2, nodes, w) of all `views` (2, P)."""
-    return np.zeros((2, nodes, max((view.near.shape[1] for view in views.flat), default=1)))
-
-
-def _groups(nodes: Sequence[slice], slices: np.ndarray) -> np.ndarray:
-    """Of groups whose `nodes` stand there among all: numbers (4, P) as of `formed_rows.Side`."""
-    found = np.zeros((4, len(nodes)), dtype=np.int64)
-    found[BEGIN], found[SLICE] = [own.start for own in nodes], slices
+def _groups(begins: np.ndarray, counts: np.ndarray, slices: np.ndarray) -> np.ndarray:
+    """Of groups of so many nodes that begin there among all: numbers (4, P) as of `fine_sections.Side`."""
+    found = np.zeros((4, len(begins)), dtype=np.int64)
+    found[BEGIN], found[SLICE] = begins, slices
     in_slice = np.zeros(slices.max(initial=-1) + 1, dtype=np.int64)
-    for group, own in enumerate(nodes):
-        found[IN_SLICE, group] = in_slice[slices[group]]
-        in_slice[slices[group]] += own.stop - own.start
+    for group, (number, count) in enumerate(zip(slices.tolist(), counts.tolist())):
+        found[IN_SLICE, group] = in_slice[number]
+        in_slice[number] += count
     found[OF_SLICE] = in_slice[slices]
     return found
+
+
+def _check_sections(fine: np.ndarray, ahead: np.ndarray, flanks: tuple[np.ndarray, np.ndarray], same: np.ndarray):
+    """Raise ComputationError where the sections' compliance is not known between teeth (P, Q) `ahead` that touch in the
+    same slice."""
+    reach, (flank, other) = len(fine) // 2, np.broadcast_arrays(*flanks)
+    known = ~np.isnan(fine[:, :, :, 0, 0])
+    near = np.clip(ahead[same], -reach, reach)
+    if np.any(near != ahead[same]) or not known[reach + near, flank[same], other[same]].all():
+        raise ComputationError(
+            "compliance over the face: flanks touch that are further apart than the sections' compliance is known;"
+            " ask flank_compliance for a larger reach"
+        )
 
 
 def _check_known(offsets: int, responding: np.ndarray, loaded: np.ndarray) -> None:
@@ -231,8 +228,10 @@ def directions_on_face(place: Place, face: Face, gear: int, tangential: bool) ->
 def _plane_directions(gear: int, places: Sequence[Place], tangential: bool, turned: float | None) -> np.ndarray:
     """Unit vectors (P, d, 2) in the transverse section, in the tooth's frame; with `turned` (rad) the tangent as it
     stood before."""
-    if turned is None:
-        found = [directions(place.contact_rolls[gear], tangential) for place in places]
-    else:
-        found = [directions(place.contact_rolls[gear] - place.turn * turned, True)[1:] for place in places]
-    return np.array(found).reshape(len(places), 2 if tangential and turned is None else 1, 2)
+    rolls = np.array([place.contact_rolls[gear] for place in places])
+    if turned is not None:
+        rolls = rolls - np.array([place.turn for place in places]) * turned
+    cosine, sine = np.cos(rolls), np.sin(rolls)
+    normal, tangent = np.stack([cosine, -sine], axis=1), np.stack([sine, cosine], axis=1)
+    kinds = [tangent] if turned is not None else [normal, tangent] if tangential else [normal]
+    return np.stack(kinds, axis=1)

@@ -1,60 +1,58 @@
-"""Compliance between the contact nodes of each slice of a face, of fine plane sections: all slices in one call of
-compiled code."""
+"""Contact nodes over a face as rows and columns of their compliance; and what fine plane sections give of a row,
+between the nodes in a slice."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.compliance_product import compliance_product
-from fenics_gears.contact.formed_rows import BEGIN, IN_SLICE, OF_SLICE, SLICE
-from fenics_gears.contact.interpolation import FlankInterpolation
+from fenics_gears.contact.compliance_product import add_multiple
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.errors import ComputationError
 
+# Of a group: its first node, its slice, the place of that node among those in the slice, and how many these are.
+BEGIN, SLICE, IN_SLICE, OF_SLICE = range(4)
+# Of a group on a gear: its tooth, how many flank nodes lie under it, their place among those under all groups; the
+# body's section, by flank and slice, and the first degree of freedom in it; and that in the plane section.
+TOOTH, WIDTH, PLACE, SECTION, DOF, PLANE_DOF = range(6)
 
-class OnSections(NamedTuple):
-    """Contact nodes (n,) in groups (P,): `groups` (4, P) as of `formed_rows.Side`; `flanks` (P,) of the tooth and its
-    place on either gear (`teeth`, (2, P)); `axes` (2, P, d, 2) of contact there.
 
-    `first` (2, n) of their FlankInterpolation; its `near` of all groups one after the other, of each group from its
-    place in `begins` (2, P) on, so many (`widths`, (2, P)) for a node.
+class Side(NamedTuple):
+    """Contact nodes (n,) as rows or columns, in groups (P,).
+
+    `group` (n,) of each node; `first` (2, n): the first flank node of either gear that a node sees, among those under
+    all groups, and `near` (2, n, w): weights from that one on. `groups` (4, P) and `on_gears` (2, 6, P): numbers
+    of each group, as above. `axes` (2, P, d, 5): directions of contact in the tooth's frame, in the body (3) and in the
+    section (2).
+
+    On the fine sections: `flanks` (P,) of the teeth; `fine_first` (2, n) and `fine_near` of the FlankInterpolation, the
+    weights of all groups one after the other, of each from its place in `fine_begins` (2, P) on, so many
+    (`fine_widths`, (2, P)) for a node.
     """
 
-    groups: np.ndarray
-    flanks: np.ndarray
-    teeth: np.ndarray
-    axes: np.ndarray
+    group: np.ndarray
     first: np.ndarray
+    groups: np.ndarray
+    on_gears: np.ndarray
     near: np.ndarray
-    begins: np.ndarray
-    widths: np.ndarray
+    axes: np.ndarray
+    flanks: np.ndarray
+    fine_first: np.ndarray
+    fine_near: np.ndarray
+    fine_begins: np.ndarray
+    fine_widths: np.ndarray
 
-    @classmethod
-    def of(
-        cls,
-        groups: np.ndarray,
-        flanks: np.ndarray,
-        teeth: np.ndarray,
-        axes: np.ndarray,
-        views: Sequence[Sequence[FlankInterpolation]],
-    ) -> OnSections:
-        """`views`: how the nodes of each group see pinion and wheel."""
-        every = [view for gear in (0, 1) for view in (each[gear] for each in views)]
-        near, sizes = (
-            [view.near.ravel() for view in every],
-            np.array([view.near.size for view in every], dtype=np.int64),
-        )
-        widths = np.array([view.near.shape[1] for view in every], dtype=np.int64)
-        return cls(
-            groups, flanks, teeth, axes,
-            np.concatenate([np.empty(0, np.int64), *(view.first for view in every)]).astype(np.int64).reshape(2, -1),
-            np.concatenate([np.empty(0), *near]),
-            (np.cumsum(sizes) - sizes).reshape(2, -1), widths.reshape(2, -1),
-        )  # fmt: skip
+
+class Fine(NamedTuple):
+    """Fine sections, mm per N/mm: `first` and `second`, of pinion and wheel, as `stacked`; `shares` (S,), 1/mm: what a
+    section counts in its slice; `layers` (S,): of an own layer of each node."""
+
+    first: np.ndarray
+    second: np.ndarray
+    shares: np.ndarray
+    layers: np.ndarray
 
 
 def stacked(section: FlankCompliance) -> np.ndarray:
@@ -72,65 +70,143 @@ def stacked(section: FlankCompliance) -> np.ndarray:
 
 
 @njit(cache=True)
-def fine_sections(blocks, now, before, begins, begins_before, numbers, by_earlier):
-    """Compliance, mm per N/mm, between the nodes now of each slice (d, n, d, n) into `numbers` (zeros), from its place
-    in `begins` on; and by forces `before` on the tangential displacement now, (2, n before, 1, n), into `by_earlier`.
+def end_of(side, group):
+    """Where the nodes of a group end."""
+    groups = side.groups
+    return groups[BEGIN, group + 1] if group + 1 < groups.shape[1] else len(side.group)
 
-    `blocks`: of either gear, as `stacked`. `now.axes`: with friction normal, tangent, and the tangent as it stood
-    before. A slice with a place of -1 is left out. Where flanks are further apart than the sections' compliance is
-    known, the slice's first number is not a number.
+
+@njit(cache=True)
+def weights_of(side, gear, group):
+    """Weights (n, w) of the nodes of a group on the fine section, and the first flank node (n,) of each."""
+    begin, end = side.groups[BEGIN, group], end_of(side, group)
+    place, width = side.fine_begins[gear, group], side.fine_widths[gear, group]
+    near = side.fine_near[place : place + (end - begin) * width].reshape((end - begin, width))
+    return near, side.fine_first[gear, begin:end]
+
+
+@njit(cache=True)
+def add_fine(found, rows, columns, fine, group, nodes):
+    """Add what fine sections give of the compliance of some contact nodes of a group to `found` (e, m, r), mm/N; r as
+    of `weighted`."""
+    number, own = rows.groups[SLICE, group], nodes - rows.groups[BEGIN, group]
+    for gear in range(2):
+        blocks = fine.second if gear else fine.first
+        near, first = weights_of(rows, gear, group)
+        axes = fine.shares[number] * rows.axes[gear, group]
+        weights, low = spread(near[own], first[own], blocks.shape[3] // 2)
+        for q in np.flatnonzero(columns.groups[SLICE] == number):
+            ahead = (len(blocks) - 1) // 2 + rows.on_gears[gear, TOOTH, group] - columns.on_gears[gear, TOOTH, q]
+            block, across = blocks[ahead, rows.flanks[group], columns.flanks[q]], columns.axes[gear, q]
+            loaded, firsts = weights_of(columns, gear, q)
+            start = firsts.min()
+            ends = 0, firsts.max() + loaded.shape[1] - start
+            lines = np.zeros((len(weights), len(axes), len(across), ends[1]))
+            add_section(lines, ends, block, (2 * low, 2 * start), axes, across)
+            displaced = weighted(lines, weights)
+            for e in range(len(across)):
+                add_seen(found[e, columns.groups[BEGIN, q] : end_of(columns, q)], loaded, firsts - start, displaced[e])
+
+
+@njit(cache=True)
+def spread(near, first, end):
+    """Weights (i, n) of nodes on the flank nodes that they see, and which of these is the first; where `near` (n, w)
+    reaches beyond the flank node before `end` it has zeros."""
+    low, width = first.min(), near.shape[1]
+    weights = np.zeros((min(first.max() + width, end) - low, len(near)))
+    for node in range(len(near)):
+        for k in range(min(width, end - first[node])):
+            weights[first[node] + k - low, node] = near[node, k]
+    return weights, low
+
+
+@njit(cache=True)
+def padded(rows):
+    """That number of rows made one of groups of four."""
+    return (rows + 3) // 4 * 4
+
+
+@njit(cache=True)
+def weighted(lines, weights):
+    """Sums (e, r, j) of lines (i, d, e, j) by the weights (i, n) of nodes: rows r for each direction d of all nodes,
+    and rows of zeros up to groups of four."""
+    n, start = weights.shape[1], np.int64(0)
+    found = np.zeros((lines.shape[2], padded(lines.shape[1] * n), lines.shape[3]))
+    for e, d, node in np.ndindex((lines.shape[2], lines.shape[1], n)):
+        for i in range(len(weights)):
+            add_multiple(found[e, d * n + node], weights[i, node], lines[i, d, e], start)
+    return found
+
+
+@njit(cache=True)
+def add_section(lines, ends, section, firsts, axes, across):
+    """Add compliance of a section between flank nodes i and others, from the `firsts` row and column on, two for each
+    node: by the last two components of directions `axes` (d, 5) and `across` (e, 5) to `lines` (i, d, e, j), from
+    `ends[0]` to `ends[1]`."""
+    # Unsigned places need no look for a negative index.
+    row, one, two, three, four = np.uint64(firsts[0]), np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
+    for i in range(np.uint64(len(lines))):
+        for d in range(np.uint64(len(axes))):
+            own, other, column = axes[d, three], axes[d, four], np.uint64(firsts[1])
+            for j in range(np.uint64(ends[0]), np.uint64(ends[1])):
+                x = own * section[row, column] + other * section[row + one, column]
+                y = own * section[row, column + one] + other * section[row + one, column + one]
+                for e in range(np.uint64(len(across))):
+                    lines[i, d, e, j] += x * across[e, three] + y * across[e, four]
+                column += two
+        row += two
+
+
+@njit(cache=True)
+def add_seen(found, near, first, values):
+    """Add to `found` (m, r) what contact nodes see of `values` (r, s) of flank nodes; r as of `weighted`."""
+    # One flank node's values beside each other; unsigned places need no look for a negative index; four sums are made
+    # at a time.
+    numbers, sums, weights = np.ascontiguousarray(values.T).reshape(-1), found.reshape(-1), near.reshape(-1)
+    wide, width, zero, four = np.uint64(len(values)), np.uint64(near.shape[1]), np.uint64(0), np.uint64(4)
+    one, two, three = np.uint64(1), np.uint64(2), np.uint64(3)
+    for j in range(np.uint64(len(found))):
+        own, at = j * width, np.uint64(first[j]) * wide
+        for r in range(zero, wide, four):
+            place, other = j * wide + r, at + r
+            a, b, c, d = sums[place], sums[place + one], sums[place + two], sums[place + three]
+            for k in range(own, own + width):
+                weight = weights[k]
+                a += weight * numbers[other]
+                b += weight * numbers[other + one]
+                c += weight * numbers[other + two]
+                d += weight * numbers[other + three]
+                other += wide
+            sums[place], sums[place + one], sums[place + two], sums[place + three] = a, b, c, d
+
+
+@njit(cache=True)
+def surely_independent(side, group, softest, least):
+    """Whether the compliance of a group's nodes in its slice surely has no eigenvalue below `least`.
+
+    With the weights N of the nodes it is at least the sum over both gears of N N^T times the section's smallest
+    eigenvalue, which is not below `softest` (2,).
     """
-    kinds, no_nodes = min(now.axes.shape[2], 2), 0
-    for number in range(len(begins)):
-        own, earlier_own = np.flatnonzero(now.groups[SLICE] == number), np.flatnonzero(before.groups[SLICE] == number)
-        if begins[number] < 0 or not len(own):
-            continue
-        n = now.groups[OF_SLICE, own[0]]
-        n_before = before.groups[OF_SLICE, earlier_own[0]] if len(earlier_own) else 0
-        size, begin = (kinds * n) ** 2, begins[number]
-        compliance, earlier = numbers[begin : begin + size].reshape((kinds, n, kinds, n)), np.zeros((1, n, 2, n_before))
-        for gear in range(2):
-            for p in own:
-                row = _nodes(now, gear, p)
-                nothing = no_nodes, row[1][:0], row[2][:0], row[3]
-                for q in own:
-                    if not _known(blocks[gear], gear, now, p, now, q):
-                        numbers[begin] = np.nan
-                    elif q <= p:
-                        # The other half follows by symmetry.
-                        loaded = _nodes(now, gear, q)
-                        block = _block(blocks[gear], gear, now, p, now, q)
-                        loaded = loaded[0], loaded[1], loaded[2], loaded[3][:kinds]
-                        compliance_product(block, row, loaded, compliance, nothing, earlier)
-                for q in earlier_own:
-                    if not _known(blocks[gear], gear, now, p, before, q):
-                        numbers[begin] = np.nan
-                        continue
-                    block = _block(blocks[gear], gear, now, p, before, q)
-                    loaded = _nodes(before, gear, q)
-                    loaded = loaded[0], loaded[1], loaded[2], loaded[3][:kinds]
-                    compliance_product(block, row, nothing, compliance, loaded, earlier)
-        place = begins_before[number]
-        for d, i, j in np.ndindex((2, n_before, n)):
-            by_earlier[place + (d * n_before + i) * n + j] = earlier[0, j, d, i]
-
-
-@njit(cache=True)
-def _nodes(nodes, gear, group):
-    """A group's nodes on a gear as `compliance_product` takes them."""
-    begin = nodes.groups[BEGIN, group]
-    end = nodes.groups[BEGIN, group + 1] if group + 1 < nodes.groups.shape[1] else nodes.first.shape[1]
-    place, width = nodes.begins[gear, group], nodes.widths[gear, group]
-    near = nodes.near[place : place + (end - begin) * width].reshape((end - begin, width))
-    return nodes.groups[IN_SLICE, group], near, nodes.first[gear, begin:end], nodes.axes[gear, group]
-
-
-@njit(cache=True)
-def _known(blocks, gear, responding, p, loaded, q):
-    return abs(responding.teeth[gear, p] - loaded.teeth[gear, q]) <= (len(blocks) - 1) // 2
-
-
-@njit(cache=True)
-def _block(blocks, gear, responding, p, loaded, q):
-    ahead = responding.teeth[gear, p] - loaded.teeth[gear, q]
-    return blocks[(len(blocks) - 1) // 2 + ahead, responding.flanks[p], loaded.flanks[q]]
+    n = end_of(side, group) - side.groups[BEGIN, group]
+    lower = np.zeros((n, n))
+    for gear in range(2):
+        near, first = weights_of(side, gear, group)
+        width = near.shape[1]
+        for i in range(n):
+            for j in range(i + 1):
+                apart = first[i] - first[j]
+                for k in range(max(0, -apart), min(width, width - apart)):
+                    lower[i, j] += softest[gear] * near[i, k] * near[j, k + apart]
+    for i in range(n):
+        lower[i, i] -= least
+        for j in range(i + 1):
+            total = lower[i, j]
+            for k in range(j):
+                total -= lower[i, k] * lower[j, k]
+            if i == j:
+                if total <= 0.0:
+                    return False
+                lower[i, i] = np.sqrt(total)
+            else:
+                lower[i, j] = total / lower[j, j]
+    return True

@@ -11,6 +11,8 @@ from numba import njit
 NEWTON_STEPS = 60
 # The step just taken squares what is left.
 CLOSE = 1e-10
+# Rises above the contact point, in base radii and parts of the roll angle squared, where a series begins near the root.
+NEAR = 0.2
 # A height may lie below the start of the involute by round-off.
 ROUND_OFF = 4e-16
 
@@ -34,22 +36,43 @@ def roll_angle_at_height(base_radius: float, contact_roll_angle: float, height) 
 
 @njit(cache=True)
 def _points(base_radius, contact, heights):
-    """Newton in ``s = v^2/2`` (arc length over base radius), in which ``dh/ds = rb cos(vc - v)``: h is convex in s
-    below the contact point and concave above it, so steps from the contact point never pass the root."""
-    lowest, turning = math.cos(contact) - ROUND_OFF, contact + 0.5 * math.pi
-    rolls, x = np.full(len(heights), np.nan), np.full(len(heights), np.nan)
+    rolls, x = np.empty(len(heights)), np.empty(len(heights))
     for point in range(len(heights)):
-        target = heights[point] / base_radius
-        if not lowest <= target < turning:
-            continue
-        half_square = 0.5 * contact**2
-        for _ in range(NEWTON_STEPS):
-            roll = math.sqrt(2.0 * half_square)
-            slope = math.cos(contact - roll)
-            residual = target - slope + roll * math.sin(contact - roll)
-            half_square = max(half_square + residual / slope, 0.0)
-            if abs(residual) <= CLOSE:
-                break
-        roll = math.sqrt(2.0 * half_square)
-        rolls[point], x[point] = roll, base_radius * (math.sin(contact - roll) + roll * math.cos(contact - roll))
+        rolls[point], x[point] = _point(base_radius, contact, heights[point])
     return rolls, x
+
+
+@njit(cache=True)
+def points_of_pairs(base_radius, sense, contact_rolls, lever_arms, offsets, ends):
+    """Roll angles (n,), rad, and x (n,), mm, of the flank points at offsets (n,), mm, from the lines of action of many
+    pairs, those of each from its place in `ends` (P + 1,) on; `contact_rolls` (P,), rad, and `lever_arms` (P,), mm, of
+    these lines; `sense`: of offsets, -1 on the pinion, +1 on the wheel."""
+    rolls, x = np.empty(len(offsets)), np.empty(len(offsets))
+    for pair in range(len(contact_rolls)):
+        for point in range(ends[pair], ends[pair + 1]):
+            height = lever_arms[pair] + sense * offsets[point]
+            rolls[point], x[point] = _point(base_radius, contact_rolls[pair], height)
+    return rolls, x
+
+
+@njit(cache=True)
+def _point(base_radius, contact, height):
+    """Newton in ``s = v^2/2`` (arc length over base radius), in which ``dh/ds = rb cos(vc - v)``: h is convex in s
+    below the contact point and concave above it, so steps from the contact point never pass the root. Near the
+    contact point they begin so close to the root that they cannot miss it."""
+    target = height / base_radius
+    if not math.cos(contact) - ROUND_OFF <= target < contact + 0.5 * math.pi:
+        return np.nan, np.nan
+    half_square, rise = 0.5 * contact**2, target - 1.0
+    if abs(rise) <= NEAR * contact**2:
+        # dh/ds is 1 - (vc - v)^2/2 there, and vc - v nearly (sc - s)/vc.
+        half_square += rise + rise**3 / (6.0 * contact**2)
+    for _ in range(NEWTON_STEPS):
+        roll = math.sqrt(2.0 * half_square)
+        slope = math.cos(contact - roll)
+        residual = target - slope + roll * math.sin(contact - roll)
+        half_square = max(half_square + residual / slope, 0.0)
+        if abs(residual) <= CLOSE:
+            break
+    roll = math.sqrt(2.0 * half_square)
+    return roll, base_radius * (math.sin(contact - roll) + roll * math.cos(contact - roll))

@@ -17,42 +17,32 @@ import numpy as np
 from numba import carray, cfunc, njit
 
 from fenics_gears.contact.addresses import call, to_flag, to_integer, to_number
+from fenics_gears.contact.fine_sections import (
+    BEGIN,
+    DOF,
+    IN_SLICE,
+    OF_SLICE,
+    PLACE,
+    PLANE_DOF,
+    SECTION,
+    SLICE,
+    TOOTH,
+    WIDTH,
+    Fine,
+    Side,
+    add_fine,
+    add_section,
+    add_seen,
+    end_of,
+    padded,
+    spread,
+    surely_independent,
+    weighted,
+)
 from fenics_gears.system.memory import pages
 
 if TYPE_CHECKING:
     from fenics_gears.contact.factored_compliance import Factors
-
-# Of a group: its first node, its slice, the place of that node among those in the slice, and how many these are.
-BEGIN, SLICE, IN_SLICE, OF_SLICE = range(4)
-# Of a group on a gear: its tooth, how many flank nodes lie under it, their place among those under all groups; the
-# body's section, by flank and slice, and the first degree of freedom in it; and that in the plane section.
-TOOTH, WIDTH, PLACE, SECTION, DOF, PLANE_DOF = range(6)
-
-
-class Side(NamedTuple):
-    """Contact nodes (n,) as rows or columns, in groups (P,).
-
-    `group` (n,) of each node; `first` (2, n): the first flank node of either gear that a node sees, among those under
-    all groups, and `near` (2, n, w): weights from that one on. `groups` (4, P) and `on_gears` (2, 6, P): numbers
-    of each group, as above. `axes` (2, P, d, 5): directions of contact in the tooth's frame, in the body (3) and in the
-    section (2).
-    """
-
-    group: np.ndarray
-    first: np.ndarray
-    groups: np.ndarray
-    on_gears: np.ndarray
-    near: np.ndarray
-    axes: np.ndarray
-
-
-class Fine(NamedTuple):
-    """Compliance of fine sections, mm per N/mm, between the contact nodes (d, n, e, m) in a slice: `numbers` of all
-    slices, each from `begins` (S,) on; `shares` (S,), 1/mm: what a section counts in its slice."""
-
-    numbers: np.ndarray
-    begins: np.ndarray
-    shares: np.ndarray
 
 
 class _Source(NamedTuple):
@@ -69,7 +59,7 @@ class _Source(NamedTuple):
 # In compiled code it is a table of its arrays, and of the flags that say which rows are formed: address and shape of
 # each; then the addresses of the function that forms rows, of the one that solves the mixed form with Factors, and of
 # these; the last two are 0 between other nodes than those of one position.
-ARRAYS = 21
+ARRAYS = 32
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,38 +150,49 @@ def _form_rows(address, nodes, count):
     formed = carray(to_flag(table[-1, 0]), table[-1, 1])
     asked = carray(to_integer(nodes), count)
     missing = asked[~formed[asked]]
-    source = _source(table)
-    rows, columns = source.rows, source.columns
-    if not len(missing) or not len(columns.group):
+    source, begin = _source(table), 0
+    if not len(source.columns.group):
         return 1
-    widest, under = rows.on_gears[:, WIDTH].max(), 0
-    for gear in range(2):
-        last = columns.on_gears[gear, :, -1]
-        under = max(under, last[PLACE] + last[WIDTH])
-    # Beyond the last flank node: narrow interpolations are as wide as the others, with weights of zero.
-    room = under + columns.near.shape[2]
-    between = np.zeros((2, rows.axes.shape[2], widest + rows.near.shape[2], columns.axes.shape[2], room))
-    group = -1
-    for node in missing:
-        if rows.group[node] != group:
-            group = rows.group[node]
-            for gear in range(2):
-                _between(source, gear, group, between[gear])
-        _form(source, node, between)
-        formed[node] = True
+    while begin < len(missing):
+        group, end = source.rows.group[missing[begin]], begin + 1
+        while end < len(missing) and source.rows.group[missing[end]] == group:
+            end += 1
+        _form(source, group, missing[begin:end])
+        formed[missing[begin:end]] = True
+        begin = end
     return 1
 
 
 @njit(cache=True)
 def _side(table):
     return Side(
-        carray(to_integer(table[0, 0]), table[0, 1]),
-        carray(to_integer(table[1, 0]), (2, table[1, 2])),
-        carray(to_integer(table[2, 0]), (4, table[2, 2])),
+        _integers(table[0]),
+        _pairs(table[1]),
+        _pairs(table[2]),
         carray(to_integer(table[3, 0]), (2, 6, table[3, 3])),
         _cube(table[4]),
         carray(to_number(table[5, 0]), (2, table[5, 2], table[5, 3], 5)),
+        _integers(table[6]),
+        _pairs(table[7]),
+        _numbers(table[8]),
+        _pairs(table[9]),
+        _pairs(table[10]),
     )
+
+
+@njit(cache=True)
+def _integers(row):
+    return carray(to_integer(row[0]), row[1])
+
+
+@njit(cache=True)
+def _pairs(row):
+    return carray(to_integer(row[0]), (row[1], row[2]))
+
+
+@njit(cache=True)
+def _numbers(row):
+    return carray(to_number(row[0]), row[1])
 
 
 @njit(cache=True)
@@ -206,45 +207,100 @@ def _tiles(row):
 
 @njit(cache=True)
 def _source(table):
-    fine = Fine(
-        carray(to_number(table[12, 0]), table[12, 1]),
-        carray(to_integer(table[13, 0]), table[13, 1]),
-        carray(to_number(table[14, 0]), table[14, 1]),
-    )
-    blocks, sections = (_tiles(table[15]), _tiles(table[16])), (_cube(table[17]), _cube(table[18]))
-    matrix = carray(to_number(table[19, 0]), (table[19, 1], table[19, 2]))
-    return _Source(_side(table), _side(table[6:]), fine, blocks, sections, matrix)
+    fine = Fine(_tiles(table[22]), _tiles(table[23]), _numbers(table[24]), _numbers(table[25]))
+    blocks, sections = (_tiles(table[26]), _tiles(table[27])), (_cube(table[28]), _cube(table[29]))
+    matrix = carray(to_number(table[30, 0]), (table[30, 1], table[30, 2]))
+    return _Source(_side(table), _side(table[11:]), fine, blocks, sections, matrix)
 
 
 @njit(cache=True)
-def _between(source, gear, group, result):
-    """Compliance (d, i, e, j), mm/N, of one gear between the flank nodes i under a group and j under all groups, less
-    that of its plane section in the same slice."""
+def uncertain_slices(address, softest, least):
+    """Slices (S,) of the rows of a FormedRows in which nodes may depend on each other: those that have a group which is
+    not `surely_independent`."""
+    source = _source(carray(to_integer(address), (ARRAYS, 6)))
+    found = np.zeros(len(source.fine.shares), dtype=np.bool_)
+    for group in range(source.rows.groups.shape[1]):
+        number = source.rows.groups[SLICE, group]
+        if not found[number]:
+            found[number] = not surely_independent(source.rows, group, softest, least)
+    return found
+
+
+@njit(cache=True)
+def fine_section(address, number):
+    """What fine sections give in a slice between the contact nodes (d, n, d, n) of a FormedRows, mm/N."""
+    source = _source(carray(to_integer(address), (ARRAYS, 6)))
+    rows, kinds = source.rows, source.rows.axes.shape[2]
+    groups = np.flatnonzero(rows.groups[SLICE] == number)
+    n = rows.groups[OF_SLICE, groups[0]] if len(groups) else 0
+    section = np.empty((kinds, n, kinds, n))
+    for p in groups:
+        begin, place = rows.groups[BEGIN, p], rows.groups[IN_SLICE, p]
+        count = end_of(rows, p) - begin
+        found = np.zeros((kinds, len(rows.group), padded(kinds * count)))
+        add_fine(found, rows, source.columns, source.fine, p, begin + np.arange(count))
+        for q in groups:
+            first, other = rows.groups[BEGIN, q], rows.groups[IN_SLICE, q]
+            for d, e, node in np.ndindex((kinds, kinds, count)):
+                for j in range(end_of(rows, q) - first):
+                    section[d, place + node, e, other + j] = found[e, first + j, d * count + node]
+    return section
+
+
+@njit(cache=True)
+def _form(source, group, nodes):
+    """Form the rows of some contact nodes of a group."""
+    rows, columns, matrix, count = source.rows, source.columns, source.matrix, len(nodes)
+    n, m, kinds, others = len(rows.group), len(columns.group), rows.axes.shape[2], columns.axes.shape[2]
+    found, row = np.zeros((others, m, padded(kinds * count))), np.empty((kinds, others, m))
+    for gear in range(2):
+        along = _displaced(source, gear, group, nodes)
+        for e in range(others):
+            add_seen(found[e], columns.near[gear], columns.first[gear], along[e])
+    add_fine(found, rows, columns, source.fine, group, nodes)
+    layer = source.fine.layers[rows.groups[SLICE, group]] * source.fine.shares[rows.groups[SLICE, group]]
+    for number in range(count):
+        for d, e in np.ndindex((kinds, others)):
+            row[d, e] = found[e, :, d * count + number]
+        for d in range(kinds):
+            if layer != 0.0:
+                row[d, d, nodes[number]] += layer
+            # Written without being read: a page that is read first comes from the system twice.
+            matrix[d * n + nodes[number]] = row[d].reshape(-1)
+
+
+@njit(cache=True)
+def _displaced(source, gear, group, nodes):
+    """Displacement (e, r, j), mm/N, of a group's contact nodes on one gear by forces on the flank nodes j under all
+    groups, less that of its plane section in the same slice; r as of `weighted`."""
     rows, columns, blocks, sections = source.rows, source.columns, source.blocks[gear], source.sections[gear]
     own, other, offsets = rows.on_gears[gear, :, group], columns.on_gears[gear], (len(blocks) - 1) // 2
-    axes, width = rows.axes[gear, group], own[WIDTH]
+    axes, number = rows.axes[gear, group], rows.groups[SLICE, group]
+    weights, low = spread(rows.near[gear][nodes], rows.first[gear][nodes] - own[PLACE], own[WIDTH])
+    # Beyond the last flank node: narrow interpolations are as wide as the others, with weights of zero.
+    room = other[PLACE, -1] + other[WIDTH, -1] + columns.near.shape[2]
+    lines = np.zeros((len(weights), len(axes), columns.axes.shape[2], room))
     for q in range(other.shape[1]):
-        number, place = offsets + own[TOOTH] - other[TOOTH, q], other[PLACE, q]
-        found, across = result[:, :, :, place : place + other[WIDTH, q]], columns.axes[gear, q]
-        _add_block(
-            found, blocks[number, own[SECTION], other[SECTION, q]], (own[DOF], other[DOF, q]), axes, across, width
-        )
-        if rows.groups[SLICE, group] == columns.groups[SLICE, q]:
-            share = source.fine.shares[rows.groups[SLICE, group]]
-            firsts = own[PLANE_DOF], other[PLANE_DOF, q]
-            _add_section(found, sections[number], firsts, axes, -share * across, width)
+        ahead, ends = offsets + own[TOOTH] - other[TOOTH, q], (other[PLACE, q], other[PLACE, q] + other[WIDTH, q])
+        block, section = blocks[ahead, own[SECTION], other[SECTION, q]], sections[ahead]
+        _put_block(lines, ends, block, (own[DOF] + 3 * low, other[DOF, q]), axes, columns.axes[gear, q])
+        if columns.groups[SLICE, q] == number:
+            firsts, share = (own[PLANE_DOF] + 2 * low, other[PLANE_DOF, q]), source.fine.shares[number]
+            add_section(lines, ends, section, firsts, -share * axes, columns.axes[gear, q])
+    return weighted(lines, weights)
 
 
 @njit(cache=True)
-def _add_block(found, block, firsts, axes, across, width):
-    """Compliance (d, i, e, j) between flank nodes of a body, `width` of them responding, by directions `axes` (d, 5)
-    and `across` (e, 5); from the `firsts` rows and columns of a block on, three for each node."""
+def _put_block(lines, ends, block, firsts, axes, across):
+    """Compliance of a body between flank nodes i and others, from the `firsts` row and column of a block on, three for
+    each node: by directions `axes` (d, 5) and `across` (e, 5) into `lines` (i, d, e, j), from `ends[0]` to
+    `ends[1]`."""
     # Unsigned places need no look for a negative index.
     row, zero, one, two, three = (np.uint64(firsts[0]), np.uint64(0), np.uint64(1), np.uint64(2), np.uint64(3))
-    for i in range(np.uint64(width)):
+    for i in range(np.uint64(len(lines))):
         for d in range(np.uint64(len(axes))):
             column = np.uint64(firsts[1])
-            for j in range(np.uint64(found.shape[3])):
+            for j in range(np.uint64(ends[0]), np.uint64(ends[1])):
                 x, y, z = 0.0, 0.0, 0.0
                 for a in range(three):
                     axis = axes[d, a]
@@ -252,62 +308,6 @@ def _add_block(found, block, firsts, axes, across, width):
                     y += axis * block[row + a, column + one]
                     z += axis * block[row + a, column + two]
                 for e in range(np.uint64(len(across))):
-                    found[d, i, e, j] = x * across[e, zero] + y * across[e, one] + z * across[e, two]
+                    lines[i, d, e, j] = x * across[e, zero] + y * across[e, one] + z * across[e, two]
                 column += three
         row += three
-
-
-@njit(cache=True)
-def _add_section(found, section, firsts, axes, across, width):
-    """Add the same of plane sections, two rows and columns for each node, by the last two components of directions."""
-    for i, d, j in np.ndindex((width, len(axes), found.shape[3])):
-        row, column = firsts[0] + 2 * i, firsts[1] + 2 * j
-        x = axes[d, 3] * section[row, column] + axes[d, 4] * section[row + 1, column]
-        y = axes[d, 3] * section[row, column + 1] + axes[d, 4] * section[row + 1, column + 1]
-        for e in range(len(across)):
-            found[d, i, e, j] += x * across[e, 3] + y * across[e, 4]
-
-
-@njit(cache=True)
-def _form(source, node, between):
-    """Form the rows of a contact node from the compliance `between` (2, d, i, e, j) its group's flank nodes and all."""
-    rows, columns, fine, matrix = source.rows, source.columns, source.fine, source.matrix
-    n, m, group, kinds = len(rows.group), len(columns.group), rows.group[node], columns.axes.shape[2]
-    along, number = np.empty((2, between.shape[4])), rows.groups[SLICE, group]
-    in_slice = rows.groups[IN_SLICE, group] + node - rows.groups[BEGIN, group]
-    for d, e in np.ndindex((rows.axes.shape[2], kinds)):
-        for gear in range(2):
-            first = rows.first[gear, node] - rows.on_gears[gear, PLACE, group]
-            _weighted(along[gear], rows.near[gear, node], between[gear, d, first:, e])
-        found = matrix[d * n + node, e * m : (e + 1) * m]
-        _seen(found, columns.near, columns.first, along)
-        for q in np.flatnonzero(columns.groups[SLICE] == number):
-            count, begin = columns.groups[OF_SLICE, q], columns.groups[BEGIN, q]
-            row = (d * rows.groups[OF_SLICE, group] + in_slice) * kinds + e
-            place = fine.begins[number] + row * count + columns.groups[IN_SLICE, q]
-            end = columns.groups[BEGIN, q + 1] if q + 1 < columns.groups.shape[1] else m
-            for j in range(end - begin):
-                found[begin + j] += fine.shares[number] * fine.numbers[place + j]
-
-
-@njit(cache=True)
-def _weighted(total, weights, values):
-    """Sum of some rows of values (w, s), each by its weight, into `total` (s,)."""
-    total[:] = 0.0
-    for k in range(len(weights)):
-        weight, row = weights[k], values[k]
-        for j in range(len(total)):
-            total[j] += weight * row[j]
-
-
-@njit(cache=True)
-def _seen(found, near, first, values):
-    """What contact nodes (m,) see of `values` (2, s) of the flank nodes of both gears."""
-    # Unsigned places need no look for a negative index.
-    one, zero = np.uint64(1), np.uint64(0)
-    for j in range(np.uint64(len(found))):
-        at, other, total = np.uint64(first[zero, j]), np.uint64(first[one, j]), 0.0
-        for k in range(np.uint64(near.shape[2])):
-            total += near[zero, j, k] * values[zero, at + k] + near[one, j, k] * values[one, other + k]
-        # Written without being read: a page that is read first comes from the system twice.
-        found[j] = total

@@ -14,7 +14,9 @@ R) for cells of h and flanks of relative radius R.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
 from numba import njit
@@ -48,7 +50,17 @@ def hat_integrals(offsets: np.ndarray) -> np.ndarray:
     >>> hat_integrals(np.array([0.0, 1.0, 3.0])).tolist()
     [0.5, 1.5, 1.0]
     """
+    return hats_of(offsets, np.array([0, len(offsets)]))
+
+
+def hats_of(offsets: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """The same of the nodes of many pairs, each from its place in `ends` (P + 1,) on.
+
+    >>> hats_of(np.array([0.0, 1.0, 3.0, 0.0, 1.0]), np.array([0, 3, 5])).tolist()
+    [0.5, 1.5, 1.0, 0.5, 0.5]
+    """
     cells = offsets[1:] - offsets[:-1]
+    cells[ends[1:-1] - 1] = 0.0
     integrals = np.zeros(len(offsets))
     integrals[:-1] += 0.5 * cells
     integrals[1:] += 0.5 * cells
@@ -67,6 +79,18 @@ def quadrature_offsets(offsets: np.ndarray) -> np.ndarray:
 
 
 @njit(cache=True)
+def offsets_of_cells(offsets: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """The same of the nodes of many pairs, each from its place in `ends` (P + 1,) on, one after the other."""
+    found, last = np.empty(len(GAUSS_POINTS) * (len(offsets) - len(ends) + 1)), 0
+    for pair in range(len(ends) - 1):
+        for cell in range(ends[pair], ends[pair + 1] - 1):
+            for point in GAUSS_POINTS:
+                found[last] = offsets[cell] + (offsets[cell + 1] - offsets[cell]) * point
+                last += 1
+    return found
+
+
+@njit(cache=True)
 def node_average(offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Average over each node's function (n,) of `values` given at `quadrature_offsets(offsets)`."""
     sums, integrals = np.zeros(len(offsets)), np.zeros(len(offsets))
@@ -82,30 +106,64 @@ def node_average(offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
 
 
 @njit(cache=True)
+def node_averages(offsets: np.ndarray, ends: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """The same (n,) of the nodes of many pairs, each from its place in `ends` (P + 1,) on, of values at the quadrature
+    offsets of one pair after the other."""
+    found, first, points = np.empty(len(offsets)), 0, len(GAUSS_POINTS)
+    for pair in range(len(ends) - 1):
+        own = offsets[ends[pair] : ends[pair + 1]]
+        last = first + points * (len(own) - 1)
+        found[ends[pair] : ends[pair + 1]] = node_average(own, values[first:last].reshape((len(own) - 1, points)))
+        first = last
+    return found
+
+
+@njit(cache=True)
 def _element(vertex_arc, arc, side):
     """The element at an arc length; at a vertex the one before it by "left", the one behind it by "right"."""
     return min(max(np.searchsorted(vertex_arc, arc, side) - 1, 0), len(vertex_arc) - 2)
 
 
 @njit(cache=True)
-def _averaging_weights(offsets, rolls, base_radius, contact_roll, sense, flank_rolls, order):
+def _averaging_weights(offsets, ends, rolls, contact_rolls, flank_rolls, flanks, gear, order):
     """Exact averages of the element's shape functions: Gauss on every piece between contact nodes and element vertices.
 
-    `rolls`: roll angle of each contact node; `sense`: -1 on the pinion, where y = rb - h, +1 on the wheel, y = h - rb.
+    Of the nodes of many pairs, from `ends` (P + 1,) on; `rolls`: roll angle of each contact node; `flank_rolls`: those
+    of the nodes of one flank after the other, and `flanks` (2, P): where those of a pair's flank begin and their
+    number; `gear`: base radius and sense, -1 on the pinion, where y = rb - h, +1 on the wheel, y = h - rb. Returns
+    weights node by node, the first flank node of each, and the width (P,) of weights.
     """
-    vertex_arc = 0.5 * base_radius * flank_rolls[::order] ** 2
-    n, elements = len(offsets), len(vertex_arc) - 1
-    arcs = 0.5 * base_radius * rolls**2
-    lowest, highest = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64)
-    for node in range(n):
-        beside = arcs[max(node - 1, 0) : node + 2]
-        lowest[node], highest[node] = (
-            _element(vertex_arc, beside.min(), "right"),
-            _element(vertex_arc, beside.max(), "left"),
-        )
-    width = order * (highest - lowest + 1).max() + 1
-    near, first = np.zeros((n, width)), np.minimum(order * lowest, len(flank_rolls) - width)
-    for cell in range(n - 1):
+    base_radius, n, pairs = gear[0], len(offsets), len(contact_rolls)
+    vertex_arcs = 0.5 * base_radius * flank_rolls**2
+    arcs, lowest, widths, size = 0.5 * base_radius * rolls**2, np.empty(n, np.int64), np.empty(pairs, np.int64), 0
+    for pair in range(pairs):
+        # In one piece: a search in an array with gaps copies it.
+        vertices = vertex_arcs[flanks[0, pair] : flanks[0, pair] + flanks[1, pair] : order].copy()
+        first, last, most = ends[pair], ends[pair + 1], 0
+        for node in range(first, last):
+            beside = arcs[max(node - 1, first) : min(node + 2, last)]
+            lowest[node] = _element(vertices, beside.min(), "right")
+            most = max(most, _element(vertices, beside.max(), "left") - lowest[node] + 1)
+        widths[pair] = order * most + 1
+        size += (last - first) * widths[pair]
+    near, firsts, begin = np.zeros(size), order * lowest, 0
+    for pair in range(pairs):
+        on_flank = vertex_arcs[flanks[0, pair] : flanks[0, pair] + flanks[1, pair]]
+        own = slice(ends[pair], ends[pair + 1])
+        vertices, end = on_flank[::order].copy(), begin + (ends[pair + 1] - ends[pair]) * widths[pair]
+        firsts[own] = np.minimum(firsts[own], len(on_flank) - widths[pair])
+        found = near[begin:end].reshape((ends[pair + 1] - ends[pair], widths[pair]))
+        arrays, numbers = (offsets[own], arcs[own], vertices), (gear[0], gear[1], contact_rolls[pair])
+        _add_weights(found, firsts[own], arrays, numbers, order)
+        begin = end
+    return near, firsts, widths
+
+
+@njit(cache=True)
+def _add_weights(near, first, arrays, numbers, order):
+    """Those of one pair, into `near` (n, w)."""
+    (offsets, arcs, vertex_arc), (base_radius, sense, contact_roll), elements = arrays, numbers, len(arrays[2]) - 1
+    for cell in range(len(offsets) - 1):
         size_of_cell = offsets[cell + 1] - offsets[cell]
         low, high = min(arcs[cell], arcs[cell + 1]), max(arcs[cell], arcs[cell + 1])
         element = _element(vertex_arc, low, "right")
@@ -115,12 +173,13 @@ def _averaging_weights(offsets, rolls, base_radius, contact_roll, sense, flank_r
             size = vertex_arc[element + 1] - vertex_arc[element]
             for point, share in zip(GAUSS_POINTS, GAUSS_WEIGHTS):
                 arc = start + point * (end - start)
-                turn = contact_roll - math.sqrt(2.0 * arc / base_radius)
-                roll = contact_roll - turn
+                roll = math.sqrt(2.0 * arc / base_radius)
+                sine, cosine = math.sin(0.5 * (contact_roll - roll)), math.cos(0.5 * (contact_roll - roll))
                 # Height above the line of action: rb cos(v_c - v) - rb v sin(v_c - v) - rb, without cancelling.
-                rise = -base_radius * (2.0 * math.sin(0.5 * turn) ** 2 + roll * math.sin(turn))
+                rise = -2.0 * base_radius * sine * (sine + roll * cosine)
                 right = (sense * rise - offsets[cell]) / size_of_cell
-                measure = share * (end - start) * math.cos(turn)  # dy = cos(v_c - v) ds on an involute
+                # dy = cos(v_c - v) ds on an involute.
+                measure = share * (end - start) * (1.0 - 2.0 * sine**2)
                 local = (arc - vertex_arc[element]) / size
                 for side in range(2):
                     node = cell + side
@@ -135,9 +194,42 @@ def _averaging_weights(offsets, rolls, base_radius, contact_roll, sense, flank_r
                         near[node, base + 2] += weight * local * (2.0 * local - 1.0)
             start = end
             element = min(element + 1, elements - 1)
-    for node in range(n):
+    for node in range(len(offsets)):
         near[node] /= near[node].sum()  # constants are averaged exactly
-    return near, first
+
+
+@dataclass(frozen=True)
+class Seeing:
+    """Contact nodes (n,) of many pairs that see flanks of one gear: `offsets`, mm, from the place in `ends` (P + 1,) on
+    those of each pair; their roll angles `rolls` (n,), rad; of each pair the roll angle of contact `contact_rolls`
+    (P,), rad, and those of its flank's nodes `flank_rolls`; `sense` of offsets: -1 on the pinion, +1 on the wheel."""
+
+    offsets: np.ndarray
+    ends: np.ndarray
+    rolls: np.ndarray
+    contact_rolls: np.ndarray
+    flank_rolls: Sequence[np.ndarray]
+    base_radius: float
+    sense: float
+    element_order: int
+
+
+def flank_interpolations(seeing: Seeing) -> list[FlankInterpolation]:
+    """Averaged trace of the flank's elements for the contact nodes of each pair."""
+    # Most flanks are alike.
+    distinct = {id(rolls): rolls for rolls in seeing.flank_rolls}
+    begins = dict(zip(distinct, accumulate(map(len, distinct.values()), initial=0)))
+    firsts, sizes = [begins[id(rolls)] for rolls in seeing.flank_rolls], [len(rolls) for rolls in seeing.flank_rolls]
+    near, first, widths = _averaging_weights(
+        seeing.offsets, seeing.ends, seeing.rolls, seeing.contact_rolls, np.concatenate(list(distinct.values())),
+        np.array([firsts, sizes]), np.array([seeing.base_radius, seeing.sense]), seeing.element_order,
+    )  # fmt: skip
+    ends, found, begin = seeing.ends.tolist(), [], 0
+    for size, width, start, end in zip(sizes, widths.tolist(), ends, ends[1:]):
+        last = begin + (end - start) * width
+        found.append(FlankInterpolation(near[begin:last].reshape(-1, width), first[start:end], size))
+        begin = last
+    return found
 
 
 def flank_interpolation(
@@ -149,50 +241,63 @@ def flank_interpolation(
     flank_rolls: np.ndarray,
     element_order: int,
 ) -> FlankInterpolation:
-    """Averaged trace of the flank's elements for contact nodes at `offsets` (n,), mm, roll angles `rolls` (n,), rad."""
-    near, first = _averaging_weights(offsets, rolls, base_radius, contact_roll, sense, flank_rolls, element_order)
-    return FlankInterpolation(near, first, len(flank_rolls))
+    """The same for the nodes of one pair."""
+    ends, contact_rolls = np.array([0, len(offsets)]), np.array([contact_roll])
+    seeing = Seeing(offsets, ends, rolls, contact_rolls, [flank_rolls], base_radius, sense, element_order)
+    return flank_interpolations(seeing)[0]
 
 
 class Averages:
-    """A contact node sees averages over its function, so that nothing jumps as it passes nodes of the flank.
+    """A contact node sees averages over its function, so that nothing jumps as it passes nodes of the flank. Its nodes
+    are those of many pairs, each from its place in `ends` (P + 1,) on.
 
     `places`: offsets at which nodes need the values that they see; `seen`: what they see of values there; `of_flank`:
-    the weights of the flank's nodes.
+    the weights of the flank's nodes; `points`: where the places of each pair begin and end.
     """
 
     places, seen, of_flank = (
-        staticmethod(quadrature_offsets),
-        staticmethod(node_average),
-        staticmethod(flank_interpolation),
+        staticmethod(offsets_of_cells),
+        staticmethod(node_averages),
+        staticmethod(flank_interpolations),
     )
+
+    def points(self, ends: np.ndarray) -> np.ndarray:
+        """Where they begin and end (P + 1,)."""
+        return len(GAUSS_POINTS) * (ends - np.arange(len(ends)))
 
 
 class Points:
     """Collocation: a contact node sees the values at its own point, of force, gap and displacement alike."""
 
-    def places(self, offsets: np.ndarray) -> np.ndarray:
+    def places(self, offsets: np.ndarray, ends: np.ndarray) -> np.ndarray:
         """The nodes' own offsets (n,), mm."""
         return offsets
 
-    def seen(self, offsets: np.ndarray, values: np.ndarray) -> np.ndarray:
+    def points(self, ends: np.ndarray) -> np.ndarray:
+        """Where they begin and end (P + 1,)."""
+        return ends
+
+    def seen(self, offsets: np.ndarray, ends: np.ndarray, values: np.ndarray) -> np.ndarray:
         """The values (n,) themselves."""
         return values
 
-    def of_flank(
-        self, offsets, rolls, base_radius, contact_roll, sense, flank_rolls, element_order
-    ) -> FlankInterpolation:
-        """The element's shape functions at the nodes' roll angles; arguments as of `flank_interpolation`."""
-        arc, places = 0.5 * base_radius * rolls**2, 0.5 * base_radius * flank_rolls[::element_order] ** 2
-        element = np.clip(np.searchsorted(places, arc, side="right") - 1, 0, len(places) - 2)
-        local = np.clip((arc - places[element]) / np.diff(places)[element], 0.0, 1.0)
-        if element_order == 1:
-            shapes = (1.0 - local, local)
-        else:
-            shapes = ((1.0 - local) * (1.0 - 2.0 * local), 4.0 * local * (1.0 - local), local * (2.0 * local - 1.0))
-        return FlankInterpolation(np.stack(shapes, axis=1), element_order * element, len(flank_rolls))
+    def of_flank(self, seeing: Seeing) -> list[FlankInterpolation]:
+        """The element's shape functions at the nodes' roll angles."""
+        ends, order, found = seeing.ends, seeing.element_order, []
+        for flank_rolls, start, end in zip(seeing.flank_rolls, ends[:-1], ends[1:]):
+            arc, places = (
+                0.5 * seeing.base_radius * each**2 for each in (seeing.rolls[start:end], flank_rolls[::order])
+            )
+            element = np.clip(np.searchsorted(places, arc, side="right") - 1, 0, len(places) - 2)
+            local = np.clip((arc - places[element]) / np.diff(places)[element], 0.0, 1.0)
+            if order == 1:
+                shapes = (1.0 - local, local)
+            else:
+                shapes = ((1.0 - local) * (1.0 - 2.0 * local), 4.0 * local * (1.0 - local), local * (2.0 * local - 1.0))
+            found.append(FlankInterpolation(np.stack(shapes, axis=1), order * element, len(flank_rolls)))
+        return found
 
 
 # By their names in a scene.
 AVERAGED, COLLOCATED = "averaged", "collocated"
-INTERPOLATIONS = {AVERAGED: Averages(), COLLOCATED: Points()}
+INTERPOLATIONS: dict[str, Averages | Points] = {AVERAGED: Averages(), COLLOCATED: Points()}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +10,7 @@ from fenics_gears.contact.operator import Passage, Response
 from fenics_gears.contact.pairing import CompliancePairing
 from fenics_gears.contact.places import pair_places
 from fenics_gears.contact.step_solver import StepProblem, StepSolution, solve_step
-from fenics_gears.contact.tooth_pair import Flanks, PairNodes, Place, ToothPair, tooth_pair
+from fenics_gears.contact.tooth_pair import Flanks, PairNodes, Place, ToothPair, tooth_pairs
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.geometry.pair import GearPair
 
@@ -81,13 +81,15 @@ def nodes_at(places: Iterable[Place], nodes_of: Callable[[Place], PairNodes | No
     return tuple(pair for pair in map(nodes_of, places) if pair is not None)
 
 
-def flank_nodes(flanks: Flanks, grid: ContactGrid, corner: CornerContact | None, place: Place) -> ToothPair | None:
-    """The contact nodes of elastic flanks at a place, or None where their window is empty; `corner`: with tip edges."""
+def flank_nodes(
+    flanks: Flanks, grid: ContactGrid, corner: CornerContact | None, places: Sequence[Place]
+) -> list[ToothPair]:
+    """The contact nodes of elastic flanks at those places whose window is not empty; `corner`: with tip edges."""
     if corner is None:
-        return tooth_pair(flanks, grid, place)
-    from fenics_gears.contact.corner import corner_pair
+        return tooth_pairs(flanks, grid, places)
+    from fenics_gears.contact.corner import corner_pairs
 
-    return corner_pair(flanks, grid, corner, place)
+    return corner_pairs(flanks, grid, corner, places)
 
 
 def elastic_mesh(
@@ -98,8 +100,7 @@ def elastic_mesh(
     coast = flanks.compliance[0].flanks == 2
 
     def nodes(phase: float) -> tuple[PairNodes, ...]:
-        places = pair_places(flanks.pair, grid, phase, coast, corner)
-        return nodes_at(places, lambda place: flank_nodes(flanks, grid, corner, place))
+        return tuple(flank_nodes(flanks, grid, corner, pair_places(flanks.pair, grid, phase, coast, corner)))
 
     response = (pairing or CompliancePairing(flanks)).response
     return Mesh(

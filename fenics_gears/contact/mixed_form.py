@@ -157,10 +157,9 @@ def solve_factored(equations, iterate, rows, slip, opening):
 
     `slip`: tangential forces per normal one, none without friction; `opening`: right sides of the rows, mm.
     """
-    solver, factors = solver_of(equations.rows)
-    if solver == 0:
+    (solver, factors), (m, k) = solver_of(equations.rows), equations.jacobian.shape
+    if solver == 0 or len(equations.compliance) != m:
         return False
-    m, k = equations.jacobian.shape
     result = np.empty(m + k)
     # Of one kind of integers: numpy makes floats of both kinds together.
     arrays = np.empty(13, dtype=np.int64)

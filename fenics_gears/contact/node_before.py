@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+from numba import njit
 
-from fenics_gears.contact.operator import count_of, node_slices
+from fenics_gears.contact.operator import node_ends, over_nodes
 from fenics_gears.contact.tooth_pair import PairNodes
 
 
@@ -14,36 +15,50 @@ def nodes_before(pairs: tuple[PairNodes, ...], previous: tuple[PairNodes, ...], 
     Beside an edge, with which nodes move, it is the one with as many nodes between it and the edge; else the one at the
     same offset.
     """
-    earlier = {_key(pair): (nodes.start, pair.offsets) for nodes, pair in zip(node_slices(previous), previous)}
-    found = np.full(count_of(pairs), -1)
-    for nodes, pair in zip(node_slices(pairs), pairs):
-        if _key(pair) in earlier:
-            first, offsets = earlier[_key(pair)]
-            same = _same_nodes(pair.offsets, offsets, spacing)
-            found[nodes] = np.where(same >= 0, first + same, -1)
+    earlier = {_key(pair): place for place, pair in enumerate(previous)}
+    same = np.array([earlier.get(_key(pair), -1) for pair in pairs], dtype=np.int64)
+    now, before = ((over_nodes(each, "offsets"), node_ends(each)) for each in (pairs, previous))
+    return _nodes_before(*now, *before, same, spacing)
+
+
+@njit(cache=True)
+def _nodes_before(offsets, ends, offsets_before, ends_before, same, spacing):
+    """From offsets (n,), mm, and ends (P + 1,) of each pair's nodes, now and before; `same` (P,): the pair before, -1
+    for none."""
+    found = np.full(len(offsets), -1)
+    for pair in range(len(same)):
+        if same[pair] >= 0:
+            first, last = ends_before[same[pair]], ends_before[same[pair] + 1]
+            own = slice(ends[pair], ends[pair + 1])
+            _same_nodes(found[own], offsets[own], offsets_before[first:last], spacing)
+            for node in range(ends[pair], ends[pair + 1]):
+                found[node] += first if found[node] >= 0 else 0
     return found
 
 
-def _same_nodes(now: np.ndarray, before: np.ndarray, spacing: float) -> np.ndarray:
+@njit(cache=True)
+def _same_nodes(found, now, before, spacing):
     """For each node now, at offsets (n,), mm, the place of the same one among those before, -1 for none."""
-    edges = _closer(now, spacing) & _closer(before, spacing)
-    places = np.arange(len(now))
-    if edges == {0}:
-        return np.where(places < len(before), places, -1)
-    if edges == {-1}:
-        places = places + len(before) - len(now)
-        return np.maximum(places, -1)
-    nearest = np.abs(now[:, None] - before).argmin(axis=1)
-    return np.where(np.abs(now - before[nearest]) <= 0.75 * spacing, nearest, -1)
+    (low, high), (low_before, high_before) = _closer(now, spacing), _closer(before, spacing)
+    low, high = low and low_before, high and high_before
+    for node in range(len(now)):
+        place = node
+        if high and not low:
+            place = node + len(before) - len(now)
+        elif not low or high:
+            place = np.abs(before - now[node]).argmin()
+            if abs(now[node] - before[place]) > 0.75 * spacing:
+                place = -1
+        found[node] = place if place < len(before) else -1
+        found[node] = max(found[node], -1)
 
 
-def _closer(offsets: np.ndarray, spacing: float) -> set[int]:
-    """The ends, 0 and -1, at which the nodes stand closer, since an edge is there."""
+@njit(cache=True)
+def _closer(offsets, spacing):
+    """Whether the nodes stand closer at the first and at the last end, since an edge is there."""
     if len(offsets) < 3:
-        return set()
-    return {
-        end for end, cell in ((0, offsets[1] - offsets[0]), (-1, offsets[-1] - offsets[-2])) if cell < 0.5 * spacing
-    }
+        return False, False
+    return offsets[1] - offsets[0] < 0.5 * spacing, offsets[-1] - offsets[-2] < 0.5 * spacing
 
 
 def _key(pair: PairNodes) -> tuple[int, int, int]:

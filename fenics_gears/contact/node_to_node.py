@@ -21,7 +21,7 @@ from fenics_gears.contact.operator import (
     over_nodes,
     turned,
 )
-from fenics_gears.contact.tooth_pair import PairNodes, Place, Removal, facing_points
+from fenics_gears.contact.tooth_pair import PairNodes, Place, Removal, facing_points_at
 from fenics_gears.contact.window import ContactGrid, flank_ends, node_offsets
 from fenics_gears.elasticity.remeshed_gear import LoadedTooth
 from fenics_gears.geometry.pair import GearPair
@@ -57,7 +57,7 @@ def node_pairs(
         middle, cells = 0.5 * (vertices[1:] + vertices[:-1]), np.diff(vertices)
         # The force of an even pressure on a second-order element: 1/6, 4/6, 1/6 (Simpson).
         offsets, lengths = _alternating(vertices, middle), _alternating(lengths / 3.0, cells * 2.0 / 3.0)
-    rolls, arms, gap = facing_points(pair, removal, place, offsets)
+    rolls, arms, gap = facing_points_at(pair, removal, place.contact_rolls, offsets)
     if order == 2:
         # Elements are straight-sided: their middle nodes stand on the chord.
         arms = tuple(_alternating(arm[::2], 0.5 * (arm[2::2] + arm[:-2:2])) for arm in arms)

@@ -127,6 +127,11 @@ def node_slices(pairs: Sequence[PairNodes]) -> list[slice]:
     return [slice(start, end) for start, end in zip(ends[:-1], ends[1:])]
 
 
+def node_ends(pairs: Sequence[PairNodes]) -> np.ndarray:
+    """Where each pair's contact nodes begin among those of all pairs, and where the last one's end (P + 1,)."""
+    return np.array(list(accumulate((len(pair.offsets) for pair in pairs), initial=0)))
+
+
 def count_of(pairs: Sequence[PairNodes]) -> int:
     """Number of the pairs' contact nodes."""
     return sum(len(pair.offsets) for pair in pairs)

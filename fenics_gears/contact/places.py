@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import lru_cache
-from math import ceil, floor
+from math import ceil
 from typing import TYPE_CHECKING
 
-from fenics_gears.contact.tooth_pair import Place, coast_place, drive_place
-from fenics_gears.contact.window import ContactGrid, flank_ends, window
+import numpy as np
+
+from fenics_gears.contact.face import one_slice
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, Place, coast_place, drive_place
+from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles, ends_of, exists, windows
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
@@ -27,20 +29,7 @@ def pair_places(
     Index 0 is the pair that reached the start of contact last, 1 the one before it, -1 the one to come. `corner`: tips
     touch by their edges too; places are theoretical ones all the same.
     """
-
-    def can_touch(place: Place) -> bool:
-        if corner is not None:
-            from fenics_gears.contact.corner import pair_reaches
-
-            return pair_reaches(pair, grid, corner, place)
-        return window(flank_ends(pair, place.contact_rolls), grid) is not None
-
-    # Off the line of action a tip can touch up to the window's length before and after the path of contact.
-    reach = 2 + ceil(grid.length / pair.base_pitch)
-    candidates = range(-reach, ceil(pair.contact_ratio) + reach)
-    sides = (drive_place, coast_place) if coast_flanks else (drive_place,)
-    places = (side(pair, k, pair.path_start + (phase + k) * pair.base_pitch) for side in sides for k in candidates)
-    return tuple(place for place in places if can_touch(place))
+    return tuple(face_places(pair, grid, one_slice(pair.face_width), phase, coast_flanks, corner))
 
 
 def face_places(
@@ -53,10 +42,34 @@ def face_places(
 ) -> list[Place]:
     """Every pair of flanks in every slice whose window is not empty at `phase` (0 <= phase < 1), as `pair_places` has
     it; by pair, then slice."""
-    found = []
-    for number, (height, shift) in enumerate(zip(face.positions.tolist(), (face.shifts / pair.base_pitch).tolist())):
-        passed = floor(phase + shift)
-        places = pair_places(pair, grid, phase + shift - passed, coast_flanks, corner)
-        # A slice that is a whole mesh cycle ahead has the next pair where the middle has this one.
-        found += [replace(place, index=place.index - passed, slice=number, height=height) for place in places]
-    return sorted(found, key=lambda place: (place.flank, place.index, place.slice))
+    # Off the line of action a tip can touch up to the window's length before and after the path of contact.
+    reach = 2 + ceil(grid.length / pair.base_pitch)
+    candidates, ahead = np.arange(-reach, ceil(pair.contact_ratio) + reach), face.shifts / pair.base_pitch
+    passed = np.floor(phase + ahead)
+    xi = pair.path_start + ((phase + ahead - passed)[:, None] + candidates) * pair.base_pitch
+    # A slice that is a whole mesh cycle ahead has the next pair where the middle has this one.
+    indices, heights, found = (candidates - passed[:, None]).astype(int), face.positions.tolist(), []
+    for flank, side, rolls_of in ((DRIVE, drive_place, contact_roll_angles), (COAST, coast_place, coast_roll_angles)):
+        if flank == COAST and not coast_flanks:
+            continue
+        rolls, same = np.array(rolls_of(pair, xi)), side(pair, 0, pair.path_start)
+        if corner is None:
+            touches = exists(*windows(ends_of(pair, rolls.reshape(2, -1)), grid), grid).reshape(xi.shape)
+        else:
+            touches = _with_edges(pair, grid, corner, side, xi)
+        slices, _ = np.nonzero(touches)
+        # By pair, then slice.
+        order = np.lexsort((slices, indices[touches]))
+        each = zip(indices[touches][order].tolist(), slices[order].tolist(), rolls[:, touches].T[order].tolist())
+        found += [
+            Place(index, flank, tuple(both), same.axes, same.turn, slice=number, height=heights[number])
+            for index, number, both in each
+        ]
+    return found
+
+
+def _with_edges(pair: GearPair, grid: ContactGrid, corner: CornerContact, side, xi: np.ndarray) -> np.ndarray:
+    """Whether flanks with their tip edges may touch where they stand on the path (mm)."""
+    from fenics_gears.contact.corner import pair_reaches
+
+    return np.reshape([pair_reaches(pair, grid, corner, side(pair, 0, at)) for at in xi.ravel().tolist()], xi.shape)

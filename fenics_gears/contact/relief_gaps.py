@@ -7,11 +7,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
-from numba import njit
 
-from fenics_gears.contact.interpolation import AVERAGED, INTERPOLATIONS, Averages, Points, node_average
+from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, Points
 from fenics_gears.contact.mesh_cycle import Cycle, PerPosition, Position
-from fenics_gears.contact.tooth_pair import DRIVE, Removal, facing_points
+from fenics_gears.contact.operator import node_ends, over_nodes
+from fenics_gears.contact.tooth_pair import DRIVE, Removal, facing_points, seen_gap
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ def profile_of(
     """The gaps (n,), mm, at a position of a `cycle` of flanks along the line of action from which `removal` is taken;
     what the cycle's own flanks lack is not counted. And those of all steps, one after the other, where they are
     known."""
-    points, averaged = cycle.beside(FacingPoints), cycle.grid.interpolation == AVERAGED
+    points, view = cycle.beside(FacingPoints), INTERPOLATIONS[cycle.grid.interpolation]
     facing = PerPosition(lambda position: _facing(cycle, position), points.known)
 
     def gaps(at: Facing) -> np.ndarray:
@@ -60,7 +60,7 @@ def profile_of(
         for removed, rolls in zip(removal, at.rolls):
             if removed is not None:
                 gap = gap + np.where(at.drive, removed(rolls), 0.0)
-        return _of_nodes(gap, at.ends, at.offsets, at.node_ends, averaged)
+        return seen_gap(view, at.offsets, at.node_ends, gap)
 
     known: dict[float, np.ndarray] = {}
     of_steps = None if (together := points.of_steps(cycle.steps)) is None else gaps(together)
@@ -94,30 +94,9 @@ def _joined(parts: list[Facing]) -> Facing:
 def _facing(cycle: Cycle, position: Position) -> Facing:
     view: Averages | Points = INTERPOLATIONS[cycle.grid.interpolation]
     pairs = position.operator.pairs
-    found = [facing_points(cycle.pair, (None, None), pair.place, view.places(pair.offsets)) for pair in pairs]
-    points = [gap.size for _, _, gap in found]
-    nodes = [len(pair.offsets) for pair in pairs]
-
-    def together(arrays: list[np.ndarray]) -> np.ndarray:
-        return np.concatenate([array.ravel() for array in arrays]) if arrays else np.empty(0)
-
-    return Facing(
-        (together([rolls[0] for rolls, _, _ in found]), together([rolls[1] for rolls, _, _ in found])),
-        together([gap for _, _, gap in found]),
-        np.repeat([pair.place.flank == DRIVE for pair in pairs], points).astype(bool),
-        np.concatenate([[0], np.cumsum(points, dtype=np.int64)]),
-        together([pair.offsets for pair in pairs]),
-        np.concatenate([[0], np.cumsum(nodes, dtype=np.int64)]),
-    )
-
-
-@njit(cache=True)
-def _of_nodes(gap, ends, offsets, node_ends, averaged):
-    """Gaps (n,) of contact nodes from those at the points that they see, pair by pair: as `tooth_pair.seen_gap`."""
-    found = np.empty(len(offsets))
-    for pair in range(len(ends) - 1):
-        own, nodes = gap[ends[pair] : ends[pair + 1]], slice(node_ends[pair], node_ends[pair + 1])
-        at, inside = offsets[nodes], min(0.0, own.min())
-        seen = node_average(at, own.reshape((len(at) - 1, -1))) if averaged else own
-        found[nodes] = np.maximum(seen, inside)
-    return found
+    offsets, ends = over_nodes(pairs, "offsets"), node_ends(pairs)
+    points, contact_rolls = view.points(ends), np.array([pair.place.contact_rolls for pair in pairs])
+    contact_rolls = np.ascontiguousarray(contact_rolls.reshape(-1, 2).T)
+    rolls, _, gap = facing_points(cycle.pair, contact_rolls, view.places(offsets, ends), points)
+    drive = np.repeat(np.array([pair.place.flank == DRIVE for pair in pairs], dtype=bool), np.diff(points))
+    return Facing(rolls, gap, drive, points, offsets, ends)

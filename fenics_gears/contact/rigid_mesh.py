@@ -16,7 +16,7 @@ from fenics_gears.contact.operator import ContactOperator, Passage, Response, co
 from fenics_gears.contact.places import pair_places
 from fenics_gears.contact.rigid_step import Sides, rigid_step
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution
-from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, Removal, facing_points
+from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, Removal, facing_points_at
 from fenics_gears.contact.window import ContactGrid, flank_ends, node_offsets
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.sliding import sliding_per_rotation
@@ -46,8 +46,8 @@ def _nodes(pair: GearPair, removal, grid: ContactGrid, place: Place) -> PairNode
     if offsets[0] < 0.0 < offsets[-1]:
         # True involutes touch on the line of action itself.
         offsets = np.unique(np.append(offsets, 0.0))
-    (pinion_roll, _), (x_1, x_2), gap = facing_points(
-        pair, removal if place.flank == DRIVE else (None, None), place, offsets
+    (pinion_roll, _), (x_1, x_2), gap = facing_points_at(
+        pair, removal if place.flank == DRIVE else (None, None), place.contact_rolls, offsets
     )
     return PairNodes(place, offsets, hat_integrals(offsets), gap, x_1, x_2, pinion_roll)
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 
 import numpy as np
+from numba import njit
 
-from fenics_gears.contact.flank_at_height import flank_at_height
-from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, FlankInterpolation, Points, hat_integrals
-from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles, flank_ends, node_offsets
+from fenics_gears.contact.flank_at_height import points_of_pairs
+from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, FlankInterpolation, Points, Seeing, hats_of
+from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles, ends_of, offsets_of
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.geometry.pair import GearPair
 
@@ -26,10 +28,6 @@ class Flanks:
     pair: GearPair
     compliance: tuple[FlankCompliance, FlankCompliance]
     removal: tuple[Removal | None, Removal | None] = (None, None)
-
-    def removal_at(self, place: Place) -> tuple[Removal | None, Removal | None]:
-        """Material removed from the flanks at a place: modifications are made on the drive flanks."""
-        return self.removal if place.flank == DRIVE else (None, None)
 
 
 DRIVE, COAST = 0, 1
@@ -118,24 +116,45 @@ class ToothPair(PairNodes):
     interpolation: tuple[FlankInterpolation, FlankInterpolation]
 
 
+# Of pinion and wheel.
+Both = tuple[np.ndarray, np.ndarray]
+
+
 def flank_points(
-    pair: GearPair, place: Place, offsets: np.ndarray
-) -> tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
-    """Roll angles (rad) and x (mm, of `flank_at_height`), of pinion and wheel, at offsets (mm, any shape) from the line
-    of a place."""
-    (roll_1, roll_2), (arm_1, arm_2) = place.contact_rolls, place.line_in(pair).lever_arms
-    rolls_1, x_1 = flank_at_height(pair.pinion.base_radius, roll_1, arm_1 - offsets)
-    rolls_2, x_2 = flank_at_height(pair.wheel.base_radius, roll_2, arm_2 + offsets)
+    pair: GearPair, contact_rolls: np.ndarray, lever_arms: np.ndarray, offsets: np.ndarray, ends: np.ndarray
+) -> tuple[Both, Both]:
+    """Roll angles (rad) and x (mm, of `flank_at_height`), of pinion and wheel, at offsets (n,), mm, from the lines of
+    action of many pairs, of each from its place in `ends` (P + 1,) on; contact roll angles (2, P), rad, and lever arms
+    (2, P), mm, of these lines."""
+    radii = pair.pinion.base_radius, pair.wheel.base_radius
+    (rolls_1, x_1), (rolls_2, x_2) = (
+        points_of_pairs(radius, sense, rolls, arms, offsets, ends)
+        for radius, sense, rolls, arms in zip(radii, SENSES, contact_rolls, lever_arms)
+    )
     return (rolls_1, rolls_2), (x_1, x_2)
 
 
-def facing_points(pair: GearPair, removal: tuple[Removal | None, Removal | None], place: Place, offsets: np.ndarray):
-    """Flank points that face each other along the line of action at offsets (mm, any shape).
+def facing_points(
+    pair: GearPair, contact_rolls: np.ndarray, offsets: np.ndarray, ends: np.ndarray
+) -> tuple[Both, Both, np.ndarray]:
+    """Points of involutes that face each other along the line of action; arguments as of `flank_points`.
 
     Their roll angles (rad) and distances from T1, T2 (mm), each of pinion and wheel, and the gap (mm).
     """
-    rolls, distances = flank_points(pair, place, offsets)
-    gap = pair.line_of_action_length - distances[1] - distances[0]
+    radii = np.array([[gear.base_radius] * (len(ends) - 1) for gear in (pair.pinion, pair.wheel)])
+    rolls, distances = flank_points(pair, contact_rolls, radii, offsets, ends)
+    return rolls, distances, pair.line_of_action_length - distances[1] - distances[0]
+
+
+def facing_points_at(
+    pair: GearPair,
+    removal: tuple[Removal | None, Removal | None],
+    contact_rolls: tuple[float, float],
+    offsets: np.ndarray,
+) -> tuple[Both, Both, np.ndarray]:
+    """The same of one pair whose contact roll angles (rad) are given, with material removed from either flank."""
+    alone = np.array([0, len(offsets)])
+    rolls, distances, gap = facing_points(pair, np.array(contact_rolls)[:, None], offsets, alone)
     for removed, roll in zip(removal, rolls):
         if removed is not None:
             gap = gap + removed(roll)
@@ -144,71 +163,107 @@ def facing_points(pair: GearPair, removal: tuple[Removal | None, Removal | None]
 
 def tooth_pair(flanks: Flanks, grid: ContactGrid, place: Place) -> ToothPair | None:
     """The contact nodes of the flanks at a place, or None where their window is empty."""
-    offsets = node_offsets(flank_ends(flanks.pair, place.contact_rolls), grid)
-    if not len(offsets):
-        return None
-    at = INTERPOLATIONS[grid.interpolation].places(offsets)
-    _, distances, gap = facing_points(flanks.pair, flanks.removal_at(place), place, at)
-    return nodes_on_flanks(flanks, grid, place, offsets, distances, gap)
+    return next(iter(tooth_pairs(flanks, grid, [place])), None)
 
 
-def seen_gap(view: Averages | Points, offsets: np.ndarray, gap: np.ndarray) -> np.ndarray:
-    """Gaps (n,), mm, of contact nodes at `offsets` (n,), mm, from gaps at the points that they see.
+def tooth_pairs(flanks: Flanks, grid: ContactGrid, places: Sequence[Place]) -> list[ToothPair]:
+    """The contact nodes of the flanks at those places whose window is not empty."""
+    every = np.array([place.contact_rolls for place in places]).reshape(len(places), 2).T
+    offsets, counts = offsets_of(ends_of(flanks.pair, every), grid)
+    there = np.flatnonzero(counts)
+    if not len(there):
+        return []
+    places, ends, view = [places[at] for at in there], _ends(counts[there]), INTERPOLATIONS[grid.interpolation]
+    at, points = view.places(offsets, ends), view.points(ends)
+    rolls, distances, gap = facing_points(flanks.pair, np.ascontiguousarray(every[:, there]), at, points)
+    if flanks.removal != (None, None):
+        drive = np.repeat([place.flank == DRIVE for place in places], np.diff(points))
+        for removed, roll in zip(flanks.removal, rolls):
+            if removed is not None:
+                gap[drive] += removed(roll[drive])
+    return nodes_on_flanks(flanks, grid, places, (offsets, ends), distances[0] - distances[1], gap)
+
+
+def _ends(counts: np.ndarray) -> np.ndarray:
+    """Where groups of so many (P,) begin, one after the other, and the last one ends (P + 1,)."""
+    return np.array([0, *accumulate(counts.tolist())])
+
+
+@njit(cache=True)
+def _not_below(seen, ends, gap, points):
+    """Raise what the nodes of each pair see (n,) to the smallest gap there."""
+    for pair in range(len(ends) - 1):
+        least = min(0.0, gap[points[pair] : points[pair + 1]].min())
+        for node in range(ends[pair], ends[pair + 1]):
+            seen[node] = max(seen[node], least)
+
+
+def seen_gap(view: Averages | Points, offsets: np.ndarray, ends: np.ndarray, gap: np.ndarray) -> np.ndarray:
+    """Gaps (n,), mm, of contact nodes at `offsets` (n,), mm, of many pairs from `ends` (P + 1,) on, from gaps at the
+    points that they see.
 
     Averages of flanks that are nowhere one inside the other may not say that they are: they would press without load.
     """
-    return np.maximum(view.seen(offsets, gap), min(0.0, float(gap.min())))
+    seen = view.seen(offsets, ends, gap).copy()
+    _not_below(seen, ends, gap, view.points(ends))
+    return seen
 
 
 def nodes_on_flanks(
     flanks: Flanks,
     grid: ContactGrid,
-    place: Place,
-    offsets: np.ndarray,
-    distances: tuple[np.ndarray, np.ndarray],
+    places: Sequence[Place],
+    nodes: tuple[np.ndarray, np.ndarray],
+    difference: np.ndarray,
     gap: np.ndarray,
-) -> ToothPair:
-    """Contact nodes at `offsets` (n,), mm, that see the flanks by the grid's interpolation.
+) -> list[ToothPair]:
+    """Contact nodes that see the flanks by the grid's interpolation, at `nodes`: offsets (n,), mm, of one place after
+    the other, and where each begins and the last one ends (P + 1,).
 
-    `distances`: of pinion's and wheel's surface from their foot on the place's line, mm, and `gap`, mm, where the
-    interpolation wants them.
+    `difference`: of the distances of pinion's and wheel's surface from their foot on the place's line, mm, and `gap`,
+    mm, where the interpolation wants them.
     """
-    view, line = INTERPOLATIONS[grid.interpolation], place.line_in(flanks.pair)
-    rolls = flank_points(flanks.pair, place, offsets)[0]
+    view, (offsets, ends) = INTERPOLATIONS[grid.interpolation], nodes
+    rolls, length = rolls_of(flanks.pair, places, nodes), flanks.pair.line_of_action_length
+    lengths = np.repeat([length if place.line is None else place.line.length for place in places], np.diff(ends))
     # Flanks that deform to touch meet midway between where they stand undeformed. Friction acts there on both, so that
     # action and reaction leave no torque.
-    meeting = 0.5 * (view.seen(offsets, distances[0] - distances[1]) + line.length)
-    interpolation = interpolations(flanks, grid, place, offsets, rolls)
-    return ToothPair(
-        place=place,
-        offsets=offsets,
-        lengths=hat_integrals(offsets),
-        gap=seen_gap(view, offsets, gap),
-        pinion_lever_arm=meeting,
-        wheel_lever_arm=line.length - meeting,
-        pinion_roll=rolls[0],
-        interpolation=interpolation,
-    )
+    meeting = 0.5 * (view.seen(offsets, ends, difference) + lengths)
+    arrays = offsets, hats_of(offsets, ends), seen_gap(view, offsets, ends, gap), meeting, lengths - meeting, rolls[0]
+    parts = [tuple(array[start:end] for array in arrays) for start, end in zip(ends[:-1].tolist(), ends[1:].tolist())]
+    seen = interpolations(flanks, grid, places, nodes, rolls)
+    return [ToothPair(place, *part, views) for place, part, views in zip(places, parts, seen)]
+
+
+def _lever_arms(pair: GearPair, places: Sequence[Place]) -> np.ndarray:
+    """Lever arms (2, P), mm, of the places' lines of action about the centres of pinion and wheel."""
+    radii = pair.pinion.base_radius, pair.wheel.base_radius
+    arms = np.array([radii if place.line is None else place.line.lever_arms for place in places])
+    return np.ascontiguousarray(arms.T)
+
+
+def rolls_of(pair: GearPair, places: Sequence[Place], nodes: tuple[np.ndarray, np.ndarray]) -> Both:
+    """Roll angles (n,), rad, of contact nodes, as of `nodes_on_flanks`, on pinion and wheel."""
+    contact_rolls = np.ascontiguousarray(np.array([place.contact_rolls for place in places]).T)
+    return flank_points(pair, contact_rolls, _lever_arms(pair, places), *nodes)[0]
 
 
 def interpolations(
-    flanks: Flanks, grid: ContactGrid, place: Place, offsets: np.ndarray, rolls: tuple[np.ndarray, np.ndarray]
-) -> tuple[FlankInterpolation, FlankInterpolation]:
-    """How contact nodes at `offsets` (n,), mm, see the nodes of either flank; `rolls` (rad): their roll angles on
-    pinion and wheel."""
-    view, line, gears = (
-        INTERPOLATIONS[grid.interpolation],
-        place.line_in(flanks.pair),
-        (flanks.pair.pinion, flanks.pair.wheel),
-    )
-    first, second = (
-        view.of_flank(
-            # Offsets from the line at the gear's own base radius.
-            offsets + sense * (arm - gear.base_radius), own, gear.base_radius, roll, sense,
-            flank.rolls_of(place.ahead(number)), flank.element_order,
-        )
-        for number, (gear, own, roll, arm, sense, flank) in enumerate(
-            zip(gears, rolls, place.contact_rolls, line.lever_arms, SENSES, flanks.compliance)
-        )
-    )  # fmt: skip
-    return first, second
+    flanks: Flanks, grid: ContactGrid, places: Sequence[Place], nodes: tuple[np.ndarray, np.ndarray], rolls: Both
+) -> list[tuple[FlankInterpolation, FlankInterpolation]]:
+    """How contact nodes, as of `nodes_on_flanks`, see the nodes of either flank at each place; `rolls` (n,), rad: their
+    roll angles on pinion and wheel."""
+    (offsets, ends), gears, found = nodes, (flanks.pair.pinion, flanks.pair.wheel), []
+    apart = np.zeros((2, 1))
+    if any(place.line is not None for place in places):
+        # Offsets from the line at the gear's own base radius.
+        arms = _lever_arms(flanks.pair, places) - np.array([[gear.base_radius] for gear in gears])
+        apart = np.repeat(arms, np.diff(ends), axis=1)
+    for number, (gear, own, sense, flank) in enumerate(zip(gears, rolls, SENSES, flanks.compliance)):
+        seeing = Seeing(
+            offsets + sense * apart[number], ends, own,
+            np.array([place.contact_rolls[number] for place in places]),
+            [flank.rolls_of(place.ahead(number)) for place in places], gear.base_radius, sense, flank.element_order,
+        )  # fmt: skip
+        found.append(INTERPOLATIONS[grid.interpolation].of_flank(seeing))
+    return list(zip(*found))

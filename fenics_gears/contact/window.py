@@ -10,9 +10,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import ceil, cos, sin
+from math import ceil
 
 import numpy as np
+from numba import njit
 
 from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.geometry.pair import GearPair
@@ -90,30 +91,37 @@ def coast_roll_angles(pair: GearPair, xi: float) -> tuple[float, float]:
 
 def flank_ends(pair: GearPair, contact_rolls: tuple[float, float]) -> Ends:
     """Offsets (mm) where the flanks end on the line of action of either gear's contact roll angle (rad)."""
-    pinion, wheel = pair.pinion, pair.wheel
-    roll_1, roll_2 = contact_rolls
+    below, above = ends_of(pair, np.array(contact_rolls)[:, None])[0].tolist()
+    return tuple(below), tuple(above)
 
-    def height(gear, roll, contact_roll):
-        # As `flank_point`; of single numbers numpy would take five times as long.
-        turned = contact_roll - roll
-        return gear.base_radius * (cos(turned) - roll * sin(turned))
 
-    below = (
-        pinion.base_radius - height(pinion, pinion.tip_roll_angle, roll_1),
-        height(wheel, wheel.form_roll_angle, roll_2) - wheel.base_radius,
-    )
-    above = (
-        pinion.base_radius - height(pinion, pinion.form_roll_angle, roll_1),
-        height(wheel, wheel.tip_roll_angle, roll_2) - wheel.base_radius,
-    )
-    return below, above
+def ends_of(pair: GearPair, contact_rolls: np.ndarray) -> np.ndarray:
+    """The same (P, 2, 2) of many contact roll angles (2, P), rad."""
+    found = np.empty((contact_rolls.shape[1], 2, 2))
+    for gear, body, sense, tip in ((0, pair.pinion, -1.0, 0), (1, pair.wheel, 1.0, 1)):
+        for side, roll in ((tip, body.tip_roll_angle), (1 - tip, body.form_roll_angle)):
+            # As `flank_point`.
+            turned = contact_rolls[gear] - roll
+            height = body.base_radius * (np.cos(turned) - roll * np.sin(turned))
+            found[:, side, gear] = sense * (height - body.base_radius)
+    return found
 
 
 def window(ends: Ends, grid: ContactGrid) -> tuple[float, float] | None:
     """Offsets (mm) between which flanks with these ends exist in the grid's window; None where they do not."""
+    (start,), (end,) = windows(np.array([ends]), grid)
+    return (float(start), float(end)) if exists(start, end, grid) else None
+
+
+def windows(ends: np.ndarray, grid: ContactGrid) -> tuple[np.ndarray, np.ndarray]:
+    """The same of many ends (P, 2, 2): where windows begin and end (P,); those that are not there end too early."""
     half = 0.5 * grid.length
-    start, end = max(*ends[0], -half), min(*ends[1], half)
-    return (start, end) if end - start > 1e-9 * grid.length else None
+    return np.maximum(ends[:, 0].max(axis=1), -half), np.minimum(ends[:, 1].min(axis=1), half)
+
+
+def exists(start, end, grid: ContactGrid):
+    """Whether windows from `start` to `end` (mm) have a length."""
+    return end - start > 1e-9 * grid.length
 
 
 def node_offsets(ends: Ends, grid: ContactGrid) -> np.ndarray:
@@ -121,36 +129,55 @@ def node_offsets(ends: Ends, grid: ContactGrid) -> np.ndarray:
 
     Nodes stand closer beside a tip that cuts the window, not beside a form circle.
     """
-    inside = window(ends, grid)
-    if inside is None:
-        return np.empty(0)
-    offsets = _in_window(inside, ends, grid)
-    if grid.inner_length is None:
-        return offsets
-    # Beside an edge within the window: as far beyond it, or beyond the line.
-    # A node by itself has no cell to average over.
-    near, half = max(0.5 * grid.inner_length, grid.spacing), 0.5 * grid.length
-    low = inside[0] if inside[0] > -half else min(-near, inside[1] - 2.0 * near)
-    high = inside[1] if inside[1] < half else max(near, inside[0] + 2.0 * near)
-    return offsets[(offsets >= low - 1e-9 * half) & (offsets <= high + 1e-9 * half)]
+    return offsets_of(np.array([ends]), grid)[0]
 
 
-def _in_window(inside: tuple[float, float], ends: Ends, grid: ContactGrid) -> np.ndarray:
-    """Offsets (n,), mm, of contact nodes between the ends of a window."""
-    (start, end), ((tip_1, form_2), (form_1, tip_2)) = inside, ends
-    half, length = 0.5 * grid.length, end - start
-    cut_low, cut_high = start > -half, end < half
-    below, above = (grid.edge_cells if tip else NO_CELLS for tip in (tip_1 >= form_2, tip_2 <= form_1))
+def offsets_of(ends: np.ndarray, grid: ContactGrid) -> tuple[np.ndarray, np.ndarray]:
+    """The same of flanks with many ends (P, 2, 2), one after the other; and how many each has (P,)."""
+    inner = np.inf if grid.inner_length is None else grid.inner_length
+    sizes = np.array([grid.length, grid.spacing, max(0.5 * inner, grid.spacing)])
+    return _offsets(ends, sizes, grid.most_nodes, grid.edge_cells, grid.evenly, grid.beside_an_edge)
+
+
+@njit(cache=True)
+def _offsets(ends, sizes, most, cells, evenly, beside_an_edge):
+    length, spacing, near = sizes[0], sizes[1], sizes[2]
+    half, found, counts, last = 0.5 * length, np.empty(most * len(ends)), np.zeros(len(ends), dtype=np.int64), 0
+    for flank in range(len(ends)):
+        tip_1, form_2, form_1, tip_2 = ends[flank, 0, 0], ends[flank, 0, 1], ends[flank, 1, 0], ends[flank, 1, 1]
+        start, end = max(tip_1, form_2, -half), min(form_1, tip_2, half)
+        if not end - start > 1e-9 * length:
+            continue
+        offsets = _in_window(
+            (start, end), (tip_1 >= form_2, tip_2 <= form_1), (half, spacing), (cells, evenly, beside_an_edge)
+        )
+        # Beside an edge within the window: as far beyond it, or beyond the line.
+        # A node by itself has no cell to average over.
+        low = start if start > -half else min(-near, end - 2.0 * near)
+        high = end if end < half else max(near, start + 2.0 * near)
+        for offset in offsets:
+            if low - 1e-9 * half <= offset <= high + 1e-9 * half:
+                found[last] = offset
+                last, counts[flank] = last + 1, counts[flank] + 1
+    return found[:last].copy(), counts
+
+
+@njit(cache=True)
+def _in_window(window, tips, sizes, tables):
+    """Offsets (n,), mm, of contact nodes between the ends of a window; `tips`: whether a tip is below and above it."""
+    (start, end), (half, spacing), (cells, evenly, beside_an_edge) = window, sizes, tables
+    cut_low, cut_high, length = start > -half, end < half, end - start
+    below, above = (cells if tips[0] else cells[:0]), (cells if tips[1] else cells[:0])
     if cut_low and cut_high:
-        even = round(length / grid.spacing - below.sum() - above.sum())
-        cells = np.concatenate([below, np.ones(max(even, 0)), above[::-1]])
-        if even < 0 or not len(cells):
-            cells = np.ones(max(1, round(length / grid.spacing)))
-        return start + length / cells.sum() * np.concatenate([[0.0], np.cumsum(cells)])
+        even = int(np.rint(length / spacing - below.sum() - above.sum()))
+        between = np.concatenate((below, np.ones(max(even, 0)), np.flip(above)))
+        if even < 0 or not len(between):
+            between = np.ones(max(1, int(np.rint(length / spacing))))
+        return start + length / between.sum() * np.concatenate((np.zeros(1), np.cumsum(between)))
     # As far as the window reaches, one cell at least; the tolerance keeps the node count of an uncut window whole in
     # spite of round-off.
-    distances = grid.beside_an_edge if cut_low and len(below) or cut_high and len(above) else grid.evenly
+    distances = beside_an_edge if cut_low and len(below) or cut_high and len(above) else evenly
     distances = distances[: np.searchsorted(distances, length * (1.0 + 1e-12), "right")]
     if len(distances) == 1:
         distances = np.array([0.0, length])
-    return start + distances if cut_low else end - distances[::-1]
+    return start + distances if cut_low else end - np.flip(distances)

@@ -61,7 +61,7 @@ def _works(block):
         then, now = _end(steps, s - 1), _end(steps, s)
         shared = _shared(then, now, steps.kinds)
         rotation, changes = _normal_work(then, now, shared)
-        works[ROTATION, s - 1], works[CHANGES, s - 1] = _by_shape(then, now, shared.rows) + rotation, changes
+        works[ROTATION, s - 1], works[CHANGES, s - 1] = _by_shape(then, now, shared) + rotation, changes
         if steps.kinds == 2:
             _tangential_work(works[:, s - 1], then, now, shared)
     return works
@@ -130,52 +130,59 @@ def _tangential_work(works, then, now, shared):
         if successor[node] < 0 and p_0 != 0.0:
             there = _at_other(n_0 + node, then, rows_0, now, rows_1)
             works[CHANGES] -= 0.5 * p_0 * (there - displaced_0[n_0 + node])
-    rigid_slip, jacobian, columns, loaded = (
-        now.contact.rigid_slip, now.contact.previous_jacobian, now.contact.previous_columns, np.flatnonzero(forces_0),
-    )  # fmt: skip
+    # `slid`: slip of rigid flanks less the displacement that the same points had before; `moved`: displacement that the
+    # node had then.
+    jacobian, columns, slid = now.contact.previous_jacobian, now.contact.previous_columns, now.contact.rigid_slip.copy()
+    for column in range(2 * n_0):
+        if forces_0[column] != 0.0:
+            force, displaced = forces_0[column], columns[column]
+            for node in range(n_1):
+                slid[node] += displaced[node] * force
     for node in range(n_1):
         before = node_before[node]
         p_1, p_0 = forces_1[n_1 + node], forces_0[n_0 + before] if before >= 0 else 0.0
         if p_0 == 0.0 and p_1 == 0.0:
             continue
-        # `slid`: slip of rigid flanks less the displacement that the same points had before; `moved`: displacement that
-        # the node had then.
-        slid = rigid_slip[node] - product(jacobian[node], x_0)
-        for column in loaded:
-            slid += columns[column, node] * forces_0[column]
+        slid[node] -= product(jacobian[node], x_0)
         if before >= 0:
             moved = displaced_0[n_0 + before]
         else:
             moved = _at_other(n_1 + node, now, rows_1, then, rows_0)
-        slip = displaced_1[n_1 + node] + slid
-        works[ROTATION] += 0.5 * (p_0 + p_1) * (slid + moved)
+        slip = displaced_1[n_1 + node] + slid[node]
+        works[ROTATION] += 0.5 * (p_0 + p_1) * (slid[node] + moved)
         works[FRICTION] += p_1 * slip
         works[CHANGES] += 0.5 * (p_1 - p_0) * slip
 
 
 @njit(cache=True)
-def _by_shape(then, now, rows):
-    """Half of p0 (G1 - G0) x1 + p1 (G1 - G0) x0 - p0 (C1 - C0) p1 over the rows of both ends, N mm."""
-    jacobian_0, compliance_0, forces_0, x_0 = (
-        then.contact.jacobian,
-        then.contact.compliance,
-        then.forces,
-        then.coordinates,
-    )
-    jacobian_1, compliance_1, forces_1, x_1 = now.contact.jacobian, now.contact.compliance, now.forces, now.coordinates
-    rows_0, rows_1 = rows
-    work = 0.0
+def _by_shape(then, now, shared):
+    """Half of p0 (G1 - G0) x1 + p1 (G1 - G0) x0 - p0 (C1 - C0) p1 over the rows of both ends, N mm.
+
+    By C p = G x - u at either end: products with C are left for the few loaded nodes that only one end has.
+    """
+    rows_0, rows_1 = shared.rows
+    work = _by_others(now, rows_1, then.forces, rows_0, shared.node_before)
+    work -= _by_others(then, rows_0, now.forces, rows_1, shared.successor)
     for row in range(len(rows_0)):
         i_0, i_1 = rows_0[row], rows_1[row]
-        p_0, p_1 = forces_0[i_0], forces_1[i_1]
-        for k in range(len(x_0)):
-            work += (jacobian_1[i_1, k] - jacobian_0[i_0, k]) * (p_0 * x_1[k] + p_1 * x_0[k])
-        if p_0 != 0.0:
-            for column in range(len(rows_0)):
-                j_0, j_1 = rows_0[column], rows_1[column]
-                # By rows of loaded nodes: others need not be formed.
-                work -= p_0 * (compliance_1[j_1, i_1] - compliance_0[i_0, j_0]) * forces_1[j_1]
+        work += then.forces[i_0] * (now.displacement[i_1] - product(then.contact.jacobian[i_0], now.coordinates))
+        work -= now.forces[i_1] * (then.displacement[i_0] - product(now.contact.jacobian[i_1], then.coordinates))
     return 0.5 * work
+
+
+@njit(cache=True)
+def _by_others(here, rows, forces, other_rows, same):
+    """Work (N mm) of the `forces` at some rows on what the nodes of an end displace there that the other end does not
+    have, of which none is the `same` (n,)."""
+    compliance, work = here.contact.compliance, 0.0
+    for own in range(len(here.forces)):
+        if here.forces[own] != 0.0 and same[own % len(same)] < 0:
+            displaced = 0.0
+            for row in range(len(rows)):
+                # By rows of loaded nodes: others need not be formed.
+                displaced += compliance[own, rows[row]] * forces[other_rows[row]]
+            work += here.forces[own] * displaced
+    return work
 
 
 @njit(cache=True)

@@ -9,7 +9,7 @@ import numpy as np
 from fenics_gears.contact.face import Face
 from fenics_gears.contact.mesh_cycle import SHARE_FORMED
 from fenics_gears.contact.places import face_places
-from fenics_gears.contact.window import flank_ends, node_offsets
+from fenics_gears.contact.window import ends_of, offsets_of
 from fenics_gears.elasticity.face.cost import expected_memory, expected_size, is_iterative
 from fenics_gears.model.cost import CONDENSING_PROGRAM, ON_FLANKS, ExpectedCost, root_stress_cost
 from fenics_gears.model.face_resolution import face_discretisation
@@ -52,7 +52,8 @@ def _contact_nodes(pair, grid, along, coast, corner) -> tuple[float, float]:
     places = [
         place for phase in range(PHASES) for place in face_places(pair, grid, face, phase / PHASES, coast, corner)
     ]
-    nodes = sum(len(node_offsets(flank_ends(pair, place.contact_rolls), grid)) for place in places)
+    rolls = np.array([place.contact_rolls for place in places]).reshape(-1, 2).T
+    nodes = len(offsets_of(ends_of(pair, rolls), grid)[0])
     return len(places) / PHASES, nodes / PHASES
 
 

@@ -14,6 +14,7 @@ from numba import njit
 
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.contact.mixed_form import product
 from fenics_gears.contact.rigid_step import SAME_GAP
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
 from fenics_gears.dynamics.clock import Clock
@@ -179,7 +180,7 @@ def energy_variables(scene: Scene, drivetrain: Drivetrain, steps: Steps) -> dict
 
 
 def energy_of_teeth(steps: Steps) -> np.ndarray:
-    """Half of p C p at each step (s,), N mm."""
+    """Half of p C p = p (G q - u) at each step (s,), N mm."""
     return _energy_of_teeth(steps.in_memory)
 
 
@@ -188,14 +189,11 @@ def _energy_of_teeth(block):
     steps = in_block(block)
     energies = np.zeros(len(steps.rows))
     for s in range(len(steps.rows)):
-        compliance, loads, energy = operator_at(steps, s).compliance, steps.forces[forces_at(steps, s)], 0.0
-        loaded = np.flatnonzero(loads)
-        for i in loaded:
-            displaced = 0.0
-            for j in loaded:
-                displaced += compliance[i, j] * loads[j]
-            energy += 0.5 * loads[i] * displaced
-        energies[s] = energy
+        jacobian, coordinates, forces = operator_at(steps, s).jacobian, steps.states[s, 0], forces_at(steps, s)
+        loads, displacement = steps.forces[forces], steps.displacement[forces]
+        for row in range(len(loads)):
+            if loads[row] != 0.0:
+                energies[s] += 0.5 * loads[row] * (product(jacobian[row], coordinates) - displacement[row])
     return energies
 
 

@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.laws import NO_FORCE, OPEN
-from fenics_gears.contact.mixed_form import Equations, Iterate, product, solve_factored, solved, system_of
+from fenics_gears.contact.laws import NO_FORCE, OPEN, SLIP_FORWARD
+from fenics_gears.contact.mixed_form import Equations, Iterate, product, solve_sets
 from fenics_gears.dynamics.steps import Steps, forces_at, in_block, nodes_at, operator_at
 from fenics_gears.model.model import Model
 from fenics_gears.model.modification import kinks
@@ -80,22 +80,15 @@ def _highest(overlap, node_pair):
 
 @njit(cache=True)
 def _tangent(contact, nodes):
-    """Force (N) on some nodes of a contact when all of them approach by 1 mm."""
-    compliance, n = contact.compliance, len(contact.gap)
-    if contact.rows != 0 and len(compliance) == n:
-        # With all gaps closed by 1 mm and a coordinate that moves nothing; what was factored for the step serves.
-        still, nothing = np.eye(1), np.empty(0)
-        equations = Equations(
-            still, np.zeros(1), compliance, np.zeros((n, 1)), contact.gap, nothing, 0.0, nothing, contact.rows
-        )
-        iterate = Iterate(np.empty(0, dtype=np.int8), np.zeros(n), np.zeros(1), nothing)
-        if solve_factored(equations, iterate, nodes, nothing, np.full(len(nodes), -1.0)):
-            return iterate.forces.sum()
-    matrix = system_of(len(nodes))
-    for i in range(len(nodes)):
-        for j in range(len(nodes)):
-            matrix[i, j] = compliance[nodes[i], nodes[j]]
-    return solved(matrix, np.ones(len(nodes)), len(nodes)).sum()
+    """Force (N) on some nodes when all of them approach by 1 mm: over the approach under a force of 1 N, solved as a
+    step, so that what the march knows of the compliance serves."""
+    n = len(contact.gap)
+    status, coordinates, nothing = np.full(n, OPEN, dtype=np.int8), np.zeros(1), np.empty(0)
+    status[nodes] = SLIP_FORWARD
+    loose, force, approach = np.zeros((1, 1)), np.ones(1), np.ones((n, 1))
+    equations = Equations(loose, force, contact.compliance, approach, np.zeros(n), nothing, 0.0, nothing, contact.rows)
+    solve_sets(equations, Iterate(status, np.zeros(n), coordinates, nothing))
+    return 1.0 / coordinates[0]
 
 
 Curves = dict[str, np.ndarray]

@@ -16,12 +16,13 @@ from fenics_gears.contact.operator import (
     COORDINATES,
     ContactOperator,
     displacement_jacobian,
+    node_ends,
     node_slices,
     over_nodes,
     per_node,
 )
 from fenics_gears.contact.tooth_pair import DRIVE
-from fenics_gears.contact.window import flank_ends
+from fenics_gears.contact.window import ends_of
 from fenics_gears.dynamics.steps import Steps
 from fenics_gears.geometry.pair import GearPair
 
@@ -49,45 +50,51 @@ class Layout:
         lengths, self.offsets, self.rolls = (over_nodes(pairs, name) for name in ("lengths", "offsets", "pinion_roll"))
         self.area = lengths * operator.face.contact_widths[self.slice]
         self.at_end = np.abs(self.offsets) >= 0.5 * cycle.grid.length * (1.0 - 1e-9)
+        rolls = np.array([pair.place.contact_rolls for pair in pairs]).reshape(-1, 2).T
+        ends, of_flanks = node_ends(pairs), ends_of(cycle.pair, rolls)
         if cycle.grid.inner_length is not None:
-            self.at_end |= _at_inner_end(cycle, pairs, self.offsets)
+            self.at_end |= _at_inner_end(cycle, self.offsets, ends, of_flanks)
         self.on_edge = self.arcs = None
         if cycle.traits.has_pressure:
-            self.on_edge, self.arcs = _on_edges(cycle, pairs, counts), _arcs(cycle.pair, pairs)
+            self.on_edge, self.arcs = _on_edges(cycle, pairs, ends, of_flanks), _arcs(cycle.pair, pairs)
         rows, nodes = _reaction_rows(operator, tangential), operator.nodes
         self.rows_of_normals, self.rows_of_tangents = rows[:, :nodes], rows[:, nodes:]
 
 
-def _at_inner_end(cycle: Cycle, pairs, offsets: np.ndarray) -> np.ndarray:
+def _at_inner_end(cycle: Cycle, offsets: np.ndarray, ends: np.ndarray, of_flanks: np.ndarray) -> np.ndarray:
     """Nodes (n,) that stand first or last in a window that is shorter than the whole one, and not on the edge of a
-    flank."""
-    found, round_off = np.zeros(len(offsets), dtype=bool), 1e-9 * cycle.grid.length
-    for pair, nodes in zip(pairs, node_slices(pairs)):
-        below, above = flank_ends(cycle.pair, pair.place.contact_rolls)
-        first, last = nodes.start, nodes.stop - 1
-        found[first], found[last] = offsets[first] > max(below) + round_off, offsets[last] < min(above) - round_off
+    flank; `ends`: as of `_on_edges`."""
+    found, round_off, first, last = (
+        np.zeros(len(offsets), dtype=bool),
+        1e-9 * cycle.grid.length,
+        ends[:-1],
+        ends[1:] - 1,
+    )
+    found[first] = offsets[first] > of_flanks[:, 0].max(axis=1) + round_off
+    found[last] = offsets[last] < of_flanks[:, 1].min(axis=1) - round_off
     return found & (np.abs(np.abs(offsets) - 0.5 * cycle.grid.inner_length) <= cycle.grid.spacing)
 
 
-def _on_edges(cycle: Cycle, pairs, counts: Sequence[int]) -> np.ndarray:
+def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> np.ndarray:
     """Nodes (4, n) that stand on the edge that ends a flank: the pinion's tip and the wheel's form circle below the
-    line of action, the others above."""
-    found, half = np.zeros((4, sum(counts)), dtype=bool), 0.5 * cycle.grid.length * (1.0 - 1e-9)
-    cut = cycle.pair.pinion.undercut, cycle.pair.wheel.undercut
-    for pair, nodes in zip(pairs, node_slices(pairs)):
-        first, last = nodes.start, nodes.stop - 1
-        if pair.place.line is None:
-            below, above = flank_ends(cycle.pair, pair.place.contact_rolls)
-            found[0, first] = below[0] >= below[1] and below[0] > -half
-            found[1, last] = above[1] <= above[0] and above[1] < half
-        elif any(cut):
-            from fenics_gears.contact.corner import edge_ends
+    line of action, the others above.
 
-            below, above = edge_ends(cycle.pair, cycle.corner, pair.place)
-        else:
-            continue
-        found[2, last] = cut[0] and above[0] <= above[1] and above[0] < half
-        found[3, first] = cut[1] and below[1] >= below[0] and below[1] > -half
+    `ends` (P + 1,): where the nodes of each pair begin and end; `of_flanks` (P, 2, 2): offsets where their flanks do,
+    as of `window.ends_of`.
+    """
+    found, half = np.zeros((4, ends[-1]), dtype=bool), 0.5 * cycle.grid.length * (1.0 - 1e-9)
+    cut, of_flanks = (cycle.pair.pinion.undercut, cycle.pair.wheel.undercut), of_flanks.copy()
+    by_line = np.array([pair.place.line is None for pair in pairs], dtype=bool)
+    if any(cut):
+        from fenics_gears.contact.corner import edge_ends
+
+        for pair in np.flatnonzero(~by_line):
+            of_flanks[pair] = edge_ends(cycle.pair, cycle.corner, pairs[pair].place)
+    first, last, below, above = ends[:-1], ends[1:] - 1, of_flanks[:, 0].T, of_flanks[:, 1].T
+    found[0, first] = by_line & (below[0] >= below[1]) & (below[0] > -half)
+    found[1, last] = by_line & (above[1] <= above[0]) & (above[1] < half)
+    found[2, last] = cut[0] & (above[0] <= above[1]) & (above[0] < half)
+    found[3, first] = cut[1] & (below[1] >= below[0]) & (below[1] > -half)
     return found
 
 

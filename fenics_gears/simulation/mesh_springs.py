@@ -13,7 +13,7 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import CENTRE_COORDINATES
 from fenics_gears.contact.spring_mesh import PairSprings, Springs, spring_mesh
 from fenics_gears.contact.stiffness_table import LOADS, stiffness_table
-from fenics_gears.contact.tooth_pair import COAST, DRIVE, coast_place, drive_place, facing_points
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, coast_place, drive_place, facing_points_at
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
@@ -98,5 +98,5 @@ def _gaps_on_path(model: Model, flank: int, phase: float) -> dict[int, float]:
         place = (drive_place if flank == DRIVE else coast_place)(pair, index, xi)
         ends = [gear.tip_roll_angle * (1.0 + 1e-12) for gear in (pair.pinion, pair.wheel)]
         if all(0.0 < roll <= end for roll, end in zip(place.contact_rolls, ends)):
-            found[index] = float(facing_points(pair, removal, place, np.zeros(1))[2][0])
+            found[index] = float(facing_points_at(pair, removal, place.contact_rolls, np.zeros(1))[2][0])
     return found

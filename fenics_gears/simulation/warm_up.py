@@ -12,14 +12,23 @@ from functools import cache
 import numpy as np
 
 from fenics_gears.contact.compliance_product import compliance_product
-from fenics_gears.contact.flank_at_height import roll_angle_at_height
-from fenics_gears.contact.formed_rows import row_former
-from fenics_gears.contact.interpolation import flank_interpolation, node_average, quadrature_offsets
+from fenics_gears.contact.flank_at_height import points_of_pairs, roll_angle_at_height
+from fenics_gears.contact.factored_compliance import factored_solver
+from fenics_gears.contact.formed_rows import fine_section, row_former, uncertain_slices
+from fenics_gears.contact.interpolation import (
+    AVERAGED,
+    INTERPOLATIONS,
+    flank_interpolation,
+    node_average,
+    quadrature_offsets,
+)
 from fenics_gears.contact.laws import SLIP_FORWARD, Tolerance
 from fenics_gears.contact.mesh_cycle import Position
+from fenics_gears.contact.node_before import nodes_before
 from fenics_gears.contact.operator import ContactOperator
 from fenics_gears.contact.step_solver import NEWTON, StepProblem, solve_step
-from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place
+from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, seen_gap
+from fenics_gears.contact.window import ContactGrid, node_offsets
 from fenics_gears.dynamics.compiled_march import AVERAGE_ACCELERATION, Course, Motion, solve_steps
 from fenics_gears.dynamics.contact_work import contact_work
 from fenics_gears.dynamics.drivetrain import Drivetrain
@@ -42,6 +51,10 @@ def _run_once(tangential: bool, rigid: bool) -> None:
     rolls = roll_angle_at_height(40.0, 0.5, 40.0 + offsets)
     interpolation = flank_interpolation(offsets, rolls, 40.0, 0.5, 1.0, np.linspace(0.4, 0.6, 5), 1)
     node_average(offsets, roll_angle_at_height(40.0, 0.5, 40.0 + quadrature_offsets(offsets)))
+    view, ends = INTERPOLATIONS[AVERAGED], np.array([0, 2])
+    seen_gap(view, offsets, ends, view.places(offsets, ends))
+    points_of_pairs(40.0, 1.0, np.array([0.5]), np.array([40.0]), offsets, ends)
+    node_offsets(((-0.1, -0.2), (0.1, 0.2)), ContactGrid(1.0, 5))
     kinds = 2 if tangential else 1
     seen, earlier = (0, interpolation.near, interpolation.first), np.zeros((1, 2, kinds, 2))
     # With friction also along the tangent as it stood before.
@@ -56,7 +69,7 @@ def _run_once(tangential: bool, rigid: bool) -> None:
     pair = PairNodes(place, node, node, node, node, node, node)
     earlier = (node, np.zeros((1, unknowns)), np.zeros((1, 1))) if tangential else (None, None, None)
     operator = ContactOperator((pair,), (1.0, 1.0), (node, node), np.eye(unknowns), row, node, *earlier)
-    position = Position(operator, np.zeros(1, dtype=int))
+    position = Position(operator, nodes_before((pair,), (pair,), 0.1))
     steps = Steps.to_solve(range(2), [position] * 2, 1, NEWTON)
     drivetrain = Drivetrain(("rotation_2",), np.ones(1), np.eye(1), np.ones(1), np.eye(1), None)
     solve_steps(
@@ -72,5 +85,8 @@ def _run_once(tangential: bool, rigid: bool) -> None:
 
 if __name__ == "__main__":
     row_former()
+    factored_solver()
+    uncertain_slices.compile("(int64, float64[::1], float64)")
+    fine_section.compile("(int64, int64)")
     for with_friction in (True, False):
         compile_kernels(with_friction, rigid=True)

@@ -17,8 +17,8 @@ from fenics_gears.contact.tooth_pair import (
     Flanks,
     Place,
     coast_place,
-    flank_points,
     interpolations,
+    rolls_of,
     tooth_pair,
 )
 from fenics_gears.contact.window import ContactGrid
@@ -131,9 +131,8 @@ def test_coast_flanks_are_the_drive_flanks_turned_over(real):
         """Contact nodes of either flank at the same position on its own line of action."""
         rolls = position / pair.pinion.base_radius, (pair.line_of_action_length - position) / pair.wheel.base_radius
         drive = tooth_pair(replace(flanks, removal=(None, None)), grid, place(index, flank, slice_, rolls))
-        seen = interpolations(
-            pairing.sections, grid, drive.place, drive.offsets, flank_points(pair, drive.place, drive.offsets)[0]
-        )
+        alone = drive.offsets, np.array([0, len(drive.offsets)])
+        (seen,) = interpolations(pairing.sections, grid, [drive.place], alone, rolls_of(pair, [drive.place], alone))
         return FacePair(**vars(drive), coarse=seen)
 
     def place(index, flank, slice_, rolls):

@@ -5,10 +5,10 @@ import pytest
 from tests.stand_in import stand_in_compliance
 
 from fenics_gears import ComputationError
-from fenics_gears.contact.fine_sections import stacked
-from fenics_gears.contact.formed_rows import Fine, FormedRows, Side, form_rows
+from fenics_gears.contact.fine_sections import Fine, Side, stacked
+from fenics_gears.contact.formed_rows import FormedRows, fine_section, form_rows, uncertain_slices
 
-NODES, SLICES, OFFSETS = 6, 3, 2
+NODES, FINE_NODES, SLICES, OFFSETS = 6, 9, 3, 2
 TEETH, IN_SLICES = np.array([0, 0, 1, 2]), np.array([0, 2, 2, 1])
 # The third group is the second in its slice, of three contact nodes each.
 GROUPS = np.array([[0, 3, 6, 9], IN_SLICES, [0, 0, 3, 0], [3, 6, 6, 3]])
@@ -22,27 +22,39 @@ def symmetric(random, size):
 
 
 def side(random, kinds):
-    """Three contact nodes in each group, which see 2 nodes of either flank; and the weights (2, 12, NODES) of all."""
-    firsts, near = random.integers(0, NODES - 2, (2, 4, 3)), random.random((2, 12, 2))
-    lowest = firsts.min(axis=2)
-    widths = firsts.max(axis=2) + 2 - lowest
-    weights = np.zeros((2, 12, NODES))
-    for gear, node in np.ndindex(2, 12):
-        first = firsts[gear].ravel()[node]
-        weights[gear, node, first : first + 2] = near[gear, node]
+    """Three contact nodes in each group, which see 2 nodes of either flank, and 3 of the fine ones; and the weights (2,
+    12, NODES) and (2, 12, FINE_NODES) of all."""
+    (first, near, weights), (fine_first, fine_near, fine) = (
+        views(random, *each) for each in ((NODES, 2), (FINE_NODES, 3))
+    )
+    lowest = first.reshape(2, 4, 3).min(axis=2)
+    widths = first.reshape(2, 4, 3).max(axis=2) + 2 - lowest
     on_gears = [
         [TEETH, width, np.cumsum(width) - width, IN_SLICES, 3 * low, 2 * low] for width, low in zip(widths, lowest)
     ]
-    places = np.array(on_gears)[:, 2, :, None]
-    first = (firsts - lowest[:, :, None] + places).reshape(2, 12)
+    first += np.repeat(np.array(on_gears)[:, 2] - lowest, 3, axis=1)
     group, axes = np.repeat(np.arange(4), 3), random.standard_normal((2, 4, kinds, 5))
-    return Side(group, first, GROUPS, np.array(on_gears), near, axes), weights
+    begins, flanks = 9 * np.arange(8).reshape(2, 4), np.zeros(4, dtype=int)
+    seen = flanks, fine_first, fine_near.ravel(), begins, np.full((2, 4), 3)
+    return Side(group, first, GROUPS, np.array(on_gears), near, axes, *seen), weights, fine
+
+
+def views(random, count, width):
+    """First flank nodes (2, 12) of contact nodes, their weights, and those among all nodes of a flank."""
+    first, near, weights = (
+        random.integers(0, count - width, (2, 12)),
+        random.random((2, 12, width)),
+        np.zeros((2, 12, count)),
+    )
+    for gear, node in np.ndindex(2, 12):
+        weights[gear, node, first[gear, node] : first[gear, node] + width] = near[gear, node]
+    return first, near, weights
 
 
 def by_whole_matrices(bodies, fine, rows, columns):
     """Every group's weights over all flank nodes and directions, times the whole blocks less the sections in the same
-    slice; and the fine sections there."""
-    (own, weights), (other, others) = rows, columns
+    slice; and times the fine sections there."""
+    (own, weights, own_fine), (other, others, other_fine) = rows, columns
     kinds, kinds_of_columns = own.axes.shape[2], other.axes.shape[2]
     expected = np.zeros((kinds, 12, kinds_of_columns, 12))
     for gear, (blocks, sections) in enumerate(bodies):
@@ -59,26 +71,27 @@ def by_whole_matrices(bodies, fine, rows, columns):
                 expected[:, here, :, there] -= fine.shares[IN_SLICES[p]] * np.einsum(
                     found, weights[gear, here], own_axes[:, 3:], section, other_axes[:, 3:], others[gear, there]
                 )
-    for number in range(SLICES):
-        nodes = np.flatnonzero(np.repeat(IN_SLICES, 3) == number)
-        size = kinds * kinds_of_columns * len(nodes) ** 2
-        part = fine.numbers[fine.begins[number] : fine.begins[number] + size]
-        part = part.reshape(kinds, len(nodes), kinds_of_columns, len(nodes))
-        expected[:, nodes[:, None], :, nodes] += fine.shares[number] * part.transpose(1, 3, 0, 2)
+                section = fine[gear][number, 0, 0].reshape(FINE_NODES, 2, FINE_NODES, 2)
+                expected[:, here, :, there] += fine.shares[IN_SLICES[p]] * np.einsum(
+                    found, own_fine[gear, here], own_axes[:, 3:], section, other_axes[:, 3:], other_fine[gear, there]
+                )
     return expected.reshape(kinds * 12, kinds_of_columns * 12)
 
 
 @pytest.mark.parametrize("kinds", [(1, 1), (2, 2), (2, 1)], ids=["frictionless", "friction", "step before"])
 def test_rows_are_those_of_whole_matrices(kinds):
-    """Brute force; rows that nobody asked for stay zero."""
+    """Brute force, with a layer of each node; rows that nobody asked for stay zero."""
     random = np.random.default_rng(5)
     rows, columns = (side(random, each) for each in kinds)
     bodies = [(symmetric(random, 3 * NODES * SLICES), symmetric(random, 2 * NODES)) for _ in range(2)]
     shape = (-1, SLICES, 3 * NODES, SLICES, 3 * NODES)
     by_section = [(blocks.reshape(shape).transpose(0, 1, 3, 2, 4), sections) for blocks, sections in bodies]
-    sizes = [kinds[0] * kinds[1] * count**2 for count in (3, 3, 6)]
-    fine = Fine(random.standard_normal(sum(sizes)), np.cumsum([0, *sizes[:2]]), random.random(SLICES))
+    sections = (symmetric(random, 2 * FINE_NODES)[:, None, None] for _ in range(2))
+    layers = random.random(SLICES) if kinds[0] == kinds[1] else np.zeros(SLICES)
+    fine = Fine(*sections, random.random(SLICES), layers)
     expected = by_whole_matrices(bodies, fine, rows, columns)
+    if kinds[0] == kinds[1]:
+        expected += np.diag(np.tile(np.repeat((fine.shares * layers)[IN_SLICES], 3), kinds[0]))
     found = FormedRows.of(by_section, rows[0], columns[0], fine)
     asked = np.array([1, 4, 5])
     form_rows(found.address, asked)
@@ -86,6 +99,37 @@ def test_rows_are_those_of_whole_matrices(kinds):
     np.testing.assert_allclose(found.matrix[both], expected[both], rtol=1e-11, atol=1e-12 * np.abs(expected).max())
     assert not np.delete(found.matrix, both, axis=0).any()
     np.testing.assert_allclose(found.whole(), expected, rtol=1e-11, atol=1e-12 * np.abs(expected).max())
+
+
+def test_slices_that_are_taken_as_independent_are(paper_pair):
+    """Brute force: no eigenvalue of their sections is below the bound; and nodes that coincide are found."""
+    random, kinds = np.random.default_rng(2), 2
+    nodes, _, _ = side(random, kinds)
+    nodes = nodes._replace(fine_first=np.tile([0, 2, 4], (2, 4)), fine_near=np.abs(nodes.fine_near))
+    turn = random.uniform(0.0, 3.0, (2, 4))
+    nodes.axes[..., 3:] = np.stack([np.cos(turn), np.sin(turn), -np.sin(turn), np.cos(turn)], axis=2).reshape(
+        2, 4, 2, 2
+    )
+    own = np.eye(2 * FINE_NODES) + 0.01 * symmetric(random, 2 * FINE_NODES)[OFFSETS]
+    blocks = [np.zeros((2 * OFFSETS + 1, 1, 1, *own.shape)) for _ in range(2)]
+    for block in blocks:
+        block[OFFSETS, 0, 0] = own
+    fine = Fine(*blocks, np.ones(SLICES), np.zeros(SLICES))
+    by_section = [(np.zeros((2 * OFFSETS + 1, SLICES, SLICES, 1, 1)), np.zeros((2 * OFFSETS + 1, 1, 1)))] * 2
+    softest = np.full(2, np.linalg.eigvalsh(own)[0])
+
+    def uncertain(side, least):
+        held = FormedRows.of(by_section, side, side, fine)
+        return uncertain_slices(held.address, softest, least)
+
+    held = FormedRows.of(by_section, nodes, nodes, fine)
+    for number in range(SLICES):
+        section = fine_section(held.address, number)
+        section = section.reshape(2 * [kinds * section.shape[1]])
+        smallest = np.linalg.eigvalsh(section)[0]
+        assert uncertain(nodes, 1.01 * smallest)[number] and not uncertain(nodes, 1e-3 * smallest)[number]
+    nodes.fine_first[:, :2], nodes.fine_near.reshape(2, 12, 3)[:, 0] = 0, nodes.fine_near.reshape(2, 12, 3)[:, 1]
+    assert uncertain(nodes, 1e-9).tolist() == [True, False, False]
 
 
 @pytest.mark.parametrize("coast", [False, True], ids=["drive flanks", "both flanks"])
