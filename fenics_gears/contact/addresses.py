@@ -86,6 +86,26 @@ def not_inlined(typing_context):
 
 
 @njit(cache=True)
+def form_rows(address, nodes):
+    """Form those rows of contact nodes, in increasing order, that are not yet formed; `address` of the table of a
+    `formed_rows.FormedRows`, 0 where all rows are there."""
+    if address == 0:
+        return
+    if not call(carray(to_integer(address), 3)[0], (address, nodes.ctypes.data, len(nodes))):
+        raise MemoryError("no room for rows of the compliance between contact nodes")
+
+
+@njit(cache=True)
+def solver_of(address):
+    """Addresses of what solves the mixed form with Factors (`contact.factored_compliance`), and of these, by the same
+    table; 0 where there is none."""
+    if address == 0:
+        return 0, 0
+    addresses = carray(to_integer(address), 3)
+    return addresses[1], addresses[2]
+
+
+@njit(cache=True)
 def arrays_of(row, kinds, coordinates, nodes_before):
     """The arrays of a row; `kinds`: forces of a contact node; `nodes_before`: how many there were a step before."""
     n, k = row.nodes, coordinates

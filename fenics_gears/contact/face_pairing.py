@@ -14,10 +14,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fenics_gears.contact.addresses import form_rows
 from fenics_gears.contact.compliance_product import directions
 from fenics_gears.contact.face import Face
 from fenics_gears.contact.fine_sections import BEGIN, IN_SLICE, OF_SLICE, SLICE, TOOTH, Fine, Side, stacked
-from fenics_gears.contact.formed_rows import FormedRows, fine_section, form_rows, uncertain_slices
+from fenics_gears.contact.formed_rows import FormedRows, fine_section, uncertain_slices
 from fenics_gears.contact.interpolation import FlankInterpolation
 from fenics_gears.contact.operator import Passage, Response, turned
 from fenics_gears.contact.pairing import LAYER, SMALLEST_PIVOT, dependent_rows

@@ -20,7 +20,7 @@ from numba import carray, cfunc, njit
 from numba.extending import get_cython_function_address
 
 from fenics_gears.contact.addresses import call, to_integer, to_number
-from fenics_gears.contact.mixed_form import add_slip, put_entries
+from fenics_gears.contact.mixed_form import add_slip, put_entries, solved, system_of
 from fenics_gears.system.memory import pages
 
 # Of the largest pivot: a compliance with smaller ones is left to elimination that looks for pivots in all unknowns.
@@ -187,8 +187,10 @@ def _solve_with(factored, system, result):
                 of_forces[c, a] += slip[a] * jacobian[n + rows[a], c]
     _put_solutions(factored, sides, len(slip) > 0)
     products = np.dot(of_forces, sides.T)
+    matrix, position = system_of(k), system.load / unit + products[:, k]
+    matrix[:, :k] = system.stiffness / unit + products[:, :k]
     try:
-        position = np.linalg.solve(system.stiffness / unit + products[:, :k], system.load / unit + products[:, k])
+        solved(matrix, position, np.int64(0))
     except Exception:
         # Singular; compiled code tells no kinds of errors apart.
         return 0

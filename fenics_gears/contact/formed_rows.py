@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numba import carray, cfunc, njit
 
-from fenics_gears.contact.addresses import call, to_flag, to_integer, to_number
+from fenics_gears.contact.addresses import form_rows, to_flag, to_integer, to_number
 from fenics_gears.contact.fine_sections import (
     BEGIN,
     DOF,
@@ -56,9 +56,9 @@ class _Source(NamedTuple):
     matrix: np.ndarray
 
 
-# In compiled code it is a table of its arrays, and of the flags that say which rows are formed: address and shape of
-# each; then the addresses of the function that forms rows, of the one that solves the mixed form with Factors, and of
-# these; the last two are 0 between other nodes than those of one position.
+# In compiled code it is a table: first the addresses that `addresses.form_rows` and `addresses.solver_of` read, the
+# latter 0 between other nodes than those of one position; then address and shape of each array, the last being the
+# flags that say which rows are formed.
 ARRAYS = 32
 
 
@@ -95,16 +95,16 @@ class FormedRows:
         matrix, formed = pages(n, m), np.zeros(len(rows.group), dtype=bool)
         arrays = [np.ascontiguousarray(array) for array in (*rows, *columns, *fine, *blocks, *sections)]
         arrays += [matrix, formed]
-        table = np.zeros((ARRAYS + 1, 6), dtype=np.int64)
-        for row, array in zip(table, arrays):
+        table = np.zeros((1 + ARRAYS, 6), dtype=np.int64)
+        for row, array in zip(table[1:], arrays):
             row[0], row[1 : 1 + array.ndim] = array.ctypes.data, array.shape
-        table[ARRAYS, 0] = row_former().address
+        table[0, 0] = row_former().address
         factors = None
         if rows is columns:
             from fenics_gears.contact.factored_compliance import Factors, factored_solver
 
             factors = Factors(n)
-            table[ARRAYS, 1:3] = factored_solver().address, factors.table.ctypes.data
+            table[0, 1:3] = factored_solver().address, factors.table.ctypes.data
         return cls(matrix, formed, by_columns, table, arrays, factors)
 
     @property
@@ -119,34 +119,20 @@ class FormedRows:
 
 
 @njit(cache=True)
-def form_rows(address, nodes):
-    """Form those rows of contact nodes, in increasing order, that are not yet formed; `address` of a FormedRows, 0
-    where all rows are there."""
-    if address == 0:
-        return
-    function = carray(to_integer(address), (ARRAYS + 1, 6))[ARRAYS, 0]
-    if not call(function, (address, nodes.ctypes.data, len(nodes))):
-        raise MemoryError("no room for rows of the compliance between contact nodes")
-
-
-@njit(cache=True)
-def solver_of(address):
-    """Addresses of what solves the mixed form with Factors, and of these, of a FormedRows; 0 where there is none."""
-    if address == 0:
-        return 0, 0
-    table = carray(to_integer(address), (ARRAYS + 1, 6))
-    return table[ARRAYS, 1], table[ARRAYS, 2]
+def _arrays(address):
+    return carray(to_integer(address), (1 + ARRAYS, 6))[1:]
 
 
 @cache
 def row_former():
-    """The C function behind `form_rows`, compiled or loaded where there are rows to form: a plane run does without."""
+    """The C function behind `addresses.form_rows`, compiled or loaded where there is a face: a plane run does
+    without."""
     return cfunc("int64(int64, int64, int64)", cache=True)(_form_rows)
 
 
 def _form_rows(address, nodes, count):
     """Returns 1; what is raised in a C function is printed and makes it return 0."""
-    table = carray(to_integer(address), (ARRAYS, 6))
+    table = _arrays(address)
     formed = carray(to_flag(table[-1, 0]), table[-1, 1])
     asked = carray(to_integer(nodes), count)
     missing = asked[~formed[asked]]
@@ -217,7 +203,7 @@ def _source(table):
 def uncertain_slices(address, softest, least):
     """Slices (S,) of the rows of a FormedRows in which nodes may depend on each other: those that have a group which is
     not `surely_independent`."""
-    source = _source(carray(to_integer(address), (ARRAYS, 6)))
+    source = _source(_arrays(address))
     found = np.zeros(len(source.fine.shares), dtype=np.bool_)
     for group in range(source.rows.groups.shape[1]):
         number = source.rows.groups[SLICE, group]
@@ -229,7 +215,7 @@ def uncertain_slices(address, softest, least):
 @njit(cache=True)
 def fine_section(address, number):
     """What fine sections give in a slice between the contact nodes (d, n, d, n) of a FormedRows, mm/N."""
-    source = _source(carray(to_integer(address), (ARRAYS, 6)))
+    source = _source(_arrays(address))
     rows, kinds = source.rows, source.rows.axes.shape[2]
     groups = np.flatnonzero(rows.groups[SLICE] == number)
     n = rows.groups[OF_SLICE, groups[0]] if len(groups) else 0

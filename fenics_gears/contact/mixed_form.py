@@ -19,8 +19,7 @@ import numpy as np
 from llvmlite.binding import add_symbol
 from numba import carray, cfunc, njit, types
 
-from fenics_gears.contact.addresses import call, not_inlined, to_number
-from fenics_gears.contact.formed_rows import form_rows, solver_of
+from fenics_gears.contact.addresses import call, form_rows, not_inlined, solver_of, to_number
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 
 # Unknowns up to which elimination in compiled code is faster than LAPACK.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.formed_rows import form_rows
+from fenics_gears.contact.addresses import form_rows
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, Tolerance
 from fenics_gears.contact.mixed_form import Equations, Iterate
 from fenics_gears.contact.newton import (

@@ -11,8 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import arrays_of, not_inlined
-from fenics_gears.contact.formed_rows import form_rows
+from fenics_gears.contact.addresses import arrays_of, form_rows, not_inlined
 from fenics_gears.contact.laws import OPEN, Tolerance
 from fenics_gears.contact.mixed_form import Equations, Iterate, product, subtract_row
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton

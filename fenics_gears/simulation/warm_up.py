@@ -13,8 +13,6 @@ import numpy as np
 
 from fenics_gears.contact.compliance_product import compliance_product
 from fenics_gears.contact.flank_at_height import points_of_pairs, roll_angle_at_height
-from fenics_gears.contact.factored_compliance import factored_solver
-from fenics_gears.contact.formed_rows import fine_section, row_former, uncertain_slices
 from fenics_gears.contact.interpolation import (
     AVERAGED,
     INTERPOLATIONS,
@@ -84,6 +82,10 @@ def _run_once(tangential: bool, rigid: bool) -> None:
 
 
 if __name__ == "__main__":
+    # Of the face: a plane run does without.
+    from fenics_gears.contact.factored_compliance import factored_solver
+    from fenics_gears.contact.formed_rows import fine_section, row_former, uncertain_slices
+
     row_former()
     factored_solver()
     uncertain_slices.compile("(int64, float64[::1], float64)")

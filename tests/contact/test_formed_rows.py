@@ -5,8 +5,9 @@ import pytest
 from tests.stand_in import stand_in_compliance
 
 from fenics_gears import ComputationError
+from fenics_gears.contact.addresses import form_rows
 from fenics_gears.contact.fine_sections import Fine, Side, stacked
-from fenics_gears.contact.formed_rows import FormedRows, fine_section, form_rows, uncertain_slices
+from fenics_gears.contact.formed_rows import FormedRows, fine_section, uncertain_slices
 
 NODES, FINE_NODES, SLICES, OFFSETS = 6, 9, 3, 2
 TEETH, IN_SLICES = np.array([0, 0, 1, 2]), np.array([0, 2, 2, 1])
