@@ -64,7 +64,7 @@ def _point(base_radius, contact, height):
     if not math.cos(contact) - ROUND_OFF <= target < contact + 0.5 * math.pi:
         return np.nan, np.nan
     half_square, rise = 0.5 * contact**2, target - 1.0
-    if abs(rise) <= NEAR * contact**2:
+    if abs(rise) < NEAR * contact**2:
         # dh/ds is 1 - (vc - v)^2/2 there, and vc - v nearly (sc - s)/vc.
         half_square += rise + rise**3 / (6.0 * contact**2)
     for _ in range(NEWTON_STEPS):
