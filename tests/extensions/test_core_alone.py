@@ -72,4 +72,6 @@ def test_its_tests_pass(core, folder):
         pytest.skip("no tests")
     call = ("-m", "pytest", "-n", "0", "-q", "-m", "not nightly and not ranks", f"tests/{folder}")
     done = python(core, *call, timeout=1800)
+    if done.returncode == pytest.ExitCode.NO_TESTS_COLLECTED:
+        pytest.skip("no tests by day")
     assert done.returncode == 0, done.stdout[-3000:]
