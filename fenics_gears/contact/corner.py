@@ -110,16 +110,10 @@ def edge_position(edge: TipEdge, contact_roll: float, point: np.ndarray | None =
     return float(cosine * x - sine * y), float(-(sine * x + cosine * y))
 
 
-def corner_pair(flanks: Flanks, grid: ContactGrid, corner: CornerContact, theoretical: Place) -> ToothPair | None:
-    """The contact nodes of the flanks at a theoretical place, tip edges included, or None where their window is
-    empty."""
-    return next(iter(corner_pairs(flanks, grid, corner, [theoretical])), None)
-
-
 def corner_pairs(
     flanks: Flanks, grid: ContactGrid, corner: CornerContact, theoretical: Sequence[Place]
 ) -> list[ToothPair]:
-    """The same of those theoretical places whose window is not empty."""
+    """The contact nodes of the flanks at those theoretical places, tip edges included, whose window is not empty."""
     pair, view, found = flanks.pair, INTERPOLATIONS[grid.interpolation], []
     for place in (corner_place(pair, corner, each) for each in theoretical):
         offsets = node_offsets(edge_ends(pair, corner, place), grid)

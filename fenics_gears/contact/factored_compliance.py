@@ -20,7 +20,7 @@ from numba import carray, cfunc, njit
 from numba.extending import get_cython_function_address
 
 from fenics_gears.contact.addresses import call, to_integer, to_number
-from fenics_gears.contact.mixed_form import add_slip, put_entries, solved, system_of
+from fenics_gears.contact.mixed_form import add_slip, put_entries, put_solution, system_of
 from fenics_gears.system.memory import pages
 
 # Of the largest pivot: a compliance with smaller ones is left to elimination that looks for pivots in all unknowns.
@@ -127,7 +127,7 @@ def _factor(factored, system):
         if len(slip):
             add_slip(matrix[a], row[n:], rows, slip, system.unit)
     factored.known[0] = 0.0
-    if not (_lower_upper(factored) if len(slip) else _cholesky(factored)):
+    if not _eliminate(factored, len(slip) > 0):
         return False
     factored.known[0], factored.known[1 : size + 1] = size, rows
     factored.known[size + 1 : size + 1 + len(slip)] = slip
@@ -135,27 +135,23 @@ def _factor(factored, system):
 
 
 @njit(cache=True)
-def _cholesky(factored):
+def _eliminate(factored, slipping):
+    """Put factors into the place of the matrix; returns whether they are safely regular."""
     matrix, least, largest = factored.matrix, np.inf, 0.0
     # A letter is the first byte of its number.
     numbers = np.array([LOWER, len(matrix), 0], dtype=np.int32)
-    at = np.int64(numbers.ctypes.data)
-    call(factored.table[POTRF], (at, at + INT, matrix.ctypes.data, at + INT, at + 2 * INT))
+    at, address = np.int64(numbers.ctypes.data), matrix.ctypes.data
+    size, info = at + INT, at + 2 * INT
+    if slipping:
+        call(factored.table[GETRF], (size, size, address, size, factored.table[PIVOTS], info))
+    else:
+        call(factored.table[POTRF], (at, size, address, size, info))
     for j in range(len(matrix)):
-        least, largest = min(least, matrix[j, j]), max(largest, matrix[j, j])
-    # Not positive where nodes depend on each other.
-    return numbers[2] == 0 and least**2 >= LEAST_PIVOT * largest**2
-
-
-@njit(cache=True)
-def _lower_upper(factored):
-    matrix, least, largest = factored.matrix, np.inf, 0.0
-    numbers = np.array([len(matrix), 0], dtype=np.int32)
-    at = np.int64(numbers.ctypes.data)
-    call(factored.table[GETRF], (at, at, matrix.ctypes.data, at, factored.table[PIVOTS], at + INT))
-    for j in range(len(matrix)):
-        least, largest = min(least, abs(matrix[j, j])), max(largest, abs(matrix[j, j]))
-    return numbers[1] == 0 and least >= LEAST_PIVOT * largest
+        # Cholesky's diagonal has the roots of pivots.
+        pivot = abs(matrix[j, j]) if slipping else matrix[j, j] ** 2
+        least, largest = min(least, pivot), max(largest, pivot)
+    # Not regular where nodes depend on each other.
+    return numbers[2] == 0 and least >= LEAST_PIVOT * largest
 
 
 @njit(cache=True)
@@ -189,10 +185,7 @@ def _solve_with(factored, system, result):
     products = np.dot(of_forces, sides.T)
     matrix, position = system_of(k), system.load / unit + products[:, k]
     matrix[:, :k] = system.stiffness / unit + products[:, :k]
-    try:
-        solved(matrix, position, np.int64(0))
-    except Exception:
-        # Singular; compiled code tells no kinds of errors apart.
+    if not put_solution(matrix, position, np.int64(0)):
         return 0
     found = np.dot(position, sides[:k]) - sides[k]
     result[:m], result[m:] = 0.0, position

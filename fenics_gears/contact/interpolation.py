@@ -75,7 +75,7 @@ def node_function(hat):
 
 def quadrature_offsets(offsets: np.ndarray) -> np.ndarray:
     """Gauss points (n - 1, points), mm, of the cells between contact nodes."""
-    return offsets[:-1, None] + (offsets[1:] - offsets[:-1])[:, None] * GAUSS_POINTS
+    return offsets_of_cells(offsets, np.array([0, len(offsets)])).reshape(-1, len(GAUSS_POINTS))
 
 
 @njit(cache=True)

@@ -20,6 +20,7 @@ from llvmlite.binding import add_symbol
 from numba import carray, cfunc, njit, types
 
 from fenics_gears.contact.addresses import call, form_rows, not_inlined, solver_of, to_number
+from fenics_gears.contact.compliance_product import add_multiple
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 
 # Unknowns up to which elimination in compiled code is faster than LAPACK.
@@ -92,61 +93,72 @@ def solve_sets(equations, iterate):
     Raises numpy.linalg.LinAlgError where the sets leave the system singular.
     """
     not_inlined()
-    stiffness, load, compliance, jacobian, gap, slip_before, friction, _, unformed = equations
-    status, forces, coordinates, _ = iterate
-    n, k, tangential = len(gap), len(load), len(slip_before) > 0
-    # Rows of normal forces of closed nodes, then of tangential ones of those that stick.
-    rows, factors, closed = np.empty(len(forces), dtype=np.int64), np.zeros(n), 0
+    gap, slip_before, forces = equations.gap, equations.slip_before, iterate.forces
+    n, k, compliance = len(gap), len(equations.load), equations.compliance
+    rows, slip, closed = _unknown_forces(equations, iterate.status)
+    form_rows(equations.rows, rows[:closed])
+    size = len(rows)
+    right_side = np.empty(size + k)
+    for a in range(size):
+        right_side[a] = gap[rows[a]] if rows[a] < n else -slip_before[rows[a] - n]
+    # Strong friction leaves the diagonal no better than other pivots.
+    weak = not len(slip) or equations.friction <= WEAK_FRICTION
+    if weak and size > SMALL_SYSTEM and solve_factored(equations, iterate, rows, slip, right_side):
+        return
+    # Forces are carried as lengths, `unit` N each, so that all entries are of the size of a stiffness.
+    unit = 1.0 / compliance[0, 0] if len(compliance) else 1.0
+    matrix = system_of(size + k)
+    _put_system(matrix, equations, rows, slip, unit)
+    right_side[:size] *= unit
+    right_side[size:] = equations.load
+    solution = solved(matrix, right_side, size if weak else 0)
+    forces[:] = 0.0
+    for a in range(size):
+        forces[rows[a]] = solution[a] * unit
+    for b in range(len(slip)):
+        if slip[b] != 0.0:
+            forces[n + rows[b]] = slip[b] * forces[rows[b]]
+    iterate.coordinates[:] = solution[size:]
+
+
+@njit(cache=True)
+def _unknown_forces(equations, status):
+    """Rows of normal forces of closed nodes, then of tangential ones of those that stick; tangential forces per normal
+    one of the closed nodes, none without friction; and how many nodes are closed."""
+    n, tangential = len(equations.gap), len(equations.slip_before) > 0
+    rows, slip, closed = np.empty(2 * n, dtype=np.int64), np.zeros(n), 0
     for node in range(n):
         if status[node] != OPEN:
-            rows[closed] = node
-            if tangential:
-                factors[closed] = _slip_factor(status[node], friction)
+            rows[closed], slip[closed] = node, _slip_factor(status[node], equations.friction)
             closed += 1
-    form_rows(unformed, rows[:closed])
     size = closed
     if tangential:
         for b in range(closed):
             if status[rows[b]] == STICK:
                 rows[size] = n + rows[b]
                 size += 1
-    right_side = np.empty(size + k)
-    for a in range(size):
-        right_side[a] = gap[rows[a]] if rows[a] < n else -slip_before[rows[a] - n]
-    slip = factors[: closed if tangential else 0]
-    # Strong friction leaves the diagonal no better than other pivots.
-    weak = not tangential or friction <= WEAK_FRICTION
-    if weak and size > SMALL_SYSTEM and solve_factored(equations, iterate, rows[:size], slip, right_side):
-        return
-    # Forces are carried as lengths, `unit` N each, so that all entries are of the size of a stiffness.
-    unit = 1.0 / compliance[0, 0] if len(compliance) else 1.0
-    matrix = system_of(size + k)
-    scale = -unit * unit
+    return rows[:size], slip[: closed if tangential else 0], closed
+
+
+@njit(cache=True)
+def _put_system(matrix, equations, rows, slip, unit):
+    """Put the matrix of the unknown forces and the coordinates into place; forces in `unit` N per mm."""
+    compliance, jacobian, stiffness = equations.compliance, equations.jacobian, equations.stiffness
+    n, k, size, scale = len(equations.gap), len(equations.load), len(rows), -unit * unit
     for a in range(size):
         row = rows[a]
-        put_entries(matrix[a], compliance[row], rows[:size], np.int64(0), scale)
+        put_entries(matrix[a], compliance[row], rows, np.int64(0), scale)
         add_slip(matrix[a], compliance[row, n:], rows, slip, scale)
         for c in range(k):
             matrix[a, size + c] = jacobian[row, c] * unit
-        right_side[a] *= unit
     for c in range(k):
         for b in range(size):
             entry = jacobian[rows[b], c]
-            if tangential and b < closed:
-                entry += factors[b] * jacobian[n + rows[b], c]
+            if b < len(slip):
+                entry += slip[b] * jacobian[n + rows[b], c]
             matrix[size + c, b] = entry * unit
         for d in range(k):
             matrix[size + c, size + d] = stiffness[c, d]
-        right_side[size + c] = load[c]
-    solution = solved(matrix, right_side, size if weak else 0)
-    forces[:] = 0.0
-    for a in range(size):
-        forces[rows[a]] = solution[a] * unit
-    if tangential:
-        for b in range(closed):
-            if factors[b] != 0.0:
-                forces[n + rows[b]] = factors[b] * forces[rows[b]]
-    coordinates[:] = solution[size:]
 
 
 @njit(cache=True)
@@ -191,10 +203,16 @@ def solved(matrix, right_side, forces):
     The first `forces` rows and columns are those of a compliance, which needs no other pivots than its diagonal: others
     are looked for where that comes near zero, as where nodes depend on each other, and in all columns after them.
     """
-    size, width = matrix.shape
-    if not _solve(matrix.ctypes.data, right_side.ctypes.data, size, width, forces):
+    if not put_solution(matrix, right_side, forces):
         raise np.linalg.LinAlgError("Matrix is singular to machine precision.")
     return right_side
+
+
+@njit(cache=True)
+def put_solution(matrix, right_side, forces):
+    """As `solved`, but returns whether there is a solution."""
+    size, width = matrix.shape
+    return _solve(matrix.ctypes.data, right_side.ctypes.data, size, width, forces) != 0
 
 
 @njit(cache=True)
@@ -270,21 +288,13 @@ def relative_displacement(equations, iterate, first, end):
     """u = G q - C p, mm, into rows `first` to `end` of the displacement; only loaded nodes are summed, by rows of the
     symmetric compliance."""
     # Taken out of the records once: in a loop that would cost more than the numbers.
-    compliance, jacobian, displacement = equations.compliance, equations.jacobian, iterate.displacement
+    compliance, jacobian, displacement = equations.compliance, equations.jacobian, iterate.displacement[first:end]
     forces, coordinates = iterate.forces, iterate.coordinates
-    for i in range(first, end):
-        displacement[i] = product(jacobian[i], coordinates)
+    for i in range(end - first):
+        displacement[i] = product(jacobian[first + i], coordinates)
     for j in range(len(forces)):
         if forces[j] != 0.0:
-            subtract_row(displacement, compliance[j], forces[j], first, end)
-
-
-@njit(cache=True)
-def subtract_row(total, row, factor, first, end):
-    """Subtract from the numbers `first` to `end` the factor times those of a row."""
-    # Unsigned places need no look for a negative index: so they are compiled for several numbers at a time.
-    for i in range(np.uint64(first), np.uint64(end)):
-        total[i] -= row[i] * factor
+            add_multiple(displacement, -forces[j], compliance[j], first)
 
 
 @njit(cache=True, inline="always")

@@ -6,17 +6,21 @@ laws are piecewise linear, so a set that repeats is the exact solution.
 
 from __future__ import annotations
 
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from numba import carray, njit
+from numba import carray, cfunc, njit
 
-from fenics_gears.contact.addresses import not_inlined, to_number, to_set
+from fenics_gears.contact.addresses import call, not_inlined, to_integer, to_number, to_set
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, STICK, next_status, presses
 from fenics_gears.contact.mixed_form import Equations, Iterate, product, relative_displacement, solve_sets
 
 CONVERGED, CYCLED, SINGULAR = 0, 1, 2
 OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}
+COUNT, FAILED = len(OUTCOMES), -1
+# Sizes, addresses and settings that the C function takes.
+NUMBERS = 21
 ROUND_OFF = 1e-12
 MOST_ITERATIONS = 40
 # How sets change: every node by its projection; the same with reversals of slip stopping at stick first; or only the
@@ -194,13 +198,8 @@ def _same(one, other):
 
 
 @njit(cache=True)
-def newton(equations, iterate, method, history, sets):
-    """Active-set Newton from the sets of an `iterate`, which becomes the solution; its displacement is zero at first.
-
-    `history` (iterations, 5) and `sets` (iterations, n) are filled with residuals and sets. Returns (outcome,
-    iterations).
-    """
-    not_inlined()
+def _newton(equations, iterate, method, history, sets):
+    """As `newton`; raises numpy.linalg.LinAlgError where the sets leave the system singular."""
     status, displacement = iterate.status, iterate.displacement
     n, m = len(equations.gap), len(equations.compliance)
     outcome, iteration, limit, new = CYCLED, 0, len(history), np.empty_like(status)
@@ -232,30 +231,73 @@ def newton(equations, iterate, method, history, sets):
     return outcome, iteration
 
 
-@njit(cache=True)
-def newton_at(numbers, method):
-    """As `newton`, from arrays given by their addresses: to find the types of many arrays takes numba longer than a
-    small step.
+@cache
+def newton_solver():
+    """The C function behind `newton` and `newton_at`: so it is compiled once, not into each of their callers."""
+    return cfunc("int64(int64, int64)", cache=True)(_newton_in_place)
 
-    `numbers`: how many nodes, rows, coordinates, components of the free motion and slips there are, and most
-    iterations; the address of what forms rows; the rule; then addresses, of the arrays of Equations but `friction`, of
-    Iterate, `history` and `sets`. `method` (4,): friction, and the Method's numbers but the rule.
-    """
+
+def _newton_in_place(numbers, method):
+    """Returns iterations times the number of outcomes, and the outcome; FAILED where sets leave the system singular."""
+    numbers, method = carray(to_integer(numbers), NUMBERS), carray(to_number(method), 4)
     n, m, k, free, slips, most, rows, rule = numbers[:8]
     at = numbers[8:]
     equations = Equations(
         carray(to_number(at[0]), (k, k)),
         carray(to_number(at[1]), k),
-        carray(to_number(at[3]), (m, m)),
-        carray(to_number(at[4]), (m, k)),
-        carray(to_number(at[5]), n),
-        carray(to_number(at[6]), slips),
+        carray(to_number(at[2]), (m, m)),
+        carray(to_number(at[3]), (m, k)),
+        carray(to_number(at[4]), n),
+        carray(to_number(at[5]), slips),
         method[0],
-        carray(to_number(at[2]), free),
+        carray(to_number(at[6]), free),
         rows,
     )
     iterate = Iterate(
         carray(to_set(at[7]), n), carray(to_number(at[8]), m), carray(to_number(at[9]), k), carray(to_number(at[10]), m)
     )
     history, sets = carray(to_number(at[11]), (most, 5)), carray(to_set(at[12]), (most, n))
-    return newton(equations, iterate, Method(method[1], rule, method[2], method[3]), history, sets)
+    try:
+        outcome, iterations = _newton(equations, iterate, Method(method[1], rule, method[2], method[3]), history, sets)
+    except Exception:
+        return FAILED
+    return COUNT * iterations + outcome
+
+
+@njit(cache=True)
+def newton_at(solver, numbers, method):
+    """As `newton`, from arrays given by their addresses: to find the types of many arrays takes numba longer than a
+    small step.
+
+    `numbers`: how many nodes, rows, coordinates, components of the free motion and slips there are, and most
+    iterations; the address of what forms rows; the rule; then addresses, of the arrays of Equations, of Iterate,
+    `history` and `sets`. `method` (4,): friction, and the Method's numbers but the rule.
+    """
+    done = call(solver, (numbers.ctypes.data, method.ctypes.data))
+    if done == FAILED:
+        return SINGULAR, FAILED
+    return done % COUNT, done // COUNT
+
+
+@njit(cache=True)
+def newton(solver, equations, iterate, method, history, sets):
+    """Active-set Newton from the sets of an `iterate`, which becomes the solution; its displacement is zero at first.
+    `solver`: address of `newton_solver`.
+
+    `history` (iterations, 5) and `sets` (iterations, n) are filled with residuals and sets. Returns (outcome,
+    iterations), FAILED iterations where sets leave the system singular.
+    """
+    not_inlined()
+    numbers = np.empty(NUMBERS, dtype=np.int64)
+    numbers[0], numbers[1], numbers[2] = len(equations.gap), len(equations.compliance), len(equations.load)
+    numbers[3], numbers[4], numbers[5] = len(equations.free_motion), len(equations.slip_before), len(history)
+    numbers[6], numbers[7] = equations.rows, method.rule
+    numbers[8], numbers[9] = equations.stiffness.ctypes.data, equations.load.ctypes.data
+    numbers[10], numbers[11] = equations.compliance.ctypes.data, equations.jacobian.ctypes.data
+    numbers[12], numbers[13] = equations.gap.ctypes.data, equations.slip_before.ctypes.data
+    numbers[14] = equations.free_motion.ctypes.data
+    numbers[15], numbers[16] = iterate.status.ctypes.data, iterate.forces.ctypes.data
+    numbers[17], numbers[18] = iterate.coordinates.ctypes.data, iterate.displacement.ctypes.data
+    numbers[19], numbers[20] = history.ctypes.data, sets.ctypes.data
+    rest = np.array([equations.friction, method.r_scale, method.length_tolerance, method.force_tolerance])
+    return newton_at(solver, numbers, rest)

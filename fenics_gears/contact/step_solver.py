@@ -7,20 +7,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.addresses import form_rows
+from fenics_gears.contact.addresses import form_rows, row_of
 from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, Tolerance
 from fenics_gears.contact.mixed_form import Equations, Iterate
 from fenics_gears.contact.newton import (
     ALL_AT_ONCE,
     CONVERGED,
+    FAILED,
     MOST_ITERATIONS,
     ONE_AT_A_TIME,
     OUTCOMES,
     RESIDUAL_NAMES,
-    SINGULAR,
     THROUGH_STICK,
     measure,
     newton_at,
+    newton_solver,
 )
 
 NEWTON = "newton"
@@ -159,18 +160,18 @@ def run_newton(
     iterate = Iterate(status.copy(), np.zeros(m), np.zeros(len(problem.load)), np.zeros(m))
     friction = problem.friction if friction is None else friction
     arrays = (
-        problem.stiffness, problem.load, problem.free_motion, problem.compliance, problem.jacobian, problem.gap,
-        problem.slip_before, *iterate, history, sets,
+        problem.stiffness, problem.load, problem.compliance, problem.jacobian, problem.gap, problem.slip_before,
+        problem.free_motion, *iterate, history, sets,
     )  # fmt: skip
-    held = [np.ascontiguousarray(array) for array in arrays]
-    numbers = np.array(
-        [len(problem.gap), m, len(problem.load), len(problem.free_motion), len(problem.slip_before), max_iterations,
-         problem.rows, rule, *(array.ctypes.data for array in held)]
-    )  # fmt: skip
-    try:
-        outcome, done = newton_at(numbers, np.array([friction, r_scale, tolerance.length, tolerance.force]))
-    except np.linalg.LinAlgError:
-        outcome, done = SINGULAR, int(np.sum(np.any(sets >= 0, axis=1)))
+    (n, *addresses), held = row_of(len(problem.gap), arrays)
+    sizes = n, m, len(problem.load), len(problem.free_motion), len(problem.slip_before), max_iterations
+    numbers = np.array([*sizes, problem.rows, rule, *addresses])
+    settings = np.array([friction, r_scale, tolerance.length, tolerance.force])
+    outcome, done = newton_at(newton_solver().address, numbers, settings)
+    # They are held as long as their addresses are used.
+    del held
+    if done == FAILED:
+        done = int(np.sum(np.any(sets >= 0, axis=1)))
     result = outcome, done, iterate.forces, iterate.coordinates, iterate.displacement, iterate.status
     used = max(done, 1)
     return result, (history[:used], sets[:used])

@@ -161,11 +161,6 @@ def facing_points_at(
     return rolls, distances, gap
 
 
-def tooth_pair(flanks: Flanks, grid: ContactGrid, place: Place) -> ToothPair | None:
-    """The contact nodes of the flanks at a place, or None where their window is empty."""
-    return next(iter(tooth_pairs(flanks, grid, [place])), None)
-
-
 def tooth_pairs(flanks: Flanks, grid: ContactGrid, places: Sequence[Place]) -> list[ToothPair]:
     """The contact nodes of the flanks at those places whose window is not empty."""
     every = np.array([place.contact_rolls for place in places]).reshape(len(places), 2).T

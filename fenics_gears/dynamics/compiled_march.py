@@ -12,9 +12,10 @@ import numpy as np
 from numba import njit
 
 from fenics_gears.contact.addresses import arrays_of, form_rows, not_inlined
+from fenics_gears.contact.compliance_product import add_multiple
 from fenics_gears.contact.laws import OPEN, Tolerance
-from fenics_gears.contact.mixed_form import Equations, Iterate, product, subtract_row
-from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton
+from fenics_gears.contact.mixed_form import Equations, Iterate, product
+from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton, newton_solver
 from fenics_gears.contact.rigid_step import Sides, rigid_step
 from fenics_gears.dynamics.average_acceleration import advanced as advanced_by_average
 from fenics_gears.dynamics.average_acceleration import history as average_history
@@ -82,13 +83,14 @@ class Course(NamedTuple):
 def solve_steps(steps: Steps, first: int, end: int, motion: Motion, course: Course) -> int:
     """Solve the steps from place `first` on, each from the one before it, to before `end`; returns the first place that
     is not solved. The course is that of all steps."""
-    done = np.full(1, first)
+    # The first moves on with every step that is solved.
+    places = np.array([first, end])
     try:
-        _solve_steps(done, end, steps.in_memory, motion.packed, *course)
+        _solve_steps(places, steps.in_memory, motion.packed, *course, newton_solver().address)
     except np.linalg.LinAlgError:
         # Sets that leave the system singular: the step after the last one done.
         pass
-    return int(done[0])
+    return int(places[0])
 
 
 @njit(cache=True)
@@ -108,7 +110,7 @@ def _unpacked(numbers, k):
 
 
 @njit(cache=True)
-def _solve_steps(done, end, block, packed, durations, loads, cycle_before, at_rest):
+def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest, solver):
     steps, motion = in_block(block), _unpacked(packed, loads.shape[1])
     starts, kinds, states, status = steps.starts, steps.kinds, steps.states, steps.status
     effective, k, duration = motion.stiffness, len(motion.stiffness), -1.0
@@ -117,7 +119,7 @@ def _solve_steps(done, end, block, packed, durations, loads, cycle_before, at_re
     method = Method(1.0, np.int64(ALL_AT_ONCE), motion.length_tolerance, motion.force_tolerance)
     residuals, most = np.empty((MOST_ITERATIONS, 5)), np.diff(starts).max()
     all_sets, coordinates = np.empty(MOST_ITERATIONS * most, dtype=np.int8), np.empty(k)
-    for s in range(done[0], end):
+    for s in range(places[0], places[1]):
         if durations[s] != duration and motion.method != STATIC:
             duration = durations[s]
             history = _history(motion, duration)
@@ -147,11 +149,11 @@ def _solve_steps(done, end, block, packed, durations, loads, cycle_before, at_re
             outcome, steps.iterations[s] = rigid_step(equations, sides, iterate, method)
         else:
             sets = all_sets[: MOST_ITERATIONS * n].reshape(MOST_ITERATIONS, n)
-            outcome, steps.iterations[s] = newton(equations, iterate, method, residuals, sets)
+            outcome, steps.iterations[s] = newton(solver, equations, iterate, method, residuals, sets)
         if outcome != CONVERGED:
             return
         states[s] = _advanced(motion.method, duration, states[s - 1], coordinates)
-        done[0] = s + 1
+        places[0] = s + 1
 
 
 @njit(cache=True)
@@ -208,7 +210,7 @@ def slip_at_start(rigid_slip, previous_jacobian, columns, rows_before, position,
         form_rows(rows_before, np.flatnonzero(forces[: len(forces) // 2]))
     for loaded in range(len(forces)):
         if forces[loaded] != 0.0:
-            subtract_row(displaced, columns[loaded], forces[loaded], np.int64(0), len(displaced))
+            add_multiple(displaced, -forces[loaded], columns[loaded], np.int64(0))
     for node in range(len(displaced)):
         displaced[node] = rigid_slip[node] - displaced[node]
     return displaced

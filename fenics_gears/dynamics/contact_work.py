@@ -11,6 +11,7 @@ from numba import njit
 
 from fenics_gears.contact.addresses import Arrays
 from fenics_gears.contact.mixed_form import product
+from fenics_gears.dynamics.compiled_march import slip_at_start
 from fenics_gears.dynamics.steps import Steps, forces_at, in_block, operator_at
 
 
@@ -132,18 +133,15 @@ def _tangential_work(works, then, now, shared):
             works[CHANGES] -= 0.5 * p_0 * (there - displaced_0[n_0 + node])
     # `slid`: slip of rigid flanks less the displacement that the same points had before; `moved`: displacement that the
     # node had then.
-    jacobian, columns, slid = now.contact.previous_jacobian, now.contact.previous_columns, now.contact.rigid_slip.copy()
-    for column in range(2 * n_0):
-        if forces_0[column] != 0.0:
-            force, displaced = forces_0[column], columns[column]
-            for node in range(n_1):
-                slid[node] += displaced[node] * force
+    slid = slip_at_start(
+        now.contact.rigid_slip, now.contact.previous_jacobian, now.contact.previous_columns, now.contact.rows_before,
+        x_0, forces_0,
+    )  # fmt: skip
     for node in range(n_1):
         before = node_before[node]
         p_1, p_0 = forces_1[n_1 + node], forces_0[n_0 + before] if before >= 0 else 0.0
         if p_0 == 0.0 and p_1 == 0.0:
             continue
-        slid[node] -= product(jacobian[node], x_0)
         if before >= 0:
             moved = displaced_0[n_0 + before]
         else:

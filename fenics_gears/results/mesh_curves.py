@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.laws import NO_FORCE, OPEN, SLIP_FORWARD
-from fenics_gears.contact.mixed_form import Equations, Iterate, product, solve_sets
+from fenics_gears.contact.laws import NO_FORCE, OPEN
+from fenics_gears.contact.mixed_form import Equations, Iterate, product, put_entries, solve_factored, solved, system_of
 from fenics_gears.dynamics.steps import Steps, forces_at, in_block, nodes_at, operator_at
 from fenics_gears.model.model import Model
 from fenics_gears.model.modification import kinks
@@ -80,15 +80,19 @@ def _highest(overlap, node_pair):
 
 @njit(cache=True)
 def _tangent(contact, nodes):
-    """Force (N) on some nodes when all of them approach by 1 mm: over the approach under a force of 1 N, solved as a
-    step, so that what the march knows of the compliance serves."""
-    n = len(contact.gap)
-    status, coordinates, nothing = np.full(n, OPEN, dtype=np.int8), np.zeros(1), np.empty(0)
-    status[nodes] = SLIP_FORWARD
-    loose, force, approach = np.zeros((1, 1)), np.ones(1), np.ones((n, 1))
-    equations = Equations(loose, force, contact.compliance, approach, np.zeros(n), nothing, 0.0, nothing, contact.rows)
-    solve_sets(equations, Iterate(status, np.zeros(n), coordinates, nothing))
-    return 1.0 / coordinates[0]
+    """Force (N) on some nodes when all of them approach by 1 mm; over a face by what the march factored, where they are
+    all that are closed."""
+    compliance, n, approach, nothing = contact.compliance, len(contact.gap), np.ones(len(nodes)), np.empty(0)
+    still, unmoved = np.eye(1), np.zeros((n, 1))
+    equations = Equations(still, np.zeros(1), compliance, unmoved, contact.gap, nothing, 0.0, nothing, contact.rows)
+    iterate = Iterate(np.empty(0, dtype=np.int8), np.zeros(n), np.zeros(1), nothing)
+    if solve_factored(equations, iterate, nodes, nothing, -approach):
+        return iterate.forces.sum()
+    # `solve_sets` would be compiled, and loaded by each run, once more.
+    matrix = system_of(len(nodes))
+    for i in range(len(nodes)):
+        put_entries(matrix[i], compliance[nodes[i]], nodes, np.int64(0), 1.0)
+    return solved(matrix, approach, len(nodes)).sum()
 
 
 Curves = dict[str, np.ndarray]

@@ -19,7 +19,7 @@ from fenics_gears.contact.tooth_pair import (
     coast_place,
     interpolations,
     rolls_of,
-    tooth_pair,
+    tooth_pairs,
 )
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.model.model import model_of
@@ -130,7 +130,7 @@ def test_coast_flanks_are_the_drive_flanks_turned_over(real):
     def nodes(index, flank, slice_, position):
         """Contact nodes of either flank at the same position on its own line of action."""
         rolls = position / pair.pinion.base_radius, (pair.line_of_action_length - position) / pair.wheel.base_radius
-        drive = tooth_pair(replace(flanks, removal=(None, None)), grid, place(index, flank, slice_, rolls))
+        (drive,) = tooth_pairs(replace(flanks, removal=(None, None)), grid, [place(index, flank, slice_, rolls)])
         alone = drive.offsets, np.array([0, len(drive.offsets)])
         (seen,) = interpolations(pairing.sections, grid, [drive.place], alone, rolls_of(pair, [drive.place], alone))
         return FacePair(**vars(drive), coarse=seen)

@@ -7,11 +7,11 @@ import pytest
 from scipy.optimize import brentq
 from tests.contact.outlines import centres, distance, placed, rotation_to_touch
 
-from fenics_gears.contact.corner import corner_contact, corner_pair, corner_place
+from fenics_gears.contact.corner import corner_contact, corner_pairs, corner_place
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.operator import Passage, contact_operator
-from fenics_gears.contact.tooth_pair import coast_place, drive_place, tooth_pair
+from fenics_gears.contact.tooth_pair import coast_place, drive_place, tooth_pairs
 from fenics_gears.contact.window import ContactGrid
 
 GRID = ContactGrid(length=2.5, nodes=26)
@@ -35,7 +35,7 @@ def test_the_mate_turned_by_the_gap_touches_the_tip(by, tip, radius, stand_in_fl
     """Brute force: the mate's outline turned until it meets the tip's edge; an involute moves by rb phi along its
     normal."""
     corner, place = corner_contact(paper_pair, radius), beyond(paper_pair, tip, by)
-    nodes = corner_pair(stand_in_flanks, FINE, corner, place)
+    (nodes,) = corner_pairs(stand_in_flanks, FINE, corner, [place])
     mate, curves = 1 - tip, placed(paper_pair, corner.edges, place)
     turn = rotation_to_touch(curves[mate], curves[tip], centres(paper_pair)[mate])
     assert nodes.gap.min() == pytest.approx(
@@ -53,7 +53,7 @@ def test_the_wheel_turned_by_the_gap_touches_the_edge_of_an_undercut_flank(by, s
     pair = replace(paper_pair, pinion=pinion, centre_distance=82.0)
     assert pinion.undercut and pair.path_start > pair.tip_positions[0] + 1.0
     corner, place = corner_contact(pair), drive_place(pair, 0, pair.path_start - by)
-    nodes = corner_pair(replace(stand_in_flanks, pair=pair), FINE, corner, place)
+    (nodes,) = corner_pairs(replace(stand_in_flanks, pair=pair), FINE, corner, [place])
     curves = placed(pair, corner.edges, place)
     turn = rotation_to_touch(curves[1], curves[0], centres(pair)[1])
     assert nodes.gap.min() == pytest.approx(pair.wheel.base_radius * turn, rel=2e-4, abs=1e-7)
@@ -69,7 +69,7 @@ def test_a_pitch_error_lets_the_tip_touch_where_the_outlines_do(tip, error, radi
     base = (paper_pair.pinion, paper_pair.wheel)[mate].base_radius
 
     def by_gap(by):
-        return corner_pair(stand_in_flanks, FINE, corner, beyond(paper_pair, tip, by)).gap.min() - error
+        return corner_pairs(stand_in_flanks, FINE, corner, [beyond(paper_pair, tip, by)])[0].gap.min() - error
 
     def by_outlines(by):
         curves = placed(paper_pair, corner.edges, beyond(paper_pair, tip, by), count=4001)
@@ -87,7 +87,7 @@ def test_rigid_motions_change_the_gap_as_the_outlines_say(tip, radius, stand_in_
     centres."""
     corner, place = corner_contact(paper_pair, radius), beyond(paper_pair, tip, 0.9)
     cycle = Cycle(elastic_mesh(stand_in_flanks, GRID, corner), STEPS, ALL, tangential=False)
-    pairs = (corner_pair(stand_in_flanks, GRID, corner, place),)
+    pairs = tuple(corner_pairs(stand_in_flanks, GRID, corner, [place]))
     passage = Passage(pairs)
     row = contact_operator(paper_pair, passage, ALL, cycle.mesh.response(passage)).jacobian[0]
     radii, step, expected = (paper_pair.pinion.base_radius, paper_pair.wheel.base_radius), 1e-3, np.empty(6)
@@ -109,7 +109,8 @@ def test_on_the_path_of_contact_nothing_changes(stand_in_flanks, paper_pair):
     corner = corner_contact(paper_pair)
     for xi in np.linspace(paper_pair.path_start + 1e-9, paper_pair.path_end - 1e-9, 9):
         place = drive_place(paper_pair, 0, xi)
-        with_corner, plain = corner_pair(stand_in_flanks, GRID, corner, place), tooth_pair(stand_in_flanks, GRID, place)
+        (with_corner,) = corner_pairs(stand_in_flanks, GRID, corner, [place])
+        (plain,) = tooth_pairs(stand_in_flanks, GRID, [place])
         assert with_corner.place == plain.place
         for name in ("offsets", "lengths", "gap", "pinion_lever_arm", "wheel_lever_arm", "pinion_roll"):
             assert getattr(with_corner, name) == pytest.approx(getattr(plain, name), rel=1e-11, abs=1e-11)
@@ -126,7 +127,8 @@ def test_nothing_jumps_where_the_edge_leaves_the_path(tip, radius, stand_in_flan
     roll, base = corner.edges[tip].flank_roll, gears[tip].base_radius
     xi = base * roll if tip == 0 else paper_pair.line_of_action_length - base * roll
     before, after = (
-        corner_pair(stand_in_flanks, GRID, corner, drive_place(paper_pair, 0, xi + sign * 1e-7)) for sign in (-1.0, 1.0)
+        corner_pairs(stand_in_flanks, GRID, corner, [drive_place(paper_pair, 0, xi + sign * 1e-7)])[0]
+        for sign in (-1.0, 1.0)
     )
     assert (before.place.line is None) != (after.place.line is None)
     assert len(before.offsets) == len(after.offsets)

@@ -16,7 +16,7 @@ from tests.contact.problems import pressed as under
 from fenics_gears import model_of
 from fenics_gears.contact.operator import Passage, contact_operator
 from fenics_gears.contact.pairing import CompliancePairing
-from fenics_gears.contact.tooth_pair import Flanks, drive_place, tooth_pair
+from fenics_gears.contact.tooth_pair import Flanks, drive_place, tooth_pairs
 from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
@@ -72,7 +72,7 @@ def errors(paper_scene):
 def pressed(flanks, xi, force, spacing, length):
     """Offsets (n,), mm, and pressures (n,), MPa, of the contact nodes of one pair under a force."""
     cells = 2 * int(np.ceil(0.5 * length / spacing))
-    nodes = tooth_pair(flanks, ContactGrid(cells * spacing, cells + 1), drive_place(flanks.pair, 0, xi))
+    (nodes,) = tooth_pairs(flanks, ContactGrid(cells * spacing, cells + 1), [drive_place(flanks.pair, 0, xi)])
     passage = Passage((nodes,))
     operator = contact_operator(flanks.pair, passage, [5], CompliancePairing(flanks).response(passage))
     solution = under(operator, force)

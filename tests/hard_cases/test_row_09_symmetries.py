@@ -12,7 +12,7 @@ from fenics_gears import model_of, simulate
 from fenics_gears.contact.operator import Passage, contact_operator
 from fenics_gears.contact.pairing import CompliancePairing
 from fenics_gears.contact.places import pair_places
-from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, tooth_pair
+from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, tooth_pairs
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.gear_compliance import flank_compliance
@@ -42,7 +42,7 @@ def approach(flanks, pairing, grid, phase, force, flank=DRIVE):
     """Rotation of the wheel (mm on its base circle) under a force at a phase of the mesh, the pinion held; and the
     forces of contact."""
     places = pair_places(flanks.pair, grid, phase % 1.0, coast_flanks=flank == COAST)
-    pairs = tuple(tooth_pair(flanks, grid, place) for place in places if place.flank == flank)
+    pairs = tuple(tooth_pairs(flanks, grid, [place for place in places if place.flank == flank]))
     passage = Passage(pairs)
     operator = contact_operator(flanks.pair, passage, [5], pairing.response(passage))
     solution = pressed(operator, force)

@@ -10,7 +10,7 @@ from tests.contact.problems import pressed
 from fenics_gears import model_of, simulate
 from fenics_gears.contact.operator import Passage, contact_operator
 from fenics_gears.contact.pairing import CompliancePairing
-from fenics_gears.contact.tooth_pair import drive_place, tooth_pair
+from fenics_gears.contact.tooth_pair import drive_place, tooth_pairs
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.system.progress import SilentProgress
 
@@ -54,7 +54,7 @@ def test_one_contact_node(model, flanks, measured):
     """Exact: it carries T/rb2, and the wheel gives way by its gap and C_11 T/rb2."""
     pair, force = flanks.pair, model.drivetrain.load[-1]
     place = drive_place(pair, 0, pair.pitch_point)
-    operator = operator_of(flanks, (tooth_pair(flanks, model.resolution.contact_grid, place),))
+    operator = operator_of(flanks, tuple(tooth_pairs(flanks, model.resolution.contact_grid, [place])))
     errors = []
     for node in (0, operator.nodes // 2, operator.nodes - 1):
         alone = only(operator, node)
@@ -69,7 +69,7 @@ def test_coincident_contact_nodes_share_alike(model, flanks, measured):
     """Exact by symmetry: the same nodes twice carry half each, together what they carry once; the lost rank is
     counted."""
     pair, force = flanks.pair, model.drivetrain.load[-1]
-    nodes = tooth_pair(flanks, model.resolution.contact_grid, drive_place(pair, 0, pair.pitch_point))
+    (nodes,) = tooth_pairs(flanks, model.resolution.contact_grid, [drive_place(pair, 0, pair.pitch_point)])
     once, twice = (operator_of(flanks, pairs) for pairs in ((nodes,), (nodes, nodes)))
     first, second = pressed(once, force), pressed(twice, force)
     half = second.forces.reshape(2, -1)
