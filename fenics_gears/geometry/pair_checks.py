@@ -105,11 +105,15 @@ def _check_contact_ratio(pair: GearPair) -> None:
         short = [name for name, *_ in _shortened(pair) if getattr(pair, name).undercut]
         cut = "".join(f", shortened by the undercut {name}" for name in short)
         undercut = "".join(f", or {_less_undercut(pair, name)}" for name in short)
+        kind, why = "", "otherwise a tooth pair leaves before the next one enters"
+        if pair.helix:
+            kind = "transverse "
+            why = f"pairs that their overlap alone carries (here {pair.overlap_ratio:.4g}) are not simulated"
         refuse(
             "pair",
-            f"{'transverse ' if pair.helix else ''}contact ratio {pair.contact_ratio:.4g}{cut}, must be at least 1,"
-            " otherwise a tooth pair leaves before the next one enters: raise gears.pinion.tip_diameter or"
-            f" gears.wheel.tip_diameter, or lower gears.centre_distance ({pair.centre_distance:.6g} mm){undercut}",
+            f"{kind}contact ratio {pair.contact_ratio:.4g}{cut}, must be at least 1, {why}: raise"
+            " gears.pinion.tip_diameter or gears.wheel.tip_diameter, or lower gears.centre_distance"
+            f" ({pair.centre_distance:.6g} mm){undercut}",
         )
 
 
