@@ -15,8 +15,8 @@ from fenics_gears.dynamics.elastic_shaft import SIX, ElasticShaft, beam_flexibil
 
 
 def seat_compliance(shaft: ElasticShaft, heights: np.ndarray) -> np.ndarray:
-    """D (h, 6, h, 6): motions of places at `heights` (h,), mm from the gear's middle, its face's ends among them, per
-    load there, over MOTIONS and the twist, counter-clockwise.
+    """D (h, 6, h, 6): motions of places at `heights` (h,), mm from the gear's middle, per load there, over MOTIONS and
+    the twist, counter-clockwise.
 
     The face is a cantilever from its left end; w and v are what the shaft on either side of it holds, as motions of the
     gear's middle: K_L w + K_R v = 0 is the condition on which D moves.
@@ -28,13 +28,13 @@ def seat_compliance(shaft: ElasticShaft, heights: np.ndarray) -> np.ndarray:
     within = along._replace(weights=np.where((along.places > begin) & (along.places < end), along.weights, 0.0))
     every = np.append(places, end)
     free = beam_flexibility(within, every, every, (begin, begin)).reshape(SIX * len(every), -1)
-    to_middle = _six_carried(-0.5 * shaft.seat)
+    to_middle = carried_with_twist(-0.5 * shaft.seat)
     both = left + right
     held = left @ np.linalg.solve(both, right)
     at_end = to_middle @ free[-SIX:]
     given = np.linalg.solve(np.eye(SIX) + at_end[:, -SIX:] @ to_middle.T @ held, at_end)
     cantilever = free - at_end.T @ held @ given
-    follows = np.concatenate([_six_carried(each) for each in heights]) @ np.linalg.solve(both, right) @ to_middle
+    follows = np.concatenate([carried_with_twist(each) for each in heights]) @ np.linalg.solve(both, right) @ to_middle
     motion = np.concatenate([np.eye(SIX * len(heights)), -follows], axis=1)
     found = motion @ cantilever @ motion.T
     return (0.5 * (found + found.T)).reshape(len(heights), SIX, len(heights), SIX)
@@ -48,7 +48,9 @@ def _six(stiffness: np.ndarray, side: float, shaft: ElasticShaft) -> np.ndarray:
     return found
 
 
-def _six_carried(distance: float) -> np.ndarray:
+def carried_with_twist(distance: float) -> np.ndarray:
+    """Motions (6, 6), the twist among them, of a place at a distance (mm) along a rigid axis per motion of its
+    origin."""
     found = np.eye(SIX)
     found[:-1, :-1] = carried(distance)
     return found
