@@ -35,8 +35,10 @@ def test_the_straight_part_is_the_inclination_of_the_axes():
     assert straight.attrs["mean_axis_inclination_in_plane"] == pytest.approx(
         1e3 * slope * model.pair.face_width, rel=1e-3
     )
-    assert straight.attrs["face_load_factor"] == pytest.approx(1.0, abs=1e-3)
-    assert bent.attrs["face_load_factor"] > 1.02
+    # Bodies load the face unevenly by themselves.
+    _, even = finished('[misalignment]\nin_plane = "0 um"\n', 0.0)
+    assert straight.attrs["face_load_factor"] == pytest.approx(even.attrs["face_load_factor"], rel=5e-3)
+    assert bent.attrs["face_load_factor"] > 1.02 * even.attrs["face_load_factor"]
 
 
 @pytest.mark.parametrize("helix", [0.0, 15.0])
