@@ -25,13 +25,25 @@ class Correction(NamedTuple):
 
 
 def middles_of_slices(pair: GearPair, slices: int = SLICES) -> np.ndarray:
-    """Middles (slices,), mm, of equal slices of the common face."""
+    """Middles (slices,), mm, of equal slices of the common face.
+
+    >>> from fenics_gears import gear_pair, load_scene
+    >>> pair = gear_pair(load_scene("demos/lundvall2004.toml").gears)
+    >>> (middles_of_slices(pair, 2) / pair.face_width).tolist()
+    [-0.25, 0.25]
+    """
     return (np.arange(slices) + 0.5) / slices * pair.face_width - 0.5 * pair.face_width
 
 
 def face_compliance_of_shafts(shafts: Iterable[ElasticShaft], pair: GearPair, z: np.ndarray) -> np.ndarray:
     """Gap (s, s), mm in the transverse section, that opens at places z (s,) of the common face per transverse force (N)
-    along the line of action at others, at the pitch point and without friction; turns of whole gears left out."""
+    along the line of action at others, at the pitch point and without friction; turns of whole gears left out.
+
+    >>> from fenics_gears import gear_pair, load_scene
+    >>> pair = gear_pair(load_scene("demos/lundvall2004.toml").gears)
+    >>> face_compliance_of_shafts((), pair, middles_of_slices(pair, 2)).tolist()  # rigid shafts
+    [[0.0, 0.0], [0.0, 0.0]]
+    """
     found = np.zeros((len(z), len(z)))
     along = pair.pitch_point, pair.pitch_point - pair.line_of_action_length
     across = -pair.pinion.base_radius, pair.wheel.base_radius

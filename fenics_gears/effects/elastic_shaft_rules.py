@@ -113,7 +113,7 @@ def _toothed(sections: Sequence[ShaftSection], face: tuple[float, float], diamet
             ends = [section.diameter + slope * (each - begin) for each in (left, right)]
             if face[0] < 0.5 * (left + right) < face[1]:
                 ends = [diameter] * 2
-            found.append(ShaftSection(right - left, *ends, section.bore))
+            found.append(ShaftSection(right - left, ends[0], ends[1], section.bore))
         begin = end
     return tuple(found)
 
