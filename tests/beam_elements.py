@@ -25,13 +25,13 @@ def element(length, modulus, ratio, outer, bore, shear):
     return found
 
 
-def condensed(shaft, shear, seat_stiffness=1.0):
-    """Stiffness (5, 5) at the middle of the gear of an elastic shaft of cylinders, by elements between all its places
-    and a Schur complement; `shear`: coefficient of a section by its outer and inner diameter; `seat_stiffness`: of
-    what the gear sits on, against the shaft."""
+def assembled(shaft, shear, more=(), seat_stiffness=1.0):
+    """Places along an elastic shaft of cylinders, also `more` of them, and its stiffness (5 p, 5 p) there by elements,
+    bearings with it; `shear`: coefficient of a section by its outer and inner diameter; `seat_stiffness`: of what the
+    gear sits on, against the shaft."""
     ends = np.cumsum([0.0, *(each.length for each in shaft.sections)])
     seat = shaft.gear_at - 0.5 * shaft.seat, shaft.gear_at + 0.5 * shaft.seat
-    places = sorted({*ends, *seat, shaft.gear_at, *(each.at for each in shaft.bearings)})
+    places = sorted({*ends, *seat, shaft.gear_at, *more, *(each.at for each in shaft.bearings)})
     stiffness = np.zeros((FIVE * len(places),) * 2)
     for number, (left, right) in enumerate(zip(places, places[1:])):
         section = shaft.sections[int(np.searchsorted(ends, 0.5 * (left + right))) - 1]
@@ -44,6 +44,12 @@ def condensed(shaft, shear, seat_stiffness=1.0):
     for bearing in shaft.bearings:
         own = slice(FIVE * places.index(bearing.at), FIVE * (places.index(bearing.at) + 1))
         stiffness[own, own] += bearing.matrix
+    return places, stiffness
+
+
+def condensed(shaft, shear, seat_stiffness=1.0):
+    """Stiffness (5, 5) at the middle of the gear, by a Schur complement of what `assembled` gives."""
+    places, stiffness = assembled(shaft, shear, (), seat_stiffness)
     kept = np.arange(FIVE) + FIVE * places.index(shaft.gear_at)
     others = np.setdiff1d(np.arange(len(stiffness)), kept)
     return stiffness[np.ix_(kept, kept)] - stiffness[np.ix_(kept, others)] @ np.linalg.solve(

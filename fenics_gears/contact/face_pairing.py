@@ -51,15 +51,23 @@ class FacePairing:
         self._largest = sum(section.between(0, 0).diagonal().max() for section in flanks.compliance)
         self._bodies = tuple(
             (
-                on_slices(
-                    body.blocks,
-                    slice_averages(body.heights, body.element_order, face.positions - middle, face.widths),
-                    body.flanks,
-                ),
+                self._on_slices(gear, body),
                 np.stack([body.plane.block(offset) for offset in range(-body.plane.offsets, body.plane.offsets + 1)]),
             )
-            for body, middle in zip(bodies, face.middles)
+            for gear, body in enumerate(bodies)
         )
+
+    def _on_slices(self, gear: int, body: FaceCompliance) -> np.ndarray:
+        face, pair = self.face, self.sections.pair
+        weights = slice_averages(body.heights, body.element_order, face.positions - face.middles[gear], face.widths)
+        found = on_slices(body.blocks, weights, body.flanks)
+        if body.seat is not None:
+            # Imported here: few gears are cut into a shaft.
+            from fenics_gears.contact.face_seat import add_seat
+
+            own = (pair.pinion, pair.wheel)[gear]
+            add_seat(found, weights, body, own, (1.0, -1.0)[gear] * face.slope / own.base_radius)
+        return found
 
     def response(self, passage: Passage) -> Response:
         """How the contact nodes of a passage yield; dependent rows have a thin layer each (`contact.pairing`)."""

@@ -31,6 +31,8 @@ NUMBERS = {"pinion": "1", "wheel": "2"}
 # Gauss points between two places of a shaft: exact for the polynomials of a cylinder, and for a cone, whose section is
 # in the denominator: its flexibility is right to 1e-9 while its wall is nowhere more than ten times the thinnest.
 OF_CYLINDER, OF_CONE, STEEPEST_CONE = 2, 30, 10.0
+# MOTIONS and the twist.
+SIX = 6
 # Part of the largest stiffness, tilts taken over the shaft's length, below which a motion is free.
 LEAST_HELD = 1e-12
 
@@ -98,7 +100,8 @@ def carried(distance: float) -> np.ndarray:
 class ElasticShaft:
     """The shaft of the "pinion" or the "wheel": its `sections` of one `material` (Young's modulus, N/mm^2, Poisson's
     ratio), the middle of the gear's seat, mm from the left end, the `seat`'s width, mm, where the torque is coupled,
-    and the bearings."""
+    and the bearings; `integral`: whether the gear is cut into the shaft, of which `sections` then have its root
+    diameter within the face, where it gives way as `elastic_shaft_seat` says."""
 
     gear: str
     sections: tuple[ShaftSection, ...]
@@ -107,6 +110,7 @@ class ElasticShaft:
     seat: float
     torque_at: float
     bearings: tuple[Bearing, ...]
+    integral: bool = False
 
     @property
     def length(self) -> float:
@@ -119,24 +123,21 @@ class ElasticShaft:
         return tuple(f"{name}{NUMBERS[self.gear]}" for name in MOTIONS)
 
     @property
-    def _seat_ends(self) -> tuple[float, float]:
+    def seat_ends(self) -> tuple[float, float]:
+        """Where the gear's face begins and ends, mm from the left end of the shaft."""
         return self.gear_at - 0.5 * self.seat, self.gear_at + 0.5 * self.seat
 
     def flexibility(self, places: Sequence[float], loaded: Sequence[float]) -> np.ndarray:
         """Motions (p, 5, l, 5) of places on the axis per load at the `loaded` ones, with the gear held."""
-        along = properties(self.sections, self.material, {*places, *loaded, *self._seat_ends})
-        found = np.zeros((len(places), len(MOTIONS), len(loaded), len(MOTIONS)))
-        for place, at in enumerate(places):
-            for load, from_load in enumerate(loaded):
-                found[place, :, load] = _summed(self._between(along, at, from_load), at, from_load)
-        return found
+        along = properties(self.sections, self.material, {*places, *loaded, *self.seat_ends})
+        return beam_flexibility(along, places, loaded, self.seat_ends)[:, : len(MOTIONS), :, : len(MOTIONS)]
 
     @cached_property
     def torsional_stiffness(self) -> float:
         """Of the shaft between gear and coupling, N mm/rad; infinite where the torque is coupled within the seat."""
-        whole = properties(self.sections, self.material, {*self._seat_ends, self.torque_at})
-        along = self._between(whole, self.torque_at, self.torque_at)
-        return 1.0 / float(along.weights @ along.torsion) if len(along.weights) else inf
+        along = properties(self.sections, self.material, {*self.seat_ends, self.torque_at})
+        twist = beam_flexibility(along, [self.torque_at], [self.torque_at], self.seat_ends)[0, -1, 0, -1]
+        return 1.0 / twist if twist else inf
 
     @cached_property
     def at_bearings(self) -> np.ndarray:
@@ -154,7 +155,14 @@ class ElasticShaft:
     @cached_property
     def stiffness(self) -> np.ndarray:
         """Of shaft and bearings at the gear's middle (5, 5): loads of the gear on its shaft per motion."""
-        found = self._rigid([each.at for each in self.bearings]).T @ self.bearing_loads
+        return self.stiffness_beside(-1.0) + self.stiffness_beside(1.0)
+
+    def stiffness_beside(self, side: float) -> np.ndarray:
+        """The part (5, 5) of the stiffness at the gear's middle that is left (-1) or right (1) of the gear: neither
+        gives way by what is on the other side."""
+        own = [each.at for each in self.bearings if (each.at >= self.gear_at) == (side > 0.0)]
+        rows = np.repeat([each.at in own for each in self.bearings], len(MOTIONS))
+        found = self._rigid(own).T @ self.bearing_loads[rows]
         return 0.5 * (found + found.T)
 
     @cached_property
@@ -179,13 +187,6 @@ class ElasticShaft:
         places = [names.index(name) for name in self.coordinates]
         stiffness[np.ix_(places, places)] += part
 
-    def _between(self, along: Properties, place: float, other: float) -> Properties:
-        """What of a shaft is between the seat and the nearer of two places; nothing where they are not on one side."""
-        left, right = self._seat_ends
-        low, high = (right, min(place, other)) if place > right else (max(place, other), left)
-        between = (along.places > low) & (along.places < high)
-        return Properties(*(each[between] for each in along))
-
     @property
     def _springs(self) -> np.ndarray:
         """Stiffness (5 b, 5 b) of all bearings."""
@@ -198,19 +199,29 @@ class ElasticShaft:
 
     def _rigid(self, places: Iterable[float]) -> np.ndarray:
         """Motions (5 p, 5) of places on a rigid axis per motion of the gear."""
-        return np.concatenate([carried(at - self.gear_at) for at in places])
+        return np.concatenate([np.empty((0, len(MOTIONS))), *(carried(at - self.gear_at) for at in places)])
 
 
-def _summed(along: Properties, at: float, from_load: float) -> np.ndarray:
-    """Motions (5, 5) of a place per load at another one, by what gives way between the seat and the nearer one."""
-    to_place, to_load = at - along.places, from_load - along.places
-    bent, first = along.weights * along.bending, along.weights * along.bending * to_place
-    turned = bent.sum()
-    found = np.diag([0.0, 0.0, along.weights @ along.axial, turned, turned])
-    found[0, 0] = found[1, 1] = along.weights @ along.shear + first @ to_load
-    found[0, 4] = first.sum()
-    found[4, 0] = bent @ to_load
-    found[1, 3], found[3, 1] = -found[0, 4], -found[4, 0]
+def beam_flexibility(
+    along: Properties, places: Sequence[float], loaded: Sequence[float], held: tuple[float, float]
+) -> np.ndarray:
+    """Motions (p, 6, l, 6) of places per load at others of a shaft that is `held` from one place to another: over
+    MOTIONS and the twist. What is beyond the nearer of two places, or on the other side of the hold, does nothing."""
+    to_place, to_load = (np.asarray(each, dtype=float)[:, None] - along.places for each in (places, loaded))
+    beside = np.where(along.places > held[1], 1.0, np.where(along.places < held[0], -1.0, 0.0))
+    first, second = (np.where(arms * beside > 0.0, 1.0, 0.0) for arms in (to_place, to_load))
+    first_arm, second_arm = first * to_place, second * to_load
+
+    def summed(of: np.ndarray, left: np.ndarray = first, right: np.ndarray = second) -> np.ndarray:
+        return (left * along.weights * of) @ right.T
+
+    found = np.zeros((len(to_place), SIX, len(to_load), SIX))
+    found[:, 0, :, 0] = found[:, 1, :, 1] = summed(along.shear) + summed(along.bending, first_arm, second_arm)
+    found[:, 0, :, 4] = summed(along.bending, first_arm)
+    found[:, 4, :, 0] = summed(along.bending, right=second_arm)
+    found[:, 1, :, 3], found[:, 3, :, 1] = -found[:, 0, :, 4], -found[:, 4, :, 0]
+    found[:, 2, :, 2], found[:, 5, :, 5] = summed(along.axial), summed(along.torsion)
+    found[:, 3, :, 3] = found[:, 4, :, 4] = summed(along.bending)
     return found
 
 

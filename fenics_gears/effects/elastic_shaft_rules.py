@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import Any
 
 from fenics_gears.dynamics.elastic_shaft import STEEPEST_CONE, ElasticShaft, free_motions
 from fenics_gears.effects.bearings import Bearing, Stiffnesses
+from fenics_gears.effects.shafts import INTEGRAL, ShaftSection
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.section import names_in
@@ -15,6 +17,8 @@ from fenics_gears.inputs.written import as_written
 
 # Bearings of a shaft (mm) that are no further apart, and ends that stand out by as little, are so by round-off.
 ROUND_OFF = 1e-9
+# Part of a bore by which the shaft in it may be thinner or thicker without a word: a press fit's.
+OFF_THE_BORE = 0.01
 BESIDE_MATRIX = ("radial_stiffness", "axial_stiffness", "tilting_stiffness")
 
 
@@ -81,7 +85,7 @@ def check_shafts(scene: Any, pair: Any) -> None:
         if gear in scene.shafts.sections:
             found = elastic_shaft(scene, pair, gear)
             wrong += [*_sections_are_solid(found, shaft), *_places_are_on_the_shaft(found, shaft)]
-            wrong += _bearings_hold(found)
+            wrong += [*_bearings_hold(found), *_teeth_are_outside(scene, pair, found, shaft)]
     if wrong:
         raise SceneError("; ".join(wrong))
 
@@ -91,7 +95,59 @@ def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
     shaft, number = scene.shafts.sections[gear], GEARS.index(gear)
     constants = shaft.material.constants(scene.gears.materials[number])
     width, bearings = pair.face_widths[number], scene.bearings.each_of(gear)
-    return ElasticShaft(gear, shaft.sections, constants, shaft.gear_at, width, shaft.torque_at, bearings)
+    sections, integral = shaft.sections, shaft.seat == INTEGRAL
+    if integral:
+        face = shaft.gear_at - 0.5 * width, shaft.gear_at + 0.5 * width
+        sections = _toothed(sections, face, 2.0 * getattr(pair, gear).root_radius)
+    return ElasticShaft(gear, sections, constants, shaft.gear_at, width, shaft.torque_at, bearings, integral)
+
+
+def _toothed(sections: Sequence[ShaftSection], face: tuple[float, float], diameter: float) -> tuple[ShaftSection, ...]:
+    """The sections of a shaft, which between both ends of a gear's `face` (mm from the left end) is a cylinder of a
+    diameter (mm), bored as it is."""
+    found, begin = [], 0.0
+    for section in sections:
+        end, slope = begin + section.length, (section.right_diameter - section.diameter) / section.length
+        stops = [begin, *(each for each in face if begin + ROUND_OFF < each < end - ROUND_OFF), end]
+        for left, right in pairwise(stops):
+            ends = [section.diameter + slope * (each - begin) for each in (left, right)]
+            if face[0] < 0.5 * (left + right) < face[1]:
+                ends = [diameter] * 2
+            found.append(ShaftSection(right - left, ends[0], ends[1], section.bore))
+        begin = end
+    return tuple(found)
+
+
+def shaft_warnings(scene: Any, pair: Any) -> list[str]:
+    """A sentence on each gear whose bore is not as wide as the shaft in it is thick."""
+    found = []
+    for gear, shaft in scene.shafts.sections.items():
+        bore, name = 2.0 * getattr(pair, gear).bore_radius, SHAFTS[GEARS.index(gear)]
+        if shaft.seat == INTEGRAL:
+            continue
+        under = _under_the_face(shaft.sections, elastic_shaft(scene, pair, gear).seat_ends)
+        off = [each for each in under if abs(each - bore) > OFF_THE_BORE * bore]
+        if off:
+            found.append(
+                f"shafts.{name}.sections: the shaft is {off[0]:g} mm thick under the {gear}'s face, whose bore is"
+                f" {bore:g} mm wide: the seat is rigid all the same, and what of shaft or gear is missing between them"
+                f" counts nowhere. Let the sections there and gears.{gear}.bore_diameter agree, or take seat ="
+                f' "{INTEGRAL}" where the teeth are cut into the shaft'
+            )
+    return found
+
+
+def _under_the_face(sections: Sequence[ShaftSection], face: tuple[float, float]) -> list[float]:
+    """Diameters (mm) of a shaft at both ends of each section, as far as a gear's face reaches over it."""
+    found, begin = [], 0.0
+    for section in sections:
+        end = begin + section.length
+        low, high = max(begin, face[0]), min(end, face[1])
+        if high - low > ROUND_OFF:
+            slope = (section.right_diameter - section.diameter) / section.length
+            found += [section.diameter + slope * (place - begin) for place in (low, high)]
+        begin = end
+    return found
 
 
 def _sections_are_solid(found: ElasticShaft, shaft: str) -> Iterator[str]:
@@ -142,6 +198,30 @@ def _stiffness_is_given_once(bearing: Bearing, name: str) -> Iterator[str]:
     beside = [each for each in BESIDE_MATRIX if getattr(bearing, each)]
     if bearing.stiffness_matrix is not None and beside:
         yield f"{name} has {beside[0]} beside its stiffness_matrix, which is all of its stiffness; leave one out"
+
+
+def _teeth_are_outside(scene: Any, pair: Any, found: ElasticShaft, shaft: str) -> Iterator[str]:
+    """The shaft fits within the root circle, and a gear that is cut into it is of one piece with it and coupled beside
+    its face."""
+    own, gear = scene.shafts.sections[found.gear], getattr(pair, found.gear)
+    root, thickest = 2.0 * gear.root_radius, max(_under_the_face(own.sections, found.seat_ends), default=0.0)
+    if thickest > root:
+        yield (
+            f"shafts.{shaft}.sections: the shaft is {thickest:g} mm thick under the {found.gear}'s face, more than the"
+            f" root diameter of {root:g} mm; allowed are smaller ones"
+        )
+    if not found.integral:
+        return
+    named, material = f'shafts.{shaft}.seat = "{INTEGRAL}"', scene.gears.materials[GEARS.index(found.gear)]
+    if found.material != (material.youngs_modulus, material.poissons_ratio):
+        yield f"{named}: {found.gear} and shaft are one piece, but of two materials; leave shafts.{shaft}.material out"
+    if abs(found.torque_at - found.gear_at) < 0.5 * found.seat - ROUND_OFF:
+        yield f"{named}: torque_at = {found.torque_at:g} mm is within the face; move the coupling beside it"
+    if any(each.stiffness_matrix is not None for each in found.bearings):
+        yield (
+            f"{named}: bearings.{found.gear} has a stiffness_matrix; allowed are bearings that are alike in all"
+            " directions across the axis: give radial_stiffness, axial_stiffness and tilting_stiffness"
+        )
 
 
 def _bearings_hold(found: ElasticShaft) -> Iterator[str]:

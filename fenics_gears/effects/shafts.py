@@ -16,6 +16,7 @@ from fenics_gears.inputs.tree import SHAFTS, Tree, shafts_with_sections, table
 from fenics_gears.inputs.written import as_written
 
 MOST_SECTIONS = 100
+RIGID_SEAT, INTEGRAL = "rigid over its width", "integral"
 
 
 def _stiffness(meaning: str, otherwise: str = ""):
@@ -97,9 +98,11 @@ class Shaft(Section):
         "0 mm", "where the motor or the load is coupled, from the left end", otherwise="required with `sections`"
     )
     seat: str | None = choice(
-        "rigid over its width",
-        meaning="how the gear sits: the shaft does not give way within the gear's face width",
-        default="rigid over its width",
+        RIGID_SEAT,
+        INTEGRAL,
+        meaning="how the gear sits: the shaft does not give way within the gear's face width; or the teeth are cut into"
+        " the shaft, which bends and twists there as a cylinder of the root diameter",
+        default=RIGID_SEAT,
     )
     material: ShaftMaterial = ShaftMaterial()
 
@@ -182,6 +185,15 @@ def check(shafts: Shafts, scene, pair) -> None:
         check_shafts(scene, pair)
 
 
+def warnings(shafts: Shafts, model) -> list[str]:
+    """A sentence where a gear's bore and the shaft in it differ."""
+    if shafts.sections is None:
+        return []
+    from fenics_gears.effects.elastic_shaft_rules import shaft_warnings
+
+    return shaft_warnings(model.scene, model.pair)
+
+
 # Departures of the axes are those of [misalignment], and as large over the common face.
 OF_AXES = (
     ("axis_inclination_in_plane", "um", "misalignment by the load in the plane of action, over the common face"),
@@ -223,4 +235,5 @@ EFFECT = Effect(
     ),
     rules=shafts_are_complete,
     check=check,
+    warnings=warnings,
 )

@@ -19,7 +19,8 @@ class FaceCompliance:
     with second order also between the layers' ends. blocks: (offsets + 1, 3 n h, 3 n h), mm/N. blocks[m] is the
     displacement of the flank m pitches ahead (counter-clockwise) of the loaded one. Dofs by height, then flank node,
     then component (x, y, z) in the tooth's own frame at that height. plane: the plane-strain compliance of the
-    section's mesh.
+    section's mesh. seat: (h, 6, h, 6), mm, rad, N, how the axis of a gear that is cut into its shaft gives way: x, y,
+    z, tilts about x and y, turn; None where the hub is rigid.
     """
 
     roll_angle: np.ndarray
@@ -29,6 +30,7 @@ class FaceCompliance:
     plane: FlankCompliance
     timings: dict = field(default_factory=dict, compare=False)
     flanks: int = 1
+    seat: np.ndarray | None = field(default=None, compare=False)
 
     @property
     def offsets(self) -> int:

@@ -69,6 +69,11 @@ def unknown_rows(model: Model) -> Rows:
         x, y, axial, *_ = 1e-3 / np.diag(np.linalg.inv(shaft.stiffness))
         words = f"{x:.4g} along x, {y:.4g} along y, {axial:.4g} axially"
         rows.append((f"its stiffness at the {shaft.gear}", words, "N/um, with its bearings"))
+        if shaft.integral:
+            words = "mm, the root diameter, as which the shaft bends and twists within the face"
+            rows.append(
+                (f"the {shaft.gear} is cut into its shaft", 2.0 * getattr(model.pair, shaft.gear).root_radius, words)
+            )
     names = model.drivetrain.coordinates
     motions = ", ".join(map(motion_in_words, names))
     return [*rows, ("motions of the gears that are unknown", f"{len(names)}:", motions)]

@@ -198,6 +198,15 @@ _ROWS = (
         for plane in ("in_plane", "out_of_plane")
     ),
     ("largest_bearing_force", "N", "largest force of a shaft on one of its bearings", WITH_SECTIONS),
+    *(
+        (
+            f"proposed_{name}",
+            "um",
+            f"{words} of the pinion, in place of its own, that makes the line load even under the nominal torque",
+            WITH_SECTIONS,
+        )
+        for name, words in (("helix_slope", "helix slope modification"), ("crowning", "crowning"))
+    ),
     (
         "transverse_load_factor",
         "1",

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS
+from fenics_gears.dynamics.elastic_shaft_face import Correction, correction, middles_of_slices, opened_by_even_load
+from fenics_gears.geometry.face import face_opening
+from fenics_gears.model.model import Model
 from fenics_gears.model.storage import SHAFT_POINTS
 from fenics_gears.results.face_variables import AlongTheFace
 from fenics_gears.results.side_by_side import SideBySide
@@ -22,10 +25,10 @@ class BentShafts(AlongTheFace):
     """What the result of a face has on shafts that bend: also what is recovered from the motions of the gears' middles,
     of which it is a linear function."""
 
-    def __init__(self, cycle: Cycle, drivetrain: Drivetrain):
+    def __init__(self, cycle: Cycle, model: Model):
         super().__init__(cycle)
-        self.drivetrain = drivetrain
-        self._lines = {each.gear: each.deflection(self.points(each.length)) for each in drivetrain.elastic}
+        self.model, self.drivetrain = model, model.drivetrain
+        self._lines = {each.gear: each.deflection(self.points(each.length)) for each in self.drivetrain.elastic}
 
     @staticmethod
     def points(length: float) -> np.ndarray:
@@ -81,7 +84,18 @@ class BentShafts(AlongTheFace):
         named = [f"axis_{kind}_{plane}" for kind in ("inclination", "offset") for plane in ("in_plane", "out_of_plane")]
         found = {f"mean_{name}": float(counted[name].mean()) for name in named}
         forces = np.sqrt(sum(counted[name] ** 2 for name in LOADS[:3]))
-        return super().numbers(counted) | found | {"largest_bearing_force": float(forces.max())}
+        proposed = {f"proposed_{name}": MICROMETRES * of for name, of in self._proposed()._asdict().items()}
+        return super().numbers(counted) | found | {"largest_bearing_force": float(forces.max())} | proposed
+
+    def _proposed(self) -> Correction:
+        """In place of the pinion's own helix slope and crowning: for an even line load under the nominal torque."""
+        scene, pair, z = self.model.scene, self.pair, middles_of_slices(self.pair)
+        leads, wheel = scene.lead_modifications, None
+        if leads is not None and leads.wheel is not None:
+            # End relief is to be there beside an even load.
+            wheel = replace(leads, pinion=None, wheel=replace(leads.wheel, end_relief=None))
+        opened = opened_by_even_load(self.drivetrain.elastic, pair, scene.load.wheel_torque, z)
+        return correction(pair, z, opened + face_opening(pair, wheel, scene.misalignment, z))
 
     def _motions(self, states: np.ndarray) -> np.ndarray:
         """Motions (steps, gears, 5) of the middles of pinion and wheel."""

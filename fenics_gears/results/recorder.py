@@ -50,7 +50,7 @@ def _along_face(model: Model, cycle: Cycle) -> tuple[AlongTheFace, ...]:
         return (AlongTheFace(cycle),)
     from fenics_gears.results.bent_shafts import BentShafts
 
-    return (BentShafts(cycle, model.drivetrain),)
+    return (BentShafts(cycle, model),)
 
 
 class KnownTouching:

@@ -131,6 +131,8 @@ def _shafts(found) -> Said:
                 f"{inside:.4g} um in the plane of action, {outside:.4g} um out of it{over}",
             )
         yield "largest force of a bearing", f"{found['largest_bearing_force']:.4g} N"
+        amounts = (f'{name} = "{found[f"proposed_{name}"]:.1f} um"' for name in ("helix_slope", "crowning"))
+        yield "for an even line load, in [lead_modifications]", f"pinion = {{ {', '.join(amounts)} }}"
 
 
 def _pressure(found) -> Said:

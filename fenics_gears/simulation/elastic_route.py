@@ -3,17 +3,25 @@ these, on the contact operators that models which differ in nothing else share."
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
 from fenics_gears.contact.mesh import Mesh, elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle, Gaps
 from fenics_gears.contact.tooth_pair import Flanks, Removal
 from fenics_gears.effects import ALONG_THE_FACE, effects_on, from_effects
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.simulation.bodies import gear_bodies
 from fenics_gears.simulation.routes import CONDENSED, route_of
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
+
+if TYPE_CHECKING:
+    from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+    from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 
 
 def elastic_route(
@@ -33,12 +41,29 @@ def mesh_cycle(model: Model, bodies: Bodies) -> Cycle:
         # Imported here: plane scenes have none.
         from fenics_gears.contact.face_mesh import face_mesh
 
-        return cycle_of(model, face_mesh(flanks, (first, second), model.face, grid, corner))
+        return cycle_of(model, face_mesh(flanks, _seated(model, first, second), model.face, grid, corner))
     if all(each.alike for each in flanks.compliance):
         return cycle_of(model, elastic_mesh(flanks, grid, corner))
     from fenics_gears.contact.whole_body_mesh import whole_body_mesh
 
     return cycle_of(model, whole_body_mesh(flanks, grid, model.resolution.steps_per_mesh_cycle, corner))
+
+
+def _seated(model: Model, *bodies: FaceCompliance) -> tuple[FaceCompliance, FaceCompliance]:
+    """Both bodies, those that are cut into an elastic shaft with what it gives way within the face."""
+    by_gear = dict(zip(GEARS, bodies))
+    for shaft in integral_shafts(model):
+        # Imported here: few gears are cut into a shaft.
+        from fenics_gears.dynamics.elastic_shaft_seat import seat_compliance
+
+        body = by_gear[shaft.gear]
+        by_gear[shaft.gear] = replace(body, seat=seat_compliance(shaft, body.heights))
+    return by_gear[GEARS[0]], by_gear[GEARS[1]]
+
+
+def integral_shafts(model: Model) -> tuple[ElasticShaft, ...]:
+    """The elastic shafts into which a gear is cut: flanks give way by them."""
+    return tuple(shaft for shaft in model.drivetrain.elastic if shaft.integral)
 
 
 def cycle_of(model: Model, mesh: Mesh) -> Cycle:

@@ -48,6 +48,13 @@ at = "110 mm"
 radial_stiffness = "0.4e6 N/mm"
 """
 ELASTIC = INPUT + PINION + OUTPUT + WHEEL
+# Teeth cut into both shafts, on bearings that are alike in all directions.
+CUT = (
+    (INPUT + PINION + OUTPUT + WHEEL)
+    .replace("torque_at", 'seat = "integral"\ntorque_at')
+    .replace(f"stiffness_matrix = {ROWS}", 'radial_stiffness = "0.3e6 N/mm"\naxial_stiffness = "0.2e6 N/mm"')
+    .replace('material = "ductile cast iron"\n', "")
+)
 GEARS = ("pinion", "wheel")
 
 
@@ -55,11 +62,14 @@ def shear(outer, bore):
     return float(shear_coefficient(0.3, np.array(bore / outer)))
 
 
-@pytest.fixture(scope="module", params=[0.0, 15.0], ids=["spur", "helical"])
+@pytest.fixture(
+    scope="module", params=[(0.0, ELASTIC), (15.0, ELASTIC), (15.0, CUT)], ids=["spur", "helical", "cut into shafts"]
+)
 def run(request):
     """The model of a run with friction on two elastic shafts, and its result."""
-    more = ELASTIC + "[friction]\ncoefficient = 0.05\n[lead_modifications.pinion]\ncrowning = '4 um'\n"
-    model = model_of(helical_scene(more, helix=request.param, offset=2.0, accuracy=FEW))
+    helix, shafts = request.param
+    more = shafts + "[friction]\ncoefficient = 0.05\n[lead_modifications.pinion]\ncrowning = '4 um'\n"
+    model = model_of(helical_scene(more, helix=helix, offset=2.0, accuracy=FEW))
     found = run_of(model, on_stand_in_bodies(model))
     assert found.failure is None
     return model, found.result
@@ -198,13 +208,30 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
             "output.gear_at.* no effect",
         ),
         (ELASTIC + '[inertia]\nmass = "2 kg"\nmoment_of_inertia = "0.02 kg m^2"\n', "inertia.* cannot stand beside"),
-        (INPUT.replace("torque_at", 'seat = "integral"\ntorque_at') + PINION, "shafts.input.seat"),
+        (INPUT.replace("torque_at", 'seat = "loose"\ntorque_at') + PINION, "shafts.input.seat"),
+        (INPUT.replace('"35 mm"', '"50 mm"') + PINION, "the shaft is 50 mm thick under the pinion's face, more than"),
+        (ELASTIC.replace("torque_at", 'seat = "integral"\ntorque_at'), "output.seat .* two materials"),
+        (ELASTIC.replace("torque_at", 'seat = "integral"\ntorque_at'), "bearings.wheel has a stiffness_matrix"),
+        (CUT.replace('torque_at = "0 mm"', 'torque_at = "110 mm"'), "torque_at = 110 mm is within the face"),
     ],
 )
 def test_what_does_not_fit_is_refused_before_any_computation(more, said):
     """Authority: the issue's list of bad input; each message names what is wrong, and where."""
     with pytest.raises(SceneError, match=f"(?s){said}"):
         model_of(helical_scene(more, accuracy=""))
+
+
+def test_a_shaft_that_is_not_as_thick_as_the_bore_is_told():
+    """The issue's sanity: a shaft of 3 mm under a bore of 22.4 mm is said before the run; one that fits is not, nor one
+    that the teeth are cut into."""
+
+    def said(more):
+        return [each for each in model_of(helical_scene(more, accuracy="")).warnings if "face, whose bore" in each]
+
+    thin = INPUT.replace('"35 mm"', '"3 mm"') + PINION
+    assert "is 3 mm thick under the pinion's face, whose bore is 22.3" in said(thin)[0]
+    fits = INPUT.replace('"35 mm"', f'"{0.4 * 54.0 / np.cos(np.radians(15.0))!r} mm"') + PINION
+    assert not said(fits) and not said(CUT)
 
 
 def test_a_side_that_names_nothing_is_rigid():

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import pi, tan
 
+import numpy as np
+
 from fenics_gears import GearPair, Material, base_helix_angle, mesh_factor, single_stiffness
 
 
@@ -14,7 +16,9 @@ class Operation:
     """The pair with its load: torque of the pinion (N mm), speed of the pinion (1/min), tip relief C_a (um), reduced
     mass of both gears (kg/mm of face width).
 
-    `misalignment`: of unloaded flanks over the common face (um), as the scene has it; None where it names none.
+    `misalignment`: of flanks over the common face (um), as the scene has it and its shafts bend; None of a scene that
+    names none and has rigid shafts. `shafts` (s, s): gap (mm) that bending shafts open in slices of the common face per
+    transverse force (N), and `opening` (s,) that of the unloaded flanks; None of rigid shafts.
     """
 
     pair: GearPair
@@ -25,6 +29,8 @@ class Operation:
     reduced_mass: float
     gears: object
     misalignment: float | None = None
+    shafts: np.ndarray | None = None
+    opening: np.ndarray | None = None
 
     @property
     def face_width(self) -> float:
@@ -35,6 +41,11 @@ class Operation:
     def tangential_force(self) -> float:
         """F_t (N) at the reference circle."""
         return self.pinion_torque / self.pair.pinion.reference_radius
+
+    @property
+    def base_force(self) -> float:
+        """Force (N) along the line of action in the transverse section."""
+        return self.pinion_torque / self.pair.pinion.base_radius
 
     @property
     def pitch_line_speed(self) -> float:

@@ -14,11 +14,13 @@ from fenics_gears import GearPair, Scene, SceneError, gear_pair, lumped_gears, o
 from .finish import Finish
 from .flank import flank_stress
 from .flash_temperature import flash_temperature, standard_share, transverse_line_force
-from .load_factors import load_factors, mesh_misalignment
+from .load_factors import iterated_face_factor, load_factors, mesh_misalignment
 from .operation import Operation, solid_reduced_mass
 from .root import root_stresses
 
 KILOGRAM = 1e3
+# The axes' inclination by the load, um over the common face.
+INCLINED = "mean_axis_inclination_in_plane"
 # Points along the path of contact at which the standard's flash temperature is taken.
 POINTS = 201
 
@@ -36,7 +38,7 @@ class Row:
 
 def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[Row]:
     """The rows of a run. Raises SceneError for a scene without speed, load or elastic teeth."""
-    operation = _operation(scene)
+    operation = _operation(scene, result)
     factors, found = load_factors(operation, finish), result.attrs
     face = found.get("face_load_factor", nan)
     flank, roots = flank_stress(operation, finish, factors), root_stresses(operation, finish, factors)
@@ -49,6 +51,7 @@ def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[Row]:
             nan if isnan(face) else abs(operation.misalignment or 0.0),
         ),
         Row("K_Hbeta, face load factor", "1", factors.face, face),
+        *_iterated(operation, finish, factors.dynamic, face),
         Row("K_Halpha, transverse load factor", "1", factors.transverse, found.get("transverse_load_factor", nan)),
     ]
     pressure = found.get("peak_contact_pressure", nan)
@@ -71,8 +74,16 @@ def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[Row]:
     return rows + _flash(operation, finish, result)
 
 
-def _operation(scene: Scene) -> Operation:
-    """What the standard rates: the steady load and the nominal speed of the scene."""
+def _iterated(operation: Operation, finish: Finish, dynamic: float, face: float) -> list[Row]:
+    if operation.shafts is None:
+        return []
+    return [
+        Row("K_Hbeta, line load iterated over the shafts", "1", iterated_face_factor(operation, finish, dynamic), face)
+    ]
+
+
+def _operation(scene: Scene, result: xr.Dataset) -> Operation:
+    """What the standard rates: the steady load and the nominal speed of the scene, and how its shafts bend."""
     if scene.gears.materials is None:
         raise SceneError("a rating needs elastic teeth: the scene has no [gears.material].")
     if not scene.load.wheel_torque > 0.0:
@@ -88,8 +99,26 @@ def _operation(scene: Scene) -> Operation:
         tip_relief=_tip_relief(scene),
         reduced_mass=_reduced_mass(scene, pair),
         gears=scene.gears,
-        misalignment=_misalignment(scene, pair),
+        misalignment=_with_inclination(_misalignment(scene, pair), result),
+        **_on_bent_shafts(scene, pair),
     )
+
+
+def _with_inclination(misalignment: float | None, result: xr.Dataset) -> float | None:
+    inclined = result.attrs.get(INCLINED)
+    return misalignment if inclined is None else (misalignment or 0.0) + inclined
+
+
+def _on_bent_shafts(scene: Scene, pair: GearPair) -> dict[str, np.ndarray]:
+    if scene.shafts is None or scene.shafts.sections is None:
+        return {}
+    from fenics_gears import face_compliance_of_shafts, face_opening, middles_of_slices, model_of
+
+    z = middles_of_slices(pair)
+    return {
+        "shafts": face_compliance_of_shafts(model_of(scene).drivetrain.elastic, pair, z),
+        "opening": face_opening(pair, scene.lead_modifications, scene.misalignment, z),
+    }
 
 
 def _misalignment(scene: Scene, pair: GearPair) -> float | None:
@@ -110,6 +139,13 @@ def _misalignment(scene: Scene, pair: GearPair) -> float | None:
 
 def of_misalignment(scene: Scene, finish: Finish) -> str:
     """A sentence on the misalignment that the standard's K_Hbeta counts, and whether the run has the same."""
+    if scene.shafts is not None and scene.shafts.sections is not None:
+        return (
+            "K_Hbeta of ISO 6336 is of the axes' inclination in this run with the scene's misalignment and helix slopes"
+            " (method C, less running-in; iterated: method B, shafts under the line load of a foundation, without"
+            " running-in), not of helix slopes of the tolerance class. Twist within the teeth cut into a shaft is in"
+            " the iterated one."
+        )
     if _misalignment(scene, gear_pair(scene.gears)) is not None:
         which = "the scene's misalignment and helix slopes (method C, less running-in)"
         return f"K_Hbeta of ISO 6336 is of {which}; shafts do not bend in it."

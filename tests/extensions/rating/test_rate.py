@@ -1,14 +1,20 @@
 """gears rate: the standard's numbers beside the run's."""
 
 import csv
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene
+from tests.effects.test_elastic_shafts import ELASTIC
 from tests.hard_cases.invariants import run_of
 from tests.helical import CROWNED, helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of, results, simulate
 from fenics_gears.commands.cli import main
+from fenics_gears.extensions.rating.finish import Finish
+from fenics_gears.extensions.rating.load_factors import iterated_face_factor
+from fenics_gears.extensions.rating.rating import _operation
 
 
 @pytest.fixture(scope="module")
@@ -88,6 +94,30 @@ def test_misalignment_over_the_face_is_counted_and_told(tmp_path, capsys):
     results.save(result.assign_attrs(beside), tmp_path / "run.nc")
     assert main(["rate", str(tmp_path)]) == 0
     assert "sigma_H of this run is beside the end of the pinion's active profile" in capsys.readouterr().out
+
+
+def test_the_inclination_of_shafts_that_bend_is_counted(tmp_path, capsys):
+    """By definition: F_betax is the run's inclination of the axes with the scene's misalignment. Limit: shafts that
+    open a straight gap have the closed form of a foundation, 1 + c b f / 2 F, by iterated line loads."""
+    more = ELASTIC + '[misalignment]\nin_plane = "4 um"\n'
+    model = model_of(helical_scene(more, helix=0.0))
+    result = run_of(model, on_stand_in_bodies(model)).result
+    results.save(result, tmp_path / "run.nc")
+    assert main(["rate", str(tmp_path)]) == 0
+    assert "is of the axes' inclination in this run" in capsys.readouterr().out
+    with open(tmp_path / "rating.csv", encoding="utf-8") as file:
+        rows = {row["quantity"]: row for row in csv.DictReader(file)}
+    misaligned = abs(result.attrs["mean_axis_inclination_in_plane"] + 4.0)
+    assert float(rows["F_betax, misalignment over the face"]["ISO 6336"]) == pytest.approx(misaligned, rel=1e-6)
+    assert float(rows["K_Hbeta, line load iterated over the shafts"]["ISO 6336"]) > 1.0
+    # A foundation under rigid shafts, misaligned.
+    operation = _operation(model.scene, result)
+    slices, force = len(operation.opening), operation.base_force
+    gap = 5e-3 * (np.arange(slices) + 0.5) / slices
+    straight = replace(operation, shafts=np.zeros((slices, slices)), opening=gap)
+    stiffness = 1e3 * 0.85 * operation.mesh_stiffness * operation.face_width
+    wanted = 1.0 + stiffness * 5e-3 * (1.0 - 1.0 / slices) / 2.0 / force
+    assert iterated_face_factor(straight, Finish(), 1.0) == pytest.approx(wanted, rel=1e-9)
 
 
 def test_a_scene_is_no_run(tmp_path, capsys):

@@ -1,0 +1,103 @@
+"""A gear that is cut into its shaft: twist in closed form, elements of a textbook, and the flanks' compliance by the
+rows that move them."""
+
+from math import pi
+
+import numpy as np
+import pytest
+from tests.beam_elements import assembled
+from tests.effects.test_elastic_shafts import CUT, GEARS
+from tests.helical import helical_scene, on_stand_in_bodies
+
+from fenics_gears import model_of
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, carried, shear_coefficient
+from fenics_gears.dynamics.elastic_shaft_seat import seat_compliance
+from fenics_gears.effects.bearings import Bearing
+from fenics_gears.effects.shafts import ShaftSection
+from fenics_gears.elasticity.slice_averages import slice_averages
+from fenics_gears.simulation.elastic_route import mesh_cycle
+
+STEEL = (206e3, 0.3)
+WIDTH, DIAMETER, BORE = 40.0, 35.0, 10.0
+SECTIONS = (ShaftSection(35.0, 28.0), ShaftSection(WIDTH, DIAMETER, bore=BORE), ShaftSection(45.0, 22.0))
+HEIGHTS = np.linspace(-0.5, 0.5, 17) * WIDTH
+BEARINGS = {
+    "between": (Bearing(10.0, 3e5, 1e5), Bearing(100.0, 2e5, 0.0, 3e7)),
+    "overhung": (Bearing(5.0, 3e5), Bearing(30.0, 4e5, 1e5)),
+    "three": (Bearing(10.0, 3e5, 1e5), Bearing(80.0, 1e5, 2e4), Bearing(115.0, 2e5)),
+}
+
+
+def shaft(bearings, torque_at=0.0):
+    return ElasticShaft("pinion", SECTIONS, STEEL, 55.0, WIDTH, torque_at, bearings, integral=True)
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_the_twist_under_an_even_torque_is_that_of_the_closed_form(sense):
+    """Exact: t (b s - s^2 / 2) / G J, s from the face's end on the coupling's side; beyond a single torque nothing
+    twists."""
+    found = seat_compliance(shaft(BEARINGS["between"], 60.0 - sense * 60.0), HEIGHTS)[:, 5, :, 5]
+    polar = 206e3 / 2.6 * pi / 32.0 * (DIAMETER**4 - BORE**4)
+    along = 0.5 * WIDTH + sense * HEIGHTS
+    assert found == pytest.approx(np.minimum.outer(along, along) / polar, rel=1e-12, abs=1e-20)
+    weights = np.full(17, WIDTH / 16.0)
+    weights[[0, -1]] *= 0.5
+    # The trapezium rule is exact: its kinks are at nodes.
+    assert found @ weights == pytest.approx((WIDTH * along - 0.5 * along**2) / polar, rel=1e-12, abs=1e-20)
+
+
+@pytest.mark.parametrize("name", BEARINGS)
+def test_rigid_seat_and_remainder_make_up_the_whole_compliance(name):
+    """Brute force: elements of a textbook over the whole shaft, inverted; the stiffness of a rigid seat is R^T C^-1 R
+    of them, and the remainder is never negative."""
+    found = shaft(BEARINGS[name])
+
+    def shear(outer, bore):
+        return float(shear_coefficient(0.3, np.array(bore / outer)))
+
+    places, stiffness = assembled(found, shear, found.gear_at + HEIGHTS)
+    own = np.concatenate([5 * np.abs(np.array(places) - found.gear_at - z).argmin() + np.arange(5) for z in HEIGHTS])
+    whole = np.linalg.inv(stiffness)[np.ix_(own, own)]
+    rigid = np.concatenate([carried(z) for z in HEIGHTS])
+    seat = seat_compliance(found, HEIGHTS)[:, :5, :, :5].reshape(len(own), -1)
+    wanted = whole - rigid @ np.linalg.solve(found.stiffness, rigid.T)
+    size = np.sqrt(np.outer(np.diag(whole), np.diag(whole)))
+    assert np.abs((seat - wanted) / size).max() <= 1e-9
+    assert rigid.T @ np.linalg.solve(whole, rigid) == pytest.approx(found.stiffness, rel=1e-6, abs=1e-3)
+    assert np.linalg.eigvalsh(seat / size)[0] >= -1e-12
+
+
+@pytest.mark.parametrize("helix", [0.0, 15.0])
+def test_flanks_give_way_as_their_rows_say(helix):
+    """Identity: what a gear that is cut into its shaft adds to the compliance of contact nodes is J D J^T, J being the
+    rows by which the motions of gears move these nodes, shifted to each node's height."""
+    accuracy = "slices = 6\ncontact_nodes = 9\nsteps_per_mesh_cycle = 4"
+    models = [
+        model_of(helical_scene(each + "[friction]\ncoefficient = 0.1\n", helix=helix, accuracy=accuracy))
+        for each in (CUT.replace('seat = "integral"\n', ""), CUT)
+    ]
+    rigid, cut = (mesh_cycle(each, on_stand_in_bodies(each)) for each in models)
+    model = models[1]
+    heights = on_stand_in_bodies(model)[0].solid.heights
+    for step in range(2, 4):
+        operator, added = cut.position(step).operator, 0.0
+        of_slice = np.concatenate([[pair.place.slice] * len(pair.offsets) for pair in operator.pairs])
+        z = np.tile(model.face.positions[of_slice], 2)
+        for gear, number in zip(model.drivetrain.elastic, "12"):
+            names = [f"{name}{number}" for name in ("centre_x", "centre_y", "axial_", "tilt_x", "tilt_y", "rotation_")]
+            columns = [model.drivetrain.coordinates.index(name) for name in names]
+            rows = operator.jacobian[:, columns] * model.drivetrain.radii[columns]
+            rows[:, 3] += z * rows[:, 1]
+            rows[:, 4] -= z * rows[:, 0]
+            weights = slice_averages(heights, 2, model.face.positions, model.face.widths)
+            seat = np.einsum("sh,hikj,tk->sitj", weights, seat_compliance(gear, heights), weights)
+            places = np.tile(of_slice, 2)
+            added = added + np.einsum("mi,minj,nj->mn", rows, seat[places][:, :, places], rows)
+        found = operator.compliance - rigid.position(step).operator.compliance
+        # Rows are of the point of contact, to which nodes beside it have other arms.
+        offsets = np.concatenate([pair.offsets for pair in operator.pairs])
+        middle = np.tile(np.abs(offsets) < 1e-9, 2)
+        found, added = (each[np.ix_(middle, middle)] for each in (found, added))
+        # What is left is the interpolation between flank nodes, and the turn of a helix within a slice.
+        assert len(found) and np.abs(found - added).max() <= 3e-6 * np.abs(added).max()
+    assert {each.gear for each in model.drivetrain.elastic} == set(GEARS)
