@@ -127,9 +127,7 @@ def face_discretisation(model: Model, gear: int) -> FaceDiscretisation:
     section_size = model.scene.accuracy.body_element_size or SECTION_SIZE * model.scene.gears.module
     web = (pair.pinion, pair.wheel)[gear].web
     swept = web and SweptWeb(
-        web.hub_radius,
-        web.rim_radius,
-        *(width * (web.offset + side * web.share) for side in (-0.5, 0.5)),
+        web.hub_radius, web.rim_radius, *(width * (web.offset + side * web.share) for side in (-0.5, 0.5))
     )
     return FaceDiscretisation(section_size, layers, width, twist, overhang if beyond else 0.0, beyond, swept)
 

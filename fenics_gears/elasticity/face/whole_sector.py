@@ -28,7 +28,9 @@ def condensed_whole_sector(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, 
         "lower": [by_radius(without(mesh.edge_nodes("lower cut", ELEMENT.order), hub))],
         "upper": [by_radius(without(mesh.edge_nodes("upper cut", ELEMENT.order), hub))],
     }
-    numbers = {name: np.concatenate([swept_nodes(nodes, line, heights) for line in part]) for name, part in lines.items()}
+    numbers = {
+        name: np.concatenate([swept_nodes(nodes, line, heights) for line in part]) for name, part in lines.items()
+    }
     numbers = {name: own[there[own]] for name, own in numbers.items()}
     there[swept_nodes(nodes, hub, heights)] = False
     free, number = dofs_of(np.flatnonzero(there), 3), np.cumsum(there) - 1
