@@ -20,7 +20,7 @@ from fenics_gears.system.memory import allowed_memory, usual_memory
 # cut for each harmonic of the ring, of which there are half as many as teeth.
 UNKNOWN, CONDENSED_CUBE, HARMONIC_CUBE = 6e-5, 5e-11, 5e-11
 # How many times as long the latter two are of a sector that is not folded, since its web is not in the middle.
-WHOLE_SECTOR = 6.0
+WHOLE_SECTOR = 3.0
 # Of a solution for one load of the root stress, an unknown.
 SOLVED_UNKNOWN = 4e-7
 # Of conjugate gradients, for each of the condensed unknowns a second time.
