@@ -132,7 +132,7 @@ class GearRecovery:
         sector = self.sector
         if sector.sweep is None:
             return cut_response(self._link, self.gear.teeth, reach)
-        basis = half_turn_basis(sector.place(sector.lower), len(sector.heights))
+        basis = half_turn_basis(sector.place(sector.lower))
         return half_turn_response(self._link, self.gear.teeth, reach, basis)
 
     def _cut_motion(self, free: dict[int, np.ndarray]) -> np.ndarray:

@@ -69,6 +69,7 @@ def _gear_rows(pair: GearPair, name: str) -> list[tuple[str, float, str]]:
         ("diameter, end of active profile (EAP)", 2.0 * float(gear.radius(pair.eap_roll_angles[number])), "mm"),
         ("tip form diameter", 2.0 * gear.tip_form_radius, "mm"),
         *([("width of the web over the face width", gear.web.share, "")] if gear.web is not None else []),
+        *([("offset of the web over the face width", gear.web.offset, "")] if gear.web and gear.web.offset else []),
         ("dedendum", gear.dedendum / gear.normal_module, "modules"),
         ("normal tooth thickness at the reference circle", normal_thickness(gear), "mm"),
         (f"base tangent length over {teeth} teeth (W_k)", base_tangent_length(gear, teeth), "mm"),

@@ -16,6 +16,8 @@ from fenics_gears.geometry.outline import fillet_point
 
 # Lengths (mm) below which a backlash, clearance or arc counts as exactly zero.
 ROUNDING = 1e-6
+# Of a share of the face width.
+SHARE_ROUNDING = 1e-12
 # Thinnest rim between bore and root circle, in modules, that leaves room for a mesh.
 LEAST_RIM = 0.2
 # Thinnest neck of an undercut tooth, in modules.
@@ -123,6 +125,13 @@ def _check_web(gear: Gear, name: str) -> None:
             name,
             f"gears.{name}.web.width is {gear.web.share:.4g} of the face width; it must be more than none and no more"
             " than all of it: lower it",
+        )
+    if abs(gear.web.offset) + 0.5 * gear.web.share > 0.5 + SHARE_ROUNDING:
+        refuse(
+            name,
+            f"gears.{name}.web.axial_offset is {gear.web.offset:.4g} of the face width, and the web is"
+            f" {gear.web.share:.4g} of it wide: it would stand beyond the face. Allowed: up to"
+            f" {0.5 - 0.5 * gear.web.share:.4g} of the face width to either side",
         )
 
 

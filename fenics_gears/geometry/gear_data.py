@@ -31,12 +31,14 @@ class Web:
     `share`: its width over the face width.
 
     `stiff_share`: its width over that part of the face width that counts in the plane; None where all of it does.
+    `offset`: of its middle from the gear's mid-width, to the right, over the face width.
     """
 
     hub_radius: float
     rim_radius: float
     share: float
     stiff_share: float | None = None
+    offset: float = 0.0
 
 
 @dataclass(frozen=True)

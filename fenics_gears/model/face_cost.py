@@ -19,6 +19,8 @@ from fenics_gears.system.memory import allowed_memory, usual_memory
 # Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a
 # cut for each harmonic of the ring, of which there are half as many as teeth.
 UNKNOWN, CONDENSED_CUBE, HARMONIC_CUBE = 6e-5, 5e-11, 5e-11
+# How many times as long the latter two are of a sector that is not folded, since its web is not in the middle.
+WHOLE_SECTOR = 3.0
 # Of a solution for one load of the root stress, an unknown.
 SOLVED_UNKNOWN = 4e-7
 # Of conjugate gradients, for each of the condensed unknowns a second time.
@@ -68,7 +70,7 @@ def _size(model: Model, number: int) -> tuple[int, int]:
 
 def by_gradients(model: Model, number: int, ranks: int = 1) -> bool:
     """Whether the body of a gear, 0 or 1, is condensed by conjugate gradients."""
-    return is_iterative(*_size(model, number), ranks)
+    return face_discretisation(model, number).sweep.alike and is_iterative(*_size(model, number), ranks)
 
 
 def both_at_once(model: Model) -> bool:
@@ -77,7 +79,12 @@ def both_at_once(model: Model) -> bool:
     gears = zip((model.pair.pinion, model.pair.wheel), model.scene.gears.materials)
     if len({(gear, material, face_discretisation(model, number)) for number, (gear, material) in enumerate(gears)}) < 2:
         return False
-    memory = (expected_memory(*_size(model, number), by_gradients(model, number)) for number in range(2))
+    memory = (
+        expected_memory(
+            *_size(model, number), by_gradients(model, number), halves=face_discretisation(model, number).sweep.alike
+        )
+        for number in range(2)
+    )
     return CONDENSING_PROGRAM + sum(memory) <= allowed_memory()
 
 
@@ -96,8 +103,11 @@ def face_cost(model: Model, sections: ExpectedCost, ranks: int = 1) -> ExpectedC
         of_cut = 0.5 * (condensed - of_flank * (2 if coast else 1))
         iterative = by_gradients(model, number, ranks)
         condensing += (UNKNOWN + (SOLVED_BY_GRADIENTS * condensed if iterative else 0.0)) * unknowns
-        condensing += CONDENSED_CUBE * condensed**3 + HARMONIC_CUBE * (gear.teeth // 2 + 1) * of_cut**3
-        memory = [expected_memory(unknowns, condensed, each, ranks) for each in (iterative, False)]
+        halves = division.sweep.alike
+        condensing += (1.0 if halves else WHOLE_SECTOR) * (
+            CONDENSED_CUBE * condensed**3 + HARMONIC_CUBE * (gear.teeth // 2 + 1) * of_cut**3
+        )
+        memory = [expected_memory(unknowns, condensed, each, ranks, halves) for each in (iterative, False)]
         largest = max(largest, memory[0])
         ways.append((f"the {name}'s body", _way(iterative, *memory)))
         finer = 0.35 * gear.module / division.section_size

@@ -11,6 +11,7 @@ import numpy as np
 from fenics_gears.contact.face import Face, even_slices, finer_ends
 from fenics_gears.effects import from_effects
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+from fenics_gears.elasticity.face.layers import SweptWeb
 from fenics_gears.geometry.gear_data import mean_youngs_modulus
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.accuracy import (
@@ -124,7 +125,11 @@ def face_discretisation(model: Model, gear: int) -> FaceDiscretisation:
     layers = common + 2 * beyond if beyond else ceil(width / thickness - LEAST_OVERHANG)
     twist = (1.0, -1.0)[gear] * pair.slope / (pair.pinion, pair.wheel)[gear].base_radius
     section_size = model.scene.accuracy.body_element_size or SECTION_SIZE * model.scene.gears.module
-    return FaceDiscretisation(section_size, layers, width, twist, overhang if beyond else 0.0, beyond)
+    web = (pair.pinion, pair.wheel)[gear].web
+    swept = web and SweptWeb(
+        web.hub_radius, web.rim_radius, *(width * (web.offset + side * web.share) for side in (-0.5, 0.5))
+    )
+    return FaceDiscretisation(section_size, layers, width, twist, overhang if beyond else 0.0, beyond, swept)
 
 
 def check_layers(model: Model) -> None:

@@ -106,7 +106,7 @@ def rim_warnings(model: Model) -> list[str]:
             f"{name}: thin rim: {rim:.4g} mm = {rim / gear.normal_module:.3g} modules between bore and root circle, "
             f"and the bore is a rigid ring: tooth and rim give way about {off:.0f}% less than in a solid body, "
             "where a rim on a flexible seat gives way more: take a smaller "
-            f"gears.{name}.bore_diameter where rim and shaft are one body, or in a plane scene "
-            f"[gears.{name}.web] for a rim on a web, [body_meshes] for any other seat"
+            f"gears.{name}.bore_diameter where rim and shaft are one body, or "
+            f"[gears.{name}.web] for a rim on a web, in a plane scene [body_meshes] for any other seat"
         )
     return found

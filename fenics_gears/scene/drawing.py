@@ -69,7 +69,10 @@ def _web(own: GearText, face_width: float) -> Web | None:
     if own.web is None:
         return None
     return Web(
-        0.5 * (own.web.hub_diameter or own.bore_diameter), 0.5 * own.web.rim_inner_diameter, own.web.width / face_width
+        0.5 * (own.web.hub_diameter or own.bore_diameter),
+        0.5 * own.web.rim_inner_diameter,
+        own.web.width / face_width,
+        offset=(own.web.axial_offset or 0.0) / face_width,
     )
 
 

@@ -80,13 +80,21 @@ class RackText(Section):
 
 @dataclass(frozen=True)
 class WebText(Section):
-    """``[gears.pinion.web]`` and ``[gears.wheel.web]``: a web between hub and rim that is less wide than the face. It
-    counts in plane strain, stiff and heavy by its share of the face width."""
+    """``[gears.pinion.web]`` and ``[gears.wheel.web]``: a web between hub and rim that is less wide than the face. In
+    the plane it counts by its share of the face width; over the face it is a body of its own, and the rim bends on
+    it."""
 
     rim_inner_diameter: float = _diameter("100 mm", "inner diameter of the rim, where the web ends")
     width: float = _length("8 mm", "width of the web, at most the gear's face width", "")
     hub_diameter: float | None = _diameter(
         "50 mm", "outer diameter of the hub, where the web begins", "the bore diameter"
+    )
+    axial_offset: float | None = quantity(
+        "-100 m to 100 m",
+        "2 mm",
+        meaning="middle of the web from the gear's mid-width, positive as the gear's own `axial_offset`",
+        otherwise="0 mm",
+        over_face=True,
     )
 
 

@@ -121,12 +121,18 @@ def _gear(gear: GearData, width: float, own_width: bool) -> dict[str, Any]:
 
 
 def _web(web: Web, face_width: float) -> dict[str, Any]:
-    product = web.share * face_width
+    width, offset = (_length_of(share, face_width) for share in (web.share, web.offset))
+    sizes = {"rim_inner_diameter": 2.0 * web.rim_radius, "hub_diameter": 2.0 * web.hub_radius, "width": width}
+    if offset:
+        sizes["axial_offset"] = offset
+    return {name: field_of(gear_schema.WebText, name, size) for name, size in sizes.items()}
+
+
+def _length_of(share: float, whole: float) -> float:
+    product = share * whole
     # The quotient is rounded too: a number beside the product may be the one that gives the share.
     near = (product, math.nextafter(product, math.inf), math.nextafter(product, -math.inf))
-    width = next((each for each in near if each / face_width == web.share), product)
-    sizes = {"rim_inner_diameter": 2.0 * web.rim_radius, "hub_diameter": 2.0 * web.hub_radius, "width": width}
-    return {name: field_of(gear_schema.WebText, name, size) for name, size in sizes.items()}
+    return next((each for each in near if each / whole == share), product)
 
 
 def _motion(scene: data.Scene) -> dict[str, Any]:

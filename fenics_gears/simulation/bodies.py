@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from fenics_gears.effects import effects_on, from_effects
@@ -64,7 +65,11 @@ def _section(model: Model, name: str, cache: Cache | None):
     from fenics_gears.elasticity.gear_compliance import flank_compliance
 
     material, division = model.scene.gears.material_of(name), model.resolution.discretisation(GEARS.index(name))
-    return flank_compliance(getattr(model.pair, name), material, division, reach, cache)
+    gear = getattr(model.pair, name)
+    if gear.web is not None and model.scene.three_dimensional:
+        # The web is in the body; here it would be in both sections of which one corrects the other.
+        gear = replace(gear, web=None)
+    return flank_compliance(gear, material, division, reach, cache)
 
 
 def solids_of(

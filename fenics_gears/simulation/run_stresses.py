@@ -209,6 +209,13 @@ class RunStresses:
                 "stresses are recovered from gears of equal sectors; this run has gears meshed as a whole"
                 " ([body_meshes])."
             )
+        if self.model.scene.three_dimensional and any(
+            gear.web is not None for gear in (self.model.pair.pinion, self.model.pair.wheel)
+        ):
+            raise SceneError(
+                "stresses over the face are recovered from bodies without a web; this run has one (gears.pinion.web or"
+                " gears.wheel.web). A scene without it has stresses."
+            )
         if self.model.resolution.condensation != ONCE:
             raise SceneError(
                 'stresses are recovered from runs with [accuracy] condensation = "once"; this one has "every step". Run'

@@ -93,6 +93,7 @@ def test_the_ring_of_sectors_is_the_whole_gear():
     assert found == pytest.approx(expected, abs=1e-9 * np.abs(expected).max())
 
 
+OVER_FACE = '[gears.material]\nname = "steel"\n[misalignment]\nin_plane = "5 um"\n'
 WEB = '[gears.pinion.web]\nrim_inner_diameter = "45 mm"\nwidth = "{}"\n'
 
 
@@ -115,9 +116,14 @@ def test_the_scene_says_the_web_in_lengths():
             "no web: gears.pinion.web.hub_diameter = 45 mm, rim_inner_diameter = 45 mm",
         ),
         (SCENE.format(gears="", pinion=WEB.format("5 mm").replace("45 mm", "52 mm")), "the rim may begin at 51.3 mm"),
+        (SCENE.format(gears="", pinion=WEB.format("5 mm") + 'axial_offset = "1 mm"'), "gears.pinion.web.axial_offset"),
         (
-            SCENE.format(gears="", pinion=WEB.format("5 mm")) + '[misalignment]\nin_plane = "5 um"\n',
-            "webs are of plane sections only",
+            SCENE.format(gears="", pinion=WEB.format("5 mm") + 'axial_offset = "-8 mm"') + OVER_FACE,
+            "gears.pinion.web.axial_offset is -0.4 of the face width, and the web is 0.25 of it wide",
+        ),
+        (
+            SCENE.format(gears="", pinion=WEB.format("5 mm")) + OVER_FACE + "[output]\nroot_stress = true\n",
+            "cannot stand beside gears.pinion.web",
         ),
     ],
 )

@@ -180,7 +180,7 @@ def plane_scene() -> dict[str, Any]:
 
 
 def plane_scene_with_webs() -> dict[str, Any]:
-    """Webs are for plane scenes alone."""
+    """The plane scene, its gears on webs."""
     tree = plane_scene()
     for gear, rim, hub in (("pinion", "50 mm", "36 mm"), ("wheel", "80 mm", "50 mm")):
         tree["gears"][gear]["web"] = {"rim_inner_diameter": rim, "width": "8 mm", "hub_diameter": hub}

@@ -4,6 +4,7 @@ cache."""
 from __future__ import annotations
 
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +19,10 @@ from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.outline import centreline_angle
 from fenics_gears.system.job import Job, together
 from fenics_gears.system.second_process import SecondProcess
+
+if TYPE_CHECKING:
+    from fenics_gears.elasticity.element_sizes import ElementSizes
+    from fenics_gears.elasticity.mesh_data import BodyMesh
 
 # Not a choice: heights of the nodes, here and in FaceCompliance, follow from it.
 ORDER = 2
@@ -49,7 +54,8 @@ def face_compliance(
     }
 
     def compute() -> tuple[dict, dict]:
-        iterative = is_iterative(*expected_size(similar, scaled, both), 1 if job is None else job.size)
+        size = expected_size(similar, scaled, both)
+        iterative = scaled.sweep.alike and is_iterative(*size, 1 if job is None else job.size)
         return together(job, _computed, similar, scaled, material.poissons_ratio, farthest, both, iterative)[0]
 
     arrays, timings = kept(cache, inputs, compute)
@@ -81,17 +87,27 @@ def _computed(
     from fenics_gears.elasticity.face.half_turn import ring_blocks
     from fenics_gears.elasticity.face.swept_stiffness import ELEMENT
     from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
-    from fenics_gears.elasticity.sector_mesh import sector_mesh
 
     clock = perf_counter()
-    mesh = sector_mesh(gear, face.sizes)
+    mesh = swept_section(gear, face.sizes)
     meshed = perf_counter()
-    sector = condensed_swept_sector(
-        mesh, face.sweep, poissons_ratio, centreline_angle(gear), gear.teeth, both, comm, iterative
-    )
-    condensed = perf_counter()
-    found, blocks = sector.timings, ring_blocks(sector, gear.teeth, farthest, comm)
-    del sector
+    if face.sweep.alike:
+        sector = condensed_swept_sector(
+            mesh, face.sweep, poissons_ratio, centreline_angle(gear), gear.teeth, both, comm, iterative
+        )
+        condensed = perf_counter()
+        found, blocks = sector.timings, ring_blocks(sector, gear.teeth, farthest, comm)
+        del sector
+    else:
+        # Imported here: few gears have such a web.
+        from fenics_gears.elasticity.face.whole_sector import condensed_whole_sector
+
+        if comm is not None and comm.rank > 0:
+            return None
+        whole = condensed_whole_sector(mesh, face.sweep, poissons_ratio, both)
+        condensed = perf_counter()
+        found, blocks = whole.timings, ring_compliance(whole, gear.teeth, farthest)
+        del whole
     if blocks is None:
         return None
     blocks = _in_mirrored_frame(blocks, gear, both)
@@ -111,6 +127,19 @@ def _computed(
     }
     arrays = {"roll_angle": rolls, "heights": face.sweep.heights, "blocks": blocks, "plane": plane}
     return {**arrays, **{name: np.array(found[name]) for name in COUNTS}}, timings
+
+
+def swept_section(gear: Gear, sizes: ElementSizes) -> BodyMesh:
+    """The section that is swept."""
+    if gear.web is None:
+        # Imported here: a run whose gears are all in the cache needs no gmsh.
+        from fenics_gears.elasticity.sector_mesh import sector_mesh
+
+        return sector_mesh(gear, sizes)
+    # Imported here: gears without web have none of it.
+    from fenics_gears.elasticity.face.web import webbed_section
+
+    return webbed_section(gear, sizes)
 
 
 def _in_mirrored_frame(blocks: np.ndarray, gear: Gear, both: bool, components: int = 3) -> np.ndarray:

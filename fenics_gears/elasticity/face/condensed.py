@@ -56,7 +56,6 @@ class SweptSector:
     lower: np.ndarray
     lower_of_upper: sparse.csr_matrix
     coast: sparse.csr_matrix | None
-    heights: int
     timings: dict
 
     def held(self) -> np.ndarray:
@@ -86,10 +85,10 @@ def condensed_swept_sector(
     the result, rank 0 alone the flank's compliances.
     """
     clock = perf_counter()
-    section = SectionForms(mesh, poissons_ratio)
+    section = SectionForms(mesh, poissons_ratio, sweep.web)
     compiled = perf_counter()
     heights = len(sweep.heights)
-    fold = Fold(mesh, section.nodes.points, heights, centreline)
+    fold = Fold(mesh, section.nodes.points, section.material(sweep), centreline)
     group, signs = (
         (comm, (EVEN, ODD))
         if comm is None or comm.size == 1
@@ -125,9 +124,9 @@ def condensed_swept_sector(
         for name in ("lower", "upper")
     ]
     check_congruent(cuts[0], cuts[1], teeth)
-    lower = np.column_stack([np.tile(cuts[0], (heights, 1)), np.repeat(sweep.heights, len(cuts[0]))])
+    lower = np.column_stack([np.tile(cuts[0], (heights, 1)), np.repeat(sweep.heights, len(cuts[0]))])[fold.on_cut]
     even, odd = found
-    return SweptSector(even, odd, lower, fold.cut_turned, fold.flank_turned if both else None, heights, timings)
+    return SweptSector(even, odd, lower, fold.cut_turned, fold.flank_turned if both else None, timings)
 
 
 def spanned(matrix: np.ndarray, tried_first: int = 0, part: float = MISSING) -> tuple[np.ndarray, np.ndarray]:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, astuple, dataclass, replace
 
 import numpy as np
 
 from fenics_gears.elasticity.element_sizes import ElementSizes
-from fenics_gears.elasticity.face.layers import Sweep, layers_of_face
+from fenics_gears.elasticity.face.layers import Sweep, SweptWeb, layers_of_face, layers_with_web
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear
 
@@ -22,7 +22,8 @@ class FaceDiscretisation:
     section_size: mm, of the elements along the flanks; those of fillet and body follow from it. layers: over the face.
     face_width: mm. twist: rad/mm, of the section along z, counter-clockwise positive. overhang: mm, at either end of
     the face, beyond that on which the mate touches; it has overhang_layers of the layers at either end, and layers are
-    of one thickness in it and beside it. The outermost at a free end is cut in two.
+    of one thickness in it and beside it. The outermost at a free end is cut in two. web: lengths in mm, its sides are
+    boundaries of layers too.
     """
 
     section_size: float
@@ -31,6 +32,7 @@ class FaceDiscretisation:
     twist: float = 0.0
     overhang: float = 0.0
     overhang_layers: int = 0
+    web: SweptWeb | None = None
 
     @property
     def sizes(self) -> ElementSizes:
@@ -47,7 +49,10 @@ class FaceDiscretisation:
     def sweep(self) -> Sweep:
         """Layers and twist of the body."""
         inner = self.layers - 2 * self.overhang_layers, self.face_width - 2.0 * self.overhang
-        return Sweep(layers_of_face(*inner, self.overhang_layers, self.overhang), self.twist)
+        boundaries = layers_of_face(*inner, self.overhang_layers, self.overhang)
+        if self.web is not None:
+            boundaries = layers_with_web(boundaries, self.web.low, self.web.high)
+        return Sweep(boundaries, self.twist, self.web)
 
     @property
     def largest_turn(self) -> float:
@@ -58,7 +63,8 @@ class FaceDiscretisation:
         """The same with lengths as multiples of a gear's module."""
         size, width, overhang = gear.in_modules(self.section_size, self.face_width, self.overhang)
         twist = round(self.twist * gear.module, DECIMALS_IN_MODULES)
-        return replace(self, section_size=size, face_width=width, twist=twist, overhang=overhang)
+        web = self.web and SweptWeb(*gear.in_modules(*astuple(self.web)))
+        return replace(self, section_size=size, face_width=width, twist=twist, overhang=overhang, web=web)
 
     def inputs(self, gear: Gear, both_flanks: bool = True) -> dict:
         """What a gear's mesh follows from besides the gear, with lengths in modules; it always has both flanks."""

@@ -33,14 +33,17 @@ class Fold:
     drive flank's side, and at the section's centreline from mid-width on; standing: (k,), the section's nodes some of
     which are kept. Half the unknowns are their dofs, 3 each; at mid-width on the centreline some of them are dead.
     flank, cut: dofs (f,), (c,) of the drive flank's and the upper cut's nodes in the half, by height, then radius.
+    on_cut: which nodes of the section's cut at all heights these are.
     cut_turned, flank_turned: sparse (c, c), (f, f), from motions of the upper cut and the drive flank to those of the
     lower cut and the coast flank, their images.
     """
 
-    def __init__(self, mesh: BodyMesh, nodes: np.ndarray, heights: int, centreline: float):
-        """centreline: polar angle (rad) of the tooth's centreline. Raises ComputationError for a section that is not
+    def __init__(self, mesh: BodyMesh, nodes: np.ndarray, material: np.ndarray, centreline: float):
+        """material: (h, n), which of the section's nodes there are at each height, alike towards both end faces.
+        centreline: polar angle (rad) of the tooth's centreline. Raises ComputationError for a section that is not
         symmetric about it."""
-        self.nodes, self.heights = nodes, heights
+        self.nodes, self.heights = nodes, len(material)
+        heights = self.heights
         along = np.array([np.cos(centreline), np.sin(centreline)])
         # Along the centreline a displacement keeps its sign, across it and along z it changes.
         self._mirror, self._axes = np.diag([0.0, 0.0, -1.0]), np.eye(3)
@@ -57,12 +60,15 @@ class Fold:
         own = np.arange(len(nodes))
         held = np.isin(own, swept_nodes(nodes, hub, 1))
         self.standing = np.flatnonzero(((image == own) | (side > 0.0)) & ~held)
-        kept = np.where(image == own, np.arange(heights)[:, None] >= heights // 2, side > 0.0) & ~held
+        kept = np.where(image == own, np.arange(heights)[:, None] >= heights // 2, side > 0.0) & ~held & material
         self.kept = np.flatnonzero(kept)
         self._image = len(nodes) * (heights - 1 - self.kept // len(nodes)) + image[self.kept % len(nodes)]
         number = np.cumsum(kept.ravel()) - 1
-        self.flank, self.cut = (dofs_of(number[swept_nodes(nodes, line, heights)], 3) for line in lines)
-        self.flank_turned, self.cut_turned = (self._turned(len(line)) for line in lines)
+        swept = [swept_nodes(nodes, line, heights) for line in lines]
+        there = [material.ravel()[numbers] for numbers in swept]
+        self.on_cut = there[1]
+        self.flank, self.cut = (dofs_of(number[numbers[own]], 3) for numbers, own in zip(swept, there))
+        self.flank_turned, self.cut_turned = map(self._turned, there)
 
     @property
     def unknowns(self) -> int:
@@ -108,9 +114,11 @@ class Fold:
         motions = sparse.csr_matrix((values, (row, column)), shape=(3 * len(self.nodes) * self.heights, dofs.size))
         return motions, sparse.diags(np.where(alone[:, None], 1.0 - alive, 0.0).ravel(), format="csr")
 
-    def _turned(self, line: int) -> sparse.csr_matrix:
-        height, place = np.divmod(np.arange(line * self.heights), line)
-        order = dofs_of(line * (self.heights - 1 - height) + place, 3)
+    def _turned(self, there: np.ndarray) -> sparse.csr_matrix:
+        """there: which nodes of a line at all heights there are."""
+        line = len(there) // self.heights
+        height, place = np.divmod(np.flatnonzero(there), line)
+        order = dofs_of((np.cumsum(there) - 1)[line * (self.heights - 1 - height) + place], 3)
         return sparse.kron(sparse.eye(len(height)), self._mirror, format="csr")[order]
 
 

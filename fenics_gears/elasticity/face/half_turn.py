@@ -17,6 +17,7 @@ from __future__ import annotations
 import numpy as np
 from scipy import sparse
 from scipy.linalg.blas import dsyrk, dtrsm
+from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.cut_chain import CutResponse
 from fenics_gears.elasticity.face.condensed import MISSING, SweptSector, spanned
@@ -27,15 +28,14 @@ from fenics_gears.errors import ComputationError
 ROUND_OFF = 1e-9
 
 
-def half_turn_basis(lower: np.ndarray, heights: int) -> tuple[sparse.csr_matrix, int]:
+def half_turn_basis(lower: np.ndarray) -> tuple[sparse.csr_matrix, int]:
     """Orthonormal eigenvectors (3k, 3k) of half a turn about a radial cut's middle line, and how many have the
     eigenvalue 1; they come first.
 
-    lower: (k, 3), X, Y, z of the cut's nodes, by height and then along the cut; every height has the same section
-    nodes.
+    lower: (k, 3), X, Y, z of the cut's nodes, those at opposite heights alike.
     """
-    along, nodes = len(lower) // heights, np.arange(len(lower))
-    partner = along * (heights - 1 - nodes // along) + nodes % along
+    nodes = np.arange(len(lower))
+    partner = cKDTree(lower).query(lower * [1.0, 1.0, -1.0])[1]
     alone, pair = nodes[nodes == partner], nodes[nodes < partner]
     angle = np.arctan2(lower[-1, 1], lower[-1, 0])
     frame = sparse.kron(sparse.eye(len(lower)), rotation(angle, 3), format="csc")
@@ -88,7 +88,7 @@ def ring_blocks(sector: SweptSector, teeth: int, offsets: int, comm=None) -> np.
     comm: communicator over whose ranks harmonics and offsets are shared out; every rank calls this, rank 0 gets the
     result, the others None. Raises ComputationError where half a turn does not map the ring on itself.
     """
-    basis = half_turn_basis(sector.lower, sector.heights)
+    basis = half_turn_basis(sector.lower)
     over_cut = _over_cut(sector, teeth, basis)
     cuts = [over_cut.T @ (over_cut.T @ half.cut).T for half in (sector.even, sector.odd)]
     to_cuts = [(over_cut.T @ half.to_cut.T).T for half in (sector.even, sector.odd)]

@@ -14,13 +14,28 @@ POINTS = (-sqrt(0.6), 0.0, sqrt(0.6))
 WEIGHTS = (5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0)
 
 
+# A layer's boundary that is closer to a side of the web than this part of a layer makes room for it.
+NEAR_WEB = 0.2
+
+
+@dataclass(frozen=True)
+class SweptWeb:
+    """Where the body between two radii (mm) is thinner than the face: from `low` to `high` (mm from mid-width)."""
+
+    hub_radius: float
+    rim_radius: float
+    low: float
+    high: float
+
+
 @dataclass(frozen=True)
 class Sweep:
     """How a section becomes a body: boundaries of the layers (layers + 1,), mm, increasing, and the twist, rad/mm,
-    counter-clockwise along z."""
+    counter-clockwise along z; a web, whose sides are boundaries of layers (`layers_with_web`)."""
 
     boundaries: np.ndarray
     twist: float = 0.0
+    web: SweptWeb | None = None
 
     @property
     def heights(self) -> np.ndarray:
@@ -35,6 +50,19 @@ class Sweep:
         """Thickness (layers,), mm; layers that differ by round-off have the same one."""
         thick = np.diff(self.boundaries)
         return np.round(thick / thick.max(), 12) * thick.max()
+
+    @property
+    def in_web(self) -> np.ndarray:
+        """Which layers (layers,) have the whole section: all of a body without web."""
+        if self.web is None:
+            return np.ones(len(self.boundaries) - 1, dtype=bool)
+        middles = self.heights[1::2]
+        return (middles > self.web.low) & (middles < self.web.high)
+
+    @property
+    def alike(self) -> bool:
+        """Whether the body is the same towards both ends of the face."""
+        return self.web is None or self.web.low == -self.web.high
 
 
 # From so many layers on, the outermost at a free end is cut in two. A layer has two slices; in the last one the line
@@ -53,6 +81,21 @@ def layers_of_face(layers: int, width: float, overhang_layers: int = 0, overhang
         inner = np.concatenate([inner[:1], [-half], inner[1:-1], [half], inner[-1:]])
     beyond = 0.5 * width + overhang * np.arange(1, overhang_layers + 1) / max(overhang_layers, 1)
     return np.concatenate([-beyond[::-1], inner, beyond])
+
+
+def layers_with_web(boundaries: np.ndarray, low: float, high: float) -> np.ndarray:
+    """Boundaries of layers (mm) with the sides of a web among them, and two layers or more between these."""
+    near, ends = NEAR_WEB * np.diff(boundaries).max(), boundaries[[0, -1]]
+    slack = 1e-9 * (ends[1] - ends[0])
+    sides = [
+        float(ends[np.abs(ends - side) < slack][0]) if (np.abs(ends - side) < slack).any() else side
+        for side in (low, high)
+    ]
+    inner = boundaries[1:-1]
+    inner = inner[np.abs(inner[:, None] - sides).min(axis=1) > near]
+    if not ((inner > low) & (inner < high)).any():
+        inner = np.append(inner, 0.5 * (low + high))
+    return np.unique(np.concatenate([ends, sides, inner]))
 
 
 def shapes(place: float | np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -18,9 +18,9 @@ from scipy import sparse
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.condensation import dofs_of
-from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes
+from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes, numbers_at
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.face.layers import POINTS, WEIGHTS, Sweep, shapes
+from fenics_gears.elasticity.face.layers import POINTS, WEIGHTS, Sweep, SweptWeb, shapes
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.stiffness import assembled, nodes_at, stress_of_strain
@@ -31,15 +31,37 @@ QUADRATURE_DEGREE = 4
 
 
 class SectionForms:
-    """Bilinear forms of a section's displacements (n nodes of `nodes`, three components), Young's modulus 1 MPa."""
+    """Bilinear forms of a section's displacements (n nodes of `nodes`, three components), Young's modulus 1 MPa.
 
-    def __init__(self, mesh: BodyMesh, poissons_ratio: float):
+    beside_web: those of rim and hub alone, and its nodes' numbers (k,) in the whole section; None without a web.
+    """
+
+    def __init__(self, mesh: BodyMesh, poissons_ratio: float, web: SweptWeb | None = None):
         self.nodes: ElementNodes = element_nodes(mesh, ELEMENT)
         space = adapter.vector_space(adapter.create_mesh(mesh.points, mesh.cells), ELEMENT.order, components=3)
         self._order = dofs_of(nodes_at(space, self.nodes.points), 3)
         self._numbers = adapter.constant(space.mesh, (poissons_ratio, 1.0, 0.0, 0.0, 0.0))
         with adapter.quiet_compiler():
             self._forms = adapter.with_compiled(lambda: _forms(space, *(self._numbers[i] for i in range(5))))
+
+        self.beside_web: tuple[SectionForms, np.ndarray] | None = None
+        if web is not None:
+            # Imported here: gears without web have none of it.
+            from fenics_gears.elasticity.face.web import beside_web
+
+            beside = SectionForms(beside_web(mesh, web), poissons_ratio)
+            self.beside_web = beside, numbers_at(self.nodes.points, beside.nodes.points)
+
+    def material(self, sweep: Sweep) -> np.ndarray:
+        """Which nodes of the section (h, n) the body has at each height."""
+        nodes = len(self.nodes.points)
+        whole = np.ones(nodes, dtype=bool)
+        if self.beside_web is None:
+            return np.tile(whole, (len(sweep.heights), 1))
+        beside, found = np.isin(np.arange(nodes), self.beside_web[1]), np.zeros((len(sweep.heights), nodes), dtype=bool)
+        for layer, within in enumerate(sweep.in_web):
+            found[2 * layer : 2 * layer + 3] |= whole if within else beside
+        return found
 
     def at(self, turn: complex, sweep: complex) -> tuple[sparse.csr_matrix, ...]:
         """Forms (3n, 3n) where w = `turn` and w'/w = `sweep`: of u and v, of u and dv/dz (rows: v), of du/dz and
@@ -99,11 +121,27 @@ def swept_stiffness(
 
 
 def _layers(section: SectionForms, sweep: Sweep, dofs: np.ndarray) -> Iterator[dict]:
-    known: dict[float, dict] = {}
-    for thickness in sweep.thicknesses.tolist():
-        if thickness not in known:
-            known[thickness] = layer_stiffness(section, thickness, sweep.twist, dofs)
-        yield known[thickness]
+    known: dict[tuple[float, bool], dict] = {}
+    for kind in zip(sweep.thicknesses.tolist(), sweep.in_web.tolist()):
+        if kind not in known:
+            thickness, within = kind
+            made = layer_stiffness if within else _layer_beside_web
+            known[kind] = made(section, thickness, sweep.twist, dofs)
+        yield known[kind]
+
+
+def _layer_beside_web(
+    section: SectionForms, thickness: float, twist: float, dofs: np.ndarray
+) -> dict[tuple[int, int], sparse.csr_matrix]:
+    """As `layer_stiffness`, of rim and hub alone."""
+    assert section.beside_web is not None
+    beside, numbers = section.beside_web
+    own = dofs_of(numbers, 3)
+    placed = sparse.csr_matrix(
+        (np.ones(len(own)), (own, np.arange(len(own)))), shape=(3 * len(section.nodes.points), len(own))
+    )
+    blocks = layer_stiffness(beside, thickness, twist, np.arange(len(own)))
+    return {pair: (placed[dofs] @ block @ placed.T).tocsr() for pair, block in blocks.items()}
 
 
 def layer_stiffness(

@@ -215,7 +215,7 @@ def test_sector_without_the_symmetry_is_refused(sector):
     link = unfolded_link(cut, cross, sector.lower_of_upper, turned_nodes(GEAR.teeth, len(cut) // 3, 3))
     link[0, 0] *= 2.0
     with pytest.raises(ComputationError, match="half a turn"):
-        half_turn_response(link, GEAR.teeth, 1, half_turn_basis(sector.lower, sector.heights))
+        half_turn_response(link, GEAR.teeth, 1, half_turn_basis(sector.lower))
     with pytest.raises(ComputationError, match="half a turn"):
         ring_blocks(replace(sector, lower_of_upper=-sector.lower_of_upper), GEAR.teeth, 1)
 

@@ -1,0 +1,121 @@
+"""A gear with a web over its face: rim and hub as wide as the face, between them a web that is thinner, in its middle
+or towards one end. Loaded by wheel and pinion gears that name a web alone.
+
+The body is no prism, but each of its layers is. With W the cells of the section between hub and rim, and the web from
+z_1 to z_2, layers between z_1 and z_2 are swept from the whole section, the others from the section without W:
+
+    K = sum over layers of K_layer(whole section)           where the layer is in the web
+                        or K_layer(section without W)       where it is not
+
+z_1 and z_2 are boundaries of layers, and the circles of hub and rim are lines of the section's mesh. Nodes of no layer
+do not exist: cuts have their nodes where there is material. Turning by a pitch still maps one cut on the other, so
+that the ring of sectors (`elasticity.ring`) joins the sectors exactly, and the Schur complement is that of any gear:
+
+    A = flank block of the inverse of (sum over sectors of S),  S = K_aa - K_ad K_dd^-1 K_da,  a = flanks and cuts
+
+with the bore held, whose motion is the centre's. Membrane and plate stiffness of the web, its tilting, the bending and
+twisting of the rim and all their couplings to the teeth are in K: a web that stands apart from mid-width by e turns the
+rim by M = F e, which opens the flanks along the face. Harmonics are those of the ring.
+
+A web at mid-width keeps the half turn about a tooth's centreline (`fold`): two halves, real harmonics. Another web does
+not: the whole sector is condensed (`whole_sector`), and harmonics are complex (`ring.ring_compliance`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from fenics_gears.elasticity.element_sizes import ElementSizes
+from fenics_gears.elasticity.face.layers import SweptWeb
+from fenics_gears.elasticity.mesh_data import BodyMesh, oriented
+from fenics_gears.elasticity.sector_boundary import sector_boundary
+from fenics_gears.geometry.gear import Gear
+from fenics_gears.geometry.outline import centreline_angle
+
+if TYPE_CHECKING:
+    from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+
+# Of elements of web and hub along the radius: by how much they grow away from the circles where the width changes, and
+# the largest over a pitch's arc there.
+GROWTH, LARGEST = 1.4, 0.5
+
+
+def webbed_section(gear: Gear, sizes: ElementSizes) -> BodyMesh:
+    """Section of a sector whose mesh has lines along the circles of hub and rim: teeth and rim as of a gear whose bore
+    is the rim's, and inwards of it rows of cells on the nodes of that bore."""
+    # Imported here: to tell the size of a section needs no gmsh.
+    from fenics_gears.elasticity.sector_mesh import sector_mesh
+
+    rim = sector_mesh(_rim(gear), sizes)
+    turned = rim.points @ np.array([1.0, -1.0j]) * np.exp(-1j * centreline_angle(gear)).conj()
+    arc = rim.edge_points("hub")
+    arc = arc[np.argsort(-np.angle(turned[arc]))]
+    of_web, of_hub = _radii(gear, len(arc) - 1)
+    radii = np.concatenate([of_web, of_hub[1:]])
+    directions = rim.points[arc] / np.linalg.norm(rim.points[arc], axis=1)[:, None]
+    points = np.vstack([rim.points, (radii[1:, None, None] * directions).reshape(-1, 2)])
+    grid = np.vstack([arc, len(rim.points) + np.arange((len(radii) - 1) * len(arc)).reshape(-1, len(arc))])
+    edges = {name: part for name, part in rim.edges.items() if name != "hub"}
+    for name, column in (("lower cut", grid[:, 0]), ("upper cut", grid[:, -1])):
+        edges[name] = np.vstack([edges[name], np.column_stack([column[:-1], column[1:]])])
+    edges["hub"] = np.column_stack([grid[-1, :-1], grid[-1, 1:]])
+    return BodyMesh(points, oriented(points, np.vstack([rim.cells, _cells(grid)])), edges)
+
+
+def _rim(gear: Gear) -> Gear:
+    return replace(gear, bore_radius=gear.web.rim_radius, web=None)
+
+
+def _radii(gear: Gear, arcs: int) -> tuple[np.ndarray, np.ndarray]:
+    """Radii of the rows of nodes of web and hub, from the outside; `arcs`: elements along a sector's part of the
+    rim's inner circle."""
+    web, size = gear.web, gear.web.rim_radius * gear.angular_pitch / arcs
+    return _rows(web.rim_radius, web.hub_radius, size, gear.angular_pitch), (
+        _rows(web.hub_radius, gear.bore_radius, size, gear.angular_pitch)
+        if web.hub_radius > gear.bore_radius
+        else np.array([gear.bore_radius])
+    )
+
+
+def _rows(outer: float, inner: float, first: float, pitch: float) -> np.ndarray:
+    """Radii of the rows of nodes from one circle inwards to another: closer at both."""
+    size, sizes, depth = first, [first], 0.5 * (outer - inner)
+    while sum(sizes) < depth:
+        size = max(first, min(GROWTH * size, LARGEST * pitch * outer))
+        sizes.append(size)
+    places = np.concatenate([[0.0], np.cumsum(sizes)]) * (depth / sum(sizes))
+    return np.concatenate([outer - places, inner + places[-2::-1]])
+
+
+def _cells(grid: np.ndarray) -> np.ndarray:
+    """Two triangles for each cell of a grid of points (rows, columns), mirrored at its middle column."""
+    a, b, c, d = (each.ravel() for each in (grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]))
+    left = np.tile(np.arange(grid.shape[1] - 1) < grid.shape[1] // 2, len(grid) - 1)[:, None]
+    one = np.where(left, np.column_stack([a, b, c]), np.column_stack([a, b, d]))
+    return np.vstack([one, np.where(left, np.column_stack([a, c, d]), np.column_stack([b, c, d]))])
+
+
+def beside_web(mesh: BodyMesh, web: SweptWeb) -> BodyMesh:
+    """The section of a body beside its web: rim and hub."""
+    radius = np.linalg.norm(mesh.points[mesh.cells].mean(axis=1), axis=1)
+    cells = mesh.cells[(radius < web.hub_radius) | (radius > web.rim_radius)]
+    used = np.unique(cells)
+    return BodyMesh(mesh.points[used], np.searchsorted(used, cells), {})
+
+
+def webbed_size(gear: Gear, face: FaceDiscretisation, rim_nodes: Callable[[int], float]) -> tuple[float, int, int]:
+    """Unknowns of a sector with a web, dofs of a flank and of a cut; lengths in modules. rim_nodes: nodes of a section
+    by the points of its outline."""
+    boundary = sector_boundary(_rim(gear), face.sizes)[0]
+    flank, cut, hub = (len(boundary.part(name)) - 1 for name in ("flank", "lower cut", "hub"))
+    web, of_hub = (2 * (len(radii) - 1) for radii in _radii(gear, hub))
+    heights = face.sweep.heights
+    # Within the web, and all: nodes along the radius between rim and bore, which is held.
+    thin = 3 * int(((heights >= face.web.low) & (heights <= face.web.high)).sum()) * (web - 1)
+    whole = 3 * len(heights)
+    unknowns = whole * (rim_nodes(len(boundary.points)) + of_hub * (2 * hub + 1)) + thin * (2 * hub + 1)
+    return unknowns, whole * (2 * flank + 1), whole * (2 * cut + 1 + of_hub) + thin

@@ -1,0 +1,303 @@
+"""Gears with a web over the face: against bodies without one, exact solutions of plates and rings, and symmetries."""
+
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+import pytest
+import ufl
+from scipy.sparse.linalg import spsolve
+from tests.coarse_sector import PINION, STEEL
+
+from fenics_gears.elasticity import dolfinx_adapter as adapter
+from fenics_gears.elasticity.compliance import Reach
+from fenics_gears.elasticity.condensation import by_radius
+from fenics_gears.elasticity.face.compliance import face_compliance
+from fenics_gears.elasticity.face.condensed import condensed_swept_sector
+from fenics_gears.elasticity.face.cost import expected_size
+from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+from fenics_gears.elasticity.face.half_turn import ring_blocks
+from fenics_gears.elasticity.face.layers import Sweep, SweptWeb, layers_of_face, layers_with_web
+from fenics_gears.elasticity.face.web import _cells
+from fenics_gears.elasticity.face.whole_sector import condensed_whole_sector
+from fenics_gears.elasticity.mesh_data import BodyMesh, oriented
+from fenics_gears.elasticity.ring import ring_compliance
+from fenics_gears.elasticity.slice_averages import slice_averages
+from fenics_gears.elasticity.stiffness import assembled
+from fenics_gears.geometry.gear_data import Web
+
+WIDTH, POISSON, BOTH = 12.0, 0.3, Reach(1, (-1, 1))
+WEB = Web(18.0, 25.0, 0.4)
+
+
+def body(web=None, twist=0.0, reach=BOTH):
+    """The compliance of the paper's pinion on a coarse mesh."""
+    gear, swept = PINION if web is None else replace(PINION, web=web), None
+    if web is not None:
+        sides = (WIDTH * (web.offset + side * web.share) for side in (-0.5, 0.5))
+        swept = SweptWeb(web.hub_radius, web.rim_radius, *sides)
+    return face_compliance(gear, STEEL, FaceDiscretisation(2.0, 4, WIDTH, twist, web=swept), reach)
+
+
+def under_even_load(found):
+    """Mean displacement (mm/N) of the drive flank along y under a force spread over it."""
+    dofs = 3 * len(found.roll_angle) * len(found.heights)
+    along = np.zeros(dofs)
+    along[1::3] = 3.0 / dofs
+    return along @ found.blocks[0][:dofs, :dofs] @ along
+
+
+@pytest.fixture(scope="module")
+def centred():
+    return body(WEB, 0.01)
+
+
+def test_a_web_as_wide_as_the_face_is_the_gear_without_one():
+    """Identity, but for the mesh below the rim, which is another one: measured, 2e-5."""
+    assert under_even_load(body(Web(18.0, 25.0, 1.0))) == pytest.approx(under_even_load(body()), rel=1e-4)
+
+
+def test_a_web_makes_the_gear_softer_the_more_the_farther_it_is_off():
+    """Less material gives way more, and a web towards one end tilts."""
+    offsets = [under_even_load(body(each, reach=Reach(0))) for each in (None, WEB, replace(WEB, offset=0.2))]
+    assert offsets[1] > 1.2 * offsets[0] and offsets[2] > 1.1 * offsets[1]
+
+
+def test_the_whole_sector_is_the_two_halves(centred, monkeypatch):
+    """The folded sector and its real harmonics are the authority for the whole one and its complex harmonics."""
+    monkeypatch.setattr(Sweep, "alike", property(lambda sweep: False))
+    whole = body(WEB, 0.01)
+    np.testing.assert_allclose(whole.blocks, centred.blocks, rtol=0.0, atol=1e-9 * abs(centred.blocks).max())
+
+
+def test_webs_towards_either_end_mirror_each_other():
+    """z to -z, and the twist reversed: a plane of symmetry."""
+    left, right = (body(replace(WEB, offset=side), 0.05 * side, Reach(1)) for side in (-0.2, 0.2))
+    dofs = np.arange(len(left.blocks[0])).reshape(len(left.heights), -1, 3)[::-1].ravel()
+    signs = np.tile([1.0, 1.0, -1.0], len(dofs) // 3)
+    for one, other in zip(left.blocks, right.blocks):
+        mirrored = one[np.ix_(dofs, dofs)] * np.outer(signs, signs)
+        np.testing.assert_allclose(mirrored, other, rtol=0.0, atol=1e-10 * abs(other).max())
+
+
+@pytest.mark.parametrize("web", [WEB, Web(15.0, 25.0, 0.3, offset=0.3)])
+def test_expected_size_of_a_body_with_a_web(web):
+    """The mesh itself: condensed unknowns exactly, all within 15 %."""
+    found = body(web, reach=Reach(0)).timings
+    sides = [WIDTH * (web.offset + side * web.share) for side in (-0.5, 0.5)]
+    swept = SweptWeb(web.hub_radius, web.rim_radius, *sides)
+    unknowns, condensed = expected_size(replace(PINION, web=web), FaceDiscretisation(2.0, 4, WIDTH, web=swept))
+    assert condensed == found["condensed_unknowns"]
+    assert unknowns == pytest.approx(found["unknowns"], rel=0.15)
+
+
+def test_layers_end_at_the_sides_of_a_web():
+    """Meaning: its sides are boundaries, two layers or more are within it, and none is a needle beside it."""
+    found = layers_with_web(layers_of_face(10, 30.0), -1.1, 3.1)
+    assert {-1.1, 3.1, -15.0, 15.0} <= set(found) and 3.0 not in found and 0.0 in found
+    assert layers_with_web(layers_of_face(3, 30.0), 1.0, 2.0).tolist() == [-15.0, -5.0, 1.0, 1.5, 2.0, 5.0, 15.0]
+
+
+# A body of revolution: sectors without teeth, loaded on a line of their outer circle. Young's modulus 1 MPa.
+SECTORS, ARCS, BORE, OUTER = 24, 6, 20.0, 60.0
+
+
+def ring_sector(rim):
+    """A sector whose centreline stands upright, with its radii from bore to `rim` and to the outer circle; "flank": a
+    part of the latter."""
+    radii = np.concatenate([np.linspace(BORE, rim, 17), np.linspace(rim, OUTER, 4)[1:]])
+    angles = 0.5 * pi + pi / SECTORS * np.linspace(-1.0, 1.0, ARCS + 1)
+    points = (radii[:, None, None] * np.stack([np.cos(angles), np.sin(angles)], axis=-1)).reshape(-1, 2)
+    grid = np.arange(len(points)).reshape(len(radii), -1)
+    lines = {"hub": grid[0], "lower cut": grid[:, 0], "upper cut": grid[:, -1], "flank": grid[-1, ARCS // 2 + 1 :][:2]}
+    edges = {name: np.column_stack([line[:-1], line[1:]]) for name, line in lines.items()}
+    return BodyMesh(points, oriented(points, _cells(grid)), edges)
+
+
+def motion(rim, width, thickness, order, direction, offset=0.0):
+    """Heights (h,), and what the outer circle moves there (h, 3), radially, around and along the axis, under forces
+    cos(order theta) in a `direction` (3,), of 1 N in every sector and even over the face. A rim of a `width` is on a
+    web of a `thickness` (mm) that is held at the bore."""
+    mesh = ring_sector(rim)
+    web = SweptWeb(0.5 * BORE, rim, offset - 0.5 * thickness, offset + 0.5 * thickness)
+    sweep = Sweep(layers_with_web(layers_of_face(4, width), web.low, web.high), 0.0, web)
+    if sweep.alike:
+        blocks = ring_blocks(condensed_swept_sector(mesh, sweep, POISSON, 0.5 * pi, SECTORS), SECTORS, SECTORS // 2)
+    else:
+        blocks = ring_compliance(condensed_whole_sector(mesh, sweep, POISSON), SECTORS, SECTORS // 2)
+    x, y = (place := by_radius(mesh.edge_nodes("flank", 2)).mean(axis=0)) / np.linalg.norm(place)
+    around = np.array([[x, -y, 0.0], [y, x, 0.0], [0.0, 0.0, 1.0]])
+    heights = sweep.heights
+    over_face = slice_averages(heights, 2, np.zeros(1), np.array([width]))[0]
+    # The flank's three nodes alike.
+    force = np.kron(over_face, np.tile(around @ direction / 3.0, 3))
+    ahead = [block @ force for block in blocks]
+    behind = [block.T @ force for block in blocks]
+    total = ahead[0] + ahead[-1] * (-1.0) ** order
+    for sectors in range(1, SECTORS // 2):
+        total = total + np.cos(2.0 * pi * order * sectors / SECTORS) * (ahead[sectors] + behind[sectors])
+    return heights, total.reshape(len(heights), 3, 3).mean(axis=1) @ around
+
+
+def moved(rim, width, thickness, order, radial, offset=0.0):
+    """The same on average over the face, in the forces' direction, radial or along the axis."""
+    direction = np.array([1.0, 0.0, 0.0] if radial else [0.0, 0.0, 1.0])
+    heights, found = motion(rim, width, thickness, order, direction, offset)
+    return slice_averages(heights, 2, np.zeros(1), np.array([width]))[0] @ found @ direction
+
+
+def plate_edge(order, thickness, radius):
+    """Forces (2, 2) on the edge of a plate, clamped at the bore, by its deflection and its slope there, those of a
+    harmonic; the classical theory of thin plates: w = sum of c_i R_i(r) cos(order theta)."""
+    stiff, nu = thickness**3 / (12.0 * (1.0 - POISSON**2)), POISSON
+    # Powers of r, and whether times ln r.
+    kinds = [(0, 0), (0, 1), (2, 0), (2, 1)] if order == 0 else [(1, 0), (-1, 0), (3, 0), (1, 1)]
+
+    def derivative(kind, r, times):
+        power, log = kind
+        if times == 0:
+            return r**power * (np.log(r) if log else 1.0)
+        return power * derivative((power - 1, log), r, times - 1) + (
+            derivative((power - 1, 0), r, times - 1) if log else 0
+        )
+
+    def row(r, *factors):
+        return [sum(factor * derivative(kind, r, times) for times, factor in enumerate(factors)) for kind in kinds]
+
+    n2, r = order**2, radius
+    motions = np.array([row(BORE, 1.0), row(BORE, 0.0, 1.0), row(r, 1.0), row(r, 0.0, 1.0)])
+    moment = np.array(row(r, -nu * n2 / r**2, nu / r, 1.0))
+    kirchhoff = (1.0 - nu) * n2 / r**2
+    shear = np.array(row(r, 2.0 * n2 / r**3 + kirchhoff / r, -(1.0 + n2) / r**2 - kirchhoff, 1.0 / r, 1.0))
+    around = (2.0 if order == 0 else 1.0) * pi * r * stiff
+    return around * np.array([-shear, moment]) @ np.linalg.inv(motions)[:, 2:]
+
+
+@pytest.mark.parametrize("order", [0, 1])
+def test_a_disk_under_an_axial_force_and_under_a_moment_at_its_rim(order):
+    """Authority: thin plates (Timoshenko and Woinowsky-Krieger, chapter 9), with the rim as a ring that bends and
+    twists (Roark's formulas). Force along the axis (0); tilting moment (1)."""
+    rim, width, thickness, depth = 56.0, 12.0, 1.0, 4.0
+    middle = 0.5 * (rim + OUTER)
+    bending, torsion = (
+        depth * width**3 / 12.0,
+        depth**3 * width / 3.0 * (1.0 - 0.63 * depth / width) / (2.0 + 2.0 * POISSON),
+    )
+    # By deflection and slope at the web's edge: what the ring is bent by.
+    bent = np.array([-order / middle, 1.0 - order * (middle - rim) / middle])
+    ring = (2.0 * bending if order == 0 else bending + torsion) * pi / middle * np.outer(bent, bent)
+    arm = np.array([1.0, OUTER - rim])
+    loads = SECTORS if order == 0 else 0.5 * SECTORS
+    exact = loads * arm @ np.linalg.solve(plate_edge(order, thickness, rim) + ring, arm)
+    assert moved(rim, width, thickness, order, radial=False) == pytest.approx(exact, rel=0.02)
+
+
+def annuli(circles, widths, order, load):
+    """Radial displacement of the outermost of circles under a harmonic radial `load` (N/mm of arc) there, the innermost
+    held: plane stress, exact in each annulus (Michell), u_r = sum of U r^s cos, u_t = sum of V r^s sin."""
+    stiff, shear, n = 1.0 / (1.0 - POISSON**2), 0.5 / (1.0 + POISSON), order
+    powers, columns = [n + 1, n - 1, 1 - n, -n - 1], []
+    for s in powers:
+        turn, grow = 0.5 * np.array([n, s + 1]), np.array([s + 1, n])
+        equations = [stiff * (s - 1) * grow - 2 * shear * n * turn, -stiff * n * grow + 2 * shear * (s - 1) * turn]
+        columns.append(np.linalg.svd(np.array(equations))[2][-1])
+
+    def at(r, number):
+        scaled = [(s, *(column * (r / circles[number + 1]) ** s)) for s, column in zip(powers, columns)]
+        motion = np.array([[u, v] for _, u, v in scaled]).T
+        tractions = [[stiff * (s * u + POISSON * (u + n * v)), shear * (-n * u + (s - 1) * v)] for s, u, v in scaled]
+        return motion, widths[number] / r * np.array(tractions).T
+
+    count, rows, right = len(widths), [], []
+    rows.append(np.hstack([at(circles[0], 0)[0], np.zeros((2, 4 * count - 4))]))
+    for joint in range(1, count):
+        for inner, outer in zip(at(circles[joint], joint - 1), at(circles[joint], joint)):
+            row = np.zeros((2, 4 * count))
+            row[:, 4 * joint - 4 : 4 * joint], row[:, 4 * joint : 4 * joint + 4] = inner, -outer
+            rows.append(row)
+    motion, traction = at(circles[-1], count - 1)
+    rows.append(np.hstack([np.zeros((2, 4 * count - 4)), traction]))
+    right = np.zeros(4 * count)
+    right[-2] = load
+    return motion[0] @ np.linalg.solve(np.vstack(rows), right)[-4:]
+
+
+@pytest.mark.parametrize("thickness", [1e-4, 1.0])
+def test_a_ring_that_is_free_and_one_on_a_web_that_becomes_oval(thickness):
+    """Authority: plane stress, exact; with next to no web that is a free ring, whose curved beam has the radial
+    displacement q R^4/(9 E I) by a load q cos(2 theta)."""
+    rim, width, load = 54.0, 4.0, SECTORS / (2.0 * pi * OUTER)
+    # Two harmonics: what the rim gives way beside each sector's force is in both.
+    exact = [annuli([BORE, rim, OUTER], [thickness, width], order, load) for order in (2, 4)]
+    if thickness < 1e-3:
+        middle = 0.5 * (rim + OUTER)
+        beam = load * OUTER / middle * middle**4 / (9.0 * width * (OUTER - rim) ** 3 / 12.0)
+        assert exact[0] == pytest.approx(beam, rel=0.05)
+    found = [moved(rim, width, thickness, order, radial=True) for order in (2, 4)]
+    assert found[0] - found[1] == pytest.approx(exact[0] - exact[1], rel=0.01)
+
+
+def resolved(rim, width, thickness, order, offset, size=0.5):
+    """Heights (k,), and radial displacement (k,) of the outer circle as `motion` has it under radial forces, by an
+    assembly of its own: the body's meridian section in squares of second order of a `size` (mm), with u_r = u cos(n
+    theta), u_t = v sin(n theta), u_z = w cos(n theta)."""
+    radii, heights = np.arange(BORE, OUTER + 0.5 * size, size), np.arange(-0.5 * width, 0.5 * width + 0.5 * size, size)
+    points = np.stack(np.meshgrid(radii, heights, indexing="ij"), axis=-1).reshape(-1, 2)
+    grid = np.arange(len(points)).reshape(len(radii), -1)
+    cells = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=-1).reshape(-1, 4)
+    r, z = points[cells].mean(axis=1).T
+    cells = cells[(r > rim) | (abs(z - offset) < 0.5 * thickness)]
+    used = np.unique(cells)
+    space = adapter.vector_space(adapter.create_mesh(points[used], np.searchsorted(used, cells)), 2, components=3)
+    radius, lame, shear = (
+        ufl.SpatialCoordinate(space.mesh)[0],
+        POISSON / ((1.0 + POISSON) * (1.0 - 2.0 * POISSON)),
+        0.5 / (1.0 + POISSON),
+    )
+
+    def strains(u):
+        own = [u[0].dx(0), (u[0] + order * u[1]) / radius, u[2].dx(1)]
+        across = [u[1].dx(0) - (order * u[0] + u[1]) / radius, u[1].dx(1) - order * u[2] / radius]
+        return own, [*across, u[0].dx(1) + u[2].dx(0)]
+
+    (of_u, across_u), (of_v, across_v) = strains(ufl.TrialFunction(space)), strains(ufl.TestFunction(space))
+    energy = lame * sum(of_u) * sum(of_v) + shear * sum(2.0 * a * b for a, b in zip(of_u, of_v))
+    energy += shear * sum(a * b for a, b in zip(across_u, across_v))
+    stiffness = assembled(adapter.assemble_matrix(adapter.compile_form(pi * energy * radius * ufl.dx)))
+    nodes = adapter.node_coordinates(space)[:, :2]
+    free = np.repeat(nodes[:, 0] > BORE + 1e-9, 3)
+    outer = np.flatnonzero(nodes[:, 0] > OUTER - 1e-9)
+    outer = outer[np.argsort(nodes[outer, 1])]
+    load = np.zeros(3 * len(nodes))
+    # Simpson's rule; half the sectors' forces, since the mean of cos^2 is 1/2.
+    simpson = np.tile([2.0, 4.0], len(outer))[: len(outer)]
+    simpson[[0, -1]] = 1.0
+    load[3 * outer] = 0.5 * SECTORS * simpson / simpson.sum()
+    found = np.zeros(len(load))
+    found[free] = spsolve(stiffness[free][:, free].tocsc(), load[free])
+    return nodes[outer, 1], found[3 * outer]
+
+
+@pytest.mark.parametrize("offset", [0.0, 3.0])
+def test_a_rim_on_a_web_against_a_resolved_model(offset):
+    """Authority: finite elements of a meridian section by harmonics, which share nothing with the sectors but the
+    library. Bending and tilting of the rim by radial forces, 2 %; the difference of two harmonics as for the ring."""
+    rim, width, thickness, radial = 54.0, 12.0, 3.0, np.array([1.0, 0.0, 0.0])
+    means, tilts = [], []
+    for order in (1, 2, 4):
+        fine, swept = (
+            resolved(rim, width, thickness, order, offset),
+            motion(rim, width, thickness, order, radial, offset),
+        )
+        over_face = slice_averages(swept[0], 2, np.zeros(1), np.array([width]))[0]
+        simpson = np.tile([2.0, 4.0], len(fine[0]))[: len(fine[0])]
+        simpson[[0, -1]] = 1.0
+        means.append((simpson @ fine[1] / simpson.sum(), over_face @ swept[1][:, 0]))
+        # By least squares, to all heights.
+        tilts.append([np.polyfit(*each, 1)[0] for each in (fine, (swept[0], swept[1][:, 0]))])
+    (one, own_one), (two, own_two), (four, own_four) = means
+    assert own_one - own_four == pytest.approx(one - four, rel=0.02)
+    assert own_two - own_four == pytest.approx(two - four, rel=0.02)
+    if offset:
+        for exact, found in tilts:
+            assert found == pytest.approx(exact, rel=0.02)
