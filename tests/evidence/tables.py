@@ -95,6 +95,6 @@ PARTS = [
                               "teeth couple along the face"),
             "largest": Claim("largest mesh stiffness of a cycle over the mean", VELEX, "", within(0.05), "the same"),
         },
-        measured, function, minutes=3.0,
+        measured, function, minutes=1.0,
     ),
 ]  # fmt: skip
