@@ -45,11 +45,9 @@ def test_the_shear_coefficient_is_cowpers():
     assert shear_coefficient(0.3, np.array([0.0, 1.0])) == pytest.approx([7.8 / 8.8, 2.6 / 4.9], rel=1e-14)
 
 
-@pytest.mark.parametrize("place", [30.0, 45.0, 82.0])
-@pytest.mark.parametrize(("motion", "tilt", "sense"), [(0, 4, 1.0), (1, 3, -1.0)])
-def test_a_simply_supported_shaft_bends_as_in_closed_form(place, motion, tilt, sense):
-    """Exact: F a^2 b^2 / 3 E I L + F a b / (kappa G A L), and the supports' part by the lever rule; the slope from the
-    same."""
+def simply_supported(place, motion, tilt, sense):
+    """Deflection (mm) and slope (rad) at a place between two bearings, in closed form and found: F a^2 b^2 / 3 E I L +
+    F a b / (kappa G A L), and the supports' part by the lever rule; the slope from the same."""
     length, diameter, bore = 120.0, 24.0, 10.0
     found = shaft(
         [ShaftSection(length, diameter, bore=bore)], place, [Bearing(0.0, STIFF, 1e5), Bearing(length, STIFF)]
@@ -59,15 +57,23 @@ def test_a_simply_supported_shaft_bends_as_in_closed_form(place, motion, tilt, s
     own = a**2 * b**2 / (3.0 * bending * length) + a * b / (shearing * length)
     supports = ((b / length) ** 2 + (a / length) ** 2) / STIFF
     moved = pushed(found, motion)
-    assert moved[motion] == pytest.approx(LOAD * (own + supports), rel=1e-10)
-    slope = a * b * (b - a) / (3.0 * bending * length) + (b - a) / (2.0 * shearing * length)
     # With shear the section keeps its tilt, that of bending alone.
-    slope -= (b - a) / (2.0 * shearing * length)
-    assert moved[tilt] * sense == pytest.approx(LOAD * (slope + (a - b) / length**2 / STIFF), rel=1e-8, abs=1e-12)
+    slope = a * b * (b - a) / (3.0 * bending * length) + (a - b) / length**2 / STIFF
+    return (LOAD * (own + supports), moved[motion]), (LOAD * slope, moved[tilt] * sense)
 
 
-def test_an_overhung_gear_bends_its_shaft_as_in_closed_form():
-    """Exact: F c^2 (l + c) / 3 E I + F c (1 + c/l) / (kappa G A), c the overhang, and what the bearings give."""
+@pytest.mark.parametrize("place", [30.0, 45.0, 82.0])
+@pytest.mark.parametrize(("motion", "tilt", "sense"), [(0, 4, 1.0), (1, 3, -1.0)])
+def test_a_simply_supported_shaft_bends_as_in_closed_form(place, motion, tilt, sense):
+    """Exact: deflection and slope of a beam with shear."""
+    deflection, slope = simply_supported(place, motion, tilt, sense)
+    assert deflection[1] == pytest.approx(deflection[0], rel=1e-10)
+    assert slope[1] == pytest.approx(slope[0], rel=1e-8, abs=1e-12)
+
+
+def overhung():
+    """Deflection (mm) in closed form and found: F c^2 (l + c) / 3 E I + F c (1 + c/l) / (kappa G A), c the overhang,
+    and what the bearings give."""
     span, overhang, diameter = 80.0, 35.0, 25.0
     found = shaft(
         [ShaftSection(span + overhang, diameter)], span + overhang, [Bearing(0.0, STIFF, 1e5), Bearing(span, STIFF)]
@@ -75,41 +81,73 @@ def test_an_overhung_gear_bends_its_shaft_as_in_closed_form():
     bending, shearing = E * second(diameter), shear(diameter) * G * area(diameter)
     share = overhang / span
     own = overhang**2 * (span + overhang) / (3.0 * bending) + overhang * (1.0 + share) / shearing
-    assert pushed(found, 0)[0] == pytest.approx(LOAD * (own + (share**2 + (1.0 + share) ** 2) / STIFF), rel=1e-10)
+    return LOAD * (own + (share**2 + (1.0 + share) ** 2) / STIFF), pushed(found, 0)[0]
 
 
-def test_a_stepped_shaft_a_cone_and_axial_force():
-    """Exact: a cantilever of two cylinders by the integral of M^2 / E I; stretching of the same and of a cone, 4 F L /
-    (pi E d1 d2); bending of a cone to a point load at its end, 64 F L^3 / (3 pi E d1^3 d2)."""
-    clamp = Bearing(0.0, STIFF, STIFF, 1e18)
+def test_an_overhung_gear_bends_its_shaft_as_in_closed_form():
+    """Exact: a beam with shear beyond its bearings."""
+    exact, found = overhung()
+    assert found == pytest.approx(exact, rel=1e-10)
+
+
+CLAMP = Bearing(0.0, STIFF, STIFF, 1e18)
+
+
+def cantilever_of_cylinders():
+    """Deflection (mm), slope (rad) and stretch (mm) in closed form and found: the integral of M^2 / E I."""
     steps = [ShaftSection(40.0, 30.0), ShaftSection(60.0, 20.0)]
-    found = shaft(steps, 100.0, [clamp])
+    found = shaft(steps, 100.0, [CLAMP])
     thick, thin = E * second(30.0), E * second(20.0)
     bent = 60.0**3 / (3.0 * thin) + (100.0**3 - 60.0**3) / (3.0 * thick)
     sheared = sum(each.length / (shear(each.diameter) * G * area(each.diameter)) for each in steps)
-    assert pushed(found, 0)[0] == pytest.approx(LOAD * (bent + sheared + 1.0 / STIFF + 100.0**2 / 1e18), rel=1e-9)
-    assert pushed(found, 0)[4] == pytest.approx(
-        LOAD * (60.0**2 / (2.0 * thin) + (100.0**2 - 60.0**2) / (2.0 * thick) + 100.0 / 1e18), rel=1e-9
-    )
+    turned = 60.0**2 / (2.0 * thin) + (100.0**2 - 60.0**2) / (2.0 * thick)
     stretched = sum(each.length / (E * area(each.diameter)) for each in steps)
-    assert pushed(found, 2)[2] == pytest.approx(LOAD * (stretched + 1.0 / STIFF), rel=1e-10)
-    cone = shaft([ShaftSection(50.0, 40.0, 4.0)], 50.0, [clamp])
+    exact = bent + sheared + 1.0 / STIFF + 100.0**2 / 1e18, turned + 100.0 / 1e18, stretched + 1.0 / STIFF
+    moved = *pushed(found, 0)[[0, 4]], pushed(found, 2)[2]
+    return tuple((LOAD * own, value) for own, value in zip(exact, moved))
+
+
+def cone():
+    """Stretch and deflection (mm) in closed form and found: 4 F L / (pi E d1 d2); 64 F L^3 / (3 pi E d1^3 d2), the load
+    at the thin end."""
+    found = shaft([ShaftSection(50.0, 40.0, 4.0)], 50.0, [CLAMP])
     conical = 4.0 * 50.0 / (pi * E * 40.0 * 4.0)
-    assert pushed(cone, 2)[2] == pytest.approx(LOAD * (conical + 1.0 / STIFF), rel=1e-10)
     bent = 64.0 * 50.0**3 / (3.0 * pi * E * 40.0**3 * 4.0)
     sheared = conical * E / (shear(1.0) * G)
-    assert pushed(cone, 0)[0] == pytest.approx(LOAD * (bent + sheared + 1.0 / STIFF + 50.0**2 / 1e18), rel=1e-9)
+    exact = conical + 1.0 / STIFF, bent + sheared + 1.0 / STIFF + 50.0**2 / 1e18
+    return (LOAD * exact[0], pushed(found, 2)[2]), (LOAD * exact[1], pushed(found, 0)[0])
+
+
+def test_a_stepped_shaft_a_cone_and_axial_force():
+    """Exact: a cantilever of two cylinders; stretching of the same and of a cone; bending of a cone."""
+    deflection, slope, stretch = cantilever_of_cylinders()
+    assert deflection[1] == pytest.approx(deflection[0], rel=1e-9)
+    assert slope[1] == pytest.approx(slope[0], rel=1e-9)
+    assert stretch[1] == pytest.approx(stretch[0], rel=1e-10)
+    stretch, deflection = cone()
+    assert stretch[1] == pytest.approx(stretch[0], rel=1e-10)
+    assert deflection[1] == pytest.approx(deflection[0], rel=1e-9)
+
+
+def of_steps_and_a_cone():
+    """A shaft with a torque at one end."""
+    sections = [ShaftSection(40.0, 30.0, bore=12.0), ShaftSection(50.0, 20.0, 35.0), ShaftSection(30.0, 35.0)]
+    return shaft(sections, 110.0, [Bearing(10.0, 1e5, 1e5), Bearing(70.0, 1e5)], seat=20.0)
+
+
+def twisted():
+    """Twist (rad/(N mm)) in closed form and found: sum of L / G J; a cone's 32 L (1/d1^3 - 1/d2^3) / (3 pi G (d2 -
+    d1))."""
+    tapered = 32.0 * 50.0 * (20.0**-3 - 35.0**-3) / (3.0 * pi * G * 15.0)
+    exact = 40.0 / (G * 2.0 * second(30.0, 12.0)) + tapered + 10.0 / (G * 2.0 * second(35.0))
+    return exact, 1.0 / of_steps_and_a_cone().torsional_stiffness
 
 
 def test_torsion_of_steps_and_of_a_cone():
-    """Exact: sum of L / G J; a cone's 32 L (1/d1^3 - 1/d2^3) / (3 pi G (d2 - d1)). None within the gear's seat."""
-    sections = [ShaftSection(40.0, 30.0, bore=12.0), ShaftSection(50.0, 20.0, 35.0), ShaftSection(30.0, 35.0)]
-    bearings = [Bearing(10.0, 1e5, 1e5), Bearing(70.0, 1e5)]
-    found = shaft(sections, 110.0, bearings, seat=20.0)
-    cone = 32.0 * 50.0 * (20.0**-3 - 35.0**-3) / (3.0 * pi * G * 15.0)
-    twisted = 40.0 / (G * 2.0 * second(30.0, 12.0)) + cone + 10.0 / (G * 2.0 * second(35.0))
-    assert found.torsional_stiffness == pytest.approx(1.0 / twisted, rel=1e-12)
-    assert replace(found, torque_at=104.0).torsional_stiffness == inf
+    """Exact: the twist up to the gear's seat. None within it."""
+    exact, found = twisted()
+    assert found == pytest.approx(exact, rel=1e-12)
+    assert replace(of_steps_and_a_cone(), torque_at=104.0).torsional_stiffness == inf
 
 
 MATRIX = np.array([

@@ -120,15 +120,23 @@ RUNS = {
 }
 
 
+def run_of_two_cycles(scene, name):
+    """The last two mesh cycles of one of RUNS."""
+    return simulate(replace(scene, accuracy=COARSE, motion=Motion(200.0, 3, 2), **RUNS[name]))
+
+
+def account_defect(result):
+    """Energy gained less input, output, damping, friction and changes of contact, N mm, over time."""
+    taken = result.work_output + result.get("work_damping", 0.0) + result.get("work_friction", 0.0)
+    return result.energy - result.energy[0] - (result.work_input - taken + result.work_contact_changes)
+
+
 @pytest.mark.parametrize("name", RUNS)
 def test_account_of_a_run_closes(paper_scene, measured, name):
     """Exact identity, the geometry moving, also under a couple that varies and with steps of unequal length: energy
     gained = input - output - damping - friction + changes of contact, to round-off."""
-    result = simulate(replace(paper_scene, accuracy=COARSE, motion=Motion(200.0, 3, 2), **RUNS[name]))
-    gained = result.energy - result.energy[0]
-    taken = result.work_output + result.get("work_damping", 0.0) + result.get("work_friction", 0.0)
-    defect = gained - (result.work_input - taken + result.work_contact_changes)
-    done = float(result.work_input[-1])
+    result = run_of_two_cycles(paper_scene, name)
+    defect, done = account_defect(result), float(result.work_input[-1])
     measured(f"rotating gears, {name}: defect / work of the drive", float(np.abs(defect).max()) / done, "1e-9")
     assert float(np.abs(defect).max()) <= 1e-9 * done
     assert result.energy_defect.values == pytest.approx(defect.values, abs=1e-9 * done)
@@ -138,10 +146,7 @@ def test_friction_loss_is_that_of_the_literature(paper_scene, measured):
     """Niemann/Winter, Maschinenelemente 2, mesh loss factor: P/P0 = mu H_v, H_v = pi (u + 1)/(z1 u) (1 - e + e1^2 +
     e2^2), for a load that stands whole on a single pair and half on each of two; elastic teeth share it more smoothly,
     by some per cent."""
-    scene = replace(paper_scene, inertia=None, damping=None, accuracy=COARSE, motion=Motion(200.0, 2, 2))
-    result = simulate(scene)
-    loss = result.attrs["friction_loss"]
-    factor = loss_factor(scene)
+    loss, factor = friction_loss(paper_scene), loss_factor(paper_scene)
     measured(
         "friction loss of the paper's pair at mu = 0.1 (quasi-static)",
         loss,
@@ -150,7 +155,14 @@ def test_friction_loss_is_that_of_the_literature(paper_scene, measured):
     assert loss == pytest.approx(0.1 * factor, rel=0.05)
 
 
+def friction_loss(scene):
+    """Of a scene without inertia, over the drive's work."""
+    still = replace(scene, inertia=None, damping=None, accuracy=COARSE, motion=Motion(200.0, 2, 2))
+    return simulate(still).attrs["friction_loss"]
+
+
 def loss_factor(scene):
+    """H_v of the formula."""
     pair = gear_pair(scene.gears)
     z_1, ratio = scene.gears.pinion.teeth, scene.gears.wheel.teeth / scene.gears.pinion.teeth
     pitch_point = (

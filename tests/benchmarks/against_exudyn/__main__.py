@@ -88,17 +88,21 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
     return natural_frequencies(shafts, MESH), rotations, given
 
 
+def asked(python: str, script: str, given: dict) -> dict:
+    """What a script of this folder finds in the Exudyn of a Python."""
+    done = subprocess.run([python, HERE / script], input=json.dumps(given), capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"Exudyn failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}")
+    return json.loads(done.stdout[done.stdout.index('{"version"') :])
+
+
 def by_exudyn(script: str, words: str, frequencies: np.ndarray, given: dict) -> dict:
     """What a script of this folder finds in Exudyn; prints the frequencies of both programs."""
     parser = argparse.ArgumentParser(description=words.splitlines()[0])
     parser.add_argument(
         "python", nargs="?", default=sys.executable, help="a Python that has Exudyn (default: this one)"
     )
-    call = [parser.parse_args().python, HERE / script]
-    done = subprocess.run(call, input=json.dumps(given), capture_output=True, text=True)
-    if done.returncode:
-        sys.exit(f"Exudyn failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}")
-    found = json.loads(done.stdout[done.stdout.index('{"version"') :])
+    found = asked(parser.parse_args().python, script, given)
     print(f"Exudyn {found['version']}\nmode   this program, Hz   Exudyn, Hz      difference")
     for number, (own, other) in enumerate(zip(frequencies, found["frequencies"]), 1):
         print(f"{number:<6} {own:<18.6f} {other:<15.6f} {own / other - 1.0:.1e}")

@@ -73,6 +73,19 @@ def for_getfem() -> dict:
     }
 
 
+def by_getfem(python: str) -> list[dict]:
+    """What a Python that has GetFEM finds at each phase."""
+    done = subprocess.run(
+        [python, __file__.replace("__main__", "getfem_pair")],
+        input=json.dumps(for_getfem()),
+        capture_output=True,
+        text=True,
+    )
+    if done.returncode:
+        sys.exit(f"GetFEM failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}")
+    return json.loads(done.stdout[done.stdout.index('{"answers"') :])["answers"]
+
+
 def main() -> None:
     """Print both side by side."""
     parser = argparse.ArgumentParser(
@@ -82,15 +95,7 @@ def main() -> None:
         "python", nargs="?", default="/usr/bin/python3", help="a Python that has GetFEM (default: %(default)s)"
     )
     own, seconds, march, steps = by_this_program()
-    done = subprocess.run(
-        [parser.parse_args().python, __file__.replace("__main__", "getfem_pair")],
-        input=json.dumps(for_getfem()),
-        capture_output=True,
-        text=True,
-    )
-    if done.returncode:
-        sys.exit(f"GetFEM failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}")
-    found = json.loads(done.stdout[done.stdout.index('{"answers"') :])["answers"]
+    found = by_getfem(parser.parse_args().python)
     print(
         "mesh phase   this program, urad   GetFEM, urad   difference   GetFEM: torque ratio, unknowns, solutions, s"
         " building, s solving"

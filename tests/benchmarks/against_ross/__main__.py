@@ -55,12 +55,19 @@ def by_ross(python: str, shaft: ElasticShaft, pieces: int) -> np.ndarray:
     return np.array(json.loads(done.stdout.splitlines()[-1]))
 
 
+def compared(python: str) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Displacements (5, 5) per load by this program and by ROSS, for each shaft."""
+    found = {}
+    for name, (sections, gear_at, pieces) in SHAFTS.items():
+        shaft = ElasticShaft("pinion", sections, (206e3, 0.3), gear_at, 0.0, 0.0, BEARINGS)
+        found[name] = np.linalg.inv(shaft.stiffness), by_ross(python, shaft, pieces)
+    return found
+
+
 def main(python: str) -> None:
     """Print displacements and largest differences."""
     print("shaft; um along x under 1 kN: this program, ROSS; largest difference, part of each entry's own size")
-    for name, (sections, gear_at, pieces) in SHAFTS.items():
-        shaft = ElasticShaft("pinion", sections, (206e3, 0.3), gear_at, 0.0, 0.0, BEARINGS)
-        own, other = np.linalg.inv(shaft.stiffness), by_ross(python, shaft, pieces)
+    for name, (own, other) in compared(python).items():
         size = np.sqrt(np.outer(np.diag(own), np.diag(own)))
         print(f"{name}; {1e6 * own[0, 0]:.6f}, {1e6 * other[0, 0]:.6f}; {np.abs((own - other) / size).max():.1e}")
 

@@ -73,7 +73,7 @@ class CrownedFlanks:
     def pressed(self, part: float) -> Pressed:
         """Under a part of the load."""
         operator, exact = self.operator, self.exact.under(part)
-        rotation = np.abs(operator.jacobian[:, [self.cycle._coordinates.index(CENTRE_COORDINATES.index("rotation_2"))]])
+        rotation = np.abs(operator.jacobian[:, [self.cycle.coordinates.index(CENTRE_COORDINATES.index("rotation_2"))]])
         solution = pressed(operator, exact.load, rotation)
         return Pressed(float(solution.coordinates[0]), self._errors(solution.forces, exact))
 

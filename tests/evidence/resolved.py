@@ -1,0 +1,62 @@
+"""Fully resolved three-dimensional models of tests/face_reference."""
+
+from __future__ import annotations
+
+from itertools import groupby
+
+from tests.benchmarks.third_dimension import resolved
+from tests.benchmarks.third_dimension.__main__ import main as third_dimension
+from tests.benchmarks.third_dimension.table import read_rows
+from tests.evidence.claim import RESOLVED, Claim, Numbers, Part, within
+from tests.face_reference.reference import OPENINGS
+
+MODEL = "wedges of second order, tests/face_reference"
+KEYS = [(helix, 0.35, opening) for helix in (0.0, 20.0) for opening in OPENINGS]
+AT_EDGES = [(helix, 0.85, "plain") for helix in (0.0, 20.0)]
+
+
+def words(key: tuple[float, float, str]) -> str:
+    """Of an analysis."""
+    helix, phase, opening = key
+    kind = "helical, 20 deg" if helix else "spur"
+    return f"{kind}, {opening}" + (", a tip edge touching" if phase == 0.85 else "")
+
+
+def kept() -> Numbers:
+    """Approaches (µm) of the analyses that have a row, and over the slices of one the line load that is furthest off,
+    by the largest."""
+    found: Numbers = {}
+    ordered = groupby(read_rows(resolved.NAME), key=lambda row: (row["helix_angle"], row["phase"], row["opening"]))
+    for (helix, phase, opening), rows in ordered:
+        key, slices = (helix, phase, list(OPENINGS)[int(opening)]), list(rows)
+        if key in KEYS + AT_EDGES:
+            found[words(key)] = 1e3 * slices[0]["reference_approach"], 1e3 * slices[0]["approach"]
+        if key == (20.0, 0.35, "crowned"):
+            largest = max(row["reference"] for row in slices)
+            worst = max(slices, key=lambda row: abs(row["line_load"] - row["reference"]))
+            found["line load"] = largest, largest + worst["line_load"] - worst["reference"]
+    return found
+
+
+def _claims() -> dict[str, Claim]:
+    made_of = "slices in plane strain at free ends; sections of 0.3 modules"
+    found = {
+        words(key): Claim(
+            f"approach of narrow flanks, {words(key)}", MODEL, "µm", within(0.005 if key in KEYS else 0.01),
+            made_of if key in KEYS else f"{made_of}; contact on the edge",
+        )
+        for key in KEYS + AT_EDGES
+    }  # fmt: skip
+    return found | {
+        "line load": Claim("largest line load, crowned helical, off in the worst slice", MODEL, "N/mm", within(0.03),
+                           "the slice at the free end")
+    }  # fmt: skip
+
+
+def measured(_: str) -> Numbers:
+    """All analyses anew, and their own page."""
+    third_dimension([resolved.NAME])
+    return kept()
+
+
+PARTS = [Part("resolved", RESOLVED, "third_dimension.md#fully-resolved-models", _claims(), measured, kept, minutes=0.5)]
