@@ -12,6 +12,7 @@ import numpy as np
 from scipy import sparse
 
 from fenics_gears.elasticity.petsc import PETSc
+from fenics_gears.elasticity.triangle import symmetric
 from fenics_gears.errors import ComputationError
 
 LIBRARY = ctypes.CDLL(PETSc.__file__)
@@ -92,19 +93,18 @@ class Factor:
     def schur(self) -> np.ndarray | None:
         """Dense stiffness (k, k) on the Schur dofs with all others in equilibrium without load. None on all
         ranks but 0."""
-        schur, entries = ctypes.c_void_p(), ctypes.c_void_p()
-        _call("MatFactorCreateSchurComplement", _handle(self._factor), ctypes.byref(schur), None)
         if self._rank > 0:
-            _call("MatDestroy", ctypes.byref(schur))
             return None
-        _call("MatDenseGetArray", schur, ctypes.byref(entries))
+        schur, entries, status = ctypes.c_void_p(), ctypes.c_void_p(), ctypes.c_int()
+        _call("MatFactorGetSchurComplement", _handle(self._factor), ctypes.byref(schur), ctypes.byref(status))
+        _call("MatDenseGetArrayRead", schur, ctypes.byref(entries))
         values = np.ctypeslib.as_array((ctypes.c_double * self._schur_size**2).from_address(entries.value)).reshape(
             (self._schur_size,) * 2
         )
-        # PETSc has filled in both triangles.
-        stiffness = values.copy()
-        _call("MatDenseRestoreArray", schur, ctypes.byref(entries))
-        _call("MatDestroy", ctypes.byref(schur))
+        # MUMPS gives the lower triangle by columns. A copy by PETSc would mirror it entry by entry, which takes longer.
+        stiffness = symmetric(values.copy())
+        _call("MatDenseRestoreArrayRead", schur, ctypes.byref(entries))
+        _call("MatFactorRestoreSchurComplement", _handle(self._factor), ctypes.byref(schur), status)
         return stiffness
 
     def close(self) -> None:

@@ -16,10 +16,8 @@ from fenics_gears.elasticity.condensation import CondensedBody, by_radius, conde
 from fenics_gears.elasticity.cut_chain import CutResponse, chain_is_quicker, chain_response
 from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.mesh_data import BodyMesh
+from fenics_gears.elasticity.triangle import symmetric
 from fenics_gears.errors import ComputationError
-
-# Rows that are transposed at once.
-BLOCK = 128
 
 
 def condensed_sector(
@@ -159,17 +157,6 @@ def inverse_of_factor(factor: np.ndarray, what: str) -> np.ndarray:
     if failed:
         raise _not_definite(what)
     return symmetric(upper)
-
-
-def symmetric(upper: np.ndarray) -> np.ndarray:
-    """The symmetric or Hermitian matrix whose upper triangle is given, in its place."""
-    # Block by block: a transposed copy of a large matrix takes as long as a product of smaller ones.
-    for first in range(0, len(upper), BLOCK):
-        last = first + BLOCK
-        upper[last:, first:last] = upper[first:last, last:].conj().T
-        own = upper[first:last, first:last]
-        own[:] = np.triu(own) + np.triu(own, 1).conj().T
-    return upper
 
 
 def definite_factor(matrix: np.ndarray, what: str) -> np.ndarray:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.linalg.blas import dtrmm, dtrsm
+from scipy.linalg.blas import dtrsm
 
 from fenics_gears.elasticity.condensation import by_radius, without
 from fenics_gears.elasticity.face.fold import EVEN, ODD, Fold
@@ -129,20 +129,28 @@ def condensed_swept_sector(
     return SweptSector(even, odd, lower, fold.cut_turned, fold.flank_turned if both else None, timings)
 
 
-def spanned(matrix: np.ndarray, tried_first: int = 0, part: float = MISSING) -> tuple[np.ndarray, np.ndarray]:
+def spanned(
+    matrix: np.ndarray, tried_first: int = 0, part: float = MISSING, energy: np.ndarray | None = None
+) -> tuple[np.ndarray, np.ndarray]:
     """Orthonormal columns (n, r), and what they are multiplied by (r, k), to give a matrix (n, k) but for a `part`.
 
     Products of the matrix with random columns span its range (Halko, Martinsson, Tropp 2011); others tell what is
-    missing. tried_first: so many columns; a quarter of all when 0.
+    missing. tried_first: so many columns; a quarter of all when 0. energy: (k, k), upper triangle U; the part is then
+    of ``matrix @ U^-1``, which takes solutions for the random columns alone.
     """
     # The same numbers in every run.
-    numbers, most = np.random.default_rng(0), min(matrix.shape)
-    tried = numbers.standard_normal((matrix.shape[1], TRIED))
+    generator, most = np.random.default_rng(0), min(matrix.shape)
+
+    def random(count: int) -> np.ndarray:
+        columns = generator.standard_normal((matrix.shape[1], count))
+        return columns if energy is None else dtrsm(1.0, energy, columns)
+
+    tried = random(TRIED)
     images = matrix @ tried
     columns, rows = np.empty((len(matrix), 0)), np.empty((0, matrix.shape[1]))
     size = tried_first or max(most // 4, 1)
     while columns.shape[1] + size < most:
-        more = matrix @ numbers.standard_normal((matrix.shape[1], size))
+        more = matrix @ random(size)
         for _ in range(2):
             more -= columns @ (columns.T @ more)
         more = np.linalg.qr(more)[0]
@@ -181,8 +189,7 @@ def in_shapes(flank: np.ndarray, response: np.ndarray, cut: np.ndarray) -> Half:
     ``response U^-1``. There are a quarter fewer than of the response itself.
     """
     energy = definite_factor(cut, "a cut")
-    shapes, to_cut = spanned(dtrsm(1.0, energy, response, side=1))
-    return Half(flank, shapes, dtrmm(1.0, energy, to_cut, side=1), cut)
+    return Half(flank, *spanned(response, energy=energy), cut)
 
 
 def _by_gradients(rows: sparse.csr_matrix, fold: Fold, own: range, sweep: Sweep, group) -> Half:

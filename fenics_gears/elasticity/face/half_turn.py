@@ -21,7 +21,8 @@ from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.cut_chain import CutResponse
 from fenics_gears.elasticity.face.condensed import MISSING, SweptSector, spanned
-from fenics_gears.elasticity.ring import cyclic, definite_factor, definite_inverse, rotation, symmetric
+from fenics_gears.elasticity.ring import cyclic, definite_factor, definite_inverse, rotation
+from fenics_gears.elasticity.triangle import symmetric
 from fenics_gears.errors import ComputationError
 
 # Of entries that the symmetry makes zero, in the largest entry.
