@@ -74,7 +74,8 @@ class StepProblem:
 class StepSolution:
     """Nodal forces (m,), N, centre coordinates (k,), mm, relative displacement (m,), mm, and the sets (n,).
 
-    `iterations`: of Newton and all fallbacks together; `method`: of METHODS the one that converged.
+    `iterations`: of Newton and all fallbacks together, but for those without friction that give sets to begin with;
+    `method`: of METHODS the one that converged.
     """
 
     forces: np.ndarray

@@ -64,8 +64,7 @@ def is_only_solution(
         return _positive(weighted)
     if len(held) - held.sum() > 1:
         return False
-    across = _across(with_friction)
-    return _positive(across.T @ weighted @ across)
+    return _positive(_across(with_friction, weighted))
 
 
 def uncertified(stiffness: np.ndarray, friction: float, solved: Iterable) -> int:
@@ -121,8 +120,8 @@ def _plainly_only(stiffness: np.ndarray, friction: float, judged: list[tuple]) -
         if free and m:
             a, b = normal[..., 0], sliding[..., 0]
             apart = np.all(a * b > 0.0, axis=1)
-            places, across = list(compress(places, apart)), _across(b[apart])
-            matrices = across.transpose(0, 2, 1) @ ((b / a)[apart, :, None] * matrices[apart]) @ across
+            places = list(compress(places, apart))
+            matrices = _across(b[apart], (b / a)[apart, :, None] * matrices[apart])
         together = _positive(matrices)
         for place, matrix in zip(places, matrices):
             found[place] = together or _positive(matrix)
@@ -137,13 +136,18 @@ def _motions(stiffness: bytes, size: int) -> tuple[np.ndarray, np.ndarray, np.nd
     return values, vectors, values > SINGULAR * max(values[-1], 0.0)
 
 
-def _across(directions: np.ndarray) -> np.ndarray:
-    """Orthonormal columns (..., n, n - 1) perpendicular to `directions` (..., n): those of the reflections that take
-    these into the first axis, but the first."""
+def _across(directions: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+    """Symmetric parts (..., n - 1, n - 1) of matrices (..., n, n), times two, on what is perpendicular to `directions`
+    (..., n): between all axes but the first that the reflections give which take these into the first axis."""
     mirrors = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
     mirrors[..., 0] += np.copysign(1.0, mirrors[..., 0])
-    squares = np.sum(mirrors**2, axis=-1)[..., None, None]
-    return (np.eye(directions.shape[-1]) - 2.0 / squares * mirrors[..., :, None] * mirrors[..., None, :])[..., 1:]
+    mirrors *= np.sqrt(2.0 / np.sum(mirrors**2, axis=-1))[..., None]
+    symmetric = matrix + np.swapaxes(matrix, -1, -2)
+    # With the reflection 1 - v v^T: s - v w^T - w v^T, w = s v - (v . s v) v/2.
+    shares = (symmetric @ mirrors[..., None])[..., 0]
+    shares -= 0.5 * np.sum(mirrors * shares, axis=-1)[..., None] * mirrors
+    outer = mirrors[..., :, None] * shares[..., None, :]
+    return (symmetric - outer - np.swapaxes(outer, -1, -2))[..., 1:, 1:]
 
 
 def _positive(matrix: np.ndarray) -> bool:
