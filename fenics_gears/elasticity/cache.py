@@ -12,8 +12,6 @@ import io
 import json
 import logging
 import os
-import tempfile
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -23,14 +21,12 @@ from typing import Any
 import numpy as np
 
 from fenics_gears.system.memory import size_in_bytes
-from fenics_gears.system.output import seal, unsealed
+from fenics_gears.system.output import remove_left_over, seal, unsealed, whole_file
 
 LOGGER = logging.getLogger(__name__)
 DIRECTORY_VARIABLE = "FENICS_GEARS_CACHE"
 FORMAT = "fenics_gears cache 2"
 SIZE_VARIABLE, DEFAULT_SIZE = "FENICS_GEARS_CACHE_SIZE", "2 GB"
-# An incomplete file older than this (s) was left by a run that was killed.
-LONGEST_WRITING = 24 * 3600.0
 
 
 def content_key(inputs: dict) -> str:
@@ -124,47 +120,39 @@ class Cache:
 
     def store(self, key: str, arrays: dict[str, np.ndarray]) -> None:
         """Keep arrays under a key; the file appears under its name only when it is complete."""
-        aside = None
+        content = _file_content(key, arrays)
         try:
-            content = _file_content(key, arrays)
-            Path(self.directory).mkdir(parents=True, exist_ok=True)
-            # Each writer has a file name of its own, so that two runs never write into one file.
-            with tempfile.NamedTemporaryFile(
-                prefix=f"{key}.", suffix=".part", dir=self.directory, delete=False
-            ) as file:
-                aside = Path(file.name)
+            with whole_file(self.path(key)) as file:
                 file.write(content)
                 file.write(seal(content))
-                file.flush()
-                os.fsync(file.fileno())
-            os.replace(aside, self.path(key))
             self._keep_within_limit(self.path(key))
         except OSError as error:
             LOGGER.warning("cache: nothing is kept in %s: %s", self.directory, error)
-            if aside is not None:
-                _remove(aside)
-        except BaseException:
-            # Such as Ctrl-C before the file has its final name.
-            if aside is not None:
-                _remove(aside)
-            raise
 
     def entries(self) -> list[Entry]:
         """The complete entries, the longest unused first."""
-        return sorted(_files(self.directory, "*.h5"), key=lambda entry: entry.used)
+        found = []
+        for path in Path(self.directory).glob("*.h5"):
+            try:
+                if path.is_file():
+                    found.append(Entry(path, (status := path.stat()).st_size, status.st_mtime))
+            except OSError:
+                # Another run has removed it meanwhile.
+                continue
+        return sorted(found, key=lambda entry: entry.used)
 
     def clear(self) -> list[Entry]:
         """Remove all complete entries and what killed runs left; returns the removed entries."""
         found = self.entries()
         for entry in found:
             _remove(entry.path)
-        self._remove_left_over()
+        remove_left_over(self.directory)
         return found
 
     def _keep_within_limit(self, stored: Path) -> None:
         if self.limit is None:
             return
-        self._remove_left_over()
+        remove_left_over(self.directory)
         found = self.entries()
         size = sum(entry.size for entry in found)
         for entry in found:
@@ -174,23 +162,6 @@ class Cache:
             if entry.path != stored:
                 _remove(entry.path)
                 size -= entry.size
-
-    def _remove_left_over(self) -> None:
-        for entry in _files(self.directory, "*.part"):
-            if entry.used < time.time() - LONGEST_WRITING:
-                _remove(entry.path)
-
-
-def _files(directory: Path, pattern: str) -> list[Entry]:
-    found = []
-    for path in Path(directory).glob(pattern):
-        try:
-            if path.is_file():
-                found.append(Entry(path, (status := path.stat()).st_size, status.st_mtime))
-        except OSError:
-            # Another run has removed it meanwhile.
-            continue
-    return found
 
 
 def _mark_as_used(path: Path) -> None:

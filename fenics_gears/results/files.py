@@ -21,7 +21,7 @@ import xarray as xr
 from xarray.conventions import cf_encoder, encode_dataset_coordinates
 
 from fenics_gears.errors import ComputationError
-from fenics_gears.system.output import seal_of, unsealed
+from fenics_gears.system.output import seal_of, unsealed, whole_file
 
 
 def save(result: xr.Dataset, path: str | Path) -> None:
@@ -29,20 +29,12 @@ def save(result: xr.Dataset, path: str | Path) -> None:
 
     Raises OSError where the disk is full or the directory cannot be written.
     """
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    aside = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        with open(aside, "w+b", buffering=0) as file:
-            written = NeverFull(file)
-            write_netcdf(result, written)
-            if written.failure is not None:
-                raise written.failure
-            file.write(seal_of(file, file.seek(0, os.SEEK_END)))
-            os.fsync(file.fileno())
-        os.replace(aside, path)
-    finally:
-        aside.unlink(missing_ok=True)
+    with whole_file(Path(path), buffering=0) as file:
+        written = NeverFull(file)
+        write_netcdf(result, written)
+        if written.failure is not None:
+            raise written.failure
+        file.write(seal_of(file, file.seek(0, os.SEEK_END)))
 
 
 class NeverFull:

@@ -72,12 +72,11 @@ def choice() -> Choice:
         if known["key"] == key:
             return Choice(**known["choice"])
     found = _found()
-    with contextlib.suppress(OSError):
-        folder.mkdir(parents=True, exist_ok=True)
-        # Each writer has a file of its own: ranks that start together all come here.
-        part = file.with_name(f"{file.name}.{os.getpid()}.part")
-        part.write_text(json.dumps({"key": key, "choice": asdict(found)}), encoding="utf-8")
-        part.replace(file)
+    # Not imported by the process that runs this file as a script.
+    from fenics_gears.system.output import whole_file
+
+    with contextlib.suppress(OSError), whole_file(file) as kept:
+        kept.write(json.dumps({"key": key, "choice": asdict(found)}).encode())
     return found
 
 

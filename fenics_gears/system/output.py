@@ -9,13 +9,14 @@ read them.
 from __future__ import annotations
 
 import contextlib
-import glob
 import hashlib
 import os
 import shutil
 import socket
 import sys
 import tempfile
+import threading
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import BinaryIO
@@ -23,8 +24,10 @@ from typing import BinaryIO
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.system.user_file import check_file
 
-# The beginning of names of directories that hold files while they are written; machine and process follow.
+# The beginning of names of files, and of directories of files, while they are written; machine and process follow.
 UNFINISHED = ".unfinished-"
+# What another machine has not changed for longer (s) was left by a process that was killed.
+LONGEST_WRITING = 24 * 3600.0
 ANOTHER = "choose another directory with --output DIR."
 
 
@@ -70,6 +73,23 @@ def _is_there(path: Path) -> bool:
 
 
 @contextlib.contextmanager
+def whole_file(path: Path, buffering: int = -1) -> Iterator[BinaryIO]:
+    """A new file, open to be written and read, which takes its name at the end, instead of a file that had it, and goes
+    where an exception ends the block. Raises OSError where the disk is full or the directory cannot be written."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    # Beside the final name, because a rename is atomic only within a file system; each writer has a file of its own.
+    aside = path.with_name(f"{_unfinished()}{threading.get_ident()}")
+    try:
+        with open(aside, "w+b", buffering) as file:
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(aside, path)
+    finally:
+        aside.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
 def written_aside(directory: Path, written: list[Path]) -> Iterator[Path]:
     """A directory to write files into; at the end they move to ``directory``, and their final names are added to
     ``written``.
@@ -80,8 +100,7 @@ def written_aside(directory: Path, written: list[Path]) -> Iterator[Path]:
     try:
         directory.mkdir(parents=True, exist_ok=True)
         remove_left_over(directory)
-        # Beside the final names, because a rename is atomic only within a file system.
-        with tempfile.TemporaryDirectory(prefix=f"{UNFINISHED}{_machine()}-{os.getpid()}-", dir=directory) as aside:
+        with tempfile.TemporaryDirectory(prefix=_unfinished(), dir=directory) as aside:
             yield Path(aside)
             for file in sorted(Path(aside).iterdir()):
                 os.replace(file, directory / file.name)
@@ -91,11 +110,21 @@ def written_aside(directory: Path, written: list[Path]) -> Iterator[Path]:
 
 
 def remove_left_over(directory: Path) -> None:
-    """Remove from a directory, not from those in it, what killed processes of this machine were writing."""
-    for left in directory.glob(f"{UNFINISHED}{glob.escape(_machine())}-*"):
-        process = left.name[len(UNFINISHED) + len(_machine()) + 1 :].partition("-")[0]
-        if process.isdecimal() and not _is_alive(int(process)):
-            shutil.rmtree(left, ignore_errors=True)
+    """Remove from a directory, not from those in it, what killed processes were writing: those of this machine that are
+    no more, and others of more than a day ago."""
+    own = f"{UNFINISHED}{_machine()}-"
+    for left in directory.glob(f"{UNFINISHED}*"):
+        # Another run may remove it at the same time.
+        with contextlib.suppress(OSError):
+            process = left.name.removeprefix(own).partition("-")[0]
+            written = _is_alive(int(process)) if process.isdecimal() else _is_recent(left)
+            if not written:
+                shutil.rmtree(left) if left.is_dir() else left.unlink()
+
+
+def _unfinished() -> str:
+    """The beginning of the name of what this process is writing."""
+    return f"{UNFINISHED}{_machine()}-{os.getpid()}-"
 
 
 def _machine() -> str:
@@ -116,6 +145,10 @@ def _is_alive(process: int) -> bool:
         # Somebody else's.
         return True
     return True
+
+
+def _is_recent(path: Path) -> bool:
+    return path.stat().st_mtime > time.time() - LONGEST_WRITING
 
 
 def write_whole(file: Path, write: Callable[[Path], object]) -> Path:

@@ -8,14 +8,8 @@ import pytest
 
 from fenics_gears import SceneError
 from fenics_gears.commands.cli import main
-from fenics_gears.elasticity.cache import (
-    DIRECTORY_VARIABLE,
-    LONGEST_WRITING,
-    SIZE_VARIABLE,
-    Cache,
-    content_key,
-    user_cache,
-)
+from fenics_gears.elasticity.cache import DIRECTORY_VARIABLE, SIZE_VARIABLE, Cache, content_key, user_cache
+from fenics_gears.system.output import LONGEST_WRITING, UNFINISHED
 
 KEY = content_key({"gear": {"teeth": 16}, "size": 0.06})
 ARRAYS = {"blocks": np.arange(24.0).reshape(2, 3, 4) / 7.0, "unknowns": np.array(17)}
@@ -82,14 +76,15 @@ def test_beyond_the_limit_the_longest_unused_go_first(tmp_path, room, left):
 
 def test_files_that_are_being_written_stay(tmp_path):
     """By definition; those that a killed run left a day before are no longer being written."""
-    for name, ago in (("now.part", 0.0), ("lost.part", LONGEST_WRITING + 60.0)):
+    now = f"{UNFINISHED}elsewhere-now"
+    for name, ago in ((now, 0.0), (f"{UNFINISHED}elsewhere-lost", LONGEST_WRITING + 60.0)):
         (tmp_path / name).write_text("half")
         moment = time.time() - ago
         os.utime(tmp_path / name, (moment, moment))
     Cache(tmp_path, 1.0).store("new", ARRAYS)
-    assert {path.name for path in tmp_path.iterdir()} == {"now.part", "new.h5"}
+    assert {path.name for path in tmp_path.iterdir()} == {now, "new.h5"}
     assert len(Cache(tmp_path).clear()) == 1
-    assert {path.name for path in tmp_path.iterdir()} == {"now.part"}
+    assert {path.name for path in tmp_path.iterdir()} == {now}
 
 
 def test_an_entry_that_another_run_removes_is_no_failure(tmp_path, monkeypatch, caplog):

@@ -1,6 +1,7 @@
 """A scene's text follows from its data. Authority throughout: the reader of scene files, `scene_from_text`, which gives
 the same data, bit for bit."""
 
+import re
 import tomllib
 from dataclasses import replace
 from pathlib import Path
@@ -9,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from tests.effects.examples import EXAMPLES, scene_of, with_needs
 from tests.hard_cases.random_scenes import valid_scenes
+from tests.scene.test_cut_away import RACK, SCENE
 
 from fenics_gears import Load, Material, Scene, SceneError, as_toml, load_scene, scene_from_text
 from fenics_gears.scene.data import Accuracy, Motion
@@ -81,6 +83,16 @@ def test_every_effect_is_written_from_its_data():
     base = scene_of("tooth_elasticity").text.replace("mesh_cycles = 1\n", "mesh_cycles = 3\n")
     for more in FURTHER.values():
         assert_written(scene_from_text(base + more))
+
+
+def test_gears_and_motions_that_no_demonstration_has_are_written_from_their_data(paper_scene):
+    """The same, of a width, place, rack and web of a gear's own, and of other lengths of a run."""
+    web = '[gears.pinion.web]\nrim_inner_diameter = "45 mm"\nwidth = "5.1 mm"\n'
+    own = 'face_width = "23 mm"\naxial_offset = "1.5 mm"\n' + web
+    assert_written(scene_from_text(SCENE.format(gears=RACK, pinion=own)))
+    for cycles in ('mesh_cycles = "hunting tooth period"', 'settling_time = "0.05 s"'):
+        text = re.sub("recorded_cycles = .*", "", paper_scene.text)
+        assert_written(scene_from_text(re.sub("mesh_cycles = .*", cycles, text)))
 
 
 @settings(max_examples=4)

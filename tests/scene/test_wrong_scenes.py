@@ -233,6 +233,34 @@ without = partial(paper_text.without, DEMO)
         ("a = " + 3000 * "[" + 3000 * "]", ["pair.toml"]),
         ("", ["gears\n", "load\n", "2 mistakes"]),
         (
+            DEMO.replace("flank_element_size", 'body_element_size = "50 um"\nflank_element_size'),
+            ['accuracy.body_element_size = "50 um"', "is smaller than flank_element_size", "from that size on"],
+        ),
+        (
+            DEMO.replace("mesh_cycles = 30", 'settling_time = "0.1 s"') + '\n[speed_ramp]\nend_frequency = "300 Hz"\n',
+            ["motion.settling_time", "is for a steady speed", "mesh_cycles, the length of the whole ramp"],
+        ),
+        (
+            paper_text.without(DEMO, "inertia", "damping").replace("mesh_cycles = 30", 'settling_time = "0.1 s"'),
+            ["motion.settling_time", "is for scenes with [inertia]"],
+        ),
+        (
+            DEMO + '\n[output]\ncontact_fields = "last 2 cycles"\n',
+            ["output.contact_fields", "stands beside motion.recorded_cycles", "Leave one of the two out"],
+        ),
+        (
+            DEMO.replace("recorded_cycles = 2", "") + '\n[output]\ncontact_fields = "last 40 cycles"\n',
+            ["output.contact_fields", "is more than motion.mesh_cycles = 30"],
+        ),
+        (
+            re.sub(
+                "wheel_torque = .*",
+                'power = "1 kW"',
+                paper_text.without(DEMO, "inertia", "damping", "shafts", "bearings"),
+            ).replace('mesh_frequency = "200 Hz"', ""),
+            ["load.power", "needs a speed", "motion.pinion_speed"],
+        ),
+        (
             DEMO.replace('mesh_frequency = "200 Hz"', ""),
             ["motion.mesh_frequency\n", "is missing", "[inertia] needs one", '"750 rpm"', "1 mistake"],
         ),
