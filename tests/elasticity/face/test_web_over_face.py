@@ -57,6 +57,7 @@ def test_a_web_as_wide_as_the_face_is_the_gear_without_one():
     assert under_even_load(body(Web(18.0, 25.0, 1.0))) == pytest.approx(under_even_load(body()), rel=1e-4)
 
 
+@pytest.mark.nightly
 def test_a_web_makes_the_gear_softer_the_more_the_farther_it_is_off():
     """Less material gives way more, and a web towards one end tilts."""
     offsets = [under_even_load(body(each, reach=Reach(0))) for each in (None, WEB, replace(WEB, offset=0.2))]
@@ -70,6 +71,7 @@ def test_the_whole_sector_is_the_two_halves(centred, monkeypatch):
     np.testing.assert_allclose(whole.blocks, centred.blocks, rtol=0.0, atol=1e-9 * abs(centred.blocks).max())
 
 
+@pytest.mark.nightly
 def test_webs_towards_either_end_mirror_each_other():
     """z to -z, and the twist reversed: a plane of symmetry."""
     left, right = (body(replace(WEB, offset=side), 0.05 * side, Reach(1)) for side in (-0.2, 0.2))
@@ -222,6 +224,7 @@ def annuli(circles, widths, order, load):
     return motion[0] @ np.linalg.solve(np.vstack(rows), right)[-4:]
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("thickness", [1e-4, 1.0])
 def test_a_ring_that_is_free_and_one_on_a_web_that_becomes_oval(thickness):
     """Authority: plane stress, exact; with next to no web that is a free ring, whose curved beam has the radial
@@ -278,6 +281,7 @@ def resolved(rim, width, thickness, order, offset, size=0.5):
     return nodes[outer, 1], found[3 * outer]
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("offset", [0.0, 3.0])
 def test_a_rim_on_a_web_against_a_resolved_model(offset):
     """Authority: finite elements of a meridian section by harmonics, which share nothing with the sectors but the
