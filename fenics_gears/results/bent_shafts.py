@@ -88,7 +88,7 @@ class BentShafts(AlongTheFace):
         return super().numbers(counted) | found | {"largest_bearing_force": float(forces.max())} | proposed
 
     def _proposed(self) -> Correction:
-        """In place of the pinion's own helix slope and crowning: for an even line load under the nominal torque."""
+        """In place of the pinion's own helix slope and crowning: cancels what the shafts do under an even line load."""
         scene, pair, z = self.model.scene, self.pair, middles_of_slices(self.pair)
         leads, wheel = scene.lead_modifications, None
         if leads is not None and leads.wheel is not None:

@@ -132,7 +132,7 @@ def _shafts(found) -> Said:
             )
         yield "largest force of a bearing", f"{found['largest_bearing_force']:.4g} N"
         amounts = (f'{name} = "{found[f"proposed_{name}"]:.1f} um"' for name in ("helix_slope", "crowning"))
-        yield "for an even line load, in [lead_modifications]", f"pinion = {{ {', '.join(amounts)} }}"
+        yield "against shafts that bend, in [lead_modifications]", f"pinion = {{ {', '.join(amounts)} }}"
 
 
 def _pressure(found) -> Said:
