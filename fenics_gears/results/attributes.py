@@ -202,8 +202,8 @@ _ROWS = (
         (
             f"proposed_{name}",
             "um",
-            f"{words} of the pinion, in place of its own, that cancels what shafts and misalignment do under the nominal"
-            " torque; webs are not counted",
+            f"{words} of the pinion, in place of its own, that cancels what shafts and misalignment do under the"
+            " nominal torque; webs are not counted",
             WITH_SECTIONS,
         )
         for name, words in (("helix_slope", "helix slope modification"), ("crowning", "crowning"))
