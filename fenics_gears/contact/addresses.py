@@ -97,12 +97,12 @@ def form_rows(address, nodes):
 
 @njit(cache=True)
 def solver_of(address):
-    """Addresses of what solves the mixed form with Factors (`contact.factored_compliance`), of these, and with friction
-    of the compliance between closed nodes and of their places in it, by the same table; 0 where there is none."""
+    """Addresses of what solves the mixed form with Factors (`contact.factored_compliance`), and of these, by the same
+    table; 0 where there is none."""
     if address == 0:
-        return 0, 0, 0, 0
-    addresses = carray(to_integer(address), 5)
-    return addresses[1], addresses[2], addresses[3], addresses[4]
+        return 0, 0
+    addresses = carray(to_integer(address), 3)
+    return addresses[1], addresses[2]
 
 
 @njit(cache=True)

@@ -49,14 +49,11 @@ def _lapack() -> list[int]:
 
 
 class _System(NamedTuple):
-    """The mixed form, m forces of n nodes: `rows` (a,) of the unknown forces, at `places` (a,) in the compliance, where
-    a node's tangential column comes `apart` after its normal one; `slip` (b,) tangential forces per normal one of the
-    first b of them, none without friction; right side `opening` (a,), mm. Forces are in units of `unit` N/mm, so that
-    entries of the compliance are near one."""
+    """The mixed form, m forces of n nodes: `rows` (a,) of the unknown forces, `slip` (b,) tangential forces per normal
+    one of the first b of them, none without friction; right side `opening` (a,), mm. Forces are in units of `unit`
+    N/mm, so that entries of the compliance are near one."""
 
     compliance: np.ndarray
-    places: np.ndarray
-    apart: int
     jacobian: np.ndarray
     stiffness: np.ndarray
     load: np.ndarray
@@ -84,23 +81,18 @@ def factored_solver():
 
 def _solve(address):
     """Returns 1, or 0 where the compliance is not safely regular or the drivetrain is loose."""
-    at = carray(to_integer(address), 15)
+    at = carray(to_integer(address), 13)
     m, k, size, slipping, table = at[1], at[2], at[3], at[4], carray(to_integer(at[0]), 7)
-    compliance, rows = carray(to_number(at[5]), (m, m)), carray(to_integer(at[9]), size)
-    unit, places, apart = 1.0 / compliance[0, 0], rows, m // 2
-    if at[13] != 0:
-        compliance, places, apart = carray(to_number(at[13]), (m, m)), _together(rows, at[14], m // 2), 1
+    compliance = carray(to_number(at[5]), (m, m))
     system = _System(
         compliance,
-        places,
-        apart,
         carray(to_number(at[6]), (m, k)),
         carray(to_number(at[7]), (k, k)),
         carray(to_number(at[8]), k),
-        rows,
+        carray(to_integer(at[9]), size),
         carray(to_number(at[10]), slipping),
         carray(to_number(at[11]), size),
-        unit,
+        1.0 / compliance[0, 0],
     )
     factored = _Factored(
         carray(to_number(table[ROOM]), (size, size)), carray(to_number(table[KNOWN]), 2 * m + 1), table
@@ -108,15 +100,6 @@ def _solve(address):
     if not _are_known(factored.known, system) and not _factor(factored, system):
         return 0
     return _solve_with(factored, system, carray(to_number(at[12]), m + k))
-
-
-@njit(cache=True)
-def _together(rows, address, n):
-    """Places of rows in the compliance whose closed nodes stand together."""
-    of_nodes, places = carray(to_integer(address), n), np.empty(len(rows), dtype=np.int64)
-    for a in range(len(rows)):
-        places[a] = 2 * of_nodes[rows[a] % n] + rows[a] // n
-    return places
 
 
 @njit(cache=True)
@@ -136,12 +119,13 @@ def _are_known(known, system):
 @njit(cache=True)
 def _factor(factored, system):
     """Put the factors of a system into place; returns whether they are safely regular."""
-    matrix, slip, rows, places, size = factored.matrix, system.slip, system.rows, system.places, len(system.rows)
+    compliance, slip, rows, size = system.compliance, system.slip, system.rows, len(system.rows)
+    matrix, n = factored.matrix, len(compliance) // 2
     for a in range(size):
-        row = system.compliance[places[a]]
-        put_entries(matrix[a], row, places, np.int64(0) if len(slip) else a, system.unit)
+        row = compliance[rows[a]]
+        put_entries(matrix[a], row, rows, np.int64(0) if len(slip) else a, system.unit)
         if len(slip):
-            add_slip(matrix[a], row[system.apart :], places, slip, system.unit)
+            add_slip(matrix[a], row[n:], rows, slip, system.unit)
     factored.known[0] = 0.0
     if not _eliminate(factored, len(slip) > 0):
         return False

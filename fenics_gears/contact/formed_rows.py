@@ -57,8 +57,8 @@ class _Source(NamedTuple):
 
 
 # In compiled code it is a table: first the addresses that `addresses.form_rows` and `addresses.solver_of` read, the
-# latter 0 between other nodes than those of one position, and how many nodes are `together`; then address and shape of
-# each array, the last being the flags that say which rows are formed.
+# latter 0 between other nodes than those of one position; then address and shape of each array, the last being the
+# flags that say which rows are formed.
 ARRAYS = 32
 
 
@@ -68,8 +68,7 @@ class FormedRows:
     give in each slice, and of the fine sections there.
 
     `matrix`: zero where it is not yet `formed` (n,); by columns where asked for. `table` and `arrays`: what rows are
-    formed of. `factors`: between the nodes of one position. With friction their formed rows and columns also stand
-    `together`, the tangential one after the normal one: those of closed nodes, 300 of 1,600, are otherwise far apart.
+    formed of. `factors`: between the nodes of one position.
     """
 
     matrix: np.ndarray
@@ -78,7 +77,6 @@ class FormedRows:
     table: np.ndarray
     arrays: list[np.ndarray]
     factors: Factors | None = None
-    together: tuple[np.ndarray, ...] = ()
 
     @classmethod
     def of(
@@ -101,16 +99,13 @@ class FormedRows:
         for row, array in zip(table[1:], arrays):
             row[0], row[1 : 1 + array.ndim] = array.ctypes.data, array.shape
         table[0, 0] = row_former().address
-        factors, together = None, ()
+        factors = None
         if rows is columns:
             from fenics_gears.contact.factored_compliance import Factors, factored_solver
 
             factors = Factors(n)
             table[0, 1:3] = factored_solver().address, factors.table.ctypes.data
-            if n > len(formed):
-                together = pages(n, n), np.full(len(formed), -1)
-                table[0, 3:5] = [array.ctypes.data for array in together]
-        return cls(matrix, formed, by_columns, table, arrays, factors, together)
+        return cls(matrix, formed, by_columns, table, arrays, factors)
 
     @property
     def address(self) -> int:
@@ -151,28 +146,7 @@ def _form_rows(address, nodes, count):
         _form(source, group, missing[begin:end])
         formed[missing[begin:end]] = True
         begin = end
-    _put_together(carray(to_integer(address), 6), source.matrix, missing)
     return 1
-
-
-@njit(cache=True)
-def _put_together(addresses, matrix, nodes):
-    """Put the rows and columns of newly formed nodes beside those that stand together."""
-    if addresses[3] == 0:
-        return
-    m, n = len(matrix), len(matrix) // 2
-    together, places = carray(to_number(addresses[3]), (m, m)), carray(to_integer(addresses[4]), n)
-    for node in nodes:
-        places[node] = addresses[5]
-        addresses[5] += 1
-    for node in np.flatnonzero(places >= 0):
-        place = 2 * places[node]
-        # The new columns of rows that were there, all columns of new rows.
-        others = nodes if place < 2 * (addresses[5] - len(nodes)) else np.flatnonzero(places >= 0)
-        for d in range(2):
-            row, target = matrix[d * n + node], together[place + d]
-            for other in others:
-                target[2 * places[other]], target[2 * places[other] + 1] = row[other], row[n + other]
 
 
 @njit(cache=True)

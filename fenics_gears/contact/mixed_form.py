@@ -168,17 +168,17 @@ def solve_factored(equations, iterate, rows, slip, opening):
 
     `slip`: tangential forces per normal one, none without friction; `opening`: right sides of the rows, mm.
     """
-    (solver, factors, together, places), (m, k) = solver_of(equations.rows), equations.jacobian.shape
+    (solver, factors), (m, k) = solver_of(equations.rows), equations.jacobian.shape
     if solver == 0 or len(equations.compliance) != m:
         return False
     result = np.empty(m + k)
     # Of one kind of integers: numpy makes floats of both kinds together.
-    arrays = np.empty(15, dtype=np.int64)
+    arrays = np.empty(13, dtype=np.int64)
     arrays[0], arrays[1], arrays[2], arrays[3], arrays[4] = factors, m, k, len(rows), len(slip)
     arrays[5], arrays[6] = equations.compliance.ctypes.data, equations.jacobian.ctypes.data
     arrays[7], arrays[8] = equations.stiffness.ctypes.data, equations.load.ctypes.data
     arrays[9], arrays[10], arrays[11] = rows.ctypes.data, slip.ctypes.data, opening.ctypes.data
-    arrays[12], arrays[13], arrays[14] = result.ctypes.data, together, places
+    arrays[12] = result.ctypes.data
     done = call(solver, (arrays.ctypes.data,)) == 1
     # Read after the call, for compiled code gives back an array as soon as nothing names it.
     if done and len(arrays):

@@ -52,42 +52,16 @@ def _tangents(equations, iterate):
     not_inlined()
     compliance, jacobian, gap, n = equations.compliance, equations.jacobian, equations.gap, len(equations.gap)
     status, forces, coordinates, displacement = iterate
-    _, _, together, places = solver_of(equations.rows)
-    rows, closed, count = np.empty(n, dtype=np.int64), np.empty(n, dtype=np.int64), 0
+    rows, count = np.empty(n, dtype=np.int64), 0
     for j in range(n):
         if status[j] != OPEN or displacement[j] > gap[j]:
-            displacement[n + j] = product(jacobian[n + j], coordinates)
-            rows[count], closed[count] = n + j, status[j] != OPEN and together != 0
+            rows[count], displacement[n + j] = n + j, product(jacobian[n + j], coordinates)
             count += 1
-    if together != 0:
-        _add_tangents_together(iterate, together, carray(to_integer(places), n))
-    rows = rows[:count][closed[:count] == 0]
     for j in range(len(forces)):
         force = forces[j]
         if force != 0.0:
-            for row in rows:
-                displacement[row] -= compliance[j, row] * force
-
-
-@njit(cache=True)
-def _add_tangents_together(iterate, together, places):
-    """Take what the forces give from the tangential displacement of closed nodes, whose rows stand together."""
-    status, forces, displacement, n = iterate.status, iterate.forces, iterate.displacement, len(places)
-    together, closed = carray(to_number(together), (2 * n, 2 * n)), np.flatnonzero(status != OPEN)
-    columns, total = (2 * places[closed] + 1).astype(np.uint64), np.zeros(len(closed))
-    for j in closed:
-        for d in range(2):
-            if forces[d * n + j] != 0.0:
-                add_entries(total, -forces[d * n + j], together[2 * places[j] + d], columns)
-    for i in range(len(closed)):
-        displacement[n + closed[i]] += total[i]
-
-
-@njit(cache=True)
-def add_entries(total, weight, values, columns):
-    """Add weight times the values in some columns."""
-    for i in range(np.uint64(len(total))):
-        total[i] += weight * values[columns[i]]
+            for i in range(count):
+                displacement[rows[i]] -= compliance[j, rows[i]] * force
 
 
 @njit(cache=True, error_model="numpy")

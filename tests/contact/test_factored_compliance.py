@@ -29,21 +29,13 @@ class Contact:
         slip = np.select([status == SLIP_FORWARD, status == SLIP_BACKWARD], [FRICTION, -FRICTION], 0.0)
         return np.concatenate([closed, NODES + closed[status == STICK]]), slip
 
-    def together(self):
-        """The compliance with nodes in another order, each one's tangential column beside its normal one; their
-        places."""
-        order = np.random.default_rng(3).permutation(NODES)
-        both = np.stack([order, NODES + order], axis=1).ravel()
-        return self.compliance[np.ix_(both, both)], np.argsort(order)
-
-    def solved(self, rows, slip, together=()):
+    def solved(self, rows, slip):
         """Forces and coordinates by the factors; None where they do not serve."""
         forces, opening = len(self.compliance), self.opening[rows]
         result = np.zeros(forces + COORDINATES)
         arrays = self.compliance, self.jacobian, self.stiffness, self.load, rows, slip, opening, result
         sizes = forces, COORDINATES, len(rows), len(slip)
-        addresses = [array.ctypes.data for array in (*arrays, *together)] + ([] if together else [0, 0])
-        numbers = np.array([self.factors.table.ctypes.data, *sizes, *addresses])
+        numbers = np.array([self.factors.table.ctypes.data, *sizes, *(array.ctypes.data for array in arrays)])
         return result if self.solver(factored_solver().address)(numbers.ctypes.data) else None
 
     def expected(self, rows, slip):
@@ -70,15 +62,6 @@ def test_factors_give_what_the_whole_system_gives_whatever_was_factored_before(f
     for result, rows in zip(found, (one, one, other, one)):
         np.testing.assert_allclose(result, contact.expected(*rows), rtol=1e-10, atol=1e-10 * np.abs(result).max())
     assert np.array_equal(found[1], found[0]) and np.array_equal(found[3], found[0])
-
-
-def test_closed_nodes_that_stand_together_give_the_same():
-    """Identity to the last digit: entries are the same numbers, read elsewhere."""
-    contact = Contact(frictional=True)
-    rows = contact.rows(np.arange(5, 50), np.random.default_rng(2).integers(SLIP_FORWARD, STICK + 1, size=45))
-    apart, together = contact.solved(*rows), contact.together()
-    contact.factors = Factors(len(contact.compliance))
-    assert np.array_equal(contact.solved(*rows, together), apart)
 
 
 def test_nodes_that_depend_on_each_other_are_left_to_elimination():
