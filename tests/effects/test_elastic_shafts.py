@@ -230,7 +230,7 @@ def test_a_shaft_that_is_not_as_thick_as_the_bore_is_told():
 
     thin = INPUT.replace('"35 mm"', '"3 mm"') + PINION
     assert "is 3 mm thick under the pinion's face, whose bore is 22.3" in said(thin)[0]
-    fits = INPUT.replace('"35 mm"', f'"{0.4 * 54.0 / np.cos(np.radians(15.0))!r} mm"') + PINION
+    fits = INPUT.replace('"35 mm"', f'"{float(0.4 * 54.0 / np.cos(np.radians(15.0)))!r} mm"') + PINION
     assert not said(fits) and not said(CUT)
 
 

@@ -12,7 +12,7 @@ from tests.programs import DEMO
 from tests.studies.conftest import ACCURACY
 
 # Tests of the whole program, or of its installation.
-OF_THE_WHOLE = ("extensions", "docs", "demos", "setup", "benchmarks", "debians", "hard_cases")
+OF_THE_WHOLE = ("extensions", "docs", "demos", "setup", "benchmarks", "debians", "hard_cases", "evidence")
 MODULES_AND_COMMANDS = """
 import importlib, pkgutil, fenics_gears
 from fenics_gears.commands.cli import main
