@@ -248,37 +248,39 @@ def _changed_much(before, after):
 
 
 @njit(cache=True)
-def _begin_without_friction(equations, iterate, method, limit):
-    """Take the closed nodes of the solution without friction, where there is one; each slips as it moves there."""
-    status, displacement, slip_before, n = (
-        iterate.status,
-        iterate.displacement,
-        equations.slip_before,
-        len(iterate.status),
-    )
-    before, history, sets = status.copy(), np.empty((limit, 5)), np.empty((limit, n), dtype=np.int8)
-    frictionless = Equations(
-        equations.stiffness, equations.load, equations.compliance, equations.jacobian, equations.gap, slip_before[:0],
+def _without_friction(equations):
+    slip_before = equations.slip_before[:0]
+    return Equations(
+        equations.stiffness, equations.load, equations.compliance, equations.jacobian, equations.gap, slip_before,
         0.0, equations.free_motion, equations.rows,
     )  # fmt: skip
-    outcome, _ = _newton(frictionless, iterate, method, history, sets)
-    if outcome != CONVERGED:
-        status[:] = before
-        return
+
+
+@njit(cache=True)
+def _slip_as_they_move(equations, iterate):
+    """Each closed node slips the way that it moves."""
     _tangents(equations, iterate)
+    status, displacement, n = iterate.status, iterate.displacement, len(iterate.status)
     for j in range(n):
         if status[j] != OPEN:
-            status[j] = SLIP_FORWARD if displacement[n + j] + slip_before[j] > 0.0 else SLIP_BACKWARD
+            forward = displacement[n + j] + equations.slip_before[j] > 0.0
+            status[j] = SLIP_FORWARD if forward else SLIP_BACKWARD
 
 
 @njit(cache=True)
 def _newton_from_afar(equations, iterate, method, history, sets):
-    """As `newton`; with friction over a face the first iteration tells whether the sets are near the solution's."""
+    """As `newton`; with friction over a face the first iteration tells whether the sets are near the solution's. If
+    not, they begin at those of the solution without friction, where there is one."""
     outcome, done, n = CYCLED, 0, len(equations.gap)
     if len(equations.slip_before) and method.rule == ALL_AT_ONCE and solver_of(equations.rows)[0] != 0:
         outcome, done = _newton(equations, iterate, method, history[:1], sets[:1])
         if outcome == CYCLED and _changed_much(sets[0], iterate.status):
-            _begin_without_friction(equations, iterate, method, len(history))
+            before, room = iterate.status.copy(), (np.empty_like(history), np.empty_like(sets))
+            # Called from here, for a function of its own would have Newton compiled into it too.
+            if _newton(_without_friction(equations), iterate, method, *room)[0] == CONVERGED:
+                _slip_as_they_move(equations, iterate)
+            else:
+                iterate.status[:] = before
     if outcome == CYCLED:
         outcome, more = _newton(equations, iterate, method, history[done:], sets[done:])
         done += more

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fenics_gears.contact.face import even_slices
 from fenics_gears.dynamics.elastic_shaft import NUMBERS, ElasticShaft
 from fenics_gears.dynamics.elastic_shaft_seat import carried_with_twist, seat_compliance
 from fenics_gears.geometry.pair import GearPair
@@ -32,7 +33,7 @@ def middles_of_slices(pair: GearPair, slices: int = SLICES) -> np.ndarray:
     >>> (middles_of_slices(pair, 2) / pair.face_width).tolist()
     [-0.25, 0.25]
     """
-    return (np.arange(slices) + 0.5) / slices * pair.face_width - 0.5 * pair.face_width
+    return even_slices(pair.face_width, slices)[0]
 
 
 def face_compliance_of_shafts(shafts: Iterable[ElasticShaft], pair: GearPair, z: np.ndarray) -> np.ndarray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -105,17 +106,22 @@ def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
 def _toothed(sections: Sequence[ShaftSection], face: tuple[float, float], diameter: float) -> tuple[ShaftSection, ...]:
     """The sections of a shaft, which between both ends of a gear's `face` (mm from the left end) is a cylinder of a
     diameter (mm), bored as it is."""
-    found, begin = [], 0.0
+    return tuple(
+        replace(part, diameter=diameter, end_diameter=diameter) if under else part
+        for part, under in _cut_at(sections, face)
+    )
+
+
+def _cut_at(sections: Sequence[ShaftSection], face: tuple[float, float]) -> Iterator[tuple[ShaftSection, bool]]:
+    """The sections of a shaft, cut at both ends of a gear's `face`, and whether each part is under it."""
+    begin = 0.0
     for section in sections:
         end, slope = begin + section.length, (section.right_diameter - section.diameter) / section.length
         stops = [begin, *(each for each in face if begin + ROUND_OFF < each < end - ROUND_OFF), end]
         for left, right in pairwise(stops):
-            ends = [section.diameter + slope * (each - begin) for each in (left, right)]
-            if face[0] < 0.5 * (left + right) < face[1]:
-                ends = [diameter] * 2
-            found.append(ShaftSection(right - left, ends[0], ends[1], section.bore))
+            thick, end_thick = (section.diameter + slope * (each - begin) for each in (left, right))
+            yield ShaftSection(right - left, thick, end_thick, section.bore), face[0] < 0.5 * (left + right) < face[1]
         begin = end
-    return tuple(found)
 
 
 def shaft_warnings(scene: Any, pair: Any) -> list[str]:
@@ -139,15 +145,8 @@ def shaft_warnings(scene: Any, pair: Any) -> list[str]:
 
 def _under_the_face(sections: Sequence[ShaftSection], face: tuple[float, float]) -> list[float]:
     """Diameters (mm) of a shaft at both ends of each section, as far as a gear's face reaches over it."""
-    found, begin = [], 0.0
-    for section in sections:
-        end = begin + section.length
-        low, high = max(begin, face[0]), min(end, face[1])
-        if high - low > ROUND_OFF:
-            slope = (section.right_diameter - section.diameter) / section.length
-            found += [section.diameter + slope * (place - begin) for place in (low, high)]
-        begin = end
-    return found
+    parts = (part for part, under in _cut_at(sections, face) if under)
+    return [diameter for part in parts for diameter in (part.diameter, part.right_diameter)]
 
 
 def _sections_are_solid(found: ElasticShaft, shaft: str) -> Iterator[str]:

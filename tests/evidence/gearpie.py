@@ -14,7 +14,6 @@ from fenics_gears.scene.data import Motion, Scene
 
 # 200 N m on the pinion at 1500 1/min; its mean coefficient of friction by Schlenk and what follows.
 COEFFICIENT, LOSS, LOSS_FACTOR, POWER, SPEED = 0.0483, 295.17, 0.1945, 31415.9, 1500.0
-PITCH_FORCE, ROOT_STRESS = 5464.5, 271.19
 
 
 def numbers(_: str) -> Numbers:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
+from tests.docs.blocks import ROOT
 from tests.docs.markdown import table
 from tests.evidence.claim import EXPERIMENTS, GROUPS, Claim, Part
 from tests.evidence.kept import numbers_of
 
-ROOT = Path(__file__).parents[2]
 PAGE, README = ROOT / "docs" / "evidence" / "index.md", ROOT / "README.md"
 MOST_ROWS = 80
 RED = "🔴 **outside**"

@@ -87,10 +87,8 @@ def layers_with_web(boundaries: np.ndarray, low: float, high: float) -> np.ndarr
     """Boundaries of layers (mm) with the sides of a web among them, and two layers or more between these."""
     near, ends = NEAR_WEB * np.diff(boundaries).max(), boundaries[[0, -1]]
     slack = 1e-9 * (ends[1] - ends[0])
-    sides = [
-        float(ends[np.abs(ends - side) < slack][0]) if (np.abs(ends - side) < slack).any() else side
-        for side in (low, high)
-    ]
+    nearest = [min(ends, key=lambda end: abs(end - side)) for side in (low, high)]
+    sides = [end if abs(end - side) < slack else side for end, side in zip(nearest, (low, high))]
     inner = boundaries[1:-1]
     inner = inner[np.abs(inner[:, None] - sides).min(axis=1) > near]
     if not ((inner > low) & (inner < high)).any():

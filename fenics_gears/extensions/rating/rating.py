@@ -109,8 +109,12 @@ def _with_inclination(misalignment: float | None, result: xr.Dataset) -> float |
     return misalignment if inclined is None else (misalignment or 0.0) + inclined
 
 
+def _shafts_bend(scene: Scene) -> bool:
+    return scene.shafts is not None and scene.shafts.sections is not None
+
+
 def _on_bent_shafts(scene: Scene, pair: GearPair) -> dict[str, np.ndarray]:
-    if scene.shafts is None or scene.shafts.sections is None:
+    if not _shafts_bend(scene):
         return {}
     from fenics_gears import face_compliance_of_shafts, face_opening, middles_of_slices, model_of
 
@@ -139,7 +143,7 @@ def _misalignment(scene: Scene, pair: GearPair) -> float | None:
 
 def of_misalignment(scene: Scene, finish: Finish) -> str:
     """A sentence on the misalignment that the standard's K_Hbeta counts, and whether the run has the same."""
-    if scene.shafts is not None and scene.shafts.sections is not None:
+    if _shafts_bend(scene):
         return (
             "K_Hbeta of ISO 6336 is of the axes' inclination in this run with the scene's misalignment and helix slopes"
             " (method C, less running-in; iterated: method B, shafts under the line load of a foundation, without"
