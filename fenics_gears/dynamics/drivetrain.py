@@ -86,6 +86,11 @@ class Drivetrain:
         return sum(len(shaft.bearings) for shaft in self.elastic)
 
     @property
+    def on_rolling_bearings(self) -> bool:
+        """Whether a bearing's stiffness depends on its load."""
+        return any(bearing.rolling is not None for shaft in self.elastic for bearing in shaft.bearings)
+
+    @property
     def driven_backwards(self) -> bool:
         """Whether the load drives the pair from the wheel."""
         return bool(self.load[self.coordinates.index("rotation_2")] < 0.0)

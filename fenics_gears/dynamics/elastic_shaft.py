@@ -142,10 +142,19 @@ class ElasticShaft:
     @cached_property
     def at_bearings(self) -> np.ndarray:
         """Motions (5 b, 5) of the shaft in its bearings per motion of the gear."""
+        yielding = self.held_flexibility @ self._springs
+        return np.linalg.solve(np.eye(len(yielding)) + yielding, self.rigid_motions)
+
+    @cached_property
+    def held_flexibility(self) -> np.ndarray:
+        """Motions (5 b, 5 b) of the shaft in its bearings per load on it there, with the gear held."""
         places = [each.at for each in self.bearings]
-        size = len(MOTIONS) * len(places)
-        yielding = self.flexibility(places, places).reshape(size, size) @ self._springs
-        return np.linalg.solve(np.eye(size) + yielding, self._rigid(places))
+        return self.flexibility(places, places).reshape((len(MOTIONS) * len(places),) * 2)
+
+    @property
+    def rigid_motions(self) -> np.ndarray:
+        """Motions (5 b, 5) of a rigid shaft in its bearings per motion of the gear."""
+        return self._rigid([each.at for each in self.bearings])
 
     @cached_property
     def bearing_loads(self) -> np.ndarray:

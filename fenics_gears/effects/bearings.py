@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
+from fenics_gears.effects.rolling_bearings import RollingBearing
 from fenics_gears.inputs.allowed import AllowedMatrix, Matrix
 from fenics_gears.inputs.fields import declared, quantities, quantity
 from fenics_gears.inputs.problem import Problem
-from fenics_gears.inputs.section import AllowedTables, Section
+from fenics_gears.inputs.section import AllowedTables, Section, names_in
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, quantity_at, quantity_in, shafts_with_sections, table
 from fenics_gears.inputs.written import as_written
 
@@ -40,11 +41,12 @@ def _of_bearing(limits: str, example: str, meaning: str, default: str = "", othe
 
 @dataclass(frozen=True)
 class Bearing(Section):
-    """A bearing of a shaft with sections: stiff across the axis, along it and against tilting, or by a matrix."""
+    """A bearing of a shaft with sections: stiff across the axis, along it and against tilting, by a matrix, or as its
+    rolling elements make it."""
 
     at: float = _of_bearing("0 mm to 100 m", "12 mm", "its place, from the left end of the shaft")
     radial_stiffness: float | None = _of_bearing(
-        "1e-6 N/mm to 1e15 N/mm", "0.3e6 N/mm", "across the axis", otherwise="`stiffness_matrix`"
+        "1e-6 N/mm to 1e15 N/mm", "0.3e6 N/mm", "across the axis", otherwise="`stiffness_matrix` or `rolling`"
     )
     axial_stiffness: float = _of_bearing("0 N/mm to 1e15 N/mm", "0.1e6 N/mm", "along the axis", "0 N/mm")
     tilting_stiffness: float = _of_bearing(
@@ -54,32 +56,47 @@ class Bearing(Section):
         AllowedMatrix(
             description="five rows of five bare numbers in N, mm and rad, symmetric and not negative",
             size=5,
-            meaning="stiffness over x, y, z and the tilts about x and y, in place of the other stiffnesses",
+            meaning="stiffness over x along and y off the line of action, z along the axis, and tilts about x and y, in"
+            " place of the other stiffnesses",
             otherwise="from the other stiffnesses",
         )
     )
+    rolling: RollingBearing | None = None
+    # The stiffness of a rolling bearing under the load of its shaft; not of scenes.
+    worked: Matrix | None = None
 
     @property
     def matrix(self) -> Matrix:
-        """Stiffness over x along and y off the line of action, z along the axis, and tilts about x and y."""
+        """Stiffness over x along and y off the line of action, z along the axis, and tilts about x and y; of a rolling
+        bearing without load that with all of its rolling elements pressed alike."""
         if self.stiffness_matrix is not None:
             return self.stiffness_matrix
+        if self.rolling is not None:
+            from fenics_gears.dynamics.rolling_bearing import nominal_stiffness
+
+            return self.worked or self.with_axial(nominal_stiffness(self.rolling))
         radial, tilting = self.radial_stiffness or 0.0, self.tilting_stiffness
         diagonal = (radial, radial, self.axial_stiffness, tilting, tilting)
         return tuple(tuple(each if row == column else 0.0 for column in range(5)) for row, each in enumerate(diagonal))
 
+    def with_axial(self, stiffness) -> Matrix:
+        """A stiffness (5, 5) of rolling elements, and the axial one beside it."""
+        return tuple(
+            tuple(float(each) + self.axial_stiffness * (row == column == 2) for column, each in enumerate(of_row))
+            for row, of_row in enumerate(stiffness)
+        )
+
 
 _EACH = AllowedTables(
     description='a list of bearings, such as [{ at = "12 mm", radial_stiffness = "0.3e6 N/mm" }], each with the fields'
-    f" {', '.join(each.name for each in fields(Bearing))}",
+    f" {', '.join(names_in(Bearing))}",
     section=Bearing,
     singular="bearing",
     empty="For a centre that is fixed, leave it out.",
     most=MOST_BEARINGS,
-    meaning="bearings of a shaft with sections, also written as tables `[[bearings.pinion]]`: `at`, from the left end"
-    " of the shaft; `radial_stiffness`, and `axial_stiffness` and `tilting_stiffness`, which are 0 unless given; or in"
-    " their place a `stiffness_matrix` over x along and y off the line of action, z along the axis, and the tilts about"
-    " x and y",
+    meaning="bearings of a shaft with sections, also written as tables `[[bearings.pinion]]`: `at`, and how stiff the"
+    " bearing is: `radial_stiffness`, with `axial_stiffness` and `tilting_stiffness` if any, or a `stiffness_matrix`,"
+    " or `rolling`",
     otherwise="the stiffness is that of the gear's centre",
 )
 

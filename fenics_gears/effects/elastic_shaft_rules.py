@@ -7,8 +7,11 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from fenics_gears.dynamics.elastic_shaft import STEEPEST_CONE, ElasticShaft, free_motions
 from fenics_gears.effects.bearings import Bearing, Stiffnesses
+from fenics_gears.effects.rolling_bearings import wrong_with
 from fenics_gears.effects.shafts import INTEGRAL, ShaftSection
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import Problem
@@ -20,7 +23,8 @@ from fenics_gears.inputs.written import as_written
 ROUND_OFF = 1e-9
 # Part of a bore by which the shaft in it may be thinner or thicker without a word: a press fit's.
 OFF_THE_BORE = 0.01
-BESIDE_MATRIX = ("radial_stiffness", "axial_stiffness", "tilting_stiffness")
+BESIDE_MATRIX = ("radial_stiffness", "axial_stiffness", "tilting_stiffness", "rolling")
+BESIDE_ROLLING = ("radial_stiffness", "tilting_stiffness")
 
 
 def rules_of_elastic_shafts(tree: Tree) -> Iterator[Problem]:
@@ -86,13 +90,26 @@ def check_shafts(scene: Any, pair: Any) -> None:
         if gear in scene.shafts.sections:
             found = elastic_shaft(scene, pair, gear)
             wrong += [*_sections_are_solid(found, shaft), *_places_are_on_the_shaft(found, shaft)]
-            wrong += [*_bearings_hold(found), *_teeth_are_outside(scene, pair, found, shaft)]
+            wrong += [*_bearings_hold(found), *_bearings_brace(found)] if not wrong else []
+            wrong += _teeth_are_outside(scene, pair, found, shaft)
     if wrong:
         raise SceneError("; ".join(wrong))
 
 
+def shaft_at_work(scene: Any, pair: Any, gear: str, load: np.ndarray | None = None) -> ElasticShaft:
+    """As `elastic_shaft`, with rolling bearings as stiff as they are under a load (5,) of the gear: that of an even
+    line load unless given."""
+    found = elastic_shaft(scene, pair, gear)
+    if all(each.rolling is None for each in found.bearings):
+        return found
+    from fenics_gears.dynamics.rolling_bearing import at_work, even_load
+
+    load = even_load(found, pair, scene.load.wheel_torque) if load is None else load
+    return replace(found, bearings=at_work(found, load))
+
+
 def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
-    """The shaft with sections on which the "pinion" or the "wheel" of a scene sits."""
+    """The shaft with sections on which the "pinion" or the "wheel" of a scene sits, without load."""
     shaft, number = scene.shafts.sections[gear], GEARS.index(gear)
     constants = shaft.material.constants(scene.gears.materials[number])
     width, bearings = pair.face_widths[number], scene.bearings.each_of(gear)
@@ -192,11 +209,14 @@ def _places_are_on_the_shaft(found: ElasticShaft, shaft: str) -> Iterator[str]:
 
 
 def _stiffness_is_given_once(bearing: Bearing, name: str) -> Iterator[str]:
-    if bearing.stiffness_matrix is None and bearing.radial_stiffness is None:
-        yield f'{name} has no radial_stiffness; allowed is such as "0.3e6 N/mm", or a stiffness_matrix'
-    beside = [each for each in BESIDE_MATRIX if getattr(bearing, each)]
-    if bearing.stiffness_matrix is not None and beside:
-        yield f"{name} has {beside[0]} beside its stiffness_matrix, which is all of its stiffness; leave one out"
+    if bearing.stiffness_matrix is None and bearing.radial_stiffness is None and bearing.rolling is None:
+        yield f'{name} has no radial_stiffness; allowed is such as "0.3e6 N/mm", or a stiffness_matrix, or rolling'
+    for whole, others in (("stiffness_matrix", BESIDE_MATRIX), ("rolling", BESIDE_ROLLING)):
+        beside = [each for each in others if getattr(bearing, each)]
+        if getattr(bearing, whole) is not None and beside:
+            yield f"{name} has {beside[0]} beside its {whole}, which is all of its stiffness there; leave one out"
+    if bearing.rolling is not None:
+        yield from (f"{name} {said}" for said in wrong_with(bearing.rolling))
 
 
 def _teeth_are_outside(scene: Any, pair: Any, found: ElasticShaft, shaft: str) -> Iterator[str]:
@@ -216,10 +236,20 @@ def _teeth_are_outside(scene: Any, pair: Any, found: ElasticShaft, shaft: str) -
         yield f"{named}: {found.gear} and shaft are one piece, but of two materials; leave shafts.{shaft}.material out"
     if abs(found.torque_at - found.gear_at) < 0.5 * found.seat - ROUND_OFF:
         yield f"{named}: torque_at = {found.torque_at:g} mm is within the face; move the coupling beside it"
-    if any(each.stiffness_matrix is not None for each in found.bearings):
+    if any(each.stiffness_matrix is not None or each.rolling is not None for each in found.bearings):
         yield (
-            f"{named}: bearings.{found.gear} has a stiffness_matrix; allowed are bearings that are alike in all"
-            " directions across the axis: give radial_stiffness, axial_stiffness and tilting_stiffness"
+            f"{named}: bearings.{found.gear} has a stiffness_matrix or rolling; allowed are bearings that are alike in"
+            " all directions across the axis: give radial_stiffness, axial_stiffness and tilting_stiffness"
+        )
+
+
+def _bearings_brace(found: ElasticShaft) -> Iterator[str]:
+    """Preloads of a shaft's bearings are each other's."""
+    braced = [each.rolling.bracing for each in found.bearings if each.rolling is not None and each.rolling.preload]
+    if abs(sum(braced)) > ROUND_OFF * sum(map(abs, braced)):
+        yield (
+            f"bearings.{found.gear}: preloads push the shaft with {sum(braced):g} N along its axis; bearings that brace"
+            " each other have the same preload, and contact angles of opposite signs"
         )
 
 

@@ -155,7 +155,7 @@ class AllowedTables(Allowed):
         found, problems = read(self.section, entry)
         # An unknown name first: it may be what is missing.
         for problem in sorted(problems, key=lambda each: not each.unknown):
-            name, said = problem.path[-1], problem.message
+            name, said = ".".join(problem.path), problem.message
             if problem.unknown:
                 raise Refused(
                     f'has "{name}" at place {place}, which no {self.singular} has.{did_you_mean(name, names)}'

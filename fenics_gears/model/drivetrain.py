@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import inf
 from typing import TYPE_CHECKING
 
@@ -11,28 +12,33 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from fenics_gears.dynamics.drivetrain import LumpedGear
     from fenics_gears.dynamics.elastic_shaft import ElasticShaft
     from fenics_gears.geometry.section import CrossSection
 
 
-def drivetrain(scene: Scene, pair: GearPair) -> Drivetrain:
-    """The drivetrain that the scene's sections call for; what no section frees does not appear.
+def drivetrain(scene: Scene, pair: GearPair, gear_loads: Mapping[str, np.ndarray] | None = None) -> Drivetrain:
+    """The drivetrain that the scene's sections call for; what no section frees does not appear. `gear_loads` (5,):
+    those of "pinion" and "wheel" on their shafts, for which rolling bearings have their stiffness.
 
     Raises SceneError for a load so heavy that the wheel is nothing beside it.
     """
     gears = {} if scene.inertia is None else lumped_gears(scene, pair)
-    supports = Supports(scene.shafts, scene.bearings, scene.inertia, gears, scene.damping, _elastic(scene, pair))
+    supports = Supports(
+        scene.shafts, scene.bearings, scene.inertia, gears, scene.damping, _elastic(scene, pair, gear_loads or {})
+    )
     return assembled(pair, scene.load.wheel_torque, supports, mesh_stiffness(scene))
 
 
-def _elastic(scene: Scene, pair: GearPair) -> tuple[ElasticShaft, ...]:
+def _elastic(scene: Scene, pair: GearPair, gear_loads: Mapping[str, np.ndarray]) -> tuple[ElasticShaft, ...]:
     """The shafts that also bend, of pinion and wheel."""
     if scene.shafts is None or scene.shafts.sections is None:
         return ()
-    from fenics_gears.effects.elastic_shaft_rules import elastic_shaft
+    from fenics_gears.effects.elastic_shaft_rules import shaft_at_work
 
-    return tuple(elastic_shaft(scene, pair, gear) for gear in scene.shafts.sections)
+    return tuple(shaft_at_work(scene, pair, gear, gear_loads.get(gear)) for gear in scene.shafts.sections)
 
 
 def mesh_stiffness(scene: Scene) -> float:

@@ -198,6 +198,12 @@ _ROWS = (
         for plane in ("in_plane", "out_of_plane")
     ),
     ("largest_bearing_force", "N", "largest force of a shaft on one of its bearings", WITH_SECTIONS),
+    (
+        "largest_rolling_element_force",
+        "N",
+        "largest force of a ball or roller under the mean load of the run",
+        "a bearing is `rolling`",
+    ),
     *(
         (
             f"proposed_{name}",

@@ -18,6 +18,8 @@ from fenics_gears.results.face_variables import AlongTheFace
 from fenics_gears.results.side_by_side import SideBySide
 
 MICROMETRES = 1e3
+# What MOTIONS are called in the result.
+OF_GEARS = ("centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y")
 LOADS = ("bearing_force_x", "bearing_force_y", "bearing_force_z", "bearing_moment_x", "bearing_moment_y")
 
 
@@ -85,7 +87,21 @@ class BentShafts(AlongTheFace):
         found = {f"mean_{name}": float(counted[name].mean()) for name in named}
         forces = np.sqrt(sum(counted[name] ** 2 for name in LOADS[:3]))
         proposed = {f"proposed_{name}": MICROMETRES * of for name, of in self._proposed()._asdict().items()}
-        return super().numbers(counted) | found | {"largest_bearing_force": float(forces.max())} | proposed
+        found |= {"largest_bearing_force": float(forces.max())} | self._rolling_elements(counted)
+        return super().numbers(counted) | found | proposed
+
+    def _rolling_elements(self, counted: xr.Dataset) -> dict[str, float]:
+        """The largest force of a rolling element under the mean load; empty where no bearing has any."""
+        if not self.drivetrain.on_rolling_bearings:
+            return {}
+        from fenics_gears.dynamics.rolling_bearing import largest_force
+
+        means = {name: counted[of].mean("time") for name, of in zip(MOTIONS, OF_GEARS)}
+        found = (
+            largest_force(each, np.array([float(means[name].sel(gear=each.gear)) for name in MOTIONS]))
+            for each in self.drivetrain.elastic
+        )
+        return {"largest_rolling_element_force": max(found)}
 
     def _proposed(self) -> Correction:
         """In place of the pinion's own helix slope and crowning: cancels what the shafts do under an even line load."""

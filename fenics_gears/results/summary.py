@@ -130,7 +130,9 @@ def _shafts(found) -> Said:
                 f"{kind} of the axes, mean",
                 f"{inside:.4g} um in the plane of action, {outside:.4g} um out of it{over}",
             )
-        yield "largest force of a bearing", f"{found['largest_bearing_force']:.4g} N"
+        balls = found.get("largest_rolling_element_force")
+        rolling = "" if balls is None else f", of a rolling element {balls:.4g} N"
+        yield "largest force of a bearing", f"{found['largest_bearing_force']:.4g} N{rolling}"
         amounts = (f'{name} = "{found[f"proposed_{name}"]:.1f} um"' for name in ("helix_slope", "crowning"))
         yield "against shafts that bend, in [lead_modifications]", f"pinion = {{ {', '.join(amounts)} }}"
 

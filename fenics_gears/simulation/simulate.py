@@ -139,9 +139,18 @@ def _simulated(
     cycle.kept.most = for_operators
     progress.stage("compile")
     compiled = compile_kernels(model.scene.friction is not None, cycle.traits.rigid)
-    recorder = Recorder(model, cycle, stress=root_stress_of(model, cycle, progress, cache), journal=journal)
-    march = _marched(recorder, gears, compiled, progress)
-    result = result_of(recorder, march, gears, compiled, "interrupted" if march.interrupted else "")
+
+    def recorded(model: Model) -> tuple[Recorder, RunResult]:
+        recorder = Recorder(model, cycle, stress=root_stress_of(model, cycle, progress, cache), journal=journal)
+        march = _marched(recorder, gears, compiled, progress)
+        return recorder, result_of(recorder, march, gears, compiled, "interrupted" if march.interrupted else "")
+
+    if model.drivetrain.on_rolling_bearings:
+        from fenics_gears.simulation.bearings_at_work import with_bearings_at_work
+
+        recorder, result = with_bearings_at_work(model, recorded)
+    else:
+        recorder, result = recorded(model)
     return _with_dynamic_factors(recorder, result, progress)
 
 

@@ -11,7 +11,7 @@ from tests.docs.markdown import capital, from_docstring, prose, table
 from fenics_gears.effects import effect_named, every_effect
 from fenics_gears.inputs import units
 from fenics_gears.inputs.allowed import Allowed
-from fenics_gears.inputs.section import Section, allowed_in, names_in, required_in, section_within
+from fenics_gears.inputs.section import AllowedTables, Section, allowed_in, names_in, required_in, section_within
 from fenics_gears.scene.schema import scene_text
 
 ALWAYS = ("gears", "load", "motion")
@@ -78,12 +78,17 @@ def _body(section: SectionOfScene) -> list[str]:
 
 
 def _parts(section: SectionOfScene) -> Iterator[str]:
-    """The sections within a section; those of both gears, which are alike, together."""
+    """The sections within a section, and tables that are listed in it; those of both gears, which are alike,
+    together."""
     alike: dict[type, list[str]] = {}
     for name in names_in(section.kind):
-        inner = section_within(section.kind, name)
+        inner, allowed = section_within(section.kind, name), allowed_in(section.kind, name)
         if inner is not None:
-            alike.setdefault(inner, []).extend(f"{outer}.{name}" for outer in section.names)
+            alike.setdefault(inner, []).extend(f"{outer.strip('[]')}.{name}" for outer in section.names)
+        elif isinstance(allowed, AllowedTables):
+            # Those of a field "each" are all that the section has.
+            places = (outer if name == "each" else f"{outer}.{name}" for outer in section.names)
+            alike.setdefault(allowed.section, []).extend(f"[{place}]" for place in places)
     for kind, names in alike.items():
         part = SectionOfScene(tuple(names), kind)
         yield from [f"#### {', '.join(f'`[{name}]`' for name in names)}", "", *_body(part), *_parts(part)]

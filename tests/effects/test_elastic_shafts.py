@@ -9,10 +9,12 @@ from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import SceneError, model_of, scene_from_text
 from fenics_gears.dynamics.elastic_shaft import shear_coefficient
+from fenics_gears.dynamics.rolling_bearing import reaction
 from fenics_gears.scene.write import section_trees, text_of
 from fenics_gears.show.bent_shafts import bent_shafts
 from fenics_gears.show.plots import run_figures
 from fenics_gears.show.run import Run
+from fenics_gears.simulation.bearings_at_work import mean_loads, with_bearings_at_work
 
 FEW = "slices = 5\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8"
 INPUT = """
@@ -161,6 +163,23 @@ def test_the_scene_is_written_and_read_again():
     assert section_trees(again) == section_trees(scene)
 
 
+ROLLING = (
+    INPUT
+    + """
+[[bearings.pinion]]
+at = "12 mm"
+rolling = { number = 9, diameter = "12.7 mm", pitch_diameter = "65 mm", clearance = "15 um" }
+[[bearings.pinion]]
+at = "85 mm"
+[bearings.pinion.rolling]
+elements = "rollers"
+number = 14
+diameter = "9 mm"
+length = "10 mm"
+pitch_diameter = "65 mm"
+clearance = "20 um"
+"""
+)
 ONE = PINION[: PINION.index("[[bearings.pinion]]", 5)]
 PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
 
@@ -213,6 +232,19 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
         (ELASTIC.replace("torque_at", 'seat = "integral"\ntorque_at'), "output.seat .* two materials"),
         (ELASTIC.replace("torque_at", 'seat = "integral"\ntorque_at'), "bearings.wheel has a stiffness_matrix"),
         (CUT.replace('torque_at = "0 mm"', 'torque_at = "110 mm"'), "torque_at = 110 mm is within the face"),
+        (ROLLING.replace("number = 9,", ""), "bearings.pinion.* has no rolling.number at place 1"),
+        (ROLLING.replace("number = 9,", "number = 90,"), "place 1, has 90 balls .* do not fit on a pitch_diameter"),
+        (ROLLING.replace('length = "10 mm"', ""), "place 2, has rollers without length"),
+        (
+            ROLLING.replace("rolling = {", 'radial_stiffness = "1 N/mm"\nrolling = {'),
+            "radial_stiffness beside its rolling",
+        ),
+        (ROLLING.replace("number = 9,", 'number = 9, preload = "10 N",'), "has a preload without contact_angle"),
+        (
+            ROLLING.replace("number = 9,", 'number = 9, preload = "10 N", contact_angle = "15 deg",'),
+            "preloads push the shaft with 10 N along its axis",
+        ),
+        (ROLLING.replace("torque_at", 'seat = "integral"\ntorque_at'), "has a stiffness_matrix or rolling"),
     ],
 )
 def test_what_does_not_fit_is_refused_before_any_computation(more, said):
@@ -232,6 +264,28 @@ def test_a_shaft_that_is_not_as_thick_as_the_bore_is_told():
     assert "is 3 mm thick under the pinion's face, whose bore is 22.3" in said(thin)[0]
     fits = INPUT.replace('"35 mm"', f'"{float(0.4 * 54.0 / np.cos(np.radians(15.0)))!r} mm"') + PINION
     assert not said(fits) and not said(CUT)
+
+
+def test_rolling_bearings_carry_by_their_law_in_the_run():
+    """Authority: the bearings' own law at the motions of the shaft in the run, on the average; the run knows linear
+    springs alone, which it repeats until they agree."""
+    model = model_of(helical_scene(ROLLING + OUTPUT + WHEEL, offset=2.0, accuracy=FEW))
+    bodies = on_stand_in_bodies(model)
+    shaft = model.drivetrain.elastic[0]
+
+    def recorded(model):
+        found = run_of(model, bodies)
+        return model, found.result
+
+    (model, result) = with_bearings_at_work(model, recorded)
+    assert result.attrs["largest_rolling_element_force"] > 0.0
+    working = model.drivetrain.elastic[0]
+    gear = np.linalg.solve(working.stiffness, mean_loads(model, result)["pinion"])
+    for number, motion in enumerate((working.at_bearings @ gear).reshape(2, 5)):
+        law = reaction(shaft.bearings[number].rolling, motion).loads
+        for axis, load in zip("xyz", law):
+            found = result[f"bearing_force_{axis}"].values[1:, number].mean()
+            assert abs(found - load) <= 2e-4 * np.abs(law[:3]).max()
 
 
 def test_a_side_that_names_nothing_is_rigid():

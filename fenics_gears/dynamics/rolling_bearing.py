@@ -1,0 +1,286 @@
+"""Rolling bearings as springs: loads of a shaft on a row of balls or rollers for a motion of the shaft, and how stiff
+such bearings are under the load of their shaft.
+
+ISO/TS 16281:2008: a ball's load grows with the power 3/2 of how much nearer the centres of curvature of both grooves
+are, by Hertz's theory, and its contact angle turns as they move; a roller is cut into slices, each of which has a load
+with the power 10/9 of its approach, less the roller's profile. Rings are rigid but for these contacts; centrifugal
+forces are left out. The first rolling element stands in the direction of the line of action.
+
+Motions and loads are those of `elastic_shaft.MOTIONS`, in mm, rad, N and N mm.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache
+from math import cos, log, pi, sin, sqrt
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+from scipy.special import ellipe, ellipk
+
+from fenics_gears.dynamics.tilting import moved
+from fenics_gears.errors import SceneError
+
+if TYPE_CHECKING:
+    from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+    from fenics_gears.effects.bearings import Bearing
+    from fenics_gears.effects.rolling_bearings import RollingBearing
+    from fenics_gears.geometry.pair import GearPair
+
+MOTIONS = 5
+# Steel on steel, of which rolling bearings are.
+YOUNGS_MODULUS, POISSONS_RATIO = 210e3, 0.3
+# N/mm^(10/9) of a roller per mm^(8/9) of its length; slices of a roller (ISO/TS 16281, 4.3).
+OF_A_ROLLER, SLICES = 35948.0, 30
+BALLS_POWER, ROLLERS_POWER = 1.5, 10.0 / 9.0
+# Approach, mm, of every rolling element in the bearing whose stiffness stands for it before its load is known.
+NOMINAL_APPROACH = 0.01
+# Loads in turn, as multiples of the given one, so that clearances hardly count at first; iterations at each, halvings
+# of a step, and parts of the load that may be left.
+HEAVIER, ITERATIONS, HALVINGS, LEFT = (64.0, 8.0, 1.0), 60, 40, 1e-11
+# Gauss points along the way from rest to a motion.
+ON_THE_WAY = 16
+
+
+class Reaction(NamedTuple):
+    """Loads (5,) of a shaft on its bearing, their derivatives (5, 5) by its motions, and the largest force of a rolling
+    element, N."""
+
+    loads: np.ndarray
+    stiffness: np.ndarray
+    largest: float
+
+
+def reaction(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
+    """What a bearing that is braced by its preload, if it has one, does about a motion (5,) of the shaft in it.
+
+    >>> from fenics_gears.effects.rolling_bearings import RollingBearing
+    >>> bearing = RollingBearing(number=9, diameter=12.7, pitch_diameter=65.0)
+    >>> round(float(reaction(bearing, np.array([0.05, 0.0, 0.0, 0.0, 0.0])).loads[0]))  # N at 50 um
+    6741
+    """
+    braced = _braced(rolling)
+    rest = _reaction(rolling, braced).loads if braced.any() else 0.0
+    found = _reaction(rolling, motion + braced)
+    return found._replace(loads=found.loads - rest)
+
+
+def secant_stiffness(rolling: RollingBearing, motion: np.ndarray) -> np.ndarray:
+    """Stiffness (5, 5), symmetric and not negative, that gives the bearing's loads at a motion (5,) from none at rest:
+    the mean of its stiffness on the way there, of which the rest that a quadrature leaves is made up for as in the
+    method of Broyden, Fletcher, Goldfarb and Shanno."""
+    points, weights = np.polynomial.legendre.leggauss(ON_THE_WAY)
+    mean = sum(0.5 * w * reaction(rolling, 0.5 * (1.0 + p) * motion).stiffness for p, w in zip(points, weights))
+    loads = reaction(rolling, motion).loads
+    work, spring = float(motion @ loads), mean @ motion
+    if work <= 0.0 or motion @ spring <= 0.0:
+        return mean
+    return mean - np.outer(spring, spring) / (motion @ spring) + np.outer(loads, loads) / work
+
+
+def nominal_stiffness(rolling: RollingBearing) -> np.ndarray:
+    """Stiffness (5, 5) at rest with every rolling element pressed alike by an interference."""
+    return _reaction(replace(rolling, clearance=-2.0 * NOMINAL_APPROACH), np.zeros(MOTIONS)).stiffness
+
+
+def even_load(shaft: ElasticShaft, pair: GearPair, torque: float) -> np.ndarray:
+    """Load (5,) of the gear on its shaft under a torque (N mm) on the wheel, spread evenly over the common face, at the
+    pitch point and without friction."""
+    names = (*shaft.coordinates, "rotation_2")
+    normal = pair.cosine * np.array([1.0, 0.0, -pair.slope])
+    row = moved(pair, names, (pair.pitch_point, 0.0), normal)
+    # Tilts are arc lengths there.
+    scale = np.array([1.0, 1.0, 1.0, *[getattr(pair, shaft.gear).base_radius] * 2])
+    return -abs(torque / pair.wheel.base_radius / row[-1]) * row[:-1] * scale
+
+
+def at_work(shaft: ElasticShaft, load: np.ndarray) -> tuple[Bearing, ...]:
+    """The bearings of a shaft under a load (5,) of its gear, rolling ones with their `secant_stiffness`: springs that
+    bend and displace the shaft as they would.
+
+    Raises SceneError where no place of the shaft is found that balances the load.
+    """
+    if not np.any(load):
+        return shaft.bearings
+    motions = _balanced(shaft, load).reshape(-1, MOTIONS)
+    return tuple(
+        each if each.rolling is None else replace(each, worked=each.with_axial(secant_stiffness(each.rolling, motion)))
+        for each, motion in zip(shaft.bearings, motions)
+    )
+
+
+def largest_force(shaft: ElasticShaft, gear: np.ndarray) -> float:
+    """Largest force, N, of a rolling element in the bearings of a shaft whose gear moves so (5,); 0 without any."""
+    motions = (shaft.at_bearings @ gear).reshape(-1, MOTIONS)
+    forces = [
+        _reaction(each.rolling, motion + _braced(each.rolling)).largest
+        for each, motion in zip(shaft.bearings, motions)
+        if each.rolling is not None
+    ]
+    return max(forces, default=0.0)
+
+
+def _balanced(shaft: ElasticShaft, load: np.ndarray) -> np.ndarray:
+    """Motions (5 b,) in the bearings in which a load (5,) of the gear, and the beam between, are in balance: Newton's
+    method from much heavier loads, under which every bearing carries."""
+    flexibility, rigid = shaft.held_flexibility, shaft.rigid_motions
+    gear = np.linalg.solve(shaft.stiffness, HEAVIER[0] * load)
+    motions = shaft.at_bearings @ gear
+    # What makes displacements, and forces and moments, comparable.
+    length, force = float(np.abs(motions).max()), float(np.abs(load).max())
+    for heavier in HEAVIER:
+        for _ in range(ITERATIONS):
+            loads, stiffness = _loads(shaft.bearings, motions)
+            left = _left(motions, gear, loads, flexibility, rigid, heavier * load)
+            size = _size(left, length, heavier * force)
+            if size <= LEFT:
+                break
+            matrix = np.block(
+                [[np.eye(len(motions)) + flexibility @ stiffness, -rigid], [rigid.T @ stiffness, np.zeros((5, 5))]]
+            )
+            step = np.linalg.lstsq(matrix, -left, rcond=None)[0]
+            for halving in range(HALVINGS):
+                part = 0.5**halving * step
+                tried = motions + part[: len(motions)], gear + part[len(motions) :]
+                found = _loads(shaft.bearings, tried[0])[0]
+                if _size(_left(*tried, found, flexibility, rigid, heavier * load), length, heavier * force) < size:
+                    break
+            motions, gear = tried
+        else:
+            raise SceneError(
+                f"bearings.{shaft.gear}: no place of the shaft was found in which its rolling bearings balance the"
+                " load. Check numbers, diameters, contact_angle and clearance of their rolling elements"
+            )
+    return motions
+
+
+def _left(motions, gear, loads, flexibility, rigid, load) -> np.ndarray:
+    """What is left of the compatibility of beam and bearings (5 b,), mm and rad, and of the balance (5,)."""
+    return np.concatenate([motions - rigid @ gear + flexibility @ loads, rigid.T @ loads - load])
+
+
+def _size(left: np.ndarray, length: float, force: float) -> float:
+    return float(max(np.abs(left[:-MOTIONS]).max() / length, np.abs(left[-MOTIONS:]).max() / force))
+
+
+def _loads(bearings: Sequence[Bearing], motions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Loads (5 b,) on all bearings at motions (5 b,) in them, and their derivatives (5 b, 5 b)."""
+    loads, stiffness = np.empty_like(motions), np.zeros((len(motions),) * 2)
+    for number, bearing in enumerate(bearings):
+        own = slice(MOTIONS * number, MOTIONS * (number + 1))
+        if bearing.rolling is None:
+            loads[own], stiffness[own, own] = np.array(bearing.matrix) @ motions[own], bearing.matrix
+            continue
+        found = reaction(bearing.rolling, motions[own])
+        beside = np.diag([0.0, 0.0, bearing.axial_stiffness, 0.0, 0.0])
+        loads[own], stiffness[own, own] = found.loads + beside @ motions[own], found.stiffness + beside
+    return loads, stiffness
+
+
+@cache
+def _braced(rolling: RollingBearing) -> np.ndarray:
+    """Axial motion, as (5,), by which the preload displaces the inner ring."""
+    if not rolling.preload:
+        return np.zeros(MOTIONS)
+    axis, far = np.eye(MOTIONS)[2], rolling.diameter
+
+    def missing(distance: float) -> float:
+        return _reaction(rolling, np.copysign(distance, rolling.contact_angle) * axis).loads[2] - rolling.bracing
+
+    if missing(0.0) * missing(far) > 0.0:
+        raise SceneError(f"bearings: no axial motion gives a preload of {rolling.preload:g} N; lower it")
+    return np.copysign(brentq(missing, 0.0, far, xtol=1e-15, rtol=1e-15), rolling.contact_angle) * axis
+
+
+def _reaction(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
+    return (_of_rollers if rolling.rollers else _of_balls)(rolling, motion)
+
+
+def _angles(rolling: RollingBearing) -> np.ndarray:
+    """Where the rolling elements stand (n,), rad from the line of action."""
+    return 2.0 * pi * np.arange(rolling.number) / rolling.number
+
+
+def _rows(angles: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Radial and axial displacement, at a radius (mm) on the inner ring, and its tilt towards the axis (n, 5) per
+    motion of the shaft."""
+    c, s, nothing = np.cos(angles), np.sin(angles), np.zeros_like(angles)
+    radial = np.stack([c, s, nothing, nothing, nothing], axis=1)
+    tilt = np.stack([nothing, nothing, nothing, -s, c], axis=1)
+    axial = np.stack([nothing, nothing, np.ones_like(angles), nothing, nothing], axis=1) - radius * tilt
+    return radial, axial, tilt
+
+
+def _of_balls(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
+    """ISO/TS 16281, 4.2: the distance of the grooves' centres of curvature, less that of balls without load."""
+    inner, outer = rolling.grooves
+    free, angle = inner + outer - rolling.diameter, rolling.contact_angle
+    pitch = 0.5 * rolling.pitch_diameter + (inner - 0.5 * rolling.diameter) * cos(angle)
+    radial, axial, _ = _rows(_angles(rolling), pitch)
+    across, along = free * cos(angle) - 0.5 * rolling.clearance + radial @ motion, free * sin(angle) + axial @ motion
+    distance = np.hypot(across, along)
+    approach = np.maximum(distance - free, 0.0)
+    constant = _spring_of_ball(rolling)
+    force, slope = constant * approach**BALLS_POWER, BALLS_POWER * constant * approach ** (BALLS_POWER - 1.0)
+    # Direction of each ball's force, and how it turns.
+    normal = (across[:, None] * radial + along[:, None] * axial) / distance[:, None]
+    turned = (along[:, None] * radial - across[:, None] * axial) / distance[:, None]
+    stiffness = (normal.T * slope) @ normal + (turned.T * (force / distance)) @ turned
+    return Reaction(normal.T @ force, stiffness, float(force.max()))
+
+
+@cache
+def _spring_of_ball(rolling: RollingBearing) -> float:
+    """Force, N/mm^(3/2), of a ball between both rings by Hertz's theory (ISO/TS 16281, 4.2.1; its 1.48 is
+    sqrt(2) pi/3)."""
+    ratio, found = rolling.diameter * cos(rolling.contact_angle) / rolling.pitch_diameter, 0.0
+    for sign, groove in zip((1.0, -1.0), rolling.grooves):
+        rolled, held = sign * ratio / (1.0 - sign * ratio), rolling.diameter / (2.0 * groove)
+        total, difference = 2.0 + rolled - held, (rolled + held) / (2.0 + rolled - held)
+        slender = _axes_of_ellipse(difference)
+        parameter = 1.0 - 1.0 / slender**2
+        curvature = 2.0 / rolling.diameter * total
+        found += ellipk(parameter) * (curvature / (slender**2 * ellipe(parameter))) ** (1.0 / 3.0)
+    plane_modulus = YOUNGS_MODULUS / (1.0 - POISSONS_RATIO**2)
+    return sqrt(2.0) * pi / 3.0 * plane_modulus * found**-1.5
+
+
+def _axes_of_ellipse(difference: float) -> float:
+    """Ratio of the axes of Hertz's contact ellipse between bodies of a relative difference of curvatures."""
+
+    def missing(logarithm: float) -> float:
+        squared = np.exp(2.0 * logarithm)
+        parameter = 1.0 - 1.0 / squared
+        return 1.0 - 2.0 / (squared - 1.0) * (ellipk(parameter) / ellipe(parameter) - 1.0) - difference
+
+    return float(np.exp(brentq(missing, 1e-4, log(1e6), xtol=1e-14)))
+
+
+def _of_rollers(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
+    """ISO/TS 16281, 4.3, with the rollers' axes inclined by the contact angle: the approach of each slice."""
+    angle, constant = rolling.contact_angle, OF_A_ROLLER * rolling.length ** (8.0 / 9.0) / SLICES
+    radial, axial, tilt = _rows(_angles(rolling), 0.5 * rolling.pitch_diameter)
+    places = ((np.arange(SLICES) + 0.5) / SLICES - 0.5) * rolling.length
+    normal = cos(angle) * radial + sin(angle) * axial
+    rows = normal[:, None, :] + places[None, :, None] * tilt[:, None, :]
+    lacking = 0.5 * rolling.clearance * cos(angle) + 2.0 * _profile(rolling, places)
+    approach = np.maximum(rows @ motion - lacking, 0.0)
+    force, slope = constant * approach**ROLLERS_POWER, np.zeros_like(approach)
+    closed = approach > 0.0
+    slope[closed] = ROLLERS_POWER * constant * approach[closed] ** (ROLLERS_POWER - 1.0)
+    stiffness = np.einsum("jki,jk,jkl->il", rows, slope, rows)
+    return Reaction(np.einsum("jki,jk->i", rows, force), stiffness, float(force.sum(axis=1).max()))
+
+
+def _profile(rolling: RollingBearing, places: np.ndarray) -> np.ndarray:
+    """What rollers lack at places (s,), mm, along their axes, on each ring (ISO/TS 16281, 4.3.3; of tapered rollers the
+    profile of 4.3.3 for these)."""
+    length, straight = rolling.length, max(rolling.length - 2.5 * rolling.diameter, 0.0)
+    amount = 0.00045 if rolling.contact_angle else 0.0005 if straight else 0.00035
+    if rolling.contact_angle:
+        straight = 0.0
+    beyond = np.maximum(2.0 * np.abs(places) - straight, 0.0) / (length - straight)
+    return -amount * rolling.diameter * np.log1p(-(beyond**2))

@@ -1,0 +1,112 @@
+"""Rolling bearings: against a commercial program, limits of many rolling elements, and their own equations."""
+
+import numpy as np
+import pytest
+from scipy.optimize import root
+
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+from fenics_gears.dynamics.rolling_bearing import at_work, reaction, secant_stiffness
+from fenics_gears.effects.bearings import Bearing
+from fenics_gears.effects.rolling_bearings import RollingBearing
+from fenics_gears.effects.shafts import ShaftSection
+
+STEEL = (206e3, 0.3)
+
+
+def deep_groove(clearance):
+    return RollingBearing(number=7, diameter=11.5, pitch_diameter=43.5, clearance=clearance)
+
+
+def displaced(rolling, load, free):
+    """Motion (5,) of the shaft under a load where only some motions are free."""
+
+    def left(motion):
+        whole = np.zeros(5)
+        whole[free] = motion
+        return (reaction(rolling, whole).loads - load)[free]
+
+    found = np.zeros(5)
+    found[free] = root(left, np.array([0.03, 0.0, 0.15, 0.0, 0.001])[free], tol=1e-12).x
+    return found
+
+
+@pytest.mark.parametrize(
+    ("clearance", "direction", "um"),
+    [(0.0, 0, 15.1101), (0.01, 0, 21.223), (0.0, 2, 133.5381), (0.01, 2, 149.1717)],
+    ids=["radial", "radial with clearance", "axial", "axial with clearance"],
+)
+def test_a_deep_groove_bearing_gives_way_as_in_masta(clearance, direction, um):
+    """Authority: MASTA's displacements of a bearing 6305 under 1 kN, as printed in the tests of the public repository
+    minzhun/ISO16281 (Test_BallBearing.py), to all of their digits."""
+    found = displaced(deep_groove(clearance), 1000.0 * np.eye(5)[direction], [direction])
+    assert 1e3 * found[direction] == pytest.approx(um, rel=2e-5)
+
+
+def test_radial_axial_and_tilting_together_are_as_in_masta():
+    """Authority: as above. Its moment has the lever arm of the balls' middles, as in ISO/TS 16281; here it is that of
+    the grooves, as in the approach, so that loads follow from an energy: 1 % of the tilt."""
+    x, _, z, _, tilt = 1e3 * displaced(deep_groove(0.01), np.array([1000.0, 0.0, 1000.0, 0.0, 0.0]), [0, 2, 4])
+    assert (x, z) == (pytest.approx(19.5923, rel=1e-4), pytest.approx(146.4603, rel=1e-4))
+    assert tilt == pytest.approx(2.6872, rel=0.012)
+
+
+@pytest.mark.parametrize(
+    ("rolling", "integral"),
+    [
+        (RollingBearing(number=400, diameter=0.1, pitch_diameter=100.0), 0.2288),
+        (RollingBearing(elements="rollers", number=400, diameter=0.1, pitch_diameter=100.0, length=5.0), 0.2453),
+    ],
+    ids=["balls", "rollers"],
+)
+def test_half_of_many_rolling_elements_carry_as_sjovall_has_it(rolling, integral):
+    """Authority: Sjovall's radial integral J_r(1/2) of bearings without clearance (T. A. Harris, Rolling Bearing
+    Analysis, table 7.1): F_r = Z Q_max J_r. That of rollers is for the power 1.11 and without profiles."""
+    found = reaction(rolling, np.array([5e-4, 0.0, 0.0, 0.0, 0.0]))
+    assert found.loads[0] / (rolling.number * found.largest) == pytest.approx(integral, rel=3e-3)
+
+
+BEARINGS = {
+    "balls": RollingBearing(
+        number=9, diameter=12.7, pitch_diameter=65.0, contact_angle=0.3, preload=500.0, clearance=0.01
+    ),
+    "tapered rollers": RollingBearing(
+        elements="rollers", number=14, diameter=9.0, pitch_diameter=63.5, length=13.6, contact_angle=-0.2, preload=300.0
+    ),
+    "long rollers": RollingBearing(elements="rollers", number=14, diameter=9.0, pitch_diameter=63.5, length=33.6),
+}
+
+
+@pytest.mark.parametrize("rolling", BEARINGS.values(), ids=BEARINGS)
+def test_stiffness_is_the_derivative_of_loads_and_the_secant_gives_them(rolling):
+    """Authority: central differences; K_s u = F exactly, symmetric and without negative stiffness; no load at rest,
+    where preload braces."""
+    motion, small = np.array([0.03, 0.01, 0.02, 1e-3, 5e-4]), np.array([1e-6, 1e-6, 1e-6, 1e-8, 1e-8])
+    found = reaction(rolling, motion)
+    differences = [
+        (reaction(rolling, motion + step).loads - reaction(rolling, motion - step).loads) / (2.0 * step.sum())
+        for step in np.diag(small)
+    ]
+    size = np.sqrt(np.maximum(np.diag(found.stiffness), 1.0))
+    assert np.abs(np.stack(differences, axis=1) - found.stiffness).max() < 1e-8 * np.abs(found.stiffness).max()
+    secant = secant_stiffness(rolling, motion)
+    assert np.abs(secant @ motion - found.loads).max() < 1e-13 * np.abs(found.loads).max()
+    assert np.linalg.eigvalsh(secant / np.outer(size, size))[0] > -1e-12
+    assert np.abs(reaction(rolling, np.zeros(5)).loads).max() < 1e-9
+
+
+def test_a_shaft_on_rolling_bearings_rests_where_they_carry_its_load():
+    """Authority: equilibrium of the nonlinear bearings with the beam by the linear condensation that knows nothing of
+    them: loads by their law at the motions that the shaft has on their secant stiffness, and the gear's load again."""
+    bearings = (
+        Bearing(at=12.0, rolling=RollingBearing(number=9, diameter=12.7, pitch_diameter=65.0, clearance=0.03)),
+        Bearing(at=85.0, rolling=BEARINGS["long rollers"]),
+    )
+    shaft = ElasticShaft("pinion", (ShaftSection(130.0, 35.0),), STEEL, 114.0, 24.0, 0.0, bearings)
+    load = np.array([-5000.0, 300.0, 900.0, 2e4, 4e4])
+    working = ElasticShaft("pinion", shaft.sections, STEEL, 114.0, 24.0, 0.0, at_work(shaft, load))
+    gear = np.linalg.solve(working.stiffness, load)
+    motions = (working.at_bearings @ gear).reshape(2, 5)
+    loads = [reaction(each.rolling, motion).loads for each, motion in zip(bearings, motions)]
+    linear = (working.bearing_loads @ gear).reshape(2, 5)
+    assert np.abs(np.array(loads) - linear).max() < 1e-9 * np.abs(linear).max()
+    assert np.abs(np.sum(loads, axis=0)[:3] - load[:3]).max() < 1e-8 * np.abs(load).max()
