@@ -60,7 +60,7 @@ def reaction(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
     >>> from fenics_gears.effects.rolling_bearings import RollingBearing
     >>> bearing = RollingBearing(number=9, diameter=12.7, pitch_diameter=65.0)
     >>> round(float(reaction(bearing, np.array([0.05, 0.0, 0.0, 0.0, 0.0])).loads[0]))  # N at 50 um
-    6741
+    8056
     """
     braced = _braced(rolling)
     rest = _reaction(rolling, braced).loads if braced.any() else 0.0

@@ -39,6 +39,10 @@ OTHER_SETTINGS = (
 )
 
 
+# The stage that marches through time.
+MARCH = "march"
+
+
 def simulate(
     scene: Scene | Model,
     *,
@@ -140,8 +144,9 @@ def _simulated(
     progress.stage("compile")
     compiled = compile_kernels(model.scene.friction is not None, cycle.traits.rigid)
 
-    def recorded(model: Model) -> tuple[Recorder, RunResult]:
+    def recorded(model: Model, stage: str = MARCH) -> tuple[Recorder, RunResult]:
         recorder = Recorder(model, cycle, stress=root_stress_of(model, cycle, progress, cache), journal=journal)
+        progress.stage(stage)
         march = _marched(recorder, gears, compiled, progress)
         return recorder, result_of(recorder, march, gears, compiled, "interrupted" if march.interrupted else "")
 
@@ -177,7 +182,6 @@ def _marched(recorder: Recorder, gears, compiled: float, progress: Progress) -> 
     """The march through time, recorded as it goes; a failure carries the result so far."""
     model, cycle = recorder.model, recorder.cycle
     scene = model.scene
-    progress.stage("march")
     try:
         judged = 0 if cycle.traits.rigid else min(LAST_CYCLES, scene.motion.mesh_cycles) * cycle.steps + 1
         return Marcher(cycle, model.equations_of_motion).run(

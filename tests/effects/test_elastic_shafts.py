@@ -273,7 +273,7 @@ def test_rolling_bearings_carry_by_their_law_in_the_run():
     bodies = on_stand_in_bodies(model)
     shaft = model.drivetrain.elastic[0]
 
-    def recorded(model):
+    def recorded(model, stage=""):
         found = run_of(model, bodies)
         return model, found.result
 
