@@ -1,4 +1,5 @@
-"""Sections and fields of a scene by their dotted paths, and changes of a parsed scene."""
+"""Sections and fields of a scene by their dotted paths, and changes of a parsed scene. Tables that are listed have
+numbers from 1: ``shafts.input.sections.2.diameter``, ``bearings.pinion.1.rolling.clearance``."""
 
 from __future__ import annotations
 
@@ -6,9 +7,10 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from fenics_gears.errors import SceneError
 from fenics_gears.inputs.allowed import Allowed, AllowedEither, AllowedList, AllowedNumber
 from fenics_gears.inputs.problem import did_you_mean
-from fenics_gears.inputs.section import allowed_in, section_within
+from fenics_gears.inputs.section import AllowedTables, Section, allowed_in, names_in, section_within
 from fenics_gears.inputs.tree import LOADS
 from fenics_gears.scene.schema import known_paths, scene_text
 
@@ -18,13 +20,38 @@ PRESENT = "present"
 
 
 def is_section(path: Path) -> bool:
-    """Whether the path names a section of the scene."""
-    return known_paths().get(path, False)
+    """Whether the path names a section of the scene, or a table that is listed in one."""
+    found = _found_at(path)
+    return found is not None and found[1] is None
+
+
+def has_parts(path: Path) -> bool:
+    """Whether paths go on behind that of a section or of a list of tables."""
+    found = _found_at(path)
+    return found is not None and (found[1] is None or isinstance(found[1], AllowedTables))
+
+
+def _found_at(path: Path) -> tuple[type[Section] | None, Allowed | None] | None:
+    """The section at a path, or what its field allows; None where a scene has nothing of that name."""
+    section: type[Section] | None = scene_text()
+    allowed: Allowed | None = None
+    for name in path:
+        if name.isdigit():
+            # Tables of a field "each" stand for the section that has it.
+            listed = allowed_in(section, "each") if section is not None else allowed
+            if not isinstance(listed, AllowedTables):
+                return None
+            section, allowed = listed.section, None
+            continue
+        if section is None or name not in names_in(section):
+            return None
+        section, allowed = section_within(section, name), allowed_in(section, name)
+    return section, allowed
 
 
 def why_unknown(path: Path) -> str | None:
     """Why a path is unknown, with the nearest known one; None for a known path."""
-    if path in known_paths():
+    if _found_at(path) is not None:
         return None
     dotted = [".".join(each) for each in known_paths()]
     hint = did_you_mean(".".join(path), dotted)
@@ -42,23 +69,38 @@ def changed(tree: Mapping[str, Any], path: Path, value: Any) -> dict[str, Any]:
     A load that is given in one way takes the place of one given in another. What does not change is the same object in
     both.
     """
-    tree = dict(tree)
     if value == PRESENT:
-        return tree
-    home = tree
-    for name in path[:-1]:
-        inner = home.get(name)
-        if not isinstance(inner, Mapping) and value == ABSENT:
-            return tree
-        home[name] = dict(inner) if isinstance(inner, Mapping) else {}
-        home = home[name]
-    if value == ABSENT:
-        home.pop(path[-1], None)
-        return tree
-    for other in LOADS if path[0] == "load" and path[-1] in LOADS else ():
-        home.pop(other, None)
-    home[path[-1]] = value
-    return tree
+        return dict(tree)
+    if path[0] == "load" and path[-1] in LOADS and value != ABSENT and isinstance(tree.get("load"), Mapping):
+        tree = {**tree, "load": {name: each for name, each in tree["load"].items() if name not in LOADS}}
+    return _changed(tree, path, value, path)
+
+
+def _changed(home: Any, path: Path, value: Any, whole: Path) -> Any:
+    """A copy of a section, or of a list of tables, with the value at a path in it, which ends the `whole` path."""
+    name: Any = path[0]
+    if isinstance(home, list):
+        home, name = list(home), _place_in(home, name, whole)
+    elif name.isdigit():
+        return {**home, "each": _changed(home.get("each", []), path, value, whole)}
+    else:
+        home = dict(home)
+    if len(path) > 1:
+        inner = home[name] if isinstance(home, list) else home.get(name)
+        if isinstance(inner, Mapping | list) or value != ABSENT:
+            home[name] = _changed(inner if isinstance(inner, Mapping | list) else {}, path[1:], value, whole)
+    elif value != ABSENT:
+        home[name] = value
+    elif name in home or isinstance(home, list):
+        del home[name]
+    return home
+
+
+def _place_in(listed: list, number: str, whole: Path) -> int:
+    """Index of the table with a number from 1."""
+    if not 1 <= int(number) <= len(listed):
+        raise SceneError(f"{'.'.join(whole)}: the scene has {len(listed)} of these tables, counted from 1")
+    return int(number) - 1
 
 
 def with_section(tree: Mapping[str, Any], path: Path) -> dict[str, Any]:
@@ -72,10 +114,7 @@ def with_section(tree: Mapping[str, Any], path: Path) -> dict[str, Any]:
 def allowed_at(path: Path) -> tuple[Allowed | None, float, float]:
     """What a field allows and its least and largest number in N, mm, s, rad; None for a section. Fields without bounds
     have infinite ones."""
-    section: Any = scene_text()
-    for name in path[:-1]:
-        section = section_within(section, name)
-    allowed = allowed_in(section, path[-1])
+    _, allowed = _found_at(path) or (None, None)
     if isinstance(allowed, AllowedEither):
         return allowed, min(low for low, _ in allowed.ranges.values()), max(high for _, high in allowed.ranges.values())
     if isinstance(allowed, AllowedNumber):

@@ -173,7 +173,7 @@ def entries(
             path = (*home, *key.split("."))
             if problem := fields.why_unknown(path):
                 mistakes.add((table, ".".join(path)), _shown(value), problem)
-            elif isinstance(value, Mapping) and value and fields.is_section(path):
+            elif isinstance(value, Mapping) and value and fields.has_parts(path):
                 walk(path, value)
             else:
                 found.append((path, value))

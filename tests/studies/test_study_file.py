@@ -7,6 +7,7 @@ import pytest
 from tests.studies.conftest import write_study
 
 from fenics_gears.commands.cli import main
+from fenics_gears.errors import SceneError
 from fenics_gears.studies import fields
 from fenics_gears.studies.study_file import load_study
 
@@ -240,3 +241,40 @@ def test_a_change_leaves_the_base_scene_as_it_was(path, value):
     for name in path[:-1]:
         changed = changed.get(name, {})
     assert changed.get(path[-1], fields.ABSENT) == value and "wheel_torque" not in changed
+
+
+LISTED = {
+    "shafts": {"input": {"sections": [{"length": "10 mm", "diameter": "28 mm"}, {"length": "60 mm"}]}},
+    "bearings": {"pinion": [{"at": "12 mm", "rolling": {"number": 9}}, {"at": "85 mm"}]},
+}
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "found"),
+    [
+        ("shafts.input.sections.2.diameter", "35 mm", {"length": "60 mm", "diameter": "35 mm"}),
+        ("bearings.pinion.1.rolling.clearance", "10 um", {"number": 9, "clearance": "10 um"}),
+        ("bearings.pinion.2", fields.ABSENT, 1),
+    ],
+)
+def test_tables_that_are_listed_are_counted_from_1(path, value, found):
+    """Authority: the places in the list; the scene that is changed stays as it was."""
+    before = copy.deepcopy(LISTED)
+    path = tuple(path.split("."))
+    assert fields.why_unknown(path) is None
+    changed = fields.changed(LISTED, path, value)
+    shaft, bearings = changed["shafts"]["input"]["sections"][1], changed["bearings"]["pinion"]
+    assert found in (shaft, bearings[0]["rolling"], len(bearings))
+    assert LISTED == before
+    written = {"bearings": {"pinion": {"each": LISTED["bearings"]["pinion"]}}}
+    if path[0] == "bearings":
+        assert fields.changed(written, path, value)["bearings"]["pinion"]["each"] == bearings
+
+
+def test_a_table_that_is_not_in_the_list_is_told():
+    """Authority: a name without table is unknown, a number beyond the list says how many there are."""
+    assert fields.is_numeric(("bearings", "wheel", "1", "rolling", "clearance"))
+    assert "no section or field" in fields.why_unknown(("gears", "1", "module"))
+    assert "no section or field" in fields.why_unknown(("bearings", "pinion", "1", "rolling", "module"))
+    with pytest.raises(SceneError, match="the scene has 2 of these tables"):
+        fields.changed(LISTED, ("bearings", "pinion", "3", "at"), "1 mm")
