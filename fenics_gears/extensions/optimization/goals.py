@@ -9,10 +9,11 @@ from fenics_gears.runs.record import NUMBERS
 ERROR = "peak_to_peak_transmission_error"
 ROOT = ("largest_root_stress_pinion", "largest_root_stress_wheel")
 OVER_FACE = ("face_load_factor", "largest_line_load_factor", "edge_line_load_factor", "transverse_load_factor")
+ON_SHAFTS = ("largest_bearing_force",)
 NAMES = (
     ERROR, *HARMONIC_NAMES, "max_normal_force", "largest_pair_force", "dynamic_factor_by_force",
     "dynamic_factor_by_stress", "peak_contact_pressure",
-    *ROOT, "friction_loss", *OVER_FACE,
+    *ROOT, "friction_loss", *OVER_FACE, *ON_SHAFTS,
 )  # fmt: skip
 
 
@@ -42,4 +43,6 @@ def lacking(name: str, scene: Scene) -> str:
         return "[friction]"
     if name in OVER_FACE and not scene.three_dimensional:
         return "flanks that are resolved over the face, such as by [misalignment] or [lead_modifications]"
+    if name in ON_SHAFTS and (scene.shafts is None or scene.shafts.sections is None):
+        return "a shaft with sections"
     return ""
