@@ -142,7 +142,7 @@ class ElasticShaft:
     @cached_property
     def at_bearings(self) -> np.ndarray:
         """Motions (5 b, 5) of the shaft in its bearings per motion of the gear."""
-        yielding = self.held_flexibility @ self._springs
+        yielding = self.held_flexibility @ self.springs
         return np.linalg.solve(np.eye(len(yielding)) + yielding, self.rigid_motions)
 
     @cached_property
@@ -159,7 +159,7 @@ class ElasticShaft:
     @cached_property
     def bearing_loads(self) -> np.ndarray:
         """Loads (5 b, 5) of the shaft on its bearings per motion of the gear."""
-        return self._springs @ self.at_bearings
+        return self.springs @ self.at_bearings
 
     @cached_property
     def stiffness(self) -> np.ndarray:
@@ -197,7 +197,7 @@ class ElasticShaft:
         stiffness[np.ix_(places, places)] += part
 
     @property
-    def _springs(self) -> np.ndarray:
+    def springs(self) -> np.ndarray:
         """Stiffness (5 b, 5 b) of all bearings."""
         size = len(MOTIONS)
         found = np.zeros((size * len(self.bearings),) * 2)

@@ -14,11 +14,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
+from itertools import pairwise
 from math import cos, log, pi, sin, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize
 from scipy.special import ellipe, ellipk
 
 from fenics_gears.dynamics.tilting import moved
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from fenics_gears.geometry.pair import GearPair
 
 MOTIONS = 5
+NOTHING = np.zeros((MOTIONS, MOTIONS))
 # Steel on steel, of which rolling bearings are.
 YOUNGS_MODULUS, POISSONS_RATIO = 210e3, 0.3
 # N/mm^(10/9) of a roller per mm^(8/9) of its length; slices of a roller (ISO/TS 16281, 4.3).
@@ -38,17 +40,20 @@ OF_A_ROLLER, SLICES = 35948.0, 30
 BALLS_POWER, ROLLERS_POWER = 1.5, 10.0 / 9.0
 # Approach, mm, of every rolling element in the bearing whose stiffness stands for it before its load is known.
 NOMINAL_APPROACH = 0.01
-# Loads in turn, as multiples of the given one, so that clearances hardly count at first; iterations at each, halvings
-# of a step, and parts of the load that may be left.
-HEAVIER, ITERATIONS, HALVINGS, LEFT = (64.0, 8.0, 1.0), 60, 40, 1e-11
-# Gauss points along the way from rest to a motion.
-ON_THE_WAY = 16
+# Lever arm, mm, that makes tilts comparable with displacements; mm/N that every bearing yields besides in the search of
+# a minimum; parts of the load that the search may leave, and that Newton's method may, with its largest number of
+# iterations.
+ARM, YIELDING, NEAR, LEFT, POLISHED = 30.0, 1e-9, 1e-6, 1e-11, 30
+# Parts of the way from rest to a motion, finer towards its end, since clearances are at its beginning; Gauss points in
+# each; and part of the work that they must find.
+PARTS, ON_A_PART, SEEN = (0.0, *(1.0 - 0.5 ** np.arange(1, 6)), 1.0), 4, 0.5
 
 
 class Reaction(NamedTuple):
-    """Loads (5,) of a shaft on its bearing, their derivatives (5, 5) by its motions, and the largest force of a rolling
-    element, N."""
+    """Energy, N mm, of a bearing, loads (5,) of the shaft on it, their derivatives (5, 5) by its motions, and the
+    largest force of a rolling element, N."""
 
+    energy: float
     loads: np.ndarray
     stiffness: np.ndarray
     largest: float
@@ -63,22 +68,32 @@ def reaction(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
     8056
     """
     braced = _braced(rolling)
-    rest = _reaction(rolling, braced).loads if braced.any() else 0.0
     found = _reaction(rolling, motion + braced)
-    return found._replace(loads=found.loads - rest)
+    if not braced.any():
+        return found
+    rest = _reaction(rolling, braced)
+    energy = found.energy - rest.energy - float(rest.loads @ motion)
+    return found._replace(energy=energy, loads=found.loads - rest.loads)
 
 
 def secant_stiffness(rolling: RollingBearing, motion: np.ndarray) -> np.ndarray:
     """Stiffness (5, 5), symmetric and not negative, that gives the bearing's loads at a motion (5,) from none at rest:
     the mean of its stiffness on the way there, of which the rest that a quadrature leaves is made up for as in the
     method of Broyden, Fletcher, Goldfarb and Shanno."""
-    points, weights = np.polynomial.legendre.leggauss(ON_THE_WAY)
-    mean = sum(0.5 * w * reaction(rolling, 0.5 * (1.0 + p) * motion).stiffness for p, w in zip(points, weights))
-    loads = reaction(rolling, motion).loads
-    work, spring = float(motion @ loads), mean @ motion
-    if work <= 0.0 or motion @ spring <= 0.0:
+    found, mean = reaction(rolling, motion), np.zeros((MOTIONS, MOTIONS))
+    points, weights = np.polynomial.legendre.leggauss(ON_A_PART)
+    for begin, end in pairwise(PARTS):
+        for point, weight in zip(points, weights):
+            place = 0.5 * (begin + end) + 0.5 * (end - begin) * point
+            mean += 0.5 * (end - begin) * weight * reaction(rolling, place * motion).stiffness
+    work = float(motion @ found.loads)
+    if work <= 0.0:
         return mean
-    return mean - np.outer(spring, spring) / (motion @ spring) + np.outer(loads, loads) / work
+    if motion @ mean @ motion < SEEN * work:
+        # The clearance is nearly all of the way.
+        mean = found.stiffness
+    spring = mean @ motion
+    return mean - np.outer(spring, spring) / (motion @ spring) + np.outer(found.loads, found.loads) / work
 
 
 def nominal_stiffness(rolling: RollingBearing) -> np.ndarray:
@@ -124,60 +139,67 @@ def largest_force(shaft: ElasticShaft, gear: np.ndarray) -> float:
 
 
 def _balanced(shaft: ElasticShaft, load: np.ndarray) -> np.ndarray:
-    """Motions (5 b,) in the bearings in which a load (5,) of the gear, and the beam between, are in balance: Newton's
-    method from much heavier loads, under which every bearing carries."""
+    """Motions (5 b,) in the bearings in which a load (5,) of the gear, and the beam between, are in balance.
+
+    The energy of beam and bearings less the load's work has no minimum but this one. It is sought within a trust
+    region, and what is left of balance is then driven to round-off by Newton's method.
+    """
     flexibility, rigid = shaft.held_flexibility, shaft.rigid_motions
-    gear = np.linalg.solve(shaft.stiffness, HEAVIER[0] * load)
-    motions = shaft.at_bearings @ gear
-    # What makes displacements, and forces and moments, comparable.
-    length, force = float(np.abs(motions).max()), float(np.abs(load).max())
-    for heavier in HEAVIER:
-        for _ in range(ITERATIONS):
-            loads, stiffness = _loads(shaft.bearings, motions)
-            left = _left(motions, gear, loads, flexibility, rigid, heavier * load)
-            size = _size(left, length, heavier * force)
-            if size <= LEFT:
-                break
-            matrix = np.block(
-                [[np.eye(len(motions)) + flexibility @ stiffness, -rigid], [rigid.T @ stiffness, np.zeros((5, 5))]]
-            )
-            step = np.linalg.lstsq(matrix, -left, rcond=None)[0]
-            for halving in range(HALVINGS):
-                part = 0.5**halving * step
-                tried = motions + part[: len(motions)], gear + part[len(motions) :]
-                found = _loads(shaft.bearings, tried[0])[0]
-                if _size(_left(*tried, found, flexibility, rigid, heavier * load), length, heavier * force) < size:
-                    break
-            motions, gear = tried
-        else:
-            raise SceneError(
-                f"bearings.{shaft.gear}: no place of the shaft was found in which its rolling bearings balance the"
-                " load. Check numbers, diameters, contact_angle and clearance of their rolling elements"
-            )
-    return motions
+    bearings, count = shaft.bearings, len(flexibility)
+    scale = np.tile([1.0, 1.0, 1.0, 1.0 / ARM, 1.0 / ARM], len(bearings) + 1)
+    start = np.linalg.solve(shaft.stiffness, load)
+    # A place beside the seat does not yield: there it does as little as does not count.
+    beam = np.linalg.inv(flexibility + np.diag(YIELDING * scale[:count] ** 2))
+    bent = np.hstack([np.eye(count), -rigid])
+    of_beam, worked = bent.T @ beam @ bent, np.concatenate([np.zeros(count), load])
+
+    def energy(scaled: np.ndarray) -> tuple[float, np.ndarray]:
+        motion = scale * scaled
+        stored, loads, _ = _of_all(bearings, motion[:count])
+        elastic = of_beam @ motion
+        slope = elastic - worked + np.concatenate([loads, np.zeros(MOTIONS)])
+        return 0.5 * motion @ elastic + stored - worked @ motion, scale * slope
+
+    def curvature(scaled: np.ndarray) -> np.ndarray:
+        found = of_beam.copy()
+        found[:count, :count] += _of_all(bearings, scale[:count] * scaled[:count])[2]
+        return scale[:, None] * found * scale
+
+    begun = np.concatenate([shaft.at_bearings @ start, start]) / scale
+    size = float(np.abs(load).max())
+    found = minimize(energy, begun, jac=True, hess=curvature, method="trust-exact", options={"gtol": NEAR * size})
+    motion = scale * found.x
+    for _ in range(POLISHED):
+        _, loads, stiffness = _of_all(bearings, motion[:count])
+        apart, missing = bent @ motion + flexibility @ loads, rigid.T @ loads - load
+        if max(np.abs(apart).max() / np.abs(motion).max(), np.abs(missing).max() / size) <= LEFT:
+            return motion[:count]
+        matrix = np.block(
+            [[np.eye(count) + flexibility @ stiffness, -rigid], [rigid.T @ stiffness, np.zeros((MOTIONS,) * 2)]]
+        )
+        motion = motion - np.linalg.lstsq(matrix, np.concatenate([apart, missing]), rcond=None)[0]
+    raise SceneError(
+        f"bearings.{shaft.gear}: no place of the shaft was found in which its rolling bearings balance the load. Check"
+        " numbers, diameters, contact_angle and clearance of their rolling elements"
+    )
 
 
-def _left(motions, gear, loads, flexibility, rigid, load) -> np.ndarray:
-    """What is left of the compatibility of beam and bearings (5 b,), mm and rad, and of the balance (5,)."""
-    return np.concatenate([motions - rigid @ gear + flexibility @ loads, rigid.T @ loads - load])
-
-
-def _size(left: np.ndarray, length: float, force: float) -> float:
-    return float(max(np.abs(left[:-MOTIONS]).max() / length, np.abs(left[-MOTIONS:]).max() / force))
-
-
-def _loads(bearings: Sequence[Bearing], motions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Loads (5 b,) on all bearings at motions (5 b,) in them, and their derivatives (5 b, 5 b)."""
-    loads, stiffness = np.empty_like(motions), np.zeros((len(motions),) * 2)
+def _of_all(bearings: Sequence[Bearing], motions: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
+    """Energy, N mm, of all bearings at motions (5 b,) in them, loads (5 b,) on them, and their derivatives
+    (5 b, 5 b)."""
+    energy, loads, stiffness = 0.0, np.zeros_like(motions), np.zeros((len(motions),) * 2)
     for number, bearing in enumerate(bearings):
         own = slice(MOTIONS * number, MOTIONS * (number + 1))
+        motion = motions[own]
         if bearing.rolling is None:
-            loads[own], stiffness[own, own] = np.array(bearing.matrix) @ motions[own], bearing.matrix
-            continue
-        found = reaction(bearing.rolling, motions[own])
-        beside = np.diag([0.0, 0.0, bearing.axial_stiffness, 0.0, 0.0])
-        loads[own], stiffness[own, own] = found.loads + beside @ motions[own], found.stiffness + beside
-    return loads, stiffness
+            linear = np.array(bearing.matrix)
+        else:
+            found, linear = reaction(bearing.rolling, motion), np.array(bearing.with_axial(NOTHING))
+            energy, loads[own], stiffness[own, own] = energy + found.energy, found.loads, found.stiffness
+        pushed = linear @ motion
+        energy, loads[own] = energy + 0.5 * float(motion @ pushed), loads[own] + pushed
+        stiffness[own, own] += linear
+    return energy, loads, stiffness
 
 
 @cache
@@ -229,7 +251,8 @@ def _of_balls(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
     normal = (across[:, None] * radial + along[:, None] * axial) / distance[:, None]
     turned = (along[:, None] * radial - across[:, None] * axial) / distance[:, None]
     stiffness = (normal.T * slope) @ normal + (turned.T * (force / distance)) @ turned
-    return Reaction(normal.T @ force, stiffness, float(force.max()))
+    energy = constant / (BALLS_POWER + 1.0) * float((approach ** (BALLS_POWER + 1.0)).sum())
+    return Reaction(energy, normal.T @ force, stiffness, float(force.max()))
 
 
 @cache
@@ -272,7 +295,8 @@ def _of_rollers(rolling: RollingBearing, motion: np.ndarray) -> Reaction:
     closed = approach > 0.0
     slope[closed] = ROLLERS_POWER * constant * approach[closed] ** (ROLLERS_POWER - 1.0)
     stiffness = np.einsum("jki,jk,jkl->il", rows, slope, rows)
-    return Reaction(np.einsum("jki,jk->i", rows, force), stiffness, float(force.sum(axis=1).max()))
+    energy = constant / (ROLLERS_POWER + 1.0) * float((approach ** (ROLLERS_POWER + 1.0)).sum())
+    return Reaction(energy, np.einsum("jki,jk->i", rows, force), stiffness, float(force.sum(axis=1).max()))
 
 
 def _profile(rolling: RollingBearing, places: np.ndarray) -> np.ndarray:
