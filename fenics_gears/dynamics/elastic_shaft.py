@@ -31,6 +31,8 @@ NUMBERS = {"pinion": "1", "wheel": "2"}
 # Gauss points between two places of a shaft: exact for the polynomials of a cylinder, and for a cone, whose section is
 # in the denominator: its flexibility is right to 1e-9 while its wall is nowhere more than ten times the thinnest.
 OF_CYLINDER, OF_CONE, STEEPEST_CONE = 2, 30, 10.0
+# The same of a shaft's mass within an element, exact for both.
+MASS_POINTS = 5
 # MOTIONS and the twist.
 SIX = 6
 # Part of the largest stiffness, tilts taken over the shaft's length, below which a motion is free.
@@ -62,13 +64,15 @@ def shear_coefficient(poissons_ratio: float, hollowness: np.ndarray) -> np.ndarr
     return 6.0 * (1.0 + poissons_ratio) * both / (solid + (20.0 + 12.0 * poissons_ratio) * squared)
 
 
-def properties(sections: Sequence[ShaftSection], material: tuple[float, float], stops: Iterable[float]) -> Properties:
+def properties(
+    sections: Sequence[ShaftSection], material: tuple[float, float], stops: Iterable[float], points_of_each: int = 0
+) -> Properties:
     """The flexibility along a shaft of `material` (Young's modulus, N/mm^2, and Poisson's ratio) at the points of a
-    Gauss rule between all `stops` (mm, from its left end) and the ends of its sections."""
+    Gauss rule between all `stops` (mm, from its left end) and the ends of its sections; of so many points, if given."""
     parts, begin, stops = [], 0.0, sorted(stops)
     for section in sections:
         end = begin + section.length
-        points, weights = gauss_rule(OF_CONE if section.tapered else OF_CYLINDER)
+        points, weights = gauss_rule(points_of_each or (OF_CONE if section.tapered else OF_CYLINDER))
         for left, right in pairwise([begin, *(each for each in stops if begin < each < end), end]):
             half = 0.5 * (right - left)
             places = left + half * (1.0 + points)
@@ -101,7 +105,8 @@ class ElasticShaft:
     """The shaft of the "pinion" or the "wheel": its `sections` of one `material` (Young's modulus, N/mm^2, Poisson's
     ratio), the middle of the gear's seat, mm from the left end, the `seat`'s width, mm, where the torque is coupled,
     and the bearings; `integral`: whether the gear is cut into the shaft, of which `sections` then have its root
-    diameter within the face, where it gives way as `elastic_shaft_seat` says."""
+    diameter within the face, where it gives way as `elastic_shaft_seat` says. Of a shaft that vibrates: its `density`,
+    N s^2/mm^4, and the frequency `up_to` which it has modes of its own, Hz."""
 
     gear: str
     sections: tuple[ShaftSection, ...]
@@ -111,11 +116,22 @@ class ElasticShaft:
     torque_at: float
     bearings: tuple[Bearing, ...]
     integral: bool = False
+    density: float = 0.0
+    up_to: float = inf
 
     @property
     def length(self) -> float:
         """Length of the shaft, mm."""
         return sum(each.length for each in self.sections)
+
+    # Coordinates of a shaft that vibrates; see `elastic_shaft_modes`.
+    modes = ()
+
+    @property
+    def mass_of_all(self) -> float:
+        """Mass of the whole shaft, N s^2/mm."""
+        along = properties(self.sections, self.material, (), MASS_POINTS)
+        return self.density * float(along.weights @ (1.0 / along.axial)) / self.material[0]
 
     @property
     def coordinates(self) -> tuple[str, ...]:
@@ -139,9 +155,14 @@ class ElasticShaft:
         twist = beam_flexibility(along, [self.torque_at], [self.torque_at], self.seat_ends)[0, -1, 0, -1]
         return 1.0 / twist if twist else inf
 
-    @cached_property
+    @property
     def at_bearings(self) -> np.ndarray:
-        """Motions (5 b, 5) of the shaft in its bearings per motion of the gear."""
+        """Motions (5 b, k) of the shaft in its bearings per coordinate."""
+        return self.bearings_at_rest
+
+    @cached_property
+    def bearings_at_rest(self) -> np.ndarray:
+        """Motions (5 b, 5) of the shaft in its bearings per motion of the gear, at rest."""
         places = [each.at for each in self.bearings]
         size = len(MOTIONS) * len(places)
         yielding = self.flexibility(places, places).reshape(size, size) @ self._springs
@@ -149,7 +170,7 @@ class ElasticShaft:
 
     @cached_property
     def bearing_loads(self) -> np.ndarray:
-        """Loads (5 b, 5) of the shaft on its bearings per motion of the gear."""
+        """Loads (5 b, k) of the shaft on its bearings per coordinate."""
         return self._springs @ self.at_bearings
 
     @cached_property
@@ -162,32 +183,42 @@ class ElasticShaft:
         gives way by what is on the other side."""
         own = [each.at for each in self.bearings if (each.at >= self.gear_at) == (side > 0.0)]
         rows = np.repeat([each.at in own for each in self.bearings], len(MOTIONS))
-        found = self._rigid(own).T @ self.bearing_loads[rows]
+        found = self._rigid(own).T @ self._loads_at_rest[rows]
         return 0.5 * (found + found.T)
 
     @cached_property
     def bearing_stiffness(self) -> np.ndarray:
-        """The part (5, 5) of the stiffness whose energy is in the bearings."""
+        """The part (k, k) of the stiffness whose energy is in the bearings."""
         return self.at_bearings.T @ self.bearing_loads
 
     def deflection(self, places: Sequence[float]) -> np.ndarray:
         """Motions (p, 5, 5) of places on the axis (mm from the left end) per motion of the gear."""
         loaded = [each.at for each in self.bearings]
         size = len(MOTIONS) * len(places)
-        yielding = self.flexibility(places, loaded).reshape(size, -1) @ self.bearing_loads
+        yielding = self.flexibility(places, loaded).reshape(size, -1) @ self._loads_at_rest
         return (self._rigid(places) - yielding).reshape(len(places), len(MOTIONS), len(MOTIONS))
 
     def motions(self, drivetrain: Drivetrain, states: np.ndarray) -> np.ndarray:
-        """Motions (..., 5) of the gear's middle at states (..., k) of the drivetrain."""
+        """The shaft's coordinates (..., c) at states (..., k) of the drivetrain."""
         return np.stack([drivetrain.value(states, name) for name in self.coordinates], axis=-1)
 
     def add_to(self, stiffness: np.ndarray, names: Sequence[str], part: np.ndarray) -> None:
-        """Add a part (5, 5) of the stiffness to that of a drivetrain, in N, mm and rad, over coordinates of such
+        """Add a part (c, c) of the stiffness to that of a drivetrain, in N, mm and rad, over coordinates of such
         names."""
         places = [names.index(name) for name in self.coordinates]
         stiffness[np.ix_(places, places)] += part
 
     @property
+    def own_stiffness(self) -> np.ndarray:
+        """Of shaft and bearings over the coordinates (k, k)."""
+        return self.stiffness
+
+    @cached_property
+    def _loads_at_rest(self) -> np.ndarray:
+        """Loads (5 b, 5) of the shaft on its bearings per motion of the gear, at rest."""
+        return self._springs @ self.bearings_at_rest
+
+    @cached_property
     def _springs(self) -> np.ndarray:
         """Stiffness (5 b, 5 b) of all bearings."""
         size = len(MOTIONS)

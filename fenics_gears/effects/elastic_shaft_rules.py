@@ -13,7 +13,7 @@ from fenics_gears.effects.shafts import INTEGRAL, ShaftSection
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.section import names_in
-from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, shafts_with_sections, table, value_at
+from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, given_for, shafts_with_sections, table, value_at
 from fenics_gears.inputs.written import as_written
 
 # Bearings of a shaft (mm) that are no further apart, and ends that stand out by as little, are so by round-off.
@@ -24,8 +24,8 @@ BESIDE_MATRIX = ("radial_stiffness", "axial_stiffness", "tilting_stiffness")
 
 
 def rules_of_elastic_shafts(tree: Tree) -> Iterator[Problem]:
-    """A shaft with sections says where gear and torque are and has bearings of its own; there is no inertia beside
-    it."""
+    """A shaft with sections says where gear and torque are, has bearings of its own and, beside [inertia], a
+    density."""
     both = table(tree, "shafts") or {}
     if "torsional_stiffness" in both:
         message = (
@@ -45,12 +45,19 @@ def rules_of_elastic_shafts(tree: Tree) -> Iterator[Problem]:
                 f" [[bearings.{gear}]] with at and radial_stiffness."
             )
             yield Problem(("bearings", gear), None, message)
-    if "inertia" in tree:
-        message = (
-            "cannot stand beside shafts with sections, whose own mass and vibrations are not computed. Leave [inertia]"
-            " out for quasi-static runs, or give the shafts as torsional_stiffness and [bearings] with places."
-        )
-        yield Problem(("inertia",), "", message)
+        if "inertia" in tree and _has_no_density(tree, shaft, gear):
+            message = (
+                "is missing: beside [inertia] the shaft's own mass counts, and nothing tells how dense it is. Allowed:"
+                ' such as "7.85 g/cm^3", here or as density of [inertia] or of the gear in it.'
+            )
+            yield Problem(("shafts", shaft, "material", "density"), None, message)
+
+
+def _has_no_density(tree: Tree, shaft: str, gear: str) -> bool:
+    """Whether nothing says how dense a shaft is."""
+    return value_at(tree, "shafts", shaft, "material", "density") is None and "density" not in given_for(
+        table(tree, "inertia") or {}, gear
+    )
 
 
 def rules_of_listed_bearings(tree: Tree, both: Tree, listed: Sequence[str]) -> Iterator[Problem]:

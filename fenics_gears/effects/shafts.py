@@ -72,6 +72,12 @@ class ShaftMaterial(Section):
     name: str | None = material_name("the gear's")
     youngs_modulus: float | None = youngs_modulus("that of the `name`, or the gear's")
     poissons_ratio: float | None = poissons_ratio("that of the `name`, or the gear's")
+    density: float | None = quantity(
+        "1e-6 g/cm^3 to 1e6 g/cm^3",
+        "7.85 g/cm^3",
+        meaning="density, from which beside `[inertia]` the shaft's own mass follows",
+        otherwise="that of the gear in `[inertia]`",
+    )
 
     def constants(self, gear: Material) -> tuple[float, float]:
         """Young's modulus, N/mm^2, and Poisson's ratio of the shaft of a gear that is made of something."""

@@ -56,6 +56,14 @@ CUT = (
     .replace('material = "ductile cast iron"\n', "")
 )
 GEARS = ("pinion", "wheel")
+INERTIA = '[inertia]\nmass = "2 kg"\nmoment_of_inertia = "0.002 kg m^2"\n'
+# The same shafts with a density, and what vibrates.
+VIBRATING = (
+    ELASTIC.replace('torque_at = "0 mm"', 'torque_at = "0 mm"\nmaterial = { density = "7.85 g/cm^3" }').replace(
+        '"ductile cast iron"', '{ name = "ductile cast iron", density = "7.2 g/cm^3" }'
+    )
+    + INERTIA
+)
 
 
 def shear(outer, bore):
@@ -161,6 +169,34 @@ def test_the_scene_is_written_and_read_again():
     assert section_trees(again) == section_trees(scene)
 
 
+def test_a_shaft_that_vibrates_keeps_the_balance_of_energy():
+    """Exact: the energy account of a run with inertia, friction and damping closes to round-off, and the result has
+    natural frequencies, of which the mesh's is one."""
+    more = VIBRATING + "[friction]\ncoefficient = 0.05\n[damping]\nratio = 0.05\n"
+    model = model_of(helical_scene(more, offset=2.0, accuracy=FEW.replace("= 8", "= 64"), frequency=800.0))
+    found = run_of(model, on_stand_in_bodies(model))
+    assert found.failure is None
+    assert any("_mode_" in name for name in model.drivetrain.coordinates)
+    result = found.result
+    assert np.abs(result["energy_defect"].values).max() <= 1e-10 * result["energy"].values.max()
+    assert result["energy_kinetic"].values.max() > 1e-3 * result["energy"].values.max()
+    lines = result.attrs["natural_frequencies"].splitlines()
+    assert sum("mesh springs" in line for line in lines) >= 1
+    assert float(lines[-1].split()[0]) <= model.drivetrain.right_up_to
+
+
+def test_a_slow_run_with_inertia_is_the_quasi_static_one():
+    """Limit: at a hundredth of a mesh cycle a second inertia does nothing."""
+    runs = []
+    for more in (VIBRATING, VIBRATING.replace(INERTIA, "")):
+        model = model_of(helical_scene(more, offset=2.0, accuracy=FEW, frequency=0.01))
+        runs.append(run_of(model, on_stand_in_bodies(model)).result)
+    moving, still = runs
+    for name in ("transmission_error", "bearing_force_x", "bearing_moment_y", "tilt_y", "shaft_deflection_x"):
+        different = np.nanmax(np.abs(moving[name].values - still[name].values))
+        assert different <= 1e-9 * np.nanmax(np.abs(still[name].values))
+
+
 ONE = PINION[: PINION.index("[[bearings.pinion]]", 5)]
 PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
 
@@ -207,7 +243,7 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
             INPUT + PINION + "[shafts.output]\ntorsional_stiffness = '1e8 N mm/rad'\ngear_at = '5 mm'",
             "output.gear_at.* no effect",
         ),
-        (ELASTIC + '[inertia]\nmass = "2 kg"\nmoment_of_inertia = "0.02 kg m^2"\n', "inertia.* cannot stand beside"),
+        (ELASTIC + INERTIA, "shafts.input.material.density.* is missing: .* nothing tells how dense"),
         (INPUT.replace("torque_at", 'seat = "loose"\ntorque_at') + PINION, "shafts.input.seat"),
         (INPUT.replace('"35 mm"', '"50 mm"') + PINION, "the shaft is 50 mm thick under the pinion's face, more than"),
         (ELASTIC.replace("torque_at", 'seat = "integral"\ntorque_at'), "output.seat .* two materials"),
