@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from fenics_gears.dynamics.drivetrain import Drivetrain
     from fenics_gears.effects.bearings import Bearing
     from fenics_gears.effects.shafts import ShaftSection
+    from fenics_gears.inputs.allowed import Matrix
 
 # Names of the coordinates of a gear's middle, without its number; and the gears' numbers.
 MOTIONS = ("centre_x", "centre_y", "axial_", "tilt_x", "tilt_y")
@@ -105,7 +106,8 @@ class ElasticShaft:
     """The shaft of the "pinion" or the "wheel": its `sections` of one `material` (Young's modulus, N/mm^2, Poisson's
     ratio), the middle of the gear's seat, mm from the left end, the `seat`'s width, mm, where the torque is coupled,
     and the bearings; `integral`: whether the gear is cut into the shaft, of which `sections` then have its root
-    diameter within the face, where it gives way as `elastic_shaft_seat` says. Of a shaft that vibrates: its `density`,
+    diameter within the face, where it gives way as `elastic_shaft_seat` says; the stiffness of the `housing` between
+    the bearings' seats (5 b, 5 b), N, mm and rad, None where it is rigid. Of a shaft that vibrates: its `density`,
     N s^2/mm^4, and the frequency `up_to` which it has modes of its own, Hz."""
 
     gear: str
@@ -116,6 +118,7 @@ class ElasticShaft:
     torque_at: float
     bearings: tuple[Bearing, ...]
     integral: bool = False
+    housing: Matrix | None = None
     density: float = 0.0
     up_to: float = inf
 
@@ -165,13 +168,13 @@ class ElasticShaft:
         """Motions (5 b, 5) of the shaft in its bearings per motion of the gear, at rest."""
         places = [each.at for each in self.bearings]
         size = len(MOTIONS) * len(places)
-        yielding = self.flexibility(places, places).reshape(size, size) @ self._springs
+        yielding = self.flexibility(places, places).reshape(size, size) @ self.springs
         return np.linalg.solve(np.eye(size) + yielding, self._rigid(places))
 
     @cached_property
     def bearing_loads(self) -> np.ndarray:
         """Loads (5 b, k) of the shaft on its bearings per coordinate."""
-        return self._springs @ self.at_bearings
+        return self.springs @ self.at_bearings
 
     @cached_property
     def stiffness(self) -> np.ndarray:
@@ -216,21 +219,33 @@ class ElasticShaft:
     @cached_property
     def _loads_at_rest(self) -> np.ndarray:
         """Loads (5 b, 5) of the shaft on its bearings per motion of the gear, at rest."""
-        return self._springs @ self.bearings_at_rest
+        return self.springs @ self.bearings_at_rest
 
     @cached_property
-    def _springs(self) -> np.ndarray:
-        """Stiffness (5 b, 5 b) of all bearings."""
+    def springs(self) -> np.ndarray:
+        """Stiffness (5 b, 5 b) of all bearings in their housing."""
         size = len(MOTIONS)
         found = np.zeros((size * len(self.bearings),) * 2)
         for number, bearing in enumerate(self.bearings):
             own = slice(size * number, size * (number + 1))
             found[own, own] = bearing.matrix
-        return found
+        return found if self.housing is None else in_series(found, np.array(self.housing))
 
     def _rigid(self, places: Iterable[float]) -> np.ndarray:
         """Motions (5 p, 5) of places on a rigid axis per motion of the gear."""
         return np.concatenate([np.empty((0, len(MOTIONS))), *(carried(at - self.gear_at) for at in places)])
+
+
+def in_series(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Stiffness (n, n) of two springs one behind the other, A (A + B)^-1 B; what neither holds is free.
+
+    No difference of large numbers is taken: it is right however much stiffer one is. W. N. Anderson and R. J. Duffin,
+    Series and parallel addition of matrices, Journal of Mathematical Analysis and Applications 26 (1969).
+    """
+    size = np.sqrt(np.diag(first) + np.diag(second))
+    size = np.outer(*2 * [np.where(size > 0.0, size, 1.0)])
+    found = first @ (np.linalg.pinv((first + second) / size, hermitian=True) / size) @ second
+    return 0.5 * (found + found.T)
 
 
 def beam_flexibility(
@@ -260,11 +275,8 @@ def free_motions(shaft: ElasticShaft) -> list[str]:
     """The motions, in words, that a shaft's bearings leave free."""
     middle = sum(each.at for each in shaft.bearings) / len(shaft.bearings)
     scale = np.diag([1.0, 1.0, 1.0, 1.0 / shaft.length, 1.0 / shaft.length])
-    held = sum(
-        scale @ moved.T @ np.array(each.matrix) @ moved @ scale
-        for each in shaft.bearings
-        for moved in [carried(each.at - middle)]
-    )
+    moved = np.concatenate([carried(each.at - middle) @ scale for each in shaft.bearings])
+    held = moved.T @ shaft.springs @ moved
     values, vectors = np.linalg.eigh(held)
     free = vectors[:, values <= LEAST_HELD * max(values[-1], 0.0)]
     words = ("moves along x", "moves along y", "moves along its axis", "tilts about x", "tilts about y")

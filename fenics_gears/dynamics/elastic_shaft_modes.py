@@ -175,7 +175,7 @@ class VibratingShaft(ElasticShaft):
         nodes = np.searchsorted(self._places, [each.at for each in self.bearings])
         held = (SIX * nodes[:, None] + np.arange(len(MOTIONS))).ravel()
         flexible = self._flexibility.reshape(size, size)
-        springs = np.linalg.solve(np.eye(len(held)) + self._springs @ flexible[np.ix_(held, held)], self._springs)
+        springs = np.linalg.solve(np.eye(len(held)) + self.springs @ flexible[np.ix_(held, held)], self.springs)
         flexible = flexible - flexible[:, held] @ springs @ flexible[held]
         if not self.coupled_within:
             coupling = SIX * int(np.searchsorted(self._places, self.torque_at)) + TWIST

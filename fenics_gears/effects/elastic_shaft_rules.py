@@ -9,6 +9,7 @@ from typing import Any
 
 from fenics_gears.dynamics.elastic_shaft import STEEPEST_CONE, ElasticShaft, free_motions
 from fenics_gears.effects.bearings import Bearing, Stiffnesses
+from fenics_gears.effects.elastic_shaft_housing import check_housing, stiffness_of_seats
 from fenics_gears.effects.shafts import INTEGRAL, ShaftSection
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import Problem
@@ -91,6 +92,7 @@ def check_shafts(scene: Any, pair: Any) -> None:
     wrong: list[str] = []
     for gear, shaft in zip(GEARS, SHAFTS):
         if gear in scene.shafts.sections:
+            check_housing(scene.shafts.sections[gear], shaft, len(scene.bearings.each_of(gear)))
             found = elastic_shaft(scene, pair, gear)
             wrong += [*_sections_are_solid(found, shaft), *_places_are_on_the_shaft(found, shaft)]
             wrong += [*_bearings_hold(found), *_teeth_are_outside(scene, pair, found, shaft)]
@@ -107,7 +109,8 @@ def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
     if integral:
         face = shaft.gear_at - 0.5 * width, shaft.gear_at + 0.5 * width
         sections = _toothed(sections, face, 2.0 * getattr(pair, gear).root_radius)
-    return ElasticShaft(gear, sections, constants, shaft.gear_at, width, shaft.torque_at, bearings, integral)
+    housing = stiffness_of_seats(shaft.housing)
+    return ElasticShaft(gear, sections, constants, shaft.gear_at, width, shaft.torque_at, bearings, integral, housing)
 
 
 def _toothed(sections: Sequence[ShaftSection], face: tuple[float, float], diameter: float) -> tuple[ShaftSection, ...]:
@@ -223,6 +226,8 @@ def _teeth_are_outside(scene: Any, pair: Any, found: ElasticShaft, shaft: str) -
         yield f"{named}: {found.gear} and shaft are one piece, but of two materials; leave shafts.{shaft}.material out"
     if abs(found.torque_at - found.gear_at) < 0.5 * found.seat - ROUND_OFF:
         yield f"{named}: torque_at = {found.torque_at:g} mm is within the face; move the coupling beside it"
+    if found.housing is not None:
+        yield f"{named}: stands beside a housing, which is not alike in all directions across the axis; leave one out"
     if any(each.stiffness_matrix is not None for each in found.bearings):
         yield (
             f"{named}: bearings.{found.gear} has a stiffness_matrix; allowed are bearings that are alike in all"

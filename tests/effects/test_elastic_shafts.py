@@ -257,6 +257,46 @@ def test_what_does_not_fit_is_refused_before_any_computation(more, said):
         model_of(helical_scene(more, accuracy=""))
 
 
+HOUSING = INPUT.replace("torque_at", 'housing = "housing.txt"\ntorque_at') + PINION
+SEATS = np.diag(np.tile([3e5, 2e5, 1e5, 1e8, 2e8, 0.0], 2))
+
+
+def written(folder, matrix):
+    """The text of a scene with a housing, whose file is written into a folder."""
+    rows = "\n".join(" ".join(f"{each:.9e}" for each in row) for row in matrix)
+    (folder / "housing.txt").write_text(f"# of an export\n{rows}\n".replace("e+", "D+"))
+    return helical_scene(INPUT + PINION, accuracy="").text.replace(INPUT + PINION, HOUSING)
+
+
+def test_a_housing_from_a_file_is_in_series_with_the_bearings(tmp_path):
+    """Identity: two seats that do not hold each other are springs behind the bearings; the file is found beside the
+    scene."""
+    scene = scene_from_text(written(tmp_path, SEATS), directory=tmp_path)
+    found = model_of(scene).drivetrain.elastic[0]
+    wanted = [0.15e6, 0.12e6, 0.05e6, 0.0, 0.0, 0.4e6 * 0.3 / 0.7, 0.4e6 * 0.2 / 0.6, 0.0, 1e15 / 1.1e8, 2e15 / 2.1e8]
+    assert found.springs == pytest.approx(np.diag(wanted), rel=1e-12)
+    assert scene.shafts.input.housing.digest
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda matrix: matrix[:6, :6], "has 6 rows for 2 bearings; allowed are 12"),
+        (lambda matrix: matrix[:-1], "is not 11 rows of 11 numbers"),
+        (lambda matrix: matrix + np.eye(12, k=3) * 1e4, "is not symmetric: 10000 in row"),
+        (lambda matrix: matrix - 2.0 * np.diag([0, 0, 1e5, *np.zeros(9)]), "is not positive"),
+        (lambda matrix: matrix[:0], "has no numbers"),
+    ],
+)
+def test_a_housing_that_is_none_is_refused(tmp_path, change, said):
+    """Authority: the issue: symmetric, positive, and of the seats that there are."""
+    text = written(tmp_path, change(SEATS))
+    with pytest.raises(SceneError, match=f"shafts.input.housing.*{said}"):
+        model_of(scene_from_text(text, directory=tmp_path))
+    with pytest.raises(SceneError, match="shafts.input.housing.*there is no such file"):
+        model_of(scene_from_text(text, directory=tmp_path / "elsewhere"))
+
+
 def test_a_shaft_that_is_not_as_thick_as_the_bore_is_told():
     """The issue's sanity: a shaft of 3 mm under a bore of 22.4 mm is said before the run; one that fits is not, nor one
     that the teeth are cut into."""
