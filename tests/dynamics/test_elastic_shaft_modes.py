@@ -1,6 +1,7 @@
 """Natural frequencies of shafts with their own mass: closed forms, brute force by elements with lumped masses, and the
 modes that are left out."""
 
+from dataclasses import replace
 from math import pi, sqrt
 from types import SimpleNamespace
 
@@ -86,11 +87,17 @@ def test_frequencies_are_those_of_a_textbooks_elements():
 
 
 def test_mass_is_that_of_a_rigid_body():
-    """Exact: mass and moment of inertia of a hollow cylinder that moves and turns as a whole."""
+    """Exact: mass, centre of gravity and moments of inertia of a hollow cylinder that moves as a whole; of one that does
+    not bend also in the coordinates of its gear."""
     length, at = 80.0, 30.0
     found = vibrating(shaft([ShaftSection(length, 30.0, bore=10.0)], at, ON_THREE[:1], 70.0, 20.0), DENSITY, 1e3)
+    stiff = replace(found, material=(1e30, 0.3))
     section, bending = DENSITY * area(30.0, 10.0), DENSITY * second(30.0, 10.0)
     assert found.mass_of_all == pytest.approx(section * length, rel=1e-12)
+    off = 0.5 * length - at
+    assert stiff.mass[0, [0, 4]] == pytest.approx(section * length * np.array([1.0, off]), rel=1e-12)
+    tilting = bending * length + section * length * (length**2 / 12.0 + off**2)
+    assert stiff.mass[3, 3] == pytest.approx(tilting, rel=1e-12)
     turning = np.zeros(len(found.mass))
     turning[5:7] = 1.0
     assert turning @ found.mass @ turning == pytest.approx(2.0 * bending * length, rel=1e-12)
