@@ -106,9 +106,11 @@ class ElasticShaft:
     """The shaft of the "pinion" or the "wheel": its `sections` of one `material` (Young's modulus, N/mm^2, Poisson's
     ratio), the middle of the gear's seat, mm from the left end, the `seat`'s width, mm, where the torque is coupled,
     and the bearings; `integral`: whether the gear is cut into the shaft, of which `sections` then have its root
-    diameter within the face, where it gives way as `elastic_shaft_seat` says; the stiffness of the `housing` between
-    the bearings' seats (5 b, 5 b), N, mm and rad, None where it is rigid. Of a shaft that vibrates: its `density`,
-    N s^2/mm^4, and the frequency `up_to` which it has modes of its own, Hz."""
+    diameter within the face, where it gives way as `elastic_shaft_seat` says; `housing`: stiffness between the
+    bearings' seats (5 b, 5 b), N, mm and rad, None where it is rigid. Of a shaft that vibrates: the sections by which
+    it is `heavy`, where not those by which it bends, its `density`, N s^2/mm^4, and the frequency `up_to` which it has
+    modes of its own, Hz.
+    """
 
     gear: str
     sections: tuple[ShaftSection, ...]
@@ -119,6 +121,7 @@ class ElasticShaft:
     bearings: tuple[Bearing, ...]
     integral: bool = False
     housing: Matrix | None = None
+    heavy: tuple[ShaftSection, ...] | None = None
     density: float = 0.0
     up_to: float = inf
 
@@ -133,7 +136,7 @@ class ElasticShaft:
     @property
     def mass_of_all(self) -> float:
         """Mass of the whole shaft, N s^2/mm."""
-        along = properties(self.sections, self.material, (), MASS_POINTS)
+        along = properties(self.heavy or self.sections, self.material, (), MASS_POINTS)
         return self.density * float(along.weights @ (1.0 / along.axial)) / self.material[0]
 
     @property

@@ -122,14 +122,15 @@ class VibratingShaft(ElasticShaft):
     @cached_property
     def _mass(self) -> np.ndarray:
         """Mass (6 n, 6 n) of all elements, over six motions of each place."""
-        along = properties(self.sections, self.material, self._places, MASS_POINTS)
-        modulus, lengths = self.material[0], np.diff(self._places)
-        weights, shear, bending, axial = (
-            of.reshape(-1, MASS_POINTS) for of in (along.weights, along.shear, along.bending, along.axial)
+        light, heavy = (
+            properties(of, self.material, self._places, MASS_POINTS)
+            for of in (self.sections, self.heavy or self.sections)
         )
-        area, second = 1.0 / (modulus * axial), 1.0 / (modulus * bending)
+        modulus, lengths = self.material[0], np.diff(self._places)
+        shear, bending, weights = (of.reshape(-1, MASS_POINTS) for of in (light.shear, light.bending, heavy.weights))
+        area, second = (1.0 / (modulus * of.reshape(-1, MASS_POINTS)) for of in (heavy.axial, heavy.bending))
         inertia = self.density * weights[..., None] * np.stack([area, area, area, second, second, 2.0 * second], axis=2)
-        within = (along.places.reshape(-1, MASS_POINTS) - self._places[:-1, None]) / lengths[:, None]
+        within = (light.places.reshape(-1, MASS_POINTS) - self._places[:-1, None]) / lengths[:, None]
         give = 12.0 * shear.mean(axis=1) / (bending.mean(axis=1) * lengths**2)
         shape = motion_within(within, lengths[:, None], give[:, None])
         found = np.zeros((SIX * len(self._places),) * 2)

@@ -105,12 +105,15 @@ def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
     shaft, number = scene.shafts.sections[gear], GEARS.index(gear)
     constants = shaft.material.constants(scene.gears.materials[number])
     width, bearings = pair.face_widths[number], scene.bearings.each_of(gear)
-    sections, integral = shaft.sections, shaft.seat == INTEGRAL
+    sections, integral, heavy = shaft.sections, shaft.seat == INTEGRAL, None
     if integral:
         face = shaft.gear_at - 0.5 * width, shaft.gear_at + 0.5 * width
         sections = _toothed(sections, face, 2.0 * getattr(pair, gear).root_radius)
+        # The gear's own mass is counted down to its bore.
+        heavy = _toothed(shaft.sections, face, 2.0 * getattr(pair, gear).bore_radius)
     housing = stiffness_of_seats(shaft.housing)
-    return ElasticShaft(gear, sections, constants, shaft.gear_at, width, shaft.torque_at, bearings, integral, housing)
+    places = shaft.gear_at, width, shaft.torque_at
+    return ElasticShaft(gear, sections, constants, *places, bearings, integral, housing, heavy)
 
 
 def _toothed(sections: Sequence[ShaftSection], face: tuple[float, float], diameter: float) -> tuple[ShaftSection, ...]:

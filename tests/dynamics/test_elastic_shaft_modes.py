@@ -10,7 +10,7 @@ import pytest
 from scipy.linalg import block_diag, eigh
 from tests.beam_elements import FIVE, assembled
 from tests.dynamics.test_elastic_shaft import ON_THREE, STEPS, STIFF, E, G, area, second, shaft, shear
-from tests.effects.test_elastic_shafts import VIBRATING
+from tests.effects.test_elastic_shafts import CUT, INERTIA, VIBRATING
 from tests.helical import helical_scene
 
 from fenics_gears import model_of
@@ -87,8 +87,8 @@ def test_frequencies_are_those_of_a_textbooks_elements():
 
 
 def test_mass_is_that_of_a_rigid_body():
-    """Exact: mass, centre of gravity and moments of inertia of a hollow cylinder that moves as a whole; of one that does
-    not bend also in the coordinates of its gear."""
+    """Exact: mass, centre of gravity and moments of inertia of a hollow cylinder that moves as a whole; of one that
+    does not bend also in the coordinates of its gear."""
     length, at = 80.0, 30.0
     found = vibrating(shaft([ShaftSection(length, 30.0, bore=10.0)], at, ON_THREE[:1], 70.0, 20.0), DENSITY, 1e3)
     stiff = replace(found, material=(1e30, 0.3))
@@ -101,6 +101,16 @@ def test_mass_is_that_of_a_rigid_body():
     turning = np.zeros(len(found.mass))
     turning[5:7] = 1.0
     assert turning @ found.mass @ turning == pytest.approx(2.0 * bending * length, rel=1e-12)
+
+
+def test_a_gear_that_is_cut_into_its_shaft_is_not_counted_twice():
+    """Exact: what of such a shaft is under the face is what its gear, whose mass is down to the bore, has not."""
+    more = CUT.replace("torque_at", 'material = { density = "7.85 g/cm^3" }\ntorque_at') + INERTIA
+    model = model_of(helical_scene(more, accuracy=""))
+    own, bore = model.drivetrain.elastic[0], 2.0 * model.pair.pinion.bore_radius
+    wanted = area(28.0, 8.0) * 40.0 + area(35.0) * (90.0 - own.seat) + area(bore) * own.seat
+    assert own.mass_of_all == pytest.approx(DENSITY * wanted, rel=1e-12)
+    assert own.mass[:2, :2] == pytest.approx(own.mass[0, 0] * np.eye(2))
 
 
 def test_an_accelerated_input_shaft_is_twisted_by_its_own_inertia():
