@@ -245,7 +245,7 @@ def contact_operator(
     """The contact equations of nodes whose normal forces act along their pair's line; those of friction too where the
     passage has previous nodes.
 
-    `coordinates`: which of COORDINATES are unknowns.
+    `coordinates`: which of COORDINATES are unknowns; those beyond, at the end, are of shafts, and move no contact.
     """
     pairs, frictional = passage.pairs, passage.previous is not None
     radii = gears.pinion.base_radius, gears.wheel.base_radius
@@ -257,13 +257,13 @@ def contact_operator(
             before = np.asfortranarray(before)
         if earlier is None:
             earlier = earlier_tangential_jacobian(lines, radii, angles, face)
-        earlier = earlier.take(coordinates, axis=1)
+        earlier = _of_unknowns(earlier, coordinates)
     return ContactOperator(
         pairs=pairs,
         base_radii=radii,
         normal_lever_arms=arms,
         compliance=response.compliance,  # type: ignore[arg-type]
-        jacobian=displacement_jacobian(pairs, radii, arms, frictional, lines, face).take(coordinates, axis=1),
+        jacobian=_of_unknowns(displacement_jacobian(pairs, radii, arms, frictional, lines, face), coordinates),
         gap=over_nodes(pairs, "gap") * face.cosine,
         rigid_slip=slip,
         previous_compliance=before,  # type: ignore[arg-type]
@@ -278,6 +278,13 @@ def turned(gears: GearPair, advance: float) -> tuple[float, float]:
     """By how much (rad) the roll angles of pinion and wheel rise while the pinion turns by `advance`; the wheel's
     fall."""
     return advance, -advance * gears.pinion.base_radius / gears.wheel.base_radius
+
+
+def _of_unknowns(rows: np.ndarray, coordinates: list[int]) -> np.ndarray:
+    """The columns of those coordinates; zero of those beyond the last."""
+    known = sum(each < len(COORDINATES) for each in coordinates)
+    found = rows.take(coordinates[:known], axis=1)
+    return found if known == len(coordinates) else np.pad(found, ((0, 0), (0, len(coordinates) - known)))
 
 
 def slip_of_rigid_flanks(lines: Lines, turned: tuple[float, float]) -> np.ndarray:

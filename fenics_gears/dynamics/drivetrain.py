@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import isfinite
+from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -45,13 +45,15 @@ SIDE = {name: gear for name, (gear, _) in TRANSLATIONS.items()} | {
     "shaft_twist": "wheel",
 }
 SIDE |= {name: "pinion" if name.endswith("1") else "wheel" for name in FACE_COORDINATES}
-# What of a gear is moved, by the first word of the coordinate's name.
+# What of a gear is moved, by the first word of the coordinate's name; a mode of a shaft that bends is a length.
 MOVED = {
     "centre": "mass",
     "axial": "mass",
     "rotation": "moment_of_inertia",
     "shaft": "moment_of_inertia",
     "tilt": "tilting_inertia",
+    "bending": "mass",
+    "torsion": "mass",
 }
 
 
@@ -62,7 +64,8 @@ class Drivetrain:
     `coordinates`: their names; `radii` (k,): mm per rad of a rotation, 1 for a translation; `stiffness` (k, k), N/mm;
     `load` (k,), N; `mass` (k, k), N s^2/mm, and `damping` (k, k), N s/mm, or None where the scene has none. `mesh`: how
     the coordinates move flanks that have a width; None in the plane. `elastic`: the shafts that also bend, and
-    `bearing_stiffness` (k, k), N/mm, the part of the stiffness that is in the bearings.
+    `bearing_stiffness` (k, k), N/mm, the part of the stiffness that is in the bearings. `of_the_coupling` (k,),
+    N s^2/mm: mass of an elastic input shaft that turns with its coupling, whose rotation is prescribed.
     """
 
     coordinates: tuple[str, ...]
@@ -74,11 +77,13 @@ class Drivetrain:
     mesh: MeshOverFace | None = None
     elastic: tuple[ElasticShaft, ...] = ()
     bearing_stiffness: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
+    of_the_coupling: np.ndarray | float = 0.0
 
     @property
     def indices(self) -> list[int]:
-        """Positions of the coordinates among COORDINATES."""
-        return [COORDINATES.index(name) for name in self.coordinates]
+        """Positions of the coordinates among COORDINATES; modes of shafts, which contact does not move, are beyond."""
+        known = [COORDINATES.index(name) for name in self.coordinates if name in COORDINATES]
+        return [*known, *range(len(COORDINATES), len(COORDINATES) + len(self.coordinates) - len(known))]
 
     @property
     def bearings(self) -> int:
@@ -89,6 +94,12 @@ class Drivetrain:
     def on_rolling_bearings(self) -> bool:
         """Whether a bearing's stiffness depends on its load."""
         return any(bearing.rolling is not None for shaft in self.elastic for bearing in shaft.bearings)
+
+    @property
+    def right_up_to(self) -> float:
+        """Frequency (Hz) up to which natural frequencies are right: half of that beyond which modes of shafts are left
+        out."""
+        return min((0.5 * shaft.up_to for shaft in self.elastic), default=inf)
 
     @property
     def driven_backwards(self) -> bool:
@@ -149,7 +160,9 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
     load beside which the wheel's own moment of inertia is lost in round-off.
     """
     names = _moving_coordinates(supports)
-    radii = np.array([1.0 if MOVED[_kind(name)] == "mass" else getattr(pair, SIDE[name]).base_radius for name in names])
+    radii = np.array(
+        [1.0 if MOVED[_kind(name)] == "mass" else getattr(pair, gear_of(name)).base_radius for name in names]
+    )
     stiffness, mass, mesh = np.zeros((len(names), len(names))), None, None
     if supports.bearings is not None:
         for name, side in TRANSLATIONS.items():
@@ -161,12 +174,18 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
             add_bearings(stiffness, names, supports.bearings)
     in_bearings = stiffness.copy()
     for shaft in supports.elastic:
-        shaft.add_to(stiffness, names, shaft.stiffness)
+        shaft.add_to(stiffness, names, shaft.own_stiffness)
         shaft.add_to(in_bearings, names, shaft.bearing_stiffness)
     for name, torsion in _torsion(supports).items():
         stiffness[names.index(name), names.index(name)] += torsion
+    coupling: np.ndarray | float = 0.0
     if supports.inertia is not None:
         mass = _mass(names, supports.inertia, supports.gears)
+        if supports.elastic:
+            from fenics_gears.dynamics.elastic_shaft_modes import add_masses
+
+            # Turned by the pinion's base pitch, as its own rotation is.
+            coupling = add_masses(mass, names, supports.elastic) / pair.pinion.base_radius
     scale = np.outer(1.0 / radii, 1.0 / radii)
     stiffness, mass = stiffness * scale, None if mass is None else mass * scale
     if mass is not None and (pair.slope or not set(names).isdisjoint(FACE_COORDINATES)):
@@ -174,7 +193,8 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
 
         mesh = mesh_over_face(pair, names)
     load = forces_of_torque(names, radii, wheel_torque)
-    undamped = Drivetrain(names, radii, stiffness, load, mass, None, mesh, supports.elastic, in_bearings * scale)
+    in_bearings, coupling = in_bearings * scale, coupling / radii
+    undamped = Drivetrain(names, radii, stiffness, load, mass, None, mesh, supports.elastic, in_bearings, coupling)
     if supports.damping is None or mass is None:
         return undamped
     return replace(undamped, damping=_damping(supports.damping, undamped, mesh_stiffness))
@@ -191,7 +211,8 @@ def _moving_coordinates(supports: Supports) -> tuple[str, ...]:
         moving.update(name for name, side in TRANSLATIONS.items() if supports.bearings.of(*side) is not None)
         moving.update(_leaning(supports.bearings))
     moving.update(name for shaft in supports.elastic for name in shaft.coordinates)
-    return tuple(name for name in COORDINATES if name in moving)
+    modes = (name for shaft in supports.elastic for name in shaft.modes)
+    return (*(name for name in COORDINATES if name in moving), *modes)
 
 
 def _leaning(bearings: Bearings) -> set[str]:
@@ -203,6 +224,11 @@ def _leaning(bearings: Bearings) -> set[str]:
 def _kind(name: str) -> str:
     """First word of a coordinate's name."""
     return name.partition("_")[0]
+
+
+def gear_of(name: str) -> str:
+    """Gear on whose side of the mesh a coordinate is; the name of a mode ends with it."""
+    return SIDE.get(name) or name.rpartition("_")[2]
 
 
 def _torsion(supports: Supports) -> dict[str, float]:
@@ -220,7 +246,8 @@ def _torsion(supports: Supports) -> dict[str, float]:
 def _mass(names: tuple[str, ...], inertia: Inertia, gears: Mapping[str, LumpedGear]) -> np.ndarray:
     """Lumped masses; J3 phi3'' with phi3 = phi2 + twist couples the wheel's rotation with the twist."""
     end = inertia.shaft_end
-    lumped = {name: getattr(gears[SIDE[name]], MOVED[_kind(name)]) for name in names}
+    of_gears = {name: getattr(gears[SIDE[name]], MOVED[_kind(name)]) for name in names if name in SIDE}
+    lumped = dict.fromkeys(names, 0.0) | of_gears
     mass, second = np.diag([lumped[name] for name in names]), names.index("rotation_2")
     if "shaft_twist" in names:
         _check_load(end, lumped["rotation_2"])
@@ -250,7 +277,7 @@ def _damping(damping: Damping, undamped: Drivetrain, mesh_stiffness: float) -> n
 
         return modal_damping(undamped, mesh_stiffness, damping.modal)
     # No spring and no mass connects both sides of the mesh: a row and its column have the same factors.
-    alpha, beta = np.array([damping.rayleigh(SIDE[name]) for name in undamped.coordinates]).T[:, :, None]
+    alpha, beta = np.array([damping.rayleigh(gear_of(name)) for name in undamped.coordinates]).T[:, :, None]
     return alpha * undamped.stiffness + beta * undamped.mass
 
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from fenics_gears.dynamics.drivetrain import Drivetrain
     from fenics_gears.effects.bearings import Bearing
     from fenics_gears.effects.shafts import ShaftSection
+    from fenics_gears.inputs.allowed import Matrix
 
 # Names of the coordinates of a gear's middle, without its number; and the gears' numbers.
 MOTIONS = ("centre_x", "centre_y", "axial_", "tilt_x", "tilt_y")
@@ -31,6 +32,8 @@ NUMBERS = {"pinion": "1", "wheel": "2"}
 # Gauss points between two places of a shaft: exact for the polynomials of a cylinder, and for a cone, whose section is
 # in the denominator: its flexibility is right to 1e-9 while its wall is nowhere more than ten times the thinnest.
 OF_CYLINDER, OF_CONE, STEEPEST_CONE = 2, 30, 10.0
+# The same of a shaft's mass within an element, exact for both.
+MASS_POINTS = 5
 # MOTIONS and the twist.
 SIX = 6
 # Part of the largest stiffness, tilts taken over the shaft's length, below which a motion is free.
@@ -62,13 +65,15 @@ def shear_coefficient(poissons_ratio: float, hollowness: np.ndarray) -> np.ndarr
     return 6.0 * (1.0 + poissons_ratio) * both / (solid + (20.0 + 12.0 * poissons_ratio) * squared)
 
 
-def properties(sections: Sequence[ShaftSection], material: tuple[float, float], stops: Iterable[float]) -> Properties:
+def properties(
+    sections: Sequence[ShaftSection], material: tuple[float, float], stops: Iterable[float], points_of_each: int = 0
+) -> Properties:
     """The flexibility along a shaft of `material` (Young's modulus, N/mm^2, and Poisson's ratio) at the points of a
-    Gauss rule between all `stops` (mm, from its left end) and the ends of its sections."""
+    Gauss rule between all `stops` (mm, from its left end) and the ends of its sections; of so many points, if given."""
     parts, begin, stops = [], 0.0, sorted(stops)
     for section in sections:
         end = begin + section.length
-        points, weights = gauss_rule(OF_CONE if section.tapered else OF_CYLINDER)
+        points, weights = gauss_rule(points_of_each or (OF_CONE if section.tapered else OF_CYLINDER))
         for left, right in pairwise([begin, *(each for each in stops if begin < each < end), end]):
             half = 0.5 * (right - left)
             places = left + half * (1.0 + points)
@@ -101,7 +106,11 @@ class ElasticShaft:
     """The shaft of the "pinion" or the "wheel": its `sections` of one `material` (Young's modulus, N/mm^2, Poisson's
     ratio), the middle of the gear's seat, mm from the left end, the `seat`'s width, mm, where the torque is coupled,
     and the bearings; `integral`: whether the gear is cut into the shaft, of which `sections` then have its root
-    diameter within the face, where it gives way as `elastic_shaft_seat` says."""
+    diameter within the face, where it gives way as `elastic_shaft_seat` says; `housing`: stiffness between the
+    bearings' seats (5 b, 5 b), N, mm and rad, None where it is rigid. Of a shaft that vibrates: the sections by which
+    it is `heavy`, where not those by which it bends, its `density`, N s^2/mm^4, and the frequency `up_to` which it has
+    modes of its own, Hz.
+    """
 
     gear: str
     sections: tuple[ShaftSection, ...]
@@ -111,11 +120,24 @@ class ElasticShaft:
     torque_at: float
     bearings: tuple[Bearing, ...]
     integral: bool = False
+    housing: Matrix | None = None
+    heavy: tuple[ShaftSection, ...] | None = None
+    density: float = 0.0
+    up_to: float = inf
 
     @property
     def length(self) -> float:
         """Length of the shaft, mm."""
         return sum(each.length for each in self.sections)
+
+    # Coordinates of a shaft that vibrates; see `elastic_shaft_modes`.
+    modes = ()
+
+    @property
+    def mass_of_all(self) -> float:
+        """Mass of the whole shaft, N s^2/mm."""
+        along = properties(self.heavy or self.sections, self.material, (), MASS_POINTS)
+        return self.density * float(along.weights @ (1.0 / along.axial)) / self.material[0]
 
     @property
     def coordinates(self) -> tuple[str, ...]:
@@ -139,9 +161,14 @@ class ElasticShaft:
         twist = beam_flexibility(along, [self.torque_at], [self.torque_at], self.seat_ends)[0, -1, 0, -1]
         return 1.0 / twist if twist else inf
 
-    @cached_property
+    @property
     def at_bearings(self) -> np.ndarray:
-        """Motions (5 b, 5) of the shaft in its bearings per motion of the gear."""
+        """Motions (5 b, k) of the shaft in its bearings per coordinate."""
+        return self.bearings_at_rest
+
+    @cached_property
+    def bearings_at_rest(self) -> np.ndarray:
+        """Motions (5 b, 5) of the shaft in its bearings per motion of the gear, at rest."""
         yielding = self.held_flexibility @ self.springs
         return np.linalg.solve(np.eye(len(yielding)) + yielding, self.rigid_motions)
 
@@ -158,7 +185,7 @@ class ElasticShaft:
 
     @cached_property
     def bearing_loads(self) -> np.ndarray:
-        """Loads (5 b, 5) of the shaft on its bearings per motion of the gear."""
+        """Loads (5 b, k) of the shaft on its bearings per coordinate."""
         return self.springs @ self.at_bearings
 
     @cached_property
@@ -171,44 +198,66 @@ class ElasticShaft:
         gives way by what is on the other side."""
         own = [each.at for each in self.bearings if (each.at >= self.gear_at) == (side > 0.0)]
         rows = np.repeat([each.at in own for each in self.bearings], len(MOTIONS))
-        found = self._rigid(own).T @ self.bearing_loads[rows]
+        found = self._rigid(own).T @ self._loads_at_rest[rows]
         return 0.5 * (found + found.T)
 
     @cached_property
     def bearing_stiffness(self) -> np.ndarray:
-        """The part (5, 5) of the stiffness whose energy is in the bearings."""
+        """The part (k, k) of the stiffness whose energy is in the bearings."""
         return self.at_bearings.T @ self.bearing_loads
 
     def deflection(self, places: Sequence[float]) -> np.ndarray:
         """Motions (p, 5, 5) of places on the axis (mm from the left end) per motion of the gear."""
         loaded = [each.at for each in self.bearings]
         size = len(MOTIONS) * len(places)
-        yielding = self.flexibility(places, loaded).reshape(size, -1) @ self.bearing_loads
+        yielding = self.flexibility(places, loaded).reshape(size, -1) @ self._loads_at_rest
         return (self._rigid(places) - yielding).reshape(len(places), len(MOTIONS), len(MOTIONS))
 
     def motions(self, drivetrain: Drivetrain, states: np.ndarray) -> np.ndarray:
-        """Motions (..., 5) of the gear's middle at states (..., k) of the drivetrain."""
+        """The shaft's coordinates (..., c) at states (..., k) of the drivetrain."""
         return np.stack([drivetrain.value(states, name) for name in self.coordinates], axis=-1)
 
     def add_to(self, stiffness: np.ndarray, names: Sequence[str], part: np.ndarray) -> None:
-        """Add a part (5, 5) of the stiffness to that of a drivetrain, in N, mm and rad, over coordinates of such
+        """Add a part (c, c) of the stiffness to that of a drivetrain, in N, mm and rad, over coordinates of such
         names."""
         places = [names.index(name) for name in self.coordinates]
         stiffness[np.ix_(places, places)] += part
 
     @property
+    def own_stiffness(self) -> np.ndarray:
+        """Of shaft and bearings over the coordinates (k, k)."""
+        return self.stiffness
+
+    @cached_property
+    def _loads_at_rest(self) -> np.ndarray:
+        """Loads (5 b, 5) of the shaft on its bearings per motion of the gear, at rest."""
+        return self.springs @ self.bearings_at_rest
+
+    @cached_property
     def springs(self) -> np.ndarray:
-        """Stiffness (5 b, 5 b) of all bearings."""
+        """Stiffness (5 b, 5 b) of all bearings in their housing."""
         size = len(MOTIONS)
         found = np.zeros((size * len(self.bearings),) * 2)
         for number, bearing in enumerate(self.bearings):
             own = slice(size * number, size * (number + 1))
             found[own, own] = bearing.matrix
-        return found
+        return found if self.housing is None else in_series(found, np.array(self.housing))
 
     def _rigid(self, places: Iterable[float]) -> np.ndarray:
         """Motions (5 p, 5) of places on a rigid axis per motion of the gear."""
         return np.concatenate([np.empty((0, len(MOTIONS))), *(carried(at - self.gear_at) for at in places)])
+
+
+def in_series(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Stiffness (n, n) of two springs one behind the other, A (A + B)^-1 B; what neither holds is free.
+
+    No difference of large numbers is taken: it is right however much stiffer one is. W. N. Anderson and R. J. Duffin,
+    Series and parallel addition of matrices, Journal of Mathematical Analysis and Applications 26 (1969).
+    """
+    size = np.sqrt(np.diag(first) + np.diag(second))
+    size = np.outer(*2 * [np.where(size > 0.0, size, 1.0)])
+    found = first @ (np.linalg.pinv((first + second) / size, hermitian=True) / size) @ second
+    return 0.5 * (found + found.T)
 
 
 def beam_flexibility(
@@ -238,11 +287,8 @@ def free_motions(shaft: ElasticShaft) -> list[str]:
     """The motions, in words, that a shaft's bearings leave free."""
     middle = sum(each.at for each in shaft.bearings) / len(shaft.bearings)
     scale = np.diag([1.0, 1.0, 1.0, 1.0 / shaft.length, 1.0 / shaft.length])
-    held = sum(
-        scale @ moved.T @ np.array(each.matrix) @ moved @ scale
-        for each in shaft.bearings
-        for moved in [carried(each.at - middle)]
-    )
+    moved = np.concatenate([carried(each.at - middle) @ scale for each in shaft.bearings])
+    held = moved.T @ shaft.springs @ moved
     values, vectors = np.linalg.eigh(held)
     free = vectors[:, values <= LEAST_HELD * max(values[-1], 0.0)]
     words = ("moves along x", "moves along y", "moves along its axis", "tilts about x", "tilts about y")

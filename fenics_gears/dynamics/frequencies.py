@@ -9,7 +9,7 @@ from math import atan, inf, pi, sqrt
 import numpy as np
 from scipy.linalg import eigh, null_space
 
-from fenics_gears.dynamics.drivetrain import SIDE, Drivetrain
+from fenics_gears.dynamics.drivetrain import Drivetrain, gear_of
 
 # Relative normal displacement of the flanks per coordinate; see contact.operator.displacement_jacobian. Friction also
 # acts across.
@@ -57,7 +57,8 @@ def natural_frequencies(drivetrain: Drivetrain, mesh_stiffness: float) -> np.nda
 
 
 def vibrations(drivetrain: Drivetrain, mesh_stiffness: float, friction: bool = False) -> list[Vibration]:
-    """The elastic modes by frequency; `friction`: whether contact forces also act across the line of action."""
+    """The elastic modes by frequency, as far as they are right; `friction`: whether contact forces also act across the
+    line of action."""
     frequencies, shapes = modes(drivetrain, mesh_stiffness)
     directions = np.concatenate([_along(drivetrain), _across(drivetrain)]) if friction else _along(drivetrain)
     moved = np.abs(directions @ shapes).max(axis=0)
@@ -65,7 +66,8 @@ def vibrations(drivetrain: Drivetrain, mesh_stiffness: float, friction: bool = F
         # Tied flanks do not move apart in any mode; their errors excite every mode.
         moved = np.full(len(frequencies), np.inf)
     damping = np.zeros_like(drivetrain.stiffness) if drivetrain.damping is None else drivetrain.damping
-    damped, words = np.einsum("ci,cd,di->i", shapes, damping, shapes), _motions(drivetrain, shapes)
+    damped = np.einsum("ci,cd,di->i", shapes, damping, shapes)
+    words = _motions(drivetrain, frequencies, shapes)
     return [
         Vibration(
             float(frequency),
@@ -74,7 +76,7 @@ def vibrations(drivetrain: Drivetrain, mesh_stiffness: float, friction: bool = F
             said,
         )
         for frequency, taken, motion, shape, said in zip(frequencies, damped, moved, shapes.T, words)
-        if frequency > RIGID * frequencies[-1]
+        if RIGID * frequencies[-1] < frequency <= drivetrain.right_up_to
     ]
 
 
@@ -103,24 +105,38 @@ def _plane(drivetrain: Drivetrain, direction: dict[str, float]) -> np.ndarray:
     return np.array([[direction.get(name, 0.0) for name in drivetrain.coordinates]])
 
 
-def _motions(drivetrain: Drivetrain, shapes: np.ndarray) -> list[str]:
-    """What gears do beside the plane motion in each mode, in words; empty where that has less than half of the kinetic
-    energy."""
+# What most of the energy of a mode may be in: first words of coordinates, and the mode in words.
+OF_GEARS = ((("tilt",), "{} tilts"), (("axial",), "{} moves along its axis"))
+OF_SHAFTS = (
+    (("centre", "tilt", "bending"), "the {}'s shaft bends"),
+    (("rotation", "shaft", "torsion"), "the {}'s shaft twists"),
+    (("axial",), "the {}'s shaft moves along its axis"),
+)
+
+
+def _motions(drivetrain: Drivetrain, frequencies: np.ndarray, shapes: np.ndarray) -> list[str]:
+    """What gears do beside the plane motion in each mode, in words, empty where that has less than half of the kinetic
+    energy; where shafts bend also what they do, and whether most of the elastic energy is in the mesh."""
     if drivetrain.mesh is None:
         return [""] * shapes.shape[1]
     # Of modes of modal mass 1 these are shares.
     energy, said = shapes * (drivetrain.mass @ shapes), [""] * shapes.shape[1]
-    for kind, words in (("tilt", "{} tilts"), ("axial", "{} moves along its axis")):
-        for gear in ("pinion", "wheel"):
+    bent = [shaft.gear for shaft in drivetrain.elastic]
+    for gear in ("pinion", "wheel"):
+        for kinds, words in (*(OF_SHAFTS if gear in bent else ()), *OF_GEARS):
             rows = [
                 place
                 for place, name in enumerate(drivetrain.coordinates)
-                if name.startswith(kind) and SIDE[name] == gear
+                if gear_of(name) == gear and name.startswith(kinds)
             ]
             said = [
                 words.format(gear) if share > 0.5 else before for share, before in zip(energy[rows].sum(axis=0), said)
             ]
-    return said
+    if not bent:
+        return said
+    in_shafts = np.einsum("ci,cd,di->i", shapes, drivetrain.stiffness, shapes)
+    springs = in_shafts < 0.5 * (2.0 * pi * frequencies) ** 2
+    return [" and ".join(filter(None, (words, "the mesh springs" * bool(of)))) for words, of in zip(said, springs)]
 
 
 def _tied_modes(drivetrain: Drivetrain, normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -82,7 +82,7 @@ def inertia_forces(clock: RampClock, drivetrain: Drivetrain, wheel_teeth: int) -
     nominal = np.array(
         [{"rotation_1": base_pitch, "rotation_2": -base_pitch}.get(name, 0.0) for name in drivetrain.coordinates]
     )
-    unit = -drivetrain.mass @ nominal
+    unit = -drivetrain.mass @ nominal - base_pitch * drivetrain.of_the_coupling
 
     def load(step: float) -> np.ndarray:
         return unit * clock.acceleration_at(step)

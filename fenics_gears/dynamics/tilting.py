@@ -48,7 +48,7 @@ def gyroscopic_warnings(vibrations: Iterable[Vibration], speeds: Mapping[str, fl
         (speed / each.frequency, each, gear)
         for each in vibrations
         for gear, speed in speeds.items()
-        if each.motion == f"{gear} tilts"
+        if each.motion.startswith(f"{gear} tilts")
     ]
     share, mode, gear = max(tilting, key=lambda found: found[0], default=(0.0, None, ""))
     if share < GYROSCOPIC:

@@ -249,7 +249,7 @@ def _axial_stiffness_has_places(both: Tree) -> Iterator[Problem]:
 
 def warnings(bearings: Bearings, model) -> list[str]:
     """Sentences on bearings within a gear, and where gears turn so fast that gyroscopic moments could matter."""
-    if bearings.places is None:
+    if bearings.places is None and bearings.each is None:
         return []
     from fenics_gears.dynamics.tilting import gyroscopic_warnings
 

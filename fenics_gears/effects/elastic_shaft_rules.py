@@ -11,12 +11,13 @@ import numpy as np
 
 from fenics_gears.dynamics.elastic_shaft import STEEPEST_CONE, ElasticShaft, free_motions
 from fenics_gears.effects.bearings import Bearing, Stiffnesses
+from fenics_gears.effects.elastic_shaft_housing import check_housing, stiffness_of_seats
 from fenics_gears.effects.rolling_bearings import wrong_with
 from fenics_gears.effects.shafts import INTEGRAL, ShaftSection
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.section import names_in
-from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, shafts_with_sections, table, value_at
+from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, given_for, shafts_with_sections, table, value_at
 from fenics_gears.inputs.written import as_written
 
 # Bearings of a shaft (mm) that are no further apart, and ends that stand out by as little, are so by round-off.
@@ -28,8 +29,8 @@ BESIDE_ROLLING = ("radial_stiffness", "tilting_stiffness")
 
 
 def rules_of_elastic_shafts(tree: Tree) -> Iterator[Problem]:
-    """A shaft with sections says where gear and torque are and has bearings of its own; there is no inertia beside
-    it."""
+    """A shaft with sections says where gear and torque are, has bearings of its own and, beside [inertia], a
+    density."""
     both = table(tree, "shafts") or {}
     if "torsional_stiffness" in both:
         message = (
@@ -49,12 +50,19 @@ def rules_of_elastic_shafts(tree: Tree) -> Iterator[Problem]:
                 f" [[bearings.{gear}]] with at and radial_stiffness."
             )
             yield Problem(("bearings", gear), None, message)
-    if "inertia" in tree:
-        message = (
-            "cannot stand beside shafts with sections, whose own mass and vibrations are not computed. Leave [inertia]"
-            " out for quasi-static runs, or give the shafts as torsional_stiffness and [bearings] with places."
-        )
-        yield Problem(("inertia",), "", message)
+        if "inertia" in tree and _has_no_density(tree, shaft, gear):
+            message = (
+                "is missing: beside [inertia] the shaft's own mass counts, and nothing tells how dense it is. Allowed:"
+                ' such as "7.85 g/cm^3", here or as density of [inertia] or of the gear in it.'
+            )
+            yield Problem(("shafts", shaft, "material", "density"), None, message)
+
+
+def _has_no_density(tree: Tree, shaft: str, gear: str) -> bool:
+    """Whether nothing says how dense a shaft is."""
+    return value_at(tree, "shafts", shaft, "material", "density") is None and "density" not in given_for(
+        table(tree, "inertia") or {}, gear
+    )
 
 
 def rules_of_listed_bearings(tree: Tree, both: Tree, listed: Sequence[str]) -> Iterator[Problem]:
@@ -88,8 +96,10 @@ def check_shafts(scene: Any, pair: Any) -> None:
     wrong: list[str] = []
     for gear, shaft in zip(GEARS, SHAFTS):
         if gear in scene.shafts.sections:
+            check_housing(scene.shafts.sections[gear], shaft, len(scene.bearings.each_of(gear)))
             found = elastic_shaft(scene, pair, gear)
             wrong += [*_sections_are_solid(found, shaft), *_places_are_on_the_shaft(found, shaft)]
+            wrong += _rolling_stands_for_itself(scene, found)
             wrong += [*_bearings_hold(found), *_bearings_brace(found)] if not wrong else []
             wrong += _teeth_are_outside(scene, pair, found, shaft)
     if wrong:
@@ -113,11 +123,15 @@ def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
     shaft, number = scene.shafts.sections[gear], GEARS.index(gear)
     constants = shaft.material.constants(scene.gears.materials[number])
     width, bearings = pair.face_widths[number], scene.bearings.each_of(gear)
-    sections, integral = shaft.sections, shaft.seat == INTEGRAL
+    sections, integral, heavy = shaft.sections, shaft.seat == INTEGRAL, None
     if integral:
         face = shaft.gear_at - 0.5 * width, shaft.gear_at + 0.5 * width
         sections = _toothed(sections, face, 2.0 * getattr(pair, gear).root_radius)
-    return ElasticShaft(gear, sections, constants, shaft.gear_at, width, shaft.torque_at, bearings, integral)
+        # The gear's own mass is counted down to its bore.
+        heavy = _toothed(shaft.sections, face, 2.0 * getattr(pair, gear).bore_radius)
+    housing = stiffness_of_seats(shaft.housing)
+    places = shaft.gear_at, width, shaft.torque_at
+    return ElasticShaft(gear, sections, constants, *places, bearings, integral, housing, heavy)
 
 
 def _toothed(sections: Sequence[ShaftSection], face: tuple[float, float], diameter: float) -> tuple[ShaftSection, ...]:
@@ -236,11 +250,25 @@ def _teeth_are_outside(scene: Any, pair: Any, found: ElasticShaft, shaft: str) -
         yield f"{named}: {found.gear} and shaft are one piece, but of two materials; leave shafts.{shaft}.material out"
     if abs(found.torque_at - found.gear_at) < 0.5 * found.seat - ROUND_OFF:
         yield f"{named}: torque_at = {found.torque_at:g} mm is within the face; move the coupling beside it"
+    if found.housing is not None:
+        yield f"{named}: stands beside a housing, which is not alike in all directions across the axis; leave one out"
     if any(each.stiffness_matrix is not None or each.rolling is not None for each in found.bearings):
         yield (
             f"{named}: bearings.{found.gear} has a stiffness_matrix or rolling; allowed are bearings that are alike in"
             " all directions across the axis: give radial_stiffness, axial_stiffness and tilting_stiffness"
         )
+
+
+def _rolling_stands_for_itself(scene: Any, found: ElasticShaft) -> Iterator[str]:
+    """Bearings that roll are in quasi-static scenes and on a ground that does not yield."""
+    if all(each.rolling is None for each in found.bearings):
+        return
+    name = f"bearings.{found.gear}: rolling"
+    remedy = "give its stiffness under load as stiffness_matrix"
+    if scene.inertia is not None:
+        yield f"{name} beside [inertia]: how stiff it is against vibrations is not computed; {remedy}"
+    if found.housing is not None:
+        yield f"{name} beside a housing, through which its load is not computed; {remedy}"
 
 
 def _bearings_brace(found: ElasticShaft) -> Iterator[str]:

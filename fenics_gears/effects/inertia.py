@@ -3,14 +3,14 @@ dynamic (``dynamics``)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
 from fenics_gears.inputs.fields import quantity
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.section import Section
-from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, value_at, with_gears
+from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, given_for, shafts_with_sections, table, value_at, with_gears
 from fenics_gears.inputs.written import as_written
 
 LUMPED = ("mass", "moment_of_inertia")
@@ -150,14 +150,16 @@ def _density_stands_alone(tree: Tree) -> Iterator[Problem]:
 
 def _what_tilts_has_places(tree: Tree) -> Iterator[Problem]:
     """A tilting inertia is that of a gear that tilts."""
-    places = value_at(tree, "bearings", "places")
+    tilting = [gear for gear in GEARS if value_at(tree, "bearings", "places", gear) is not None]
+    tilting += [GEARS[SHAFTS.index(shaft)] for shaft in shafts_with_sections(tree)]
     for path, section in with_gears(tree, "inertia").items():
         gears = path[1:] or GEARS
-        if "tilting_moment_of_inertia" in section and not (
-            isinstance(places, Mapping) and any(gear in places for gear in gears)
-        ):
+        if "tilting_moment_of_inertia" in section and not any(gear in tilting for gear in gears):
             names = " or ".join(f"bearings.places.{gear}" for gear in gears)
-            message = f"has no effect: gears tilt where their bearings have places only. Leave it out, or give {names}."
+            message = (
+                "has no effect: gears tilt where their bearings have places, or shafts sections, only. Leave it out, or"
+                f" give {names}."
+            )
             yield Problem(
                 (*path, "tilting_moment_of_inertia"), as_written(section["tilting_moment_of_inertia"]), message
             )

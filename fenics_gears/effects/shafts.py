@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
 from fenics_gears.effects.tooth_elasticity import material_name, poissons_ratio, youngs_modulus
 from fenics_gears.geometry.gear_data import MATERIALS, Material
-from fenics_gears.inputs.fields import choice, declared, quantity
+from fenics_gears.inputs.allowed import Matrix
+from fenics_gears.inputs.fields import choice, declared, file_name, quantity
 from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.section import AllowedTables, Section, allowed_in
 from fenics_gears.inputs.tree import SHAFTS, Tree, shafts_with_sections, table
@@ -72,6 +74,12 @@ class ShaftMaterial(Section):
     name: str | None = material_name("the gear's")
     youngs_modulus: float | None = youngs_modulus("that of the `name`, or the gear's")
     poissons_ratio: float | None = poissons_ratio("that of the `name`, or the gear's")
+    density: float | None = quantity(
+        "1e-6 g/cm^3 to 1e6 g/cm^3",
+        "7.85 g/cm^3",
+        meaning="density, from which beside `[inertia]` the shaft's own mass follows",
+        otherwise="that of the gear in `[inertia]`",
+    )
 
     def constants(self, gear: Material) -> tuple[float, float]:
         """Young's modulus, N/mm^2, and Poisson's ratio of the shaft of a gear that is made of something."""
@@ -80,6 +88,16 @@ class ShaftMaterial(Section):
         usual = (named.youngs_modulus, named.poissons_ratio)
         modulus, ratio = (number if each is None else each for each, number in zip(own, usual))
         return modulus, ratio
+
+
+@dataclass(frozen=True)
+class HousingFile:
+    """A file with the stiffness of a housing, a hash of what it says, and the matrix, or the `problem` with it."""
+
+    path: str
+    digest: str = ""
+    stiffness: Matrix | None = None
+    problem: str = ""
 
 
 @dataclass(frozen=True)
@@ -105,6 +123,16 @@ class Shaft(Section):
         default=RIGID_SEAT,
     )
     material: ShaftMaterial = ShaftMaterial()
+    housing: HousingFile | None = file_name(
+        ".txt",
+        "housing.txt",
+        meaning="text file with the stiffness matrix of the housing between the seats of this shaft's bearings, in N,"
+        " mm and rad, a row on each line: six motions of each seat in the order of the bearings, displacements along x"
+        " (the line of action), y and z (the axis) and rotations about them; lines that begin with #, %, ! or * are"
+        " passed over",
+        otherwise="the housing is rigid",
+        made=HousingFile,
+    )
 
 
 @dataclass(frozen=True)
@@ -171,10 +199,25 @@ def _each_gives_way(both: Tree) -> Iterator[Problem]:
             yield Problem(
                 ("shafts", shaft, "torsional_stiffness"), None, f"is missing. Allowed: {allowed}; or sections."
             )
-        for name in ("gear_at", "torque_at", "seat", "material"):
+        for name in ("gear_at", "torque_at", "seat", "material", "housing"):
             if name in own:
                 message = "has no effect: it is of a shaft with sections. Add sections, or leave it out."
                 yield Problem(("shafts", shaft, name), as_written(own[name]) or "", message)
+
+
+def located(shafts: Shafts, directory: Path) -> Shafts:
+    """The shafts with the matrices of their housings, whose files are looked for from a directory on."""
+    if all(each is None or each.housing is None for each in (shafts.input, shafts.output)):
+        return shafts
+    from fenics_gears.effects.elastic_shaft_housing import found
+
+    return replace(shafts, input=found(shafts.input, directory), output=found(shafts.output, directory))
+
+
+def files(shafts: Shafts) -> dict[str, str]:
+    """Path and hash of each file of a housing."""
+    both = (each.housing for each in (shafts.input, shafts.output) if each is not None)
+    return {each.path: each.digest for each in both if each is not None}
 
 
 def check(shafts: Shafts, scene, pair) -> None:
@@ -234,6 +277,8 @@ EFFECT = Effect(
         *(ResultVariable(*each, dims=OF_LINES, field="sections") for each in DEFLECTIONS),
     ),
     rules=shafts_are_complete,
+    located=located,
+    files=files,
     check=check,
     warnings=warnings,
 )

@@ -271,9 +271,10 @@ def _quantity(value: Any, unit: str, words: Any, *kinds: str) -> tuple[float, st
 
 @dataclass(frozen=True, kw_only=True)
 class AllowedMatrix(Allowed):
-    """A stiffness matrix: ``size`` rows of as many bare numbers, symmetric and not negative."""
+    """A stiffness matrix: ``size`` rows of as many bare numbers, symmetric and not negative but for ``round_off``."""
 
     size: int
+    round_off: float = ROUND_OFF
 
     def convert(self, value: Any) -> Matrix:
         """The rows."""
@@ -284,14 +285,14 @@ class AllowedMatrix(Allowed):
         if {len(rows), *map(len, rows)} != {self.size} or len(list(filter(isfinite, numbers))) != self.size**2:
             raise Refused(f"is not {self.size} rows of {self.size} numbers.")
         matrix = np.array(numbers, dtype=float).reshape(self.size, self.size)
-        apart, round_off = np.abs(matrix - matrix.T), ROUND_OFF * np.abs(matrix).max()
+        apart, round_off = np.abs(matrix - matrix.T), self.round_off * np.abs(matrix).max()
         if apart.max() > round_off:
             row, column = (int(each) for each in np.unravel_index(apart.argmax(), apart.shape))
             places = f"{matrix[row, column]:g} in row {row + 1}, but {matrix[column, row]:g} in column {row + 1}"
             raise Refused(f"is not symmetric: {places}.")
         # Each motion by what gives its stiffness the size of the others'.
         size = np.sqrt(np.maximum(np.abs(np.diag(matrix)), round_off or 1.0))
-        if np.linalg.eigvalsh(matrix / np.outer(size, size))[0] < -ROUND_OFF:
+        if np.linalg.eigvalsh(matrix / np.outer(size, size))[0] < -self.round_off:
             raise Refused("is not positive: in one motion it would push on by itself.")
         return tuple(tuple(float(each) for each in row) for row in 0.5 * (matrix + matrix.T))
 

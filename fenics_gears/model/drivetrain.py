@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import inf
+from math import inf, isfinite, pi, sqrt
 from typing import TYPE_CHECKING
 
 from fenics_gears.dynamics.drivetrain import Drivetrain, Supports, assembled
@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from fenics_gears.dynamics.drivetrain import LumpedGear
     from fenics_gears.dynamics.elastic_shaft import ElasticShaft
     from fenics_gears.geometry.section import CrossSection
+
+# Harmonics of the mesh that shafts follow with all of their modes.
+HARMONICS = 10
 
 
 def drivetrain(scene: Scene, pair: GearPair, gear_loads: Mapping[str, np.ndarray] | None = None) -> Drivetrain:
@@ -38,7 +41,24 @@ def _elastic(scene: Scene, pair: GearPair, gear_loads: Mapping[str, np.ndarray])
         return ()
     from fenics_gears.effects.elastic_shaft_rules import shaft_at_work
 
-    return tuple(shaft_at_work(scene, pair, gear, gear_loads.get(gear)) for gear in scene.shafts.sections)
+    shafts = tuple(shaft_at_work(scene, pair, gear, gear_loads.get(gear)) for gear in scene.shafts.sections)
+    if scene.inertia is None:
+        return shafts
+    from fenics_gears.dynamics.elastic_shaft_modes import vibrating
+
+    up_to = 2.0 * highest_of_interest(scene, pair)
+    given = {gear: shaft.material.density for gear, shaft in scene.shafts.sections.items()}
+    return tuple(vibrating(each, given[each.gear] or scene.inertia.of(each.gear).density, up_to) for each in shafts)
+
+
+def highest_of_interest(scene: Scene, pair: GearPair) -> float:
+    """Frequency (Hz) up to which shafts vibrate as they would with all of their modes: the highest of so many harmonics
+    of the mesh, or the resonance of both gears on it, roughly."""
+    gears = lumped_gears(scene, pair)
+    along = sum(getattr(pair, name).base_radius ** 2 / each.moment_of_inertia for name, each in gears.items())
+    stiffness = mesh_stiffness(scene)
+    resonance = sqrt(stiffness * along) / (2.0 * pi) if isfinite(stiffness) else 0.0
+    return max(HARMONICS * scene.mesh_frequencies[1], resonance)
 
 
 def mesh_stiffness(scene: Scene) -> float:

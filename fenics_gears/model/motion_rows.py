@@ -8,6 +8,7 @@ import numpy as np
 
 from fenics_gears.dynamics.frequencies import PERIOD_ERROR
 from fenics_gears.dynamics.guidance import resolved_frequency
+from fenics_gears.dynamics.tilting import NUMBERS
 from fenics_gears.effects import common_period
 from fenics_gears.geometry.sliding import sliding_speed
 from fenics_gears.model.model import Model
@@ -47,11 +48,14 @@ def inertia_rows(model: Model) -> Rows:
         for field, unit in (("mass", "kg"), ("moment_of_inertia", "kg mm^2")):
             origin = "" if getattr(given, field) is not None else ", of its body by the density"
             rows.append((f"{name} {field.replace('_', ' ')}", 1e3 * getattr(lumped, field), unit + origin))
-        if model.scene.bearings is not None and model.scene.bearings.places_of(name) is not None:
+        if f"tilt_x{NUMBERS[name]}" in model.drivetrain.coordinates:
             origin = "" if given.tilting_moment_of_inertia else ": J/2 + m b^2/12"
             about = f"kg mm^2, about a diameter{origin}"
             rows.append((f"{name} tilting moment of inertia", 1e3 * lumped.tilting_inertia, about))
         along.append(lumped.moment_of_inertia / getattr(model.pair, name).base_radius ** 2)
+    for shaft in model.drivetrain.elastic:
+        words = f"kg, in addition, with its {len(shaft.modes)} lowest modes, up to {shaft.up_to:.4g} Hz"
+        rows.append((f"mass of the {shaft.gear}'s shaft", 1e3 * shaft.mass_of_all, words))
     if shafts is not None or inertia.load is not None:
         place = "far end of the output shaft" if shafts is not None else "with the wheel"
         rows.append(("load moment of inertia", 1e3 * inertia.shaft_end, f"kg mm^2, {place}"))
@@ -74,7 +78,7 @@ def unknown_rows(model: Model) -> Rows:
             rows.append(
                 (f"the {shaft.gear} is cut into its shaft", 2.0 * getattr(model.pair, shaft.gear).root_radius, words)
             )
-    names = model.drivetrain.coordinates
+    names = [name for name in model.drivetrain.coordinates if "_mode_" not in name]
     motions = ", ".join(map(motion_in_words, names))
     return [*rows, ("motions of the gears that are unknown", f"{len(names)}:", motions)]
 

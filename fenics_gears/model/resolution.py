@@ -194,7 +194,8 @@ def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
         return fewest
     from fenics_gears.dynamics.frequencies import natural_frequencies
 
-    highest = natural_frequencies(drivetrain, mesh_stiffness(scene))[-1]
+    frequencies = natural_frequencies(drivetrain, mesh_stiffness(scene))
+    highest = frequencies[frequencies <= drivetrain.right_up_to].max(initial=0.0)
     wanted = ceil(STEPS_PER_PERIOD * highest / scene.mesh_frequencies[0])
     return int(np.clip(wanted, fewest, MOST_STEPS_PER_MESH_CYCLE))
 

@@ -35,6 +35,7 @@ OVER_FACE = "the flanks are resolved over the face"
 OVER_FACE_WITH_LOAD = "the flanks are resolved over the face and loaded"
 OVER_FACE_WITH_FIELDS = "as `transverse_load_factor`, and contact fields are stored"
 WITH_SECTIONS = "a shaft has `sections`"
+WITH_VIBRATIONS = "a shaft has `sections`, beside `[inertia]`"
 WITH_FILES = "the scene names files (`[body_meshes]`, tables of `[flank_errors]`)"
 WITH_TARGET = "`[accuracy] target`"
 IN_STUDIES = "the run is a study's case"
@@ -196,6 +197,13 @@ _ROWS = (
         (f"mean_axis_{kind}_{plane}", "um", f"mean of `axis_{kind}_{plane}`", WITH_SECTIONS)
         for kind in ("inclination", "offset")
         for plane in ("in_plane", "out_of_plane")
+    ),
+    (
+        "natural_frequencies",
+        "",
+        "a line for each natural frequency with the mean tangent mesh stiffness, as far as modes of shafts are counted:"
+        " the frequency in Hz, then what moves",
+        WITH_VIBRATIONS,
     ),
     ("largest_bearing_force", "N", "largest force of a shaft on one of its bearings", WITH_SECTIONS),
     (

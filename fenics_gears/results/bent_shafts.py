@@ -15,6 +15,7 @@ from fenics_gears.geometry.face import face_opening
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import SHAFT_POINTS
 from fenics_gears.results.face_variables import AlongTheFace
+from fenics_gears.results.numbers import mean_where_positive
 from fenics_gears.results.side_by_side import SideBySide
 
 MICROMETRES = 1e3
@@ -81,14 +82,28 @@ class BentShafts(AlongTheFace):
             "shaft_place": (("gear", "shaft_point"), points, from_end),
         }
 
-    def numbers(self, counted: xr.Dataset) -> dict[str, float]:
-        """Of the settled steps of a result: means of the axes' departures, and the largest force of a bearing."""
+    def numbers(self, counted: xr.Dataset) -> dict[str, float | str]:
+        """Of the settled steps of a result: means of the axes' departures, the largest force of a bearing, and natural
+        frequencies."""
         named = [f"axis_{kind}_{plane}" for kind in ("inclination", "offset") for plane in ("in_plane", "out_of_plane")]
-        found = {f"mean_{name}": float(counted[name].mean()) for name in named}
+        found: dict[str, float | str] = {f"mean_{name}": float(counted[name].mean()) for name in named}
         forces = np.sqrt(sum(counted[name] ** 2 for name in LOADS[:3]))
         proposed = {f"proposed_{name}": MICROMETRES * of for name, of in self._proposed()._asdict().items()}
-        found |= {"largest_bearing_force": float(forces.max())} | self._rolling_elements(counted)
-        return super().numbers(counted) | found | proposed
+        found |= {"largest_bearing_force": float(forces.max())} | proposed
+        return super().numbers(counted) | found | self._rolling_elements(counted) | self._vibrations(counted)
+
+    def _vibrations(self, counted: xr.Dataset) -> dict[str, str]:
+        """Natural frequencies with the mesh as it was, a line each; nothing without inertia or contact."""
+        if self.drivetrain.mass is None or "mesh_stiffness_tangent" not in counted:
+            return {}
+        from fenics_gears.dynamics.frequencies import vibrations
+
+        stiffness = mean_where_positive(counted["mesh_stiffness_tangent"].values)
+        if not np.isfinite(stiffness):
+            return {}
+        found = vibrations(self.drivetrain, stiffness, self.model.scene.friction is not None)
+        lines = (f"{each.frequency:.6g} {each.motion}".rstrip() for each in found)
+        return {"natural_frequencies": "\n".join(lines)}
 
     def _rolling_elements(self, counted: xr.Dataset) -> dict[str, float]:
         """The largest force of a rolling element under the mean load; empty where no bearing has any."""

@@ -71,7 +71,7 @@ class AlongTheFace:
         section = words["root_stress_at_30_degrees"]
         return {**words, "root_stress_at_30_degrees": f"largest {section}", "root_stress_over_face": section}
 
-    def numbers(self, counted: xr.Dataset) -> dict[str, float]:
+    def numbers(self, counted: xr.Dataset) -> dict[str, float | str]:
         """Of the settled steps of a result."""
         return load_factors(counted, self.pair)
 

@@ -14,6 +14,8 @@ from fenics_gears.system.progress import seconds_in_words
 
 MICROMETRES = 1e3
 KILO = 1e3
+# So many natural frequencies are printed.
+LOWEST = 6
 # Lengths (um) that are round-off of positions.
 ROUND_OFF = 1e-6
 Row = tuple[str, str, str]
@@ -133,8 +135,17 @@ def _shafts(found) -> Said:
         balls = found.get("largest_rolling_element_force")
         rolling = "" if balls is None else f", of a rolling element {balls:.4g} N"
         yield "largest force of a bearing", f"{found['largest_bearing_force']:.4g} N{rolling}"
+        if "natural_frequencies" in found:
+            yield "natural frequencies", _frequencies(found["natural_frequencies"].splitlines())
         amounts = (f'{name} = "{found[f"proposed_{name}"]:.1f} um"' for name in ("helix_slope", "crowning"))
         yield "against shafts that bend, in [lead_modifications]", f"pinion = {{ {', '.join(amounts)} }}"
+
+
+def _frequencies(lines: list[str]) -> str:
+    """The lowest natural frequencies, and what moves."""
+    each = (line.partition(" ") for line in lines[:LOWEST])
+    said = ", ".join(f"{float(hertz):.4g} Hz" + (f" ({motion})" if motion else "") for hertz, _, motion in each)
+    return f"{said}; {len(lines)} in all" if len(lines) > LOWEST else said
 
 
 def _pressure(found) -> Said:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tests.beam_elements import condensed
 
-from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions, shear_coefficient
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft, free_motions, in_series, shear_coefficient
 from fenics_gears.effects.bearings import Bearing, BearingPlaces, Bearings, Support
 from fenics_gears.effects.shafts import Shaft, ShaftMaterial, Shafts, ShaftSection
 from fenics_gears.model.drivetrain import drivetrain
@@ -227,6 +227,25 @@ def test_the_twist_is_that_of_a_torsional_spring(paper_scene, paper_pair):
         place, there = found.coordinates.index(name), wanted.coordinates.index(name)
         assert found.stiffness[place] == pytest.approx(np.eye(len(found.load))[place] * wanted.stiffness[there, there])
         assert found.load[place] == wanted.load[there]
+
+
+def test_a_housing_of_springs_is_in_series_with_the_bearings():
+    """Exact: a diagonal matrix gives each bearing k h / (k + h), also one that is stiffer or softer by nine decades;
+    seats that hold each other act as the blocks of springs do when the seats' motions are eliminated."""
+    bearings = [Bearing(12.0, 3e5, 1e5, 1e7), Bearing(88.0, 4e5, 0.0, 2e6)]
+    own = np.concatenate([np.diag(each.matrix) for each in bearings])
+    for times in (1e-9, 0.3, 1e9):
+        seats = times * np.array([2e5, 5e5, 1e5, 2e7, 1e7, 1e5, 3e5, 2e5, 1e7, 3e7])
+        series = np.diag(own * seats / (own + seats))
+        blocks = (series[:5, :5], series[5:, 5:])
+        wanted = [Bearing(each.at, stiffness_matrix=tuple(map(tuple, of))) for each, of in zip(bearings, blocks)]
+        found = replace(shaft(STEPS, 55.0, bearings), housing=tuple(map(tuple, np.diag(seats))))
+        by_hand = shaft(STEPS, 55.0, wanted).stiffness
+        assert found.stiffness == pytest.approx(by_hand, rel=1e-12, abs=1e-12 * by_hand.max())
+    draw = np.random.default_rng(7).normal(size=(10, 6))
+    coupled, springs = 1e5 * draw @ draw.T, np.diag(own + 1e3)
+    eliminated = springs - springs @ np.linalg.solve(springs + coupled, springs)
+    assert in_series(springs, coupled) == pytest.approx(eliminated, rel=1e-9, abs=1e-12 * springs.max())
 
 
 @pytest.mark.parametrize(

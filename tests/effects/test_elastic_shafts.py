@@ -58,6 +58,14 @@ CUT = (
     .replace('material = "ductile cast iron"\n', "")
 )
 GEARS = ("pinion", "wheel")
+INERTIA = '[inertia]\nmass = "2 kg"\nmoment_of_inertia = "0.002 kg m^2"\n'
+# The same shafts with a density, and what vibrates.
+VIBRATING = (
+    ELASTIC.replace('torque_at = "0 mm"', 'torque_at = "0 mm"\nmaterial = { density = "7.85 g/cm^3" }').replace(
+        '"ductile cast iron"', '{ name = "ductile cast iron", density = "7.2 g/cm^3" }'
+    )
+    + INERTIA
+)
 
 
 def shear(outer, bore):
@@ -163,6 +171,34 @@ def test_the_scene_is_written_and_read_again():
     assert section_trees(again) == section_trees(scene)
 
 
+def test_a_shaft_that_vibrates_keeps_the_balance_of_energy():
+    """Exact: the energy account of a run with inertia, friction and damping closes to round-off, and the result has
+    natural frequencies, of which the mesh's is one."""
+    more = VIBRATING + "[friction]\ncoefficient = 0.05\n[damping]\nratio = 0.05\n"
+    model = model_of(helical_scene(more, offset=2.0, accuracy=FEW.replace("= 8", "= 64"), frequency=800.0))
+    found = run_of(model, on_stand_in_bodies(model))
+    assert found.failure is None
+    assert any("_mode_" in name for name in model.drivetrain.coordinates)
+    result = found.result
+    assert np.abs(result["energy_defect"].values).max() <= 1e-10 * result["energy"].values.max()
+    assert result["energy_kinetic"].values.max() > 1e-3 * result["energy"].values.max()
+    lines = result.attrs["natural_frequencies"].splitlines()
+    assert sum("mesh springs" in line for line in lines) >= 1
+    assert float(lines[-1].split()[0]) <= model.drivetrain.right_up_to
+
+
+def test_a_slow_run_with_inertia_is_the_quasi_static_one():
+    """Limit: at a hundredth of a mesh cycle a second inertia does nothing."""
+    runs = []
+    for more in (VIBRATING, VIBRATING.replace(INERTIA, "")):
+        model = model_of(helical_scene(more, offset=2.0, accuracy=FEW, frequency=0.01))
+        runs.append(run_of(model, on_stand_in_bodies(model)).result)
+    moving, still = runs
+    for name in ("transmission_error", "bearing_force_x", "bearing_moment_y", "tilt_y", "shaft_deflection_x"):
+        different = np.nanmax(np.abs(moving[name].values - still[name].values))
+        assert different <= 1e-9 * np.nanmax(np.abs(still[name].values))
+
+
 ROLLING = (
     INPUT
     + """
@@ -226,7 +262,7 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
             INPUT + PINION + "[shafts.output]\ntorsional_stiffness = '1e8 N mm/rad'\ngear_at = '5 mm'",
             "output.gear_at.* no effect",
         ),
-        (ELASTIC + '[inertia]\nmass = "2 kg"\nmoment_of_inertia = "0.02 kg m^2"\n', "inertia.* cannot stand beside"),
+        (ELASTIC + INERTIA, "shafts.input.material.density.* is missing: .* nothing tells how dense"),
         (INPUT.replace("torque_at", 'seat = "loose"\ntorque_at') + PINION, "shafts.input.seat"),
         (INPUT.replace('"35 mm"', '"50 mm"') + PINION, "the shaft is 50 mm thick under the pinion's face, more than"),
         (ELASTIC.replace("torque_at", 'seat = "integral"\ntorque_at'), "output.seat .* two materials"),
@@ -244,6 +280,7 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
             ROLLING.replace("number = 9,", 'number = 9, preload = "10 N", contact_angle = "15 deg",'),
             "preloads push the shaft with 10 N along its axis",
         ),
+        (ROLLING.replace("gear_at", 'material = { density = "7.85 g/cm^3" }\ngear_at') + INERTIA, "bearings.pinion: rolling beside .inertia.: how stiff"),
         (ROLLING.replace("torque_at", 'seat = "integral"\ntorque_at'), "has a stiffness_matrix or rolling"),
     ],
 )
@@ -251,6 +288,46 @@ def test_what_does_not_fit_is_refused_before_any_computation(more, said):
     """Authority: the issue's list of bad input; each message names what is wrong, and where."""
     with pytest.raises(SceneError, match=f"(?s){said}"):
         model_of(helical_scene(more, accuracy=""))
+
+
+HOUSING = INPUT.replace("torque_at", 'housing = "housing.txt"\ntorque_at') + PINION
+SEATS = np.diag(np.tile([3e5, 2e5, 1e5, 1e8, 2e8, 0.0], 2))
+
+
+def written(folder, matrix):
+    """The text of a scene with a housing, whose file is written into a folder."""
+    rows = "\n".join(" ".join(f"{each:.9e}" for each in row) for row in matrix)
+    (folder / "housing.txt").write_text(f"# of an export\n{rows}\n".replace("e+", "D+"))
+    return helical_scene(INPUT + PINION, accuracy="").text.replace(INPUT + PINION, HOUSING)
+
+
+def test_a_housing_from_a_file_is_in_series_with_the_bearings(tmp_path):
+    """Identity: two seats that do not hold each other are springs behind the bearings; the file is found beside the
+    scene."""
+    scene = scene_from_text(written(tmp_path, SEATS), directory=tmp_path)
+    found = model_of(scene).drivetrain.elastic[0]
+    wanted = [0.15e6, 0.12e6, 0.05e6, 0.0, 0.0, 0.4e6 * 0.3 / 0.7, 0.4e6 * 0.2 / 0.6, 0.0, 1e15 / 1.1e8, 2e15 / 2.1e8]
+    assert found.springs == pytest.approx(np.diag(wanted), rel=1e-12)
+    assert scene.shafts.input.housing.digest
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda matrix: matrix[:6, :6], "has 6 rows for 2 bearings; allowed are 12"),
+        (lambda matrix: matrix[:-1], "is not 11 rows of 11 numbers"),
+        (lambda matrix: matrix + np.eye(12, k=3) * 1e4, "is not symmetric: 10000 in row"),
+        (lambda matrix: matrix - 2.0 * np.diag([0, 0, 1e5, *np.zeros(9)]), "is not positive"),
+        (lambda matrix: matrix[:0], "has no numbers"),
+    ],
+)
+def test_a_housing_that_is_none_is_refused(tmp_path, change, said):
+    """Authority: the issue: symmetric, positive, and of the seats that there are."""
+    text = written(tmp_path, change(SEATS))
+    with pytest.raises(SceneError, match=f"shafts.input.housing.*{said}"):
+        model_of(scene_from_text(text, directory=tmp_path))
+    with pytest.raises(SceneError, match="shafts.input.housing.*there is no such file"):
+        model_of(scene_from_text(text, directory=tmp_path / "elsewhere"))
 
 
 def test_a_shaft_that_is_not_as_thick_as_the_bore_is_told():

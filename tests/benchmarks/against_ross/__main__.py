@@ -1,10 +1,10 @@
-"""Static displacements of shafts at their gear under a force and a moment, by this program and by the rotor program
-ROSS, side by side.
+"""Static displacements of shafts at their gear under a force and a moment, and natural frequencies with a disc there,
+by this program and by the rotor program ROSS, side by side.
 
     python -m tests.benchmarks.against_ross PYTHON   # PYTHON: one that has ROSS, `pip install ross-rotordynamics`
 
-The gear's seat has no width here, since ROSS has no rigid part of a shaft. A cone is divided into as many elements of
-ROSS as the second number of its row says.
+The gear's seat has no width here, since ROSS has no rigid part of a shaft. Each section is divided into as many
+elements of ROSS as the second number of its row says.
 """
 
 from __future__ import annotations
@@ -15,24 +15,30 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from scipy.linalg import block_diag, eigh
 
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+from fenics_gears.dynamics.elastic_shaft_modes import VibratingShaft, vibrating
 from fenics_gears.effects.bearings import Bearing
 from fenics_gears.effects.shafts import ShaftSection
 
 BEARINGS = (Bearing(12.0, 3e5, 1e5), Bearing(85.0, 4e5))
 HOLLOW, THICK = ShaftSection(40.0, 28.0, bore=8.0), ShaftSection(90.0, 35.0)
 SHAFTS = {
-    "cylinder, gear between the bearings": ((ShaftSection(100.0, 30.0),), 50.0, 1),
-    "hollow and stepped, overhung gear": ((HOLLOW, THICK), 114.0, 1),
+    "cylinder, gear between the bearings": ((ShaftSection(100.0, 30.0),), 50.0, 60),
+    "hollow and stepped, overhung gear": ((HOLLOW, THICK), 114.0, 60),
     "with a cone, overhung gear": ((HOLLOW, ShaftSection(30.0, 28.0, 40.0), THICK), 130.0, 40),
 }
+# Of steel, N s^2/mm^4; of the disc: mass, N s^2/mm, and moments of inertia about a diameter and the axis, N mm s^2.
+DENSITY, DISC = 7.85e-9, (2e-3, 1.1, 2.0)
+# Frequencies up to the first of these, Hz, are compared; modes of the program's shafts are up to the other.
+COMPARED, UP_TO = 12e3, 1e6
 
 
-def by_ross(python: str, shaft: ElasticShaft, pieces: int) -> np.ndarray:
-    """Displacements (5, 5) of the gear's middle per load."""
+def by_ross(python: str, shaft: ElasticShaft, pieces: int) -> tuple[np.ndarray, np.ndarray]:
+    """Displacements (5, 5) of the gear's middle per load, and natural frequencies, Hz."""
     ends = np.cumsum([0.0, *(each.length for each in shaft.sections)])
-    within = [np.linspace(a, b, pieces + 1) for each, a, b in zip(shaft.sections, ends, ends[1:]) if each.tapered]
+    within = [np.linspace(a, b, pieces + 1) for a, b in zip(ends, ends[1:])]
     places = np.unique(np.concatenate([ends, [shaft.gear_at], [each.at for each in shaft.bearings], *within]))
     elements = []
     for left, right in zip(places, places[1:]):
@@ -49,27 +55,52 @@ def by_ross(python: str, shaft: ElasticShaft, pieces: int) -> np.ndarray:
         "elements": elements,
         "bearings": [[node(each.at), each.radial_stiffness, each.axial_stiffness] for each in shaft.bearings],
         "node": node(shaft.gear_at),
+        "density": DENSITY,
+        "disc": DISC,
     }
     script = Path(__file__).with_name("ross_shaft.py")
     done = subprocess.run([python, script], input=json.dumps(given), capture_output=True, text=True, check=True)
-    return np.array(json.loads(done.stdout.splitlines()[-1]))
+    moved, frequencies = json.loads(done.stdout.splitlines()[-1])
+    return np.array(moved), elastic(np.array(frequencies))
 
 
-def compared(python: str) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-    """Displacements (5, 5) per load by this program and by ROSS, for each shaft."""
+def elastic(frequencies: np.ndarray) -> np.ndarray:
+    """Natural frequencies, Hz, ascending, without that of the shaft that turns freely and those too high to compare."""
+    return frequencies[(frequencies > 1.0) & (frequencies < COMPARED)]
+
+
+def free_frequencies(shaft: VibratingShaft) -> np.ndarray:
+    """Natural frequencies, Hz, with the disc, free to turn."""
+    mass, across, about = DISC
+    of_disc = np.zeros(len(shaft.mass))
+    of_disc[:6] = mass, mass, mass, across, across, about
+    torsion = shaft.torsional_stiffness * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    own = len(shaft.stiffness)
+    stiffness = block_diag(shaft.stiffness, torsion, shaft.own_stiffness[own:, own:])
+    squares = eigh(stiffness, shaft.mass + np.diag(of_disc), eigvals_only=True)
+    return elastic(np.sqrt(np.maximum(squares, 0.0)) / (2.0 * np.pi))
+
+
+def compared(python: str) -> dict[str, tuple[tuple[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]]:
+    """Displacements (5, 5) per load and natural frequencies, by this program and by ROSS, for each shaft."""
     found = {}
     for name, (sections, gear_at, pieces) in SHAFTS.items():
         shaft = ElasticShaft("pinion", sections, (206e3, 0.3), gear_at, 0.0, 0.0, BEARINGS)
-        found[name] = np.linalg.inv(shaft.stiffness), by_ross(python, shaft, pieces)
+        own = np.linalg.inv(shaft.stiffness), free_frequencies(vibrating(shaft, DENSITY, UP_TO))
+        found[name] = own, by_ross(python, shaft, pieces)
     return found
 
 
 def main(python: str) -> None:
     """Print displacements and largest differences."""
     print("shaft; um along x under 1 kN: this program, ROSS; largest difference, part of each entry's own size")
-    for name, (own, other) in compared(python).items():
+    every = compared(python)
+    for name, ((own, _), (other, _)) in every.items():
         size = np.sqrt(np.outer(np.diag(own), np.diag(own)))
         print(f"{name}; {1e6 * own[0, 0]:.6f}, {1e6 * other[0, 0]:.6f}; {np.abs((own - other) / size).max():.1e}")
+    print(f"natural frequencies up to {COMPARED:g} Hz: how many, lowest by both, largest difference in parts")
+    for name, ((_, own), (_, other)) in every.items():
+        print(f"{name}; {len(own)}; {own[0]:.3f}, {other[0]:.3f}; {np.abs(own / other - 1.0).max():.1e}")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 """A shaft on its bearings as the rotor program ROSS has it; run by a Python that has ROSS, without this program.
 
-Reads a JSON object from standard input and writes the displacements of a node (x, y, z, tilts about x and y) under a
-force and a moment on it, by the directions of the load, to standard output. N, mm, rad; ROSS counts in metres.
+Reads a JSON object from standard input and writes to standard output the displacements of a node (x, y, z, tilts about
+x and y) under a force and a moment on it, by the directions of the load, and the natural frequencies (Hz) with a disc
+there. N, mm, s, rad; ROSS counts in metres.
 """
 
 import json
@@ -9,12 +10,13 @@ import sys
 
 import numpy as np
 import ross
+from scipy.linalg import eigh
 
 
-def displacements(given):
-    """Motions (5, 5) of the node per load."""
+def rotor(given):
+    """The shaft with its bearings and the disc."""
     modulus, ratio = given["material"]
-    steel = ross.Material("steel", rho=7850.0, E=1e6 * modulus, Poisson=ratio)
+    steel = ross.Material("steel", rho=1e12 * given["density"], E=1e6 * modulus, Poisson=ratio)
     elements = [
         ross.ShaftElement(
             L=1e-3 * length, idl=1e-3 * bore, odl=1e-3 * left, idr=1e-3 * bore, odr=1e-3 * right, material=steel
@@ -25,7 +27,14 @@ def displacements(given):
         ross.BearingElement(n=node, kxx=1e3 * radial, kzz=1e3 * axial, cxx=0.0)
         for node, radial, axial in given["bearings"]
     ]
-    stiffness = ross.Rotor(elements, bearing_elements=bearings).K(0.0)
+    mass, across, about = given["disc"]
+    disc = ross.DiskElement(n=given["node"], m=1e3 * mass, Id=1e-3 * across, Ip=1e-3 * about)
+    return ross.Rotor(elements, disk_elements=[disc], bearing_elements=bearings)
+
+
+def displacements(stiffness, given):
+    """Motions (5, 5) of the node per load."""
+    stiffness = stiffness.copy()
     # The shaft turns freely.
     stiffness[5, 5] += 1.0
     metres = np.array([1e3, 1e3, 1e3, 1.0, 1.0])
@@ -35,4 +44,8 @@ def displacements(given):
     return metres[:, None] * found[np.ix_(node, node)] * newtons
 
 
-print(json.dumps(displacements(json.load(sys.stdin)).tolist()), file=sys.__stdout__)
+given = json.load(sys.stdin)
+found = rotor(given)
+squares = eigh(found.K(0.0), found.M(0.0), eigvals_only=True)
+frequencies = np.sqrt(np.maximum(squares, 0.0)) / (2.0 * np.pi)
+print(json.dumps([displacements(found.K(0.0), given).tolist(), frequencies.tolist()]), file=sys.__stdout__)

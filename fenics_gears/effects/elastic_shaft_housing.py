@@ -1,0 +1,79 @@
+"""The housing that the bearings of a shaft with sections are seated in: a stiffness matrix from a text file, as finite
+element programs export it. Not an effect by itself."""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import replace
+from hashlib import sha256
+from pathlib import Path
+
+import numpy as np
+
+from fenics_gears.effects.shafts import HousingFile, Shaft
+from fenics_gears.errors import SceneError
+from fenics_gears.inputs.allowed import AllowedMatrix, Matrix, Refused
+from fenics_gears.inputs.written import as_written
+from fenics_gears.system import user_file
+
+# Of a seat: displacements along x, y, z and rotations about them.
+OF_A_SEAT, ABOUT_Z = 6, 5
+COMMENTS = ("#", "%", "!", "*")
+# Part of the largest entry that the digits of a file may be off by.
+ROUNDING = 1e-6
+
+
+def found(shaft: Shaft | None, directory: Path) -> Shaft | None:
+    """The shaft with the matrix of its housing, whose file is looked for from a directory on."""
+    if shaft is None or shaft.housing is None:
+        return shaft
+    # `check` says what is wrong; a scene that is only looked at needs no file.
+    path = os.path.realpath(directory / shaft.housing.path)
+    try:
+        text = user_file.text_of(Path(path), user_file.LARGEST_SCENE)
+        stiffness, problem = _matrix_in(text), ""
+    except (user_file.Unreadable, Refused) as refused:
+        text, stiffness, problem = "", None, str(refused)
+    return replace(shaft, housing=HousingFile(path, sha256(text.encode()).hexdigest(), stiffness, problem))
+
+
+def _matrix_in(text: str) -> Matrix:
+    """The matrix whose rows are lines of numbers, parted by blanks, commas or semicolons. Raises Refused."""
+    lines = [line.strip() for line in text.splitlines()]
+    rows: list[list[float]] = []
+    for number, line in enumerate(lines, 1):
+        if line and not line.startswith(COMMENTS):
+            try:
+                # Fortran writes exponents with a D.
+                rows.append([float(each.replace("D", "E")) for each in re.split(r"[\s,;]+", line.strip(",;"))])
+            except ValueError:
+                raise Refused(f"line {number} is not of numbers alone.") from None
+    if not rows:
+        raise Refused("has no numbers.")
+    allowed = AllowedMatrix(description="", size=len(rows), meaning="", round_off=ROUNDING)
+    return allowed.convert(rows)
+
+
+def check_housing(shaft: Shaft, name: str, bearings: int) -> None:
+    """Raise SceneError where the matrix of [shafts.`name`] cannot be read, or is not of so many seats."""
+    if shaft.housing is None:
+        return
+    size, problem = OF_A_SEAT * bearings, shaft.housing.problem
+    rows = len(shaft.housing.stiffness or ())
+    if not problem and rows != size:
+        problem = f"has {rows} rows for {bearings} bearings; allowed are {size}: six motions of each seat"
+    if problem:
+        raise SceneError(f"shafts.{name}.housing = {as_written(shaft.housing.path)}: {problem}")
+
+
+def stiffness_of_seats(housing: HousingFile | None) -> Matrix | None:
+    """The stiffness over x, y, z and the tilts about x and y of each seat, which turns freely about z: bearings pass no
+    moment on about it."""
+    if housing is None or housing.stiffness is None:
+        return None
+    whole = np.array(housing.stiffness)
+    free = np.arange(len(whole)) % OF_A_SEAT == ABOUT_Z
+    beside = whole[np.ix_(~free, free)]
+    passed = beside @ np.linalg.pinv(whole[np.ix_(free, free)]) @ beside.T
+    return tuple(map(tuple, whole[np.ix_(~free, ~free)] - passed))

@@ -1,0 +1,146 @@
+"""Natural frequencies of shafts with their own mass: closed forms, brute force by elements with lumped masses, and the
+modes that are left out."""
+
+from dataclasses import replace
+from math import pi, sqrt
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.linalg import block_diag, eigh
+from tests.beam_elements import FIVE, assembled
+from tests.dynamics.test_elastic_shaft import ON_THREE, STEPS, STIFF, E, G, area, second, shaft, shear
+from tests.effects.test_elastic_shafts import CUT, INERTIA, VIBRATING
+from tests.helical import helical_scene
+
+from fenics_gears import model_of
+from fenics_gears.dynamics.elastic_shaft_modes import LONGEST_ELEMENT, vibrating
+from fenics_gears.dynamics.frequencies import vibrations
+from fenics_gears.dynamics.speed_ramp import inertia_forces
+from fenics_gears.effects.bearings import Bearing
+from fenics_gears.effects.shafts import ShaftSection
+from fenics_gears.model.drivetrain import mesh_stiffness
+
+DENSITY = 7.85e-9
+ALL = 1e6  # Hz: more modes than anybody needs.
+
+
+def frequencies(found, of_gear=(0.0,) * 6):
+    """Natural frequencies, Hz, of a shaft with masses and moments of inertia of its gear, free to turn."""
+    torsion = found.torsional_stiffness * np.array([[1.0, -1.0], [-1.0, 1.0]])
+    stiffness = block_diag(found.stiffness, torsion, found.own_stiffness[FIVE:, FIVE:])
+    mass = found.mass + np.diag([*of_gear, *np.zeros(len(found.mass) - 6)])
+    return np.sqrt(np.maximum(eigh(stiffness, mass, eigvals_only=True), 0.0)) / (2.0 * pi)
+
+
+def error_of_elements(mode):
+    """Part by which a mode of so many half waves is too high: (k h)^2/24 of linear elements with consistent mass."""
+    return (mode * pi * LONGEST_ELEMENT) ** 2 / 24.0
+
+
+def simply_supported(mode):
+    """Circular frequency (1/s) of a uniform Timoshenko beam between supports: E I k^4 - rho A w^2 (1 + k^2 I/A (1 + E /
+    kappa G)) + rho^2 I / (kappa G) w^4 = 0, with k = n pi / L."""
+    length, diameter = 200.0, 25.0
+    k, stiff = mode * pi / length, shear(diameter) * G
+    whole = DENSITY * area(diameter) * (1.0 + k**2 * second(diameter) / area(diameter) * (1.0 + E / stiff))
+    a, c = DENSITY**2 * second(diameter) / stiff, E * second(diameter) * k**4
+    return sqrt((whole - sqrt(whole**2 - 4.0 * a * c)) / (2.0 * a))
+
+
+def test_a_simply_supported_shaft_vibrates_as_in_closed_form():
+    """Exact: the first three frequencies of bending, each of both planes, but for the elements' own error."""
+    found = shaft(
+        [ShaftSection(200.0, 25.0)], 70.0, [Bearing(0.0, STIFF, 1e-3), Bearing(200.0, STIFF)], torque_at=200.0
+    )
+    own = frequencies(vibrating(found, DENSITY, ALL))
+    for mode in (1, 2, 3):
+        above = own / (simply_supported(mode) / (2.0 * pi)) - 1.0
+        assert np.sort(above[above > -1e-7])[:2] == pytest.approx([0.0, 0.0], abs=error_of_elements(mode))
+
+
+def test_a_free_shaft_twists_as_in_closed_form():
+    """Exact: n/2L sqrt(G/rho) of a shaft free at both ends, wherever gear and coupling are, but for the elements' own
+    error."""
+    found = shaft([ShaftSection(150.0, 30.0, bore=12.0)], 40.0, [Bearing(0.0, 1e5, 1e5), Bearing(90.0, 1e5)], 120.0)
+    own = frequencies(vibrating(found, DENSITY, ALL))
+    for mode in (1, 2, 3):
+        above = own / (0.5 * mode / 150.0 * sqrt(G / DENSITY)) - 1.0
+        assert np.abs(above).min() <= 1.01 * error_of_elements(mode)
+
+
+def test_frequencies_are_those_of_a_textbooks_elements():
+    """Brute force: two hundred elements of a textbook with lumped masses, bearings of all kinds, a heavy gear."""
+    of_gear = (1e-3, 1e-3, 1e-3, 0.3, 0.3, 0.5)
+    found = shaft(STEPS, 55.0, ON_THREE)
+    places, stiffness = assembled(found, shear, np.linspace(0.0, found.length, 201))
+    ends, masses = np.cumsum([each.length for each in STEPS]), np.zeros((len(places), FIVE))
+    for number, (left, right) in enumerate(zip(places, places[1:])):
+        part = STEPS[int(np.searchsorted(ends, 0.5 * (left + right)))]
+        size = np.array([area(part.diameter, part.bore)] * 3 + [second(part.diameter, part.bore)] * 2)
+        masses[number : number + 2] += 0.5 * DENSITY * (right - left) * size
+    masses[places.index(55.0)] += of_gear[:FIVE]
+    lumped = np.sqrt(eigh(stiffness, np.diag(masses.ravel()), eigvals_only=True, subset_by_index=(0, 9))) / (2.0 * pi)
+    # Without torsion, which these elements have not.
+    own = frequencies(vibrating(found, DENSITY, ALL), of_gear)
+    assert [np.abs(own / each - 1.0).min() for each in lumped] == pytest.approx(np.zeros(10), abs=4e-4)
+
+
+def test_mass_is_that_of_a_rigid_body():
+    """Exact: mass, centre of gravity and moments of inertia of a hollow cylinder that moves as a whole; of one that
+    does not bend also in the coordinates of its gear."""
+    length, at = 80.0, 30.0
+    found = vibrating(shaft([ShaftSection(length, 30.0, bore=10.0)], at, ON_THREE[:1], 70.0, 20.0), DENSITY, 1e3)
+    stiff = replace(found, material=(1e30, 0.3))
+    section, bending = DENSITY * area(30.0, 10.0), DENSITY * second(30.0, 10.0)
+    assert found.mass_of_all == pytest.approx(section * length, rel=1e-12)
+    off = 0.5 * length - at
+    assert stiff.mass[0, [0, 4]] == pytest.approx(section * length * np.array([1.0, off]), rel=1e-12)
+    tilting = bending * length + section * length * (length**2 / 12.0 + off**2)
+    assert stiff.mass[3, 3] == pytest.approx(tilting, rel=1e-12)
+    turning = np.zeros(len(found.mass))
+    turning[5:7] = 1.0
+    assert turning @ found.mass @ turning == pytest.approx(2.0 * bending * length, rel=1e-12)
+
+
+def test_a_gear_that_is_cut_into_its_shaft_is_not_counted_twice():
+    """Exact: what of such a shaft is under the face is what its gear, whose mass is down to the bore, has not."""
+    more = CUT.replace("torque_at", 'material = { density = "7.85 g/cm^3" }\ntorque_at') + INERTIA
+    model = model_of(helical_scene(more, accuracy=""))
+    own, bore = model.drivetrain.elastic[0], 2.0 * model.pair.pinion.bore_radius
+    wanted = area(28.0, 8.0) * 40.0 + area(35.0) * (90.0 - own.seat) + area(bore) * own.seat
+    assert own.mass_of_all == pytest.approx(DENSITY * wanted, rel=1e-12)
+    assert own.mass[:2, :2] == pytest.approx(own.mass[0, 0] * np.eye(2))
+
+
+def test_an_accelerated_input_shaft_is_twisted_by_its_own_inertia():
+    """Exact: J L / G Ip + rho L^2 / 2 G lags a gear with moment of inertia J behind a coupling, in an even
+    acceleration, whose distance is L."""
+    scene = helical_scene(VIBRATING, accuracy="")
+    model = model_of(scene)
+    own, there = model.drivetrain, model.drivetrain.coordinates.index("rotation_1")
+    clock = SimpleNamespace(acceleration_at=lambda step: 1.0)
+    load = inertia_forces(clock, own, scene.gears.wheel.teeth)(0)
+    found = load[there] / own.stiffness[there, there] / own.radii[there]
+    speed, beam = 2.0 * pi / scene.gears.pinion.teeth, own.elastic[0]
+    # Parts of the shaft between coupling and seat, from the coupling on, and all that is beyond.
+    places = [0.0, 40.0, beam.seat_ends[0]]
+    polar = [2.0 * second(28.0, 8.0), 2.0 * second(35.0)]
+    beyond, twist = 2e-3 * 1e3 + 2.0 * second(35.0) * beam.density * (130.0 - beam.seat_ends[0]), 0.0
+    for left, right, part in reversed(list(zip(places, places[1:], polar))):
+        length = right - left
+        twist += beyond * length / (G * part) + beam.density * length**2 / (2.0 * G)
+        beyond += beam.density * part * length
+    assert found == pytest.approx(-twist * speed, rel=1e-9)
+
+
+def test_the_modes_that_are_left_out_do_not_matter():
+    """Limit: natural frequencies of the whole with all modes of the shafts. Those that the program shows, up to half of
+    the frequency beyond which modes are left out, are right to 0.4 %."""
+    # At a high speed modes are counted up to 200 kHz.
+    models = [model_of(helical_scene(VIBRATING, accuracy="", frequency=hertz)) for hertz in (800.0, 10e3)]
+    stiffness = mesh_stiffness(models[0].scene)
+    found, wanted = (np.array([each.frequency for each in vibrations(of.drivetrain, stiffness)]) for of in models)
+    assert len(wanted) > len(found) + 20 > 30
+    assert found == pytest.approx(wanted[: len(found)], rel=4e-3)
+    assert np.all(found >= wanted[: len(found)] * (1.0 - 1e-9))
