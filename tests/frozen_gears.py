@@ -55,8 +55,13 @@ def frozen_marcher(scene, pair, flanks, step, phase_step=60):
     """A marcher with time step `step` (s) at one position of 100 in the mesh cycle, and its drivetrain."""
     shafts = drivetrain(scene, pair)
     cycle = Cycle(elastic_mesh(flanks, GRID), 100, shafts.indices, tangential=scene.friction is not None)
+    return frozen_at(cycle, scene, shafts, step, phase_step), shafts
+
+
+def frozen_at(cycle, scene, shafts, step, phase_step):
+    """A marcher with time step `step` (s) at one position of a cycle."""
     friction = 0.0 if scene.friction is None else scene.friction.coefficient
-    return Marcher(Frozen(cycle, phase_step), EquationsOfMotion(shafts, step, friction)), shafts
+    return Marcher(Frozen(cycle, phase_step), EquationsOfMotion(shafts, step, friction))
 
 
 def pushed(marcher, shafts, **speeds):

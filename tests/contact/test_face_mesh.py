@@ -56,18 +56,6 @@ def errors(records):
     return np.array([record.state.position[0] for record in records])
 
 
-@pytest.mark.parametrize("slices", [1, pytest.param(4, marks=pytest.mark.nightly)])
-def test_a_spur_pair_is_the_plane_one(model, slices):
-    """Identity: where nothing varies along the face, and the body's section is rigid along it, slices are the plane
-    pair side by side."""
-    face, plane = marched(model, face_cycle(model, face_of(slices))), marched(model, plane_cycle(model))
-    np.testing.assert_allclose(errors(face), errors(plane), rtol=1e-12)
-    record, of_plane = face[7], plane[7]
-    nodes = of_plane.position.operator.nodes
-    by_slice = record.solution.forces[: record.position.operator.nodes]
-    assert by_slice.sum() == pytest.approx(of_plane.solution.forces[:nodes].sum(), rel=1e-12)
-
-
 def test_a_shorter_window_where_no_edge_is_near_changes_nothing(model):
     """Exact: flanks do not touch outside it, so that the same nodes carry."""
     face = face_of(5, slope=0.2)
@@ -87,11 +75,11 @@ def test_hands_mirror_each_other(model):
     right = marched(model, face_cycle(model, face_of(6, 0.2), opening(1.0)))
     left = marched(model, face_cycle(model, face_of(6, -0.2), opening(-1.0)))
     np.testing.assert_allclose(errors(left), errors(right), rtol=1e-10)
-    loads = [_by_slice(records[5], 6) for records in (right, left)]
+    loads = [by_slice(records[5], 6) for records in (right, left)]
     np.testing.assert_allclose(loads[1][::-1], loads[0], rtol=1e-9, atol=1e-6)
 
 
-def _by_slice(record, slices):
+def by_slice(record, slices):
     operator = record.position.operator
     found = np.zeros(slices)
     for nodes, pair in enumerate(operator.pairs):

@@ -1,6 +1,7 @@
 """Run the hard cases and write what they measured into the documentation: `python -m tests.hard_cases.table`.
 
-Writes docs/hard_cases.md, with what the nightly cases measure. Further arguments go to pytest.
+Writes docs/hard_cases.md, with what the nightly cases measure. Further arguments go to pytest; tables of which nothing
+was measured then stay as they are, so that `-k over_the_face` renews those of the face alone.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import pytest
 
 HERE = Path(__file__).parent
 PAGE = HERE.parents[1] / "docs" / "hard_cases.md"
+OVER_THE_FACE = "Over the face:"
 
 
 class Collector:
@@ -39,16 +41,20 @@ def page(collector: Collector, text: str) -> str:
     head, *cases = re.split(r"^(?=## \d+\. )", text, flags=re.MULTILINE)
     found = [re.sub(r"^Python .*$", f"Python {platform.python_version()} on {platform.machine()}.", head, flags=re.M)]
     for case in cases:
-        row, said = int(re.match(r"## (\d+)", case)[1]), case.partition("\n| ")[0]
-        lines = [said, *table(collector.measured[row])]
-        if collector.over_the_face[row]:
-            lines += ["", "Over the face:", "", *table(collector.over_the_face[row])]
-        found.append("\n".join(lines) + "\n")
+        row, (plane, _, face) = int(re.match(r"## (\d+)", case)[1]), case.partition(OVER_THE_FACE)
+        said, _, before = plane.partition("\n| ")
+        lines = [said, *(table(collector.measured[row]) or ["| " + before] * bool(before))]
+        over_the_face = table(collector.over_the_face[row]) or [face.strip()] * bool(face)
+        if over_the_face:
+            lines += ["", OVER_THE_FACE, "", *over_the_face]
+        found.append("\n".join(line.rstrip("\n") for line in lines) + "\n")
     return "\n".join(each.rstrip("\n") + "\n" for each in found)
 
 
 def table(measured: dict) -> list[str]:
-    """A table of what was measured."""
+    """A table of what was measured; nothing of nothing."""
+    if not measured:
+        return []
     lines = ["| quantity | measured | limit |", "|---|---|---|"]
     return lines + [
         f"| {what} | {spread([each for each, _ in values])} | {values[-1][1]} |" for what, values in measured.items()

@@ -21,13 +21,18 @@ def accuracy(slices=5, layers=2, body=1.5, nodes=11, steps=8):
     )
 
 
+def bodies_of(cache):
+    """The gears' own bodies of a model, kept in a cache."""
+    return lambda model: gear_bodies(model, SilentProgress(), cache)
+
+
 @pytest.fixture
 def run(suite_cache):
     """A run of a scene on its own bodies; it must not fail, and obey rows 1 to 3 at every step."""
 
     def marched(more="", **changes):
         model = model_of(helical_scene(more, teeth=TEETH, **{"accuracy": accuracy(), **changes}))
-        found = run_of(model, gear_bodies(model, SilentProgress(), suite_cache))
+        found = run_of(model, bodies_of(suite_cache)(model))
         assert found.failure is None, str(found.failure)
         obeys_the_laws(found)
         return found.result

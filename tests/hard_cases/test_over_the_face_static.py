@@ -21,9 +21,9 @@ def run(more="", **changes):
     return found
 
 
-def marched(more):
+def marched(more, **changes):
     """The model and the records of a march, without their result, which takes longer."""
-    model = model_of(helical_scene(more, accuracy=FEW))
+    model = model_of(helical_scene(more, **{"accuracy": FEW, **changes}))
     marcher = Marcher(cycle_of(model, on_stand_in_bodies(model)), model.equations_of_motion)
     return model, marcher.run(model.steps, model.steps + 1).records
 

@@ -16,9 +16,13 @@ def in_units(scene, length, force, time):
     """The scene's numbers in other units, each given as the new number of one old unit: mm, N, s."""
     gears, motion, accuracy = scene.gears, scene.motion, scene.accuracy
 
+    def of(material):
+        return material and replace(material, youngs_modulus=force / length**2 * material.youngs_modulus)
+
     def gear(data):
         diameters = ("tip_diameter", "root_diameter", "bore_diameter")
-        return replace(data, **{name: length * getattr(data, name) for name in diameters})
+        sizes = {name: length * getattr(data, name) for name in diameters}
+        return replace(data, **sizes, material=of(data.material))
 
     changes = {
         "gears": replace(
@@ -28,16 +32,27 @@ def in_units(scene, length, force, time):
             face_width=length * gears.face_width,
             pinion=gear(gears.pinion),
             wheel=gear(gears.wheel),
-            material=replace(gears.material, youngs_modulus=force / length**2 * gears.material.youngs_modulus),
+            material=of(gears.material),
         ),
         "load": replace(scene.load, wheel_torque=force * length * scene.load.wheel_torque),
         "motion": replace(motion, mesh_frequency=motion.mesh_frequency / time),
-        "shafts": replace(scene.shafts, torsional_stiffness=force * length * scene.shafts.torsional_stiffness),
-        "bearings": replace(scene.bearings, stiffness=force / length * scene.bearings.stiffness),
     }
-    if accuracy.contact_length is not None:
-        lengths = {name: length * getattr(accuracy, name) for name in ("flank_element_size", "contact_length")}
-        changes["accuracy"] = replace(accuracy, **lengths)
+    sizes = ("flank_element_size", "contact_length", "body_element_size")
+    given = {name: length * size for name in sizes if (size := getattr(accuracy, name)) is not None}
+    changes["accuracy"] = replace(accuracy, **given)
+    if scene.shafts is not None:
+        changes["shafts"] = replace(scene.shafts, torsional_stiffness=force * length * scene.shafts.torsional_stiffness)
+    if scene.bearings is not None:
+        changes["bearings"] = replace(scene.bearings, stiffness=force / length * scene.bearings.stiffness)
+    if scene.misalignment is not None:
+        sides = ("in_plane", "out_of_plane")
+        changes["misalignment"] = replace(
+            scene.misalignment, **{name: length * getattr(scene.misalignment, name) for name in sides}
+        )
+    if scene.lead_modifications is not None:
+        own = scene.lead_modifications.pinion
+        own = replace(own, crowning=length * own.crowning)
+        changes["lead_modifications"] = replace(scene.lead_modifications, pinion=own)
     if scene.inertia is not None:
         changes["inertia"] = replace(
             scene.inertia,

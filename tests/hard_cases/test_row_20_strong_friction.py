@@ -60,8 +60,14 @@ def test_strong_friction_converges_or_says_why(friction, dynamic, absent, coarse
     friction have the lever arms rb2 and L - x, so that friction can lock from mu = rb2/(L - x) on (1.65 at the start of
     contact), and not below."""
     run = marched(with_friction(DYNAMIC[dynamic](coarse), friction, absent))
-    (said, converged, rungs), worst = outcome(run), worst_of(run)
-    case = f"mu = {friction:g}, {dynamic}, {'all springs' if not absent else 'without ' + ' and '.join(absent)}"
+    springs = "all springs" if not absent else "without " + " and ".join(absent)
+    converges_or_says_why(run, f"{dynamic}, {springs}", locks_from(paper_pair), measured)
+
+
+def converges_or_says_why(run, words, locks, measured):
+    """A run with friction, which may lock the gears from a coefficient `locks` on."""
+    (said, converged, rungs), worst, friction = outcome(run), worst_of(run), run.friction
+    case = f"mu = {friction:g}, {words}"
     fallbacks = ", ".join(f"{count} by {method}" for method, count in rungs.items() if method != "newton")
     causes = "; ".join(each.partition(":")[0] for each in said.split("; ") if ":" in each)
     measured(
@@ -70,12 +76,13 @@ def test_strong_friction_converges_or_says_why(friction, dynamic, absent, coarse
         + (f" ({fallbacks})" if fallbacks else "")
         + (f"; {causes}" if causes else ""),
         "converges, or names the cause",
+        row=20,
     )
     for name in LIMITS:
-        _, words, limit, unit = LAWS[name]
-        measured(f"mu = {friction:g}: {words}", worst[name], f"{limit:g} {unit}".rstrip(), unit)
+        _, law, limit, unit = LAWS[name]
+        measured(f"mu = {friction:g}: {law}", worst[name], f"{limit:g} {unit}".rstrip(), unit, row=20)
         assert worst[name] <= limit, name
-    if friction < locks_from(paper_pair):
+    if friction < locks:
         assert converged and not said
     else:
         assert "self-locking" in said

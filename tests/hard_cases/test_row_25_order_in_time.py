@@ -33,10 +33,16 @@ def tied_solution(rest, shafts, closed, push, duration):
 
 
 def tied_errors(paper_scene, paper_pair, stand_in_flanks, counts, scheme=None):
-    """Relative error after 4 ms, for numbers of steps; the closed nodes stay the same throughout."""
-    scene, duration, errors = replace(paper_scene, friction=None), 4e-3, []
+    """`errors_of` the paper's pair after 4 ms."""
+    scene = replace(paper_scene, friction=None)
+    return errors_of(lambda step: frozen_marcher(scene, paper_pair, stand_in_flanks, step), 4e-3, counts, scheme)
+
+
+def errors_of(marcher_with, duration, counts, scheme=None):
+    """Relative error after a time (s), for numbers of steps; the closed nodes stay the same throughout."""
+    errors = []
     for steps in counts:
-        marcher, shafts = frozen_marcher(scene, paper_pair, stand_in_flanks, duration / steps)
+        marcher, shafts = marcher_with(duration / steps)
         # Small enough a push that no node changes its status.
         rest = record = pushed(marcher, shafts, rotation_1=0.2)
         closed = np.flatnonzero(rest.solution.status == SLIP_FORWARD)

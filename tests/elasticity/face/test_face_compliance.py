@@ -5,27 +5,23 @@ from math import radians, tan
 
 import numpy as np
 import pytest
-from scipy import sparse
-from scipy.sparse.linalg import spsolve
 from tests.coarse_sector import PINION, STEEL
-from tests.elasticity.face.swept import GEAR, TWISTED, condense_swept, mesh
+from tests.elasticity.face.swept import GEAR, TWISTED, mesh
 from tests.elasticity.test_coast_flank import difference
-from tests.whole_gear import whole_gear_mesh
 
 from fenics_gears import ComputationError, SceneError
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
-from fenics_gears.elasticity.condensation import by_radius, dofs_of
+from fenics_gears.elasticity.condensation import by_radius
 from fenics_gears.elasticity.face import conjugate_gradients
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.condensed import SweptSector, condensed_swept_sector, spanned
 from fenics_gears.elasticity.face.cost import expected_memory, expected_size, is_iterative
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_response, ring_blocks
-from fenics_gears.elasticity.face.layers import swept_nodes
-from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
+from fenics_gears.elasticity.face.swept_stiffness import ELEMENT
 from fenics_gears.elasticity.mirrored_ring import unfolded_link
-from fenics_gears.elasticity.ring import rotation, turned_nodes
+from fenics_gears.elasticity.ring import turned_nodes
 from fenics_gears.geometry.outline import centreline_angle
 from fenics_gears.system.memory import MEMORY_VARIABLE
 
@@ -56,34 +52,6 @@ def flank_nodes(section_mesh, side):
     return by_radius(section_mesh.edge_nodes(side, ELEMENT.order))
 
 
-def test_condensed_is_uncondensed(sector):
-    """Brute force, hard case 6 in three dimensions: a twisted sector with free cuts, its sparse stiffness solved by
-    SuperLU for forces on both flanks."""
-    whole = mesh(both_flanks=True)
-    forms = SectionForms(whole, 0.3)
-    nodes, heights = forms.nodes.points, len(TWISTED.heights)
-    free = np.delete(
-        np.arange(3 * heights * len(nodes)),
-        dofs_of(swept_nodes(nodes, whole.edge_nodes("hub", ELEMENT.order), heights), 3),
-    )
-    flanks = np.searchsorted(
-        free,
-        dofs_of(
-            np.concatenate([swept_nodes(nodes, flank_nodes(whole, side), heights) for side in ("flank", "coast")]), 3
-        ),
-    )
-    loads = sparse.csc_matrix((np.ones(len(flanks)), (flanks, np.arange(len(flanks)))), shape=(len(free), len(flanks)))
-    uncondensed = spsolve(swept_stiffness(forms, TWISTED)[free][:, free].tocsc(), loads).toarray()[flanks]
-    even, odd = (replace(half, flank=half.flank + with_free_cut(half)) for half in (sector.even, sector.odd))
-    assert difference(replace(sector, even=even, odd=odd).held(), uncondensed) < 1e-9
-
-
-def with_free_cut(half):
-    """What a flank yields more where the cuts are free too."""
-    to_cut = half.shapes @ half.to_cut
-    return to_cut @ np.linalg.solve(half.cut, to_cut.T)
-
-
 def test_the_shapes_of_a_flank_are_all_that_its_cuts_move():
     """Authority: the matrix itself, of a rank that is known, and of full rank."""
     numbers = np.random.default_rng(1)
@@ -93,18 +61,6 @@ def test_the_shapes_of_a_flank_are_all_that_its_cuts_move():
         assert columns.shape[1] <= most
         assert difference(columns.T @ columns, np.eye(columns.shape[1])) < 1e-12
         assert difference(columns @ rows, matrix) < 1e-11
-
-
-def test_ring_of_sectors_is_the_whole_gear(sector):
-    """Brute force: the section copied around the gear, swept and condensed as one body; every tooth's frame is turned
-    by its pitches."""
-    whole, offsets = whole_gear_mesh(mesh(both_flanks=True), GEAR.teeth), 2
-    flanks = {f"flank {tooth}": flank_nodes(whole, f"flank {tooth}") for tooth in range(offsets + 1)}
-    body = condense_swept(whole, TWISTED, 0.3, flanks, held=whole.edge_nodes("hub", ELEMENT.order))
-    compliance, size = np.linalg.inv(body.stiffness), len(body.dofs("flank 0"))
-    for offset, block in enumerate(ring_blocks(sector, GEAR.teeth, offsets)[:, :size, :size]):
-        frame = np.kron(np.eye(size // 3), rotation(offset * GEAR.angular_pitch, 3))
-        assert difference(block, frame.T @ compliance[offset * size : (offset + 1) * size, :size]) < 1e-10
 
 
 @pytest.mark.nightly

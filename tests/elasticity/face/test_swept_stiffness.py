@@ -4,17 +4,7 @@ import numpy as np
 import pytest
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
-from tests.elasticity.face.swept import (
-    TWIST,
-    TWISTED,
-    condense_swept,
-    in_frame,
-    in_place,
-    mesh,
-    rigid_motions,
-    section,
-    swept_points,
-)
+from tests.elasticity.face.swept import TWIST, in_frame, in_place, mesh, section, swept_points
 
 from fenics_gears.elasticity.condensation import by_radius, condense, dofs_of, without
 from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
@@ -81,19 +71,3 @@ def test_body_without_variation_along_the_face_is_the_plane_section():
     ).toarray()
     for height in solved[dofs_of(at, 3)].reshape(heights, len(flank), 3, -1)[:, :, :2]:
         assert relative(height.reshape(2 * len(flank), -1) - expected, expected) < 1e-8
-
-
-@pytest.mark.parametrize("twist", [0.0, TWIST])
-def test_kernel_of_a_floating_sector_is_the_six_rigid_motions(twist):
-    """Hard case 5 in three dimensions: norm(S R) / norm(S), symmetry, and the seventh eigenvalue."""
-    hub = mesh().edge_nodes("hub", ELEMENT.order)
-    lines = {"flank": by_radius(mesh().edge_nodes("flank", ELEMENT.order)), "hub": hub}
-    lines |= {name: without(mesh().edge_nodes(f"{name} cut", ELEMENT.order), hub) for name in ("lower", "upper")}
-    body = condense_swept(mesh(), Sweep(TWISTED.boundaries, twist), 0.3, lines)
-    basis = np.linalg.qr(rigid_motions(np.vstack([*body.points.values()]), twist))[0]
-    assert np.linalg.norm(body.stiffness @ basis) <= 1e-10 * np.linalg.norm(body.stiffness)
-    assert np.array_equal(body.stiffness, body.stiffness.T)
-    eigenvalues = np.linalg.eigvalsh(body.stiffness) / np.linalg.norm(body.stiffness, 2)
-    assert np.abs(eigenvalues[:6]).max() <= 1e-10 and eigenvalues[6] > 1e-6
-    kept = np.delete(np.arange(len(body.stiffness)), body.dofs("hub"))
-    assert np.linalg.eigvalsh(body.stiffness[np.ix_(kept, kept)])[0] > 0.0
