@@ -1,10 +1,8 @@
-"""What elastic shafts give way over the common face: the gap that they open between flanks under a line load, and the
-lead modifications that make up for it."""
+"""What elastic shafts give way over the common face: the gap that they open between flanks under a line load."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
 
 import numpy as np
 
@@ -14,15 +12,6 @@ from fenics_gears.dynamics.elastic_shaft_seat import carried_with_twist, seat_co
 from fenics_gears.geometry.pair import GearPair
 
 SLICES = 40
-# A crowning, mm, below which none is needed.
-ROUND_OFF = 1e-9
-
-
-class Correction(NamedTuple):
-    """Lead modifications of the pinion, mm over its own face."""
-
-    helix_slope: float
-    crowning: float
 
 
 def middles_of_slices(pair: GearPair, slices: int = SLICES) -> np.ndarray:
@@ -57,19 +46,3 @@ def face_compliance_of_shafts(shafts: Iterable[ElasticShaft], pair: GearPair, z:
         if shaft.integral:
             found += np.einsum("i,sitj,j->st", row, seat_compliance(shaft, heights), row)
     return found
-
-
-def opened_by_even_load(shafts: Iterable[ElasticShaft], pair: GearPair, torque: float, z: np.ndarray) -> np.ndarray:
-    """Gap (s,), mm, that the shafts open under an even line load of a torque (N mm) on the wheel."""
-    return face_compliance_of_shafts(shafts, pair, z).mean(axis=1) * torque / pair.wheel.base_radius
-
-
-def correction(pair: GearPair, z: np.ndarray, opened: np.ndarray) -> Correction:
-    """What the pinion's flanks must lack for a gap (s,), mm, at places z of the common face to become even, as nearly
-    as a helix slope and a crowning can: a gap that is widest at both ends asks for no crowning."""
-    share = (z - pair.gear_middles[0]) / pair.face_widths[0]
-    shapes = np.stack([np.ones_like(share), share, (2.0 * share) ** 2], axis=1)
-    _, slope, crowning = np.linalg.lstsq(shapes, -opened, rcond=None)[0]
-    if crowning < ROUND_OFF:
-        slope, crowning = np.linalg.lstsq(shapes[:, :2], -opened, rcond=None)[0][1], 0.0
-    return Correction(float(slope), float(crowning))

@@ -36,6 +36,10 @@ OVER_FACE_WITH_LOAD = "the flanks are resolved over the face and loaded"
 OVER_FACE_WITH_FIELDS = "as `transverse_load_factor`, and contact fields are stored"
 WITH_SECTIONS = "a shaft has `sections`"
 WITH_VIBRATIONS = "a shaft has `sections`, beside `[inertia]`"
+PROPOSED = (
+    "a torque, and `[misalignment]` in the plane of action, bearings along the shafts or a web off mid-width; not in"
+    " studies"
+)
 WITH_FILES = "the scene names files (`[body_meshes]`, tables of `[flank_errors]`)"
 WITH_TARGET = "`[accuracy] target`"
 IN_STUDIES = "the run is a study's case"
@@ -213,14 +217,17 @@ _ROWS = (
         "a bearing is `rolling`",
     ),
     *(
-        (
-            f"proposed_{name}",
-            "um",
-            f"{words} of the pinion, in place of its own, that cancels what shafts and misalignment do under the"
-            " nominal torque; webs are not counted",
-            WITH_SECTIONS,
+        (f"proposed_{name}", unit, meaning, PROPOSED)
+        for name, unit, meaning in (
+            ("helix_slope", "um", "helix slope modification of the pinion, in place of its own"),
+            ("crowning", "um", "crowning of the pinion beside it, in place of its own"),
+            (
+                "face_load_factor",
+                "1",
+                "the least `face_load_factor` that these two can give, without friction; the variable"
+                " `proposed_line_load`, N/mm, is the line load of the mesh with them, mean over the mesh cycle",
+            ),
         )
-        for name, words in (("helix_slope", "helix slope modification"), ("crowning", "crowning"))
     ),
     (
         "transverse_load_factor",

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 import numpy as np
 import xarray as xr
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS
-from fenics_gears.dynamics.elastic_shaft_face import Correction, correction, middles_of_slices, opened_by_even_load
-from fenics_gears.geometry.face import face_opening
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import SHAFT_POINTS
 from fenics_gears.results.face_variables import AlongTheFace
@@ -88,8 +85,7 @@ class BentShafts(AlongTheFace):
         named = [f"axis_{kind}_{plane}" for kind in ("inclination", "offset") for plane in ("in_plane", "out_of_plane")]
         found: dict[str, float | str] = {f"mean_{name}": float(counted[name].mean()) for name in named}
         forces = np.sqrt(sum(counted[name] ** 2 for name in LOADS[:3]))
-        proposed = {f"proposed_{name}": MICROMETRES * of for name, of in self._proposed()._asdict().items()}
-        found |= {"largest_bearing_force": float(forces.max())} | proposed
+        found |= {"largest_bearing_force": float(forces.max())}
         return super().numbers(counted) | found | self._rolling_elements(counted) | self._vibrations(counted)
 
     def _vibrations(self, counted: xr.Dataset) -> dict[str, str]:
@@ -117,16 +113,6 @@ class BentShafts(AlongTheFace):
             for each in self.drivetrain.elastic
         )
         return {"largest_rolling_element_force": max(found)}
-
-    def _proposed(self) -> Correction:
-        """In place of the pinion's own helix slope and crowning: cancels what the shafts do under an even line load."""
-        scene, pair, z = self.model.scene, self.pair, middles_of_slices(self.pair)
-        leads, wheel = scene.lead_modifications, None
-        if leads is not None and leads.wheel is not None:
-            # End relief is to be there beside an even load.
-            wheel = replace(leads, pinion=None, wheel=replace(leads.wheel, end_relief=None))
-        opened = opened_by_even_load(self.drivetrain.elastic, pair, scene.load.wheel_torque, z)
-        return correction(pair, z, opened + face_opening(pair, wheel, scene.misalignment, z))
 
     def _motions(self, states: np.ndarray) -> np.ndarray:
         """Motions (steps, gears, 5) of the middles of pinion and wheel."""

@@ -35,14 +35,14 @@ from fenics_gears.scene.data import Scene
 
 class RunResult:
     """What a march gave: its numbers and warnings by name (`attrs`), its curves (steps, ...) by name as arrays
-    (`result["normal_force"]`), and `dataset`, all of it with labels, put together when it is asked for. `seconds`: that
-    its numbers took, of which locating extremes between steps takes most."""
+    (`result["normal_force"]`), and `dataset`, all of it with labels, put together when it is asked for. `recorder`:
+    what they are taken from; `seconds`: that its numbers took, of which locating extremes between steps takes most."""
 
     def __init__(self, recorder: Recorder, march: March):
         begun = time.perf_counter()
         recorder.finish()
         model = recorder.model
-        self._recorder, self._curves = recorder, recorder.arrays
+        self.recorder, self._curves = recorder, recorder.arrays
         counted = settled(model, max(recorder.steps - 1, 0))
         self._first = counted.first
         self.attrs = _attributes(recorder, march, self, counted.first)
@@ -75,8 +75,8 @@ class RunResult:
     def _labelled(self) -> xr.Dataset:
         # All variables at once, attributes in place: a copy of so many variables takes a millisecond.
         return xr.Dataset(
-            {name: (dims, values, labels) for name, dims, values, labels in _variables(self._recorder, self._first)},
-            coords=_coordinates(self._recorder, self._curves),
+            {name: (dims, values, labels) for name, dims, values, labels in _variables(self.recorder, self._first)},
+            coords=_coordinates(self.recorder, self._curves),
         )
 
 

@@ -35,7 +35,6 @@ STUDIED = (
     "overlap_ratio", "total_contact_ratio", "face_load_factor", "largest_line_load_factor", "edge_line_load_factor",
     "transverse_load_factor",
     "mean_axis_inclination_in_plane", "largest_bearing_force", "largest_rolling_element_force",
-    "proposed_helix_slope", "proposed_crowning",
 )  # fmt: skip
 
 

@@ -60,6 +60,7 @@ def result_rows(dataset) -> list[Row]:
         _pair_force,
         _face,
         _shafts,
+        _proposed,
         _pressure,
         _root_stress,
         _power,
@@ -137,8 +138,14 @@ def _shafts(found) -> Said:
         yield "largest force of a bearing", f"{found['largest_bearing_force']:.4g} N{rolling}"
         if "natural_frequencies" in found:
             yield "natural frequencies", _frequencies(found["natural_frequencies"].splitlines())
+
+
+def _proposed(found) -> Said:
+    """Lead modifications of the pinion for an even line load, as a scene has them."""
+    if "proposed_face_load_factor" in found:
         amounts = (f'{name} = "{found[f"proposed_{name}"]:.1f} um"' for name in ("helix_slope", "crowning"))
-        yield "against shafts that bend, in [lead_modifications]", f"pinion = {{ {', '.join(amounts)} }}"
+        yield "for an even line load, in [lead_modifications]", f"pinion = {{ {', '.join(amounts)} }}"
+        yield "face load factor K_Hbeta with it", f"{found['proposed_face_load_factor']:.3f}"
 
 
 def _frequencies(lines: list[str]) -> str:

@@ -19,6 +19,8 @@ LENGTHS = "Place along the axes (mm)"
 DIRECTIONS = {"x": "in the plane of action", "y": "off the line of action"}
 # Largest deflection of the drawing, in parts of the longest shaft.
 DRAWN = 0.05
+# A deflection, mm, that is drawn: spur gears push nowhere but along the line of action.
+SMALLEST = 1e-6
 OF_GEAR = dict(zip(GEARS, PALETTE[2:4]))
 
 
@@ -39,7 +41,8 @@ def bent_shafts(run: Run) -> list[Chart]:
     if "shaft_deflection_x" not in run.dataset or not run.dataset.sizes["contact_time"] or run.pair is None:
         return []
     lines = list(_lines(run))
-    return [_to_scale(run, lines), *(_deflection(lines, direction) for direction in DIRECTIONS)]
+    bent = [each for each in DIRECTIONS if max(np.abs(line.deflection[each]).max() for line in lines) > SMALLEST]
+    return [_to_scale(run, lines), *(_deflection(lines, direction) for direction in bent)]
 
 
 def _lines(run: Run) -> Iterator[Line]:
@@ -63,7 +66,7 @@ def _to_scale(run: Run, lines: list[Line]) -> Chart:
     curves = []
     for line in lines:
         gear, colour = getattr(run.pair, line.gear), OF_GEAR[line.gear]
-        axis = 0.0 if line.gear == GEARS[0] else -run.pair.centre_distance
+        axis = _axis(run, line.gear)
 
         def moved(places: np.ndarray, line: Line = line, axis: float = axis) -> np.ndarray:
             return axis + magnified * np.interp(places, line.places, line.deflection["x"])
@@ -78,11 +81,21 @@ def _to_scale(run: Run, lines: list[Line]) -> Chart:
         curves.append(
             Curve(f"{line.gear}'s bearings", line.bearings, moved(line.bearings), colour, mode=MARKERS, width=8.0)
         )
+    for number, gear in enumerate(GEARS):
+        if gear not in {line.gear for line in lines}:
+            half, tip = 0.5 * run.pair.face_widths[number], getattr(run.pair, gear).tip_radius
+            corners = run.pair.gear_middles[number] + half * np.array([-1.0, 1.0, 1.0, -1.0])
+            tips = _axis(run, gear) + tip * np.array([1.0, 1.0, -1.0, -1.0])
+            curves.append(_closed(f"{gear}, its shaft rigid", corners, tips, OF_GEAR[gear]))
     return Chart(
         f"Shafts, gears and bearings: deflection in the plane of action magnified {magnified:g} times", curves, LENGTHS,
         "Distance from the pinion's axis (mm)", equal=True, height=420,
         note="Mean over the last mesh cycles. Deflection upwards is along the line of action, from pinion to wheel.",
     )  # fmt: skip
+
+
+def _axis(run: Run, gear: str) -> float:
+    return 0.0 if gear == GEARS[0] else -run.pair.centre_distance
 
 
 def _closed(name: str, x: np.ndarray, y: np.ndarray, colour: str) -> Curve:

@@ -103,10 +103,14 @@ def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
     away = np.where(at_edges(part, run.pair, side), 0.0, loads).max(axis=(0, 1))
     curves = [
         ("mesh, mean over the mesh cycle", total.mean(axis=0) if mean is None else mean),
-        ("tooth pair, largest away from edges", np.where(away > 0.0, away, np.nan)),
         ("tooth pair, largest", loads.max(axis=(0, 1))),
+        ("tooth pair, largest away from edges", np.where(away > 0.0, away, np.nan)),
     ]
     drawn = [Curve(words, z, values, colour) for (words, values), colour in zip(curves, PALETTE)]
+    if "proposed_line_load" in run.dataset:
+        corrected = run.dataset["proposed_line_load"].values
+        curves.append(("", corrected))
+        drawn.append(Curve(_correction(run.dataset.attrs), z, corrected, PALETTE[0], "dash"))
     highest = 1.08 * float(max(np.nanmax(values) for _, values in curves))
     upright = np.array([0.0, highest])
     low, high = (np.full(2, place) for place in inner_face(run.pair))
@@ -121,6 +125,15 @@ def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
         "Edges: the ends of the face, and tips and form circles where a line of contact ends. "
         "The factors away from edges are of means over half a module.",
     )  # fmt: skip
+
+
+def _correction(found) -> str:
+    """The correction that is proposed, and the face load factor with it."""
+    amounts = " and ".join(
+        f"{words} {found[f'proposed_{name}']:.1f} µm"
+        for words, name in (("helix slope", "helix_slope"), ("crowning", "crowning"))
+    )
+    return f"mesh, mean, proposed for the pinion: {amounts} (factor {found['proposed_face_load_factor']:.3f})"
 
 
 def _factors(run: Run) -> str:

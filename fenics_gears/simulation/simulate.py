@@ -85,7 +85,8 @@ def simulate(
     >>> print(f"{mm:.2f} mm along the line of action at most")
     0.16 mm along the line of action at most
     """
-    return solved(scene, progress=progress, cache=cache, preparation=preparation, job=job, journal=journal).dataset
+    result = solved(scene, progress=progress, cache=cache, preparation=preparation, job=job, journal=journal)
+    return _with_lead_correction(result, progress or SilentProgress())
 
 
 def solved(
@@ -224,6 +225,19 @@ def _with_dynamic_factors(recorder: Recorder, result: RunResult, progress: Progr
     progress.stage("quasi-static run")
     result.attrs.update(dynamic_factor.dynamic_factors(recorder, result))
     return result
+
+
+def _with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:
+    """The result's dataset with the lead modifications that are proposed for its pinion, where the scene has any."""
+    model, dataset = result.recorder.model, result.dataset
+    if not model.scene.three_dimensional or not result.attrs["complete"]:
+        return dataset
+    from fenics_gears.simulation import lead_correction
+
+    if lead_correction.wanted(model):
+        progress.stage("propose lead modifications")
+        lead_correction.add_proposal(dataset, result.recorder)
+    return dataset
 
 
 def result_of(recorder: Recorder, march: March, gears, compiled: float, stopped: str) -> RunResult:

@@ -280,7 +280,10 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
             ROLLING.replace("number = 9,", 'number = 9, preload = "10 N", contact_angle = "15 deg",'),
             "preloads push the shaft with 10 N along its axis",
         ),
-        (ROLLING.replace("gear_at", 'material = { density = "7.85 g/cm^3" }\ngear_at') + INERTIA, "bearings.pinion: rolling beside .inertia.: how stiff"),
+        (
+            ROLLING.replace("gear_at", 'material = { density = "7.85 g/cm^3" }\ngear_at') + INERTIA,
+            "bearings.pinion: rolling beside .inertia.: how stiff",
+        ),
         (ROLLING.replace("torque_at", 'seat = "integral"\ntorque_at'), "has a stiffness_matrix or rolling"),
     ],
 )
