@@ -103,6 +103,20 @@ def test_mass_is_that_of_a_rigid_body():
     assert turning @ found.mass @ turning == pytest.approx(2.0 * bending * length, rel=1e-12)
 
 
+def test_modes_move_bearings_as_they_move_the_line():
+    """Identity: the deflection line at the bearings, and the stiffness as a sum of what is in shaft and bearings, in
+    which modes and motions at rest are apart."""
+    found = vibrating(shaft(STEPS, 55.0, ON_THREE, seat=18.0), DENSITY, 3e4)
+    lines = found.deflection([each.at for each in ON_THREE])
+    assert lines.shape[2] == len(found.coordinates) > FIVE + 5
+    assert lines.reshape(found.at_bearings.shape) == pytest.approx(found.at_bearings, rel=1e-9, abs=1e-12)
+    parts = found.own_stiffness - found.bearing_stiffness
+    size = np.sqrt(np.diag(found.own_stiffness))
+    # What is in the shaft is positive too.
+    assert np.linalg.eigvalsh(parts / np.outer(size, size))[0] > -1e-9
+    assert np.diag(found.mass)[7:] == pytest.approx(found.mass_of_all, rel=1e-9)
+
+
 def test_a_gear_that_is_cut_into_its_shaft_is_not_counted_twice():
     """Exact: what of such a shaft is under the face is what its gear, whose mass is down to the bore, has not."""
     more = CUT.replace("torque_at", 'material = { density = "7.85 g/cm^3" }\ntorque_at') + INERTIA
