@@ -59,6 +59,18 @@ def test_a_simply_supported_shaft_vibrates_as_in_closed_form():
         assert np.sort(above[above > -1e-7])[:2] == pytest.approx([0.0, 0.0], abs=error_of_elements(mode))
 
 
+def test_ends_that_differ_by_round_off_are_one_place():
+    """Identity: a bearing that is off the end of a section by round-off, and a coupling off the end of the shaft, are
+    there."""
+    thirds, off = [ShaftSection(33.3, 25.0)] * 3, 1e-13
+    found = [
+        vibrating(shaft(thirds, 20.0, [Bearing(66.6 + by, 3e5, 1e5), Bearing(99.9 - by, 3e5)], 99.9 - by), DENSITY, 3e4)
+        for by in (0.0, off, -off)
+    ]
+    exact, *others = (frequencies(each)[1:12] for each in found)
+    assert np.array(others) == pytest.approx(np.array([exact, exact]), rel=1e-9)
+
+
 def test_a_free_shaft_twists_as_in_closed_form():
     """Exact: n/2L sqrt(G/rho) of a shaft free at both ends, wherever gear and coupling are, but for the elements' own
     error."""
