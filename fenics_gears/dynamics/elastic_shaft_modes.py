@@ -31,6 +31,8 @@ from fenics_gears.dynamics.elastic_shaft import (
 
 # Elements are no longer than this part of the shaft.
 LONGEST_ELEMENT = 1.0 / 60.0
+# Places (mm) that are no further apart are one but for round-off.
+ROUND_OFF = 1e-9
 TWIST, COUPLING = SIX - 1, SIX
 KINDS = {"bending": [0, 1, 3, 4], "axial": [2], "torsion": [TWIST]}
 
@@ -100,7 +102,7 @@ class VibratingShaft(ElasticShaft):
     @cached_property
     def at_bearings(self) -> np.ndarray:
         """Motions (5 b, 5 + m) of the shaft in its bearings per coordinate."""
-        nodes = np.searchsorted(self._places, [each.at for each in self.bearings])
+        nodes = self._nodes([each.at for each in self.bearings])
         own = self._shapes.reshape(len(self._places), SIX, -1)[nodes, : len(MOTIONS)]
         return np.concatenate([self.bearings_at_rest, own.reshape(len(self.bearings_at_rest), -1)], axis=1)
 
@@ -113,11 +115,17 @@ class VibratingShaft(ElasticShaft):
     @cached_property
     def _places(self) -> np.ndarray:
         """Ends (n,) of the elements, mm from the left end."""
-        ends = np.cumsum([0.0, *(each.length for each in self.sections)])
-        stops = np.unique([*ends, *self.seat_ends, self.torque_at, *(each.at for each in self.bearings)])
+        stops = np.cumsum([0.0, *(each.length for each in self.sections)])
+        for place in (*self.seat_ends, self.torque_at, *(each.at for each in self.bearings)):
+            if np.abs(stops - place).min() > ROUND_OFF:
+                stops = np.sort(np.append(stops, place))
         longest = LONGEST_ELEMENT * self.length
         parts = [np.linspace(a, b, ceil((b - a) / longest) + 1)[:-1] for a, b in pairwise(stops)]
         return np.append(np.concatenate(parts), stops[-1])
+
+    def _nodes(self, places: Sequence[float]) -> np.ndarray:
+        """Numbers (p,) of the ends of elements that are at places."""
+        return np.abs(self._places - np.reshape(places, (-1, 1))).argmin(axis=1)
 
     @cached_property
     def _mass(self) -> np.ndarray:
@@ -147,7 +155,7 @@ class VibratingShaft(ElasticShaft):
         found[:, TWIST, TWIST] = 1.0
         if not self.coupled_within:
             twist = self._flexibility[:, TWIST, :, TWIST]
-            number = np.searchsorted(self._places, self.torque_at)
+            number = self._nodes([self.torque_at])[0]
             found[:, TWIST, COUPLING] = twist[:, number] / twist[number, number]
             found[:, TWIST, TWIST] -= found[:, TWIST, COUPLING]
         return found.reshape(-1, SIX + 1)
@@ -173,13 +181,13 @@ class VibratingShaft(ElasticShaft):
         """Stiffness (m,), N/mm, and shapes (6 n, m) of the modes with gear and coupling held, whose mass is the
         shaft's."""
         size = SIX * len(self._places)
-        nodes = np.searchsorted(self._places, [each.at for each in self.bearings])
+        nodes = self._nodes([each.at for each in self.bearings])
         held = (SIX * nodes[:, None] + np.arange(len(MOTIONS))).ravel()
         flexible = self._flexibility.reshape(size, size)
         springs = np.linalg.solve(np.eye(len(held)) + self.springs @ flexible[np.ix_(held, held)], self.springs)
         flexible = flexible - flexible[:, held] @ springs @ flexible[held]
         if not self.coupled_within:
-            coupling = SIX * int(np.searchsorted(self._places, self.torque_at)) + TWIST
+            coupling = SIX * int(self._nodes([self.torque_at])[0]) + TWIST
             flexible = flexible - np.outer(flexible[coupling], flexible[coupling]) / flexible[coupling, coupling]
             flexible[coupling] = flexible[:, coupling] = 0.0
         free = np.flatnonzero(np.diag(flexible) > 0.0)

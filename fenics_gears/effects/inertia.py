@@ -34,8 +34,8 @@ def _density(otherwise: str):
 
 def _tilting(otherwise: str):
     meaning = (
-        "moment of inertia about a diameter at mid-width, with the shaft, of a gear that tilts, whose bearings have"
-        " `places`"
+        "moment of inertia about a diameter at mid-width of a gear that tilts: with the shaft, where bearings have"
+        " `places`; without it, where that has `sections`"
     )
     return quantity("1e-15 kg m^2 to 1e15 kg m^2", "13e-3 kg m^2", meaning=meaning, otherwise=otherwise)
 
@@ -46,7 +46,8 @@ class GearInertia(Section):
     otherwise from ``[inertia]``."""
 
     mass: float | None = _mass(
-        "mass of this gear, with its shaft", "from the gear's own `density`, otherwise from `[inertia]`"
+        "mass of this gear, with its shaft, if that has no `sections`",
+        "from the gear's own `density`, otherwise from `[inertia]`",
     )
     moment_of_inertia: float | None = _moment_of_inertia(
         "moment of inertia of this gear", "from the gear's own `density`, otherwise from `[inertia]`"
@@ -68,7 +69,9 @@ class Inertia(GearInertia):
     """``[inertia]``: masses and moments of inertia, lumped at the gear centres. The far end of the input shaft needs
     none: its rotation is prescribed."""
 
-    mass: float | None = _mass("mass of each gear, with its shaft", "from `density`, or each gear has its own")
+    mass: float | None = _mass(
+        "mass of each gear, with its shaft, if that has no `sections`", "from `density`, or each gear has its own"
+    )
     moment_of_inertia: float | None = _moment_of_inertia(
         "moment of inertia of each gear, and of the load if there is no `[inertia.load]`",
         "from `density`, or each gear has its own",

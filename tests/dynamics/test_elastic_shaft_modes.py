@@ -59,6 +59,18 @@ def test_a_simply_supported_shaft_vibrates_as_in_closed_form():
         assert np.sort(above[above > -1e-7])[:2] == pytest.approx([0.0, 0.0], abs=error_of_elements(mode))
 
 
+def test_ends_that_differ_by_round_off_are_one_place():
+    """Identity: a bearing that is off the end of a section by round-off, and a coupling off the end of the shaft, are
+    there."""
+    thirds, off = [ShaftSection(33.3, 25.0)] * 3, 1e-13
+    found = [
+        vibrating(shaft(thirds, 20.0, [Bearing(66.6 + by, 3e5, 1e5), Bearing(99.9 - by, 3e5)], 99.9 - by), DENSITY, 3e4)
+        for by in (0.0, off, -off)
+    ]
+    exact, *others = (frequencies(each)[1:12] for each in found)
+    assert np.array(others) == pytest.approx(np.array([exact, exact]), rel=1e-9)
+
+
 def test_a_free_shaft_twists_as_in_closed_form():
     """Exact: n/2L sqrt(G/rho) of a shaft free at both ends, wherever gear and coupling are, but for the elements' own
     error."""
@@ -101,6 +113,20 @@ def test_mass_is_that_of_a_rigid_body():
     turning = np.zeros(len(found.mass))
     turning[5:7] = 1.0
     assert turning @ found.mass @ turning == pytest.approx(2.0 * bending * length, rel=1e-12)
+
+
+def test_modes_move_bearings_as_they_move_the_line():
+    """Identity: the deflection line at the bearings, and the stiffness as a sum of what is in shaft and bearings, in
+    which modes and motions at rest are apart."""
+    found = vibrating(shaft(STEPS, 55.0, ON_THREE, seat=18.0), DENSITY, 3e4)
+    lines = found.deflection([each.at for each in ON_THREE])
+    assert lines.shape[2] == len(found.coordinates) > FIVE + 5
+    assert lines.reshape(found.at_bearings.shape) == pytest.approx(found.at_bearings, rel=1e-9, abs=1e-12)
+    parts = found.own_stiffness - found.bearing_stiffness
+    size = np.sqrt(np.diag(found.own_stiffness))
+    # What is in the shaft is positive too.
+    assert np.linalg.eigvalsh(parts / np.outer(size, size))[0] > -1e-9
+    assert np.diag(found.mass)[7:] == pytest.approx(found.mass_of_all, rel=1e-9)
 
 
 def test_a_gear_that_is_cut_into_its_shaft_is_not_counted_twice():

@@ -81,13 +81,11 @@ def _furthest(authority, own) -> tuple[float, float]:
 
 
 def by_ross(python: str) -> Numbers:
-    """Deflection under 1 kN, µm, at the gear, and the natural frequency, Hz, that differs most."""
-    found = {}
-    for name, ((own, own_hertz), (other, hertz)) in ross.compared(python).items():
-        found[name] = 1e6 * other[0, 0], 1e6 * own[0, 0]
-        worst = abs(own_hertz / hertz - 1.0).argmax()
-        found[f"{name}, vibrating"] = float(hertz[worst]), float(own_hertz[worst])
-    return found
+    """Deflection under 1 kN, µm, at the gear, and of all natural frequencies, Hz, that which differs most."""
+    every = ross.compared(python)
+    pairs = [pair for (_, own), (_, other) in every.values() for pair in zip(other.tolist(), own.tolist())]
+    found = {name: (1e6 * other[0, 0], 1e6 * own[0, 0]) for name, ((own, _), (other, _)) in every.items()}
+    return found | {"vibrating": max(pairs, key=lambda pair: abs(pair[1] / pair[0] - 1.0))}
 
 
 CALCULIX, GETFEM = "CalculiX 2.20, contact on the true outlines", "GetFEM 5.4.2, large sliding, augmented Lagrangian"
@@ -132,9 +130,8 @@ PARTS = [
         {name: Claim(f"deflection at the gear: {name}", ROSS, "µm/kN", within(1e-3 if "cone" in name else 1e-10),
                      "40 elements in a section" if "cone" in name else "round-off")
          for name in ross.SHAFTS}
-        | {f"{name}, vibrating": Claim(f"natural frequencies up to 12 kHz, the worst: {name}", ROSS, "Hz", within(1e-4),
-                                       "elements of either program")
-           for name in ross.SHAFTS},
+        | {"vibrating": Claim("natural frequencies of the three up to 12 kHz, the worst of 29", ROSS, "Hz",
+                              within(1e-4), "elements of either program")},
         by_ross, needs="ROSS",
     ),
     GEARPIE,
