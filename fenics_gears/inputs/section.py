@@ -173,18 +173,23 @@ class AllowedTables(Allowed):
 def tree_of(values: Any, section: type[Section] | None = None, leaving: Collection[str] = ()) -> dict[str, Any]:
     """A section as a scene file has it: that of the values, or another ``section`` with fields of the same names.
 
-    What is None, or what the values have unless told, is left out, and so are the fields ``leaving``.
+    What is None, or what the values have unless told, is left out, and so are the fields ``leaving``; but a
+    section that may not be empty has one of its fields.
     """
     section = section or type(values)
     found: dict[str, Any] = {}
+    usual: dict[str, Any] = {}
     for each in fields(values):
         name, value = each.name, getattr(values, each.name)
         if name not in names_in(section) or name in leaving or value is None:
             continue
         if value == _default(each) and name not in required_in(section):
+            usual.setdefault(name, value)
             continue
         inner = section_within(section, name)
         found[name] = field_of(section, name, value) if inner is None else tree_of(value, inner)
+    if section.empty and not found and not leaving:
+        found = {name: field_of(section, name, value) for name, value in [*usual.items()][:1]}
     return found
 
 

@@ -185,7 +185,8 @@ class _LineLoads:
         beside = [self.of(amounts + step * each) for each in np.eye(2)]
         if beside[0] is None or beside[1] is None:
             return None
-        return np.stack([each.load - found.load for each in beside], axis=1) / step
+        slopes = np.stack([each.load - found.load for each in beside], axis=1) / step
+        return slopes if slopes.any() else None
 
     def closing(self, found: _Along) -> np.ndarray:
         """The helix slope, mm, beside no crowning, that closes what is left open."""
