@@ -72,7 +72,8 @@ def unknown_rows(model: Model) -> Rows:
         rows.append((f"shaft of the {shaft.gear}", shaft.length, f"mm, on bearings at {places} mm from its left end"))
         x, y, axial, *_ = 1e-3 / np.diag(np.linalg.inv(shaft.stiffness))
         words = f"{x:.4g} along x, {y:.4g} along y, {axial:.4g} axially"
-        rows.append((f"its stiffness at the {shaft.gear}", words, "N/um, with its bearings"))
+        held = "its bearings" if shaft.housing is None else "its bearings in their housing"
+        rows.append((f"its stiffness at the {shaft.gear}", words, f"N/um, with {held}"))
         if shaft.integral:
             words = "mm, the root diameter, as which the shaft bends and twists within the face"
             rows.append(
