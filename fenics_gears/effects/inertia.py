@@ -123,7 +123,8 @@ def inertia_is_complete(tree: Tree) -> Iterator[Problem]:
                 None,
                 _MISSING[name].format(place="" if len(gears) == 2 else ", here or in [inertia] for both gears"),
             )
-    if "shafts" in tree and not missing["moment_of_inertia"] and not {"moment_of_inertia", "load"} & set(both):
+    twisted = {"torsional_stiffness", "output"} & set(table(tree, "shafts") or {})
+    if twisted and not missing["moment_of_inertia"] and not {"moment_of_inertia", "load"} & set(both):
         message = (
             "is missing: the far end of the output shaft turns by itself and needs a moment of inertia of its own,"
             ' which no gear\'s tells. Allowed: such as "24.5e-3 kg m^2", or leave [shafts] out.'

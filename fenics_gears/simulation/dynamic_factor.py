@@ -61,10 +61,7 @@ def dynamic_factors(recorder: Recorder, result: RunResult) -> dict[str, float | 
     # Where cycles differ the whole period is marched, as far as the run did; else one cycle is as good as any.
     period = min(common_period(scene), model.scene.motion.mesh_cycles)
     motion = replace(scene.motion, mesh_cycles=period, recorded_cycles=1)
-    still = model_of(replace(scene, motion=motion, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=cycle.steps)))
-    if model.drivetrain.elastic:
-        # At rest modes of shafts stand still; the contact equations have them all the same.
-        still = replace(still, drivetrain=replace(model.drivetrain, mass=None, damping=None, mesh=None))
+    still = at_rest(model, replace(scene, motion=motion), cycle.steps)
     peaks_still = _peaks_still(still, recorder)
     if isinstance(peaks_still, str):
         return {"dynamic_factor_unknown": peaks_still}
@@ -80,6 +77,15 @@ def dynamic_factors(recorder: Recorder, result: RunResult) -> dict[str, float | 
     if stress_still:
         factors |= {"quasi_static_root_stress": stress_still, "dynamic_factor_by_stress": stress_moving / stress_still}
     return factors
+
+
+def at_rest(model: Model, scene: Scene, steps: int) -> Model:
+    """The model of a quasi-static scene on the contact equations of another model with so many steps a mesh cycle."""
+    still = model_of(replace(scene, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=steps)))
+    if model.drivetrain.mass is None or not model.drivetrain.elastic:
+        return still
+    # At rest modes of shafts stand still; the contact equations have them all the same.
+    return replace(still, drivetrain=replace(model.drivetrain, mass=None, damping=None, mesh=None))
 
 
 # Peaks of quasi-static marches, which runs on the same cycle, such as those of a study, have in common.

@@ -26,11 +26,11 @@ from fenics_gears.contact.operator import per_node
 from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.dynamics.march import thread_pools
 from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
-from fenics_gears.model.model import Model, model_of
+from fenics_gears.model.model import Model
 from fenics_gears.results.face_ends import slice_widths, windows
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.dynamic_factor import quasi_static
+from fenics_gears.simulation.dynamic_factor import at_rest, quasi_static
 from fenics_gears.simulation.elastic_route import gaps_apart, gaps_of
 
 # Positions of the mesh cycle, about.
@@ -145,9 +145,8 @@ class _LineLoads:
     the scene."""
 
     def __init__(self, model: Model, cycle: Cycle):
-        scene = replace(quasi_static(model.scene), friction=None)
-        scene = replace(scene, accuracy=replace(scene.accuracy, steps_per_mesh_cycle=cycle.steps))
-        self._model = model_of(scene)
+        scene = model.scene
+        self._model = at_rest(model, replace(quasi_static(scene), friction=None), cycle.steps)
         # Operators without friction are apart.
         indices = self._model.drivetrain.indices
         self._cycle = Cycle(cycle.mesh, cycle.steps, indices, False) if cycle.tangential else cycle

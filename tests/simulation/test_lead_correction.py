@@ -4,7 +4,7 @@ night."""
 from dataclasses import replace
 
 import pytest
-from tests.effects.test_elastic_shafts import CUT, ELASTIC, FEW
+from tests.effects.test_elastic_shafts import CUT, ELASTIC, FEW, VIBRATING
 from tests.helical import FRICTION, helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of, scene_from_text
@@ -83,6 +83,19 @@ def test_a_proposal_is_in_place_of_what_is_there():
     other = simulate(led, preparation=runs.prepare)
     for name in ("helix_slope", "crowning"):
         assert other.attrs[f"proposed_{name}"] == pytest.approx(plain.attrs[f"proposed_{name}"], abs=0.1)
+
+
+def test_a_run_with_inertia_has_the_proposal_of_the_quasi_static_one():
+    """By definition: a proposal is quasi-static; shafts that vibrate have coordinates that the other run does not."""
+    found = []
+    for more in (VIBRATING, ELASTIC):
+        model = model_of(helical_scene(more, offset=2.0, accuracy=ACCURACY, frequency=200.0))
+        found.append(simulate(model, preparation=Runs(model.scene, on_stand_in_bodies(model)).prepare).attrs)
+    moving, still = found
+    for name in ("helix_slope", "crowning"):
+        assert moving[f"proposed_{name}"] == pytest.approx(still[f"proposed_{name}"], abs=0.1)
+    assert abs(still["proposed_helix_slope"]) > 3.0
+    assert moving["proposed_face_load_factor"] == pytest.approx(still["proposed_face_load_factor"], rel=1e-3)
 
 
 def test_only_what_tilts_asks_for_a_correction():
