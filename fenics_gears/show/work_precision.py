@@ -4,6 +4,7 @@ values alone."""
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Iterable
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,24 +13,31 @@ from matplotlib.ticker import FuncFormatter, LogLocator
 
 from fenics_gears.show.effect_costs import measured_heading
 from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
-from fenics_gears.studies.accuracy.measures import judged
+from fenics_gears.studies.accuracy.measures import FACE_LOAD, MEAN, SPAN, judged
 from fenics_gears.studies.accuracy.refinement import CONDENSATION, plan_of
 from fenics_gears.studies.accuracy.report import DEFAULTS, OWN, AccuracyReport, WholeResult
-from fenics_gears.studies.accuracy.table import in_one_sentence, limits_it
+from fenics_gears.studies.accuracy.table import in_one_sentence, judged_by, limits_it
 from fenics_gears.studies.machine import in_words
 
+# Measures of single numbers over the face.
+NUMBERS = {SPAN: "peak-to-peak transmission error", MEAN: "mean transmission error", FACE_LOAD: "face load factor"}
+TARGETS = PALETTE[5]
 MARKS = ("o", "s", "^", "D", "v", "P", "X", "*", "h", "<")
 LEAST_SHOWN = 1e-6
 
 
 @styled
 def work_precision(report: AccuracyReport) -> Figure:
-    """Left: whole settings with the front labelled, the scene's own, cheaper models. Right: each setting alone, the
-    others fine."""
-    figure = Figure(figsize=(15.0, 9.2), layout="constrained")
+    """Left: whole settings with the front labelled, the scene's own, those of targets, cheaper models. Right: each
+    setting alone, the others fine. Over the face also single numbers of the whole settings, in the middle."""
+    over_face = report.scene.three_dimensional
+    figure = Figure(figsize=(20.5 if over_face else 15.0, 9.2), layout="constrained")
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.1, rect=(0, 0.09, 1, 0.91))
-    whole, alone = figure.subplots(1, 2, gridspec_kw={"width_ratios": (1.35, 1.0)})
+    widths = (1.35, 1.0, 1.0) if over_face else (1.35, 1.0)
+    whole, *numbers, alone = figure.subplots(1, len(widths), gridspec_kw={"width_ratios": widths})
     _whole(whole, report)
+    for axes in numbers:
+        _numbers(axes, report)
     _alone(alone, report)
     _words(figure, report)
     return figure
@@ -48,11 +56,19 @@ def _whole(axes: Axes, report: AccuracyReport) -> None:
     draw(front, "-o", PALETTE[0], "Pareto front: none is quicker and as accurate")
     draw([report.own], "*", PALETTE[1], "the scene's own settings", 16.0)
     draw([report.defaults] if report.defaults else [], "P", PALETTE[3], "the default settings", 11.0)
+    for place, each in enumerate(report.targets):
+        label = "settings that a target chooses; the dash is what it promises"
+        draw([each], "D", TARGETS, "" if place else label, 7.0)
+        time = each.times.total
+        axes.plot([time, time], [each.target, each.total_error], "_:", color=TARGETS, markersize=14.0)
+        axes.annotate(each.name, (time, each.target), xytext=(0, 5), textcoords="offset points", ha="center",
+                      fontsize=9.5, color=TARGETS)  # fmt: skip
     for mark, each in zip(MARKS[1:], report.models):
         draw([each], mark, PALETTE[2], f"model: {each.name}", 8.0)
     unsure = "less than the reference's own uncertainty"
     axes.axhspan(LEAST_SHOWN, max(report.floor, LEAST_SHOWN), color=GREY, alpha=0.15, linewidth=0, label=unsure)
-    _logarithmic(axes, [*report.settings, *report.models], report.floor)
+    _logarithmic(axes, [*report.settings, *report.targets, *report.models], report.floor)
+    axes.set_ylabel(_of_all_judged(report))
     _labels(axes, front)
     axes.set_title("Total error (sum of the errors of all settings, or difference from the reference)")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=_columns(report), fontsize=10.5)
@@ -76,6 +92,29 @@ def _labels(axes: Axes, front: tuple[WholeResult, ...]) -> None:
         linespacing=1.5,
         bbox={"facecolor": "white", "edgecolor": "#E3E3E3", "alpha": 0.9, "pad": 5.0},
     )  # fmt: skip
+
+
+def _numbers(axes: Axes, report: AccuracyReport) -> None:
+    """Errors of single numbers of the whole settings, the quickest first; the scene's own and targets' are marks."""
+    front = report.front
+    for place, name in enumerate(name for name in NUMBERS if name in report.uncertainty):
+        look = {"color": PALETTE[place], "markersize": 5.5}
+        axes.plot(*_over_time(front, name), "-", marker=MARKS[place], label=NUMBERS[name], **look)
+        axes.plot(*_over_time([report.own], name), "*", color=PALETTE[place], markersize=15.0)
+        axes.plot(*_over_time(report.targets, name), "D", color=PALETTE[place], markersize=8.0, fillstyle="none")
+    axes.plot([], [], "*", color=GREY, markersize=13.0, label="the scene's own settings")
+    axes.plot([], [], "D", color=GREY, fillstyle="none", label="settings that a target chooses")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    _percent_over_seconds(axes)
+    axes.set_ylabel("Relative error (%), difference from the reference")
+    axes.set_title("Single numbers, settings of the Pareto front")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=1, fontsize=10.5)
+
+
+def _over_time(results: Iterable[WholeResult], name: str) -> tuple[list[float], list[float]]:
+    """Times and errors in a measure."""
+    return [each.times.total for each in results], [max(each.errors[name], LEAST_SHOWN) for each in results]
 
 
 def _logarithmic(axes: Axes, results, floor: float) -> None:
@@ -103,6 +142,7 @@ def _alone(axes: Axes, report: AccuracyReport) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
     _percent_over_seconds(axes)
+    axes.set_ylabel(_of_all_judged(report))
     axes.set_title("Each setting alone, all others fine")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncol=_columns(report), fontsize=9.5, columnspacing=1.0)
 
@@ -112,9 +152,13 @@ def _columns(report: AccuracyReport) -> int:
     return plan_of(report.scene).columns
 
 
+def _of_all_judged(report: AccuracyReport) -> str:
+    words = judged_by(report).replace("T_EPP", "T$_{EPP}$").replace("T_E", "T$_E$")
+    return f"Relative error (%), the largest of those of {words}"
+
+
 def _percent_over_seconds(axes: Axes) -> None:
     axes.set_xlabel("Time of a run (s, median; meshing, condensing, time stepping)")
-    axes.set_ylabel("Relative error (%), the larger of T$_E$ in L$_2$ and T$_{EPP}$")
     plain = FuncFormatter(lambda value, _: f"{value:g}")
     axes.xaxis.set_major_formatter(plain)
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:g}"))

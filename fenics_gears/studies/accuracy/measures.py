@@ -23,6 +23,8 @@ MEASURES = (CURVE, SPAN, STIFFNESS, PRESSURE, PEAK, ROOT, DEFECT)
 # Of flanks resolved over the face: the line load averaged over the mesh cycle, and two load factors.
 LINE_LOAD, FACE_LOAD, LARGEST_LOAD = "line load", "face load factor", "largest line load"
 OVER_FACE = (LINE_LOAD, FACE_LOAD, LARGEST_LOAD)
+# Of these the mean transmission error too, which is on record: nothing is judged by it.
+MEAN = "mean T_E"
 # Settings are judged by both of these: a curve may have the right height and the wrong shape. Over the face they are
 # judged by its measures too.
 JUDGED = (CURVE, SPAN)
@@ -48,6 +50,8 @@ def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> 
     if "contact_pressure" in run:
         found[PRESSURE] = _pressure(run, window)
         found[PEAK] = np.array([run.attrs["peak_contact_pressure"]])
+    if "face_position" in run.dims:
+        found[MEAN] = np.array([run.attrs["mean_transmission_error"] * run.attrs["base_radius_wheel"]])
     if root_stress is not None:
         found[ROOT] = np.array([root_stress])
     return found
@@ -129,7 +133,7 @@ def distances(one: Answer, other: Answer) -> dict[str, float]:
 def measures_of(names: Container[str]) -> tuple[str, ...]:
     """All measures of a plane run, and those over the face that are among some names, such as the keys of an answer
     or of errors."""
-    return MEASURES + tuple(name for name in OVER_FACE if name in names)
+    return MEASURES + tuple(name for name in (MEAN, *OVER_FACE) if name in names)
 
 
 def judged(errors: dict[str, float]) -> float:

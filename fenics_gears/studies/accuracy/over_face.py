@@ -31,6 +31,8 @@ QUICK: dict[str, tuple[float, ...]] = {
 }
 FINE = {FLANK: 1.4, BODY: 1.4, LENGTH: 1.0, STEPS: 20, SLICES: 1.0, LAYERS: 1.0}
 QUICK_FINE = {**FINE, FLANK: 0.7, SLICES: 0.5, LAYERS: 0.5}
+# Targets whose settings are run beside the others.
+TARGETS = (0.05, 0.02)
 # Order of their errors, and why.
 ORDERS = {
     SLICES: (2.0, "the mean over a slice in place of each point in it: h^2"),

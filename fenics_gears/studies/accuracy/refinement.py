@@ -50,8 +50,8 @@ QUICK_CHOICES: dict[str, tuple[str, ...]] = {"element": ("P1", "P2"), "interpola
 class Plan:
     """What is refined and compared: `values` of the settings that are numbers, `choices` of the others, all settings
     when another one is refined (`fine`, changed `beside` some) and the same in a quick study; `elastic_teeth` that are
-    compared; whether gears `remeshed` at every step and `root_stress` are; `models`: cheaper ones; `rounds` of timing;
-    `columns` of a legend."""
+    compared; whether gears `remeshed` at every step and `root_stress` are; `models`: cheaper ones; `targets` whose
+    settings are run; `rounds` of timing; `columns` of a legend."""
 
     values: dict[str, tuple[float, ...]]
     quick_values: dict[str, tuple[float, ...]]
@@ -66,6 +66,7 @@ class Plan:
     elastic_teeth: tuple[int | None, ...] = ()
     remeshed: bool = False
     root_stress: bool = False
+    targets: tuple[float, ...] = ()
 
 
 IN_THE_PLANE = Plan(
@@ -82,6 +83,7 @@ OVER_THE_FACE = Plan(
     models=(over_face.PLANE,),
     rounds=1,
     columns=1,
+    targets=over_face.TARGETS,
 )
 
 

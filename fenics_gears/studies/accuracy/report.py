@@ -33,6 +33,7 @@ from fenics_gears.studies.accuracy.refinement import (
 from fenics_gears.studies.accuracy.root_point import peak_root_stress
 from fenics_gears.studies.accuracy.setting import Setting, default_setting, own_setting, without_settings
 from fenics_gears.studies.accuracy.setting_runs import SettingRuns
+from fenics_gears.studies.accuracy.target import settings_of
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
 
@@ -65,7 +66,8 @@ class RefinementResult:
 class WholeResult:
     """A whole setting or a cheaper model: errors from the reference, the parts of its settings, and times.
 
-    `parts` is empty for a cheaper model, whose error does not depend on settings.
+    `parts` is empty for a cheaper model, whose error does not depend on settings, and for the settings of a `target`,
+    which are no levels.
     """
 
     name: str
@@ -73,6 +75,7 @@ class WholeResult:
     errors: dict[str, float]
     parts: dict[str, float]
     times: Times
+    target: float | None = None
 
     @property
     def total_error(self) -> float:
@@ -97,6 +100,7 @@ class AccuracyReport:
     failures: tuple[tuple[str, str], ...]
     machine: dict[str, str]
     rounds: int
+    targets: tuple[WholeResult, ...] = ()
 
     @property
     def own(self) -> WholeResult:
@@ -131,9 +135,10 @@ def measure(
     study = AccuracyStudy(scene, progress or SilentProgress(), quick, rounds or usual)
     results = study.refine()
     reference, uncertainty = study.reference(results)
-    settings, models = study.whole_runs(results, reference)
+    whole_settings, models, targets = study.whole_runs(results, reference, () if quick else plan_of(scene).targets)
     return AccuracyReport(
-        scene, study.base, results, settings, models, uncertainty, tuple(study.failures), machine(), study.rounds,
+        scene, study.base, results, whole_settings, models, uncertainty, tuple(study.failures), machine(),
+        study.rounds, targets,
     )  # fmt: skip
 
 
@@ -183,9 +188,9 @@ class AccuracyStudy:
         return value, uncertainty
 
     def whole_runs(
-        self, results: tuple[RefinementResult, ...], reference: Answer
-    ) -> tuple[tuple[WholeResult, ...], tuple[WholeResult, ...]]:
-        """Run and time whole settings and cheaper models."""
+        self, results: tuple[RefinementResult, ...], reference: Answer, targets: tuple[float, ...]
+    ) -> tuple[tuple[WholeResult, ...], ...]:
+        """Run and time whole settings, cheaper models, and the settings of targets."""
         ran = [each.refinement for each in results]
         errors = {
             (each.refinement.name, each.refinement.levels.index(level.level)): judged(level.errors)
@@ -201,15 +206,22 @@ class AccuracyStudy:
         ):
             chosen[setting.words] = setting
         chosen |= dict.fromkeys(plan_of(self.scene).models)
+        of_targets = settings_of(self.scene, targets, self.progress, self.failures)
+        chosen |= {name: setting for name, (setting, _) in of_targets.items()}
         answers, times = self._in_turns({name: scene_of(self.scene, name, setting) for name, setting in chosen.items()})
         found = []
         for name in answers:
             setting = chosen[name]
-            parts = {} if setting is None else whole.parts_of(setting, ran, errors)
-            found.append(WholeResult(name, setting, distances(answers[name], reference), parts, times[name]))
+            target = of_targets[name][1] if name in of_targets else None
+            parts = {} if setting is None or target else whole.parts_of(setting, ran, errors)
+            found.append(WholeResult(name, setting, distances(answers[name], reference), parts, times[name], target))
         if OWN not in answers:
             raise ComputationError(f"the scene itself does not run: {dict(self.failures)[OWN]}")
-        return tuple(each for each in found if each.setting), tuple(each for each in found if not each.setting)
+        return (
+            tuple(each for each in found if each.setting and not each.target),
+            tuple(each for each in found if not each.setting),
+            tuple(each for each in found if each.target),
+        )
 
     def _run(self, setting: Setting, name: str) -> bool:
         """Run a setting unless it has run before; whether it could be run."""

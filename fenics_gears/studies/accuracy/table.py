@@ -59,7 +59,7 @@ def whole_rows(report: AccuracyReport) -> list[tuple[str, ...]]:
     """A row for each combination of settings and each cheaper model; those of the Pareto front are marked."""
     front = report.front
     rows = []
-    for each in (*report.settings, *report.models):
+    for each in (*report.settings, *report.targets, *report.models):
         name = each.name + (" *" if each in front else "")
         times = (seconds(each.times.median(stage)) for stage in STAGES)
         rows.append((
@@ -93,8 +93,8 @@ def seconds(time: float) -> str:
 
 
 def limits_it(each: WholeResult) -> str:
-    """The setting with the largest error; nothing for a cheaper model."""
-    return largest_part(each.parts) if each.parts else "the model"
+    """The setting with the largest error; nothing of a target's settings, whose parts are not known."""
+    return largest_part(each.parts) if each.parts else "" if each.target else "the model"
 
 
 def in_one_sentence(report: AccuracyReport) -> str:
@@ -127,13 +127,13 @@ def _cost(report: AccuracyReport, target: float) -> str:
     reached = [each for each in report.front if each.total_error <= target]
     if reached:
         return f"{words} costs {seconds(reached[0].times.total)} s ({reached[0].name})"
-    return f"{words} was not reached: {_best(report)}"
+    return f"{words} was not reached. {_best(report)}"
 
 
 def _best(report: AccuracyReport) -> str:
     best = report.front[-1]
     return (
-        f"the best settings that were run have an error of {percent(max(best.total_error, report.floor))} % and cost"
+        f"The best settings that were run have an error of {percent(max(best.total_error, report.floor))} % and cost"
         f" {seconds(best.times.total)} s"
     )
 
@@ -215,7 +215,7 @@ def _level_lines(report: AccuracyReport):
 
 
 def _whole_lines(report: AccuracyReport):
-    for each in (*report.settings, *report.models):
+    for each in (*report.settings, *report.targets, *report.models):
         words = each.setting.words if each.setting else ""
         kind = "setting" if each.setting else "model"
         yield {

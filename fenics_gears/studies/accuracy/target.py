@@ -8,6 +8,9 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import ceil, inf, sqrt
 
+import numpy as np
+
+from fenics_gears.errors import ComputationError
 from fenics_gears.scene.data import Accuracy, Scene
 from fenics_gears.studies.accuracy.convergence import EXPECTED_ORDER
 from fenics_gears.studies.accuracy.setting import Setting
@@ -24,6 +27,8 @@ from fenics_gears.system.progress import Progress
 
 # Sizes at which errors are estimated first for a target of 1 %, the mesh also for larger ones.
 FIRST_MESH, FIRST_STEPS = 2.5, 60.0
+# Over the face the first mesh of larger targets is coarser, up to that of this part.
+COARSEST_FIRST = 0.7
 # Slices of the first trial runs for a target of 1 %, in the default number; at least the second.
 FIRST_SLICES, FEWEST_SLICES = 0.7, 4
 # Ratio of neighbouring numbers of slices in the search for the cheapest, and how many there are.
@@ -43,17 +48,17 @@ USUAL_RUNS = 3
 # Where a target is not reached, larger ones are tried by this factor.
 REACHABLE = 1.2
 
-Errors = dict[str, float]
+Errors = dict[str, np.ndarray]
 
 
 @dataclass(frozen=True)
 class Chosen:
-    """Chosen settings with their relative estimated error: `parts` by setting, `estimated_error` of all together;
-    `runs`: how many it took."""
+    """Chosen settings with their relative estimated error in the measure that is worst: `parts` by setting,
+    `estimated_error` of all together; `runs`: how many it took."""
 
     accuracy: Accuracy
     setting: Setting
-    parts: Errors
+    parts: dict[str, float]
     runs: int
 
     @property
@@ -76,6 +81,20 @@ def choose(scene: Scene, target: float, progress: Progress) -> Chosen:
             f"accuracy.target = {100.0 * target:g} % is not reached: {reason}. Take a larger target, or give settings"
             " of your own; `gears accuracy` shows the error of each."
         ) from None
+
+
+def settings_of(
+    scene: Scene, targets: tuple[float, ...], progress: Progress, failures: list[tuple[str, str]]
+) -> dict[str, tuple[Setting, float]]:
+    """By name the settings that targets choose, with the targets; those that none reaches join the failures."""
+    found = {}
+    for target in targets:
+        name = f"target {100.0 * target:g} %"
+        try:
+            found[name] = choose(scene, target, progress).setting, target
+        except ComputationError as error:
+            failures.append((name, str(error).splitlines()[0]))
+    return found
 
 
 def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:
@@ -105,7 +124,7 @@ def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
             and sizes.slices <= EXTRAPOLATED * tried.slices
         ):
             setting = runs.setting(sizes)
-            return Chosen(setting.accuracy(module), setting, errors_at(tried, errors, sizes), runs.runs)
+            return Chosen(setting.accuracy(module), setting, _of_worst(errors_at(tried, errors, sizes)), runs.runs)
         tried = Sizes(
             min(COARSER_FIRST * sizes.mesh, tried.mesh),
             max(round_steps(sizes.steps / COARSER_FIRST), tried.steps),
@@ -114,13 +133,21 @@ def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
     raise TargetNotReached(f"errors do not fall with order 2 down to {runs.setting(tried).words}")
 
 
+def _of_worst(errors: Errors) -> dict[str, float]:
+    """The parts of the error in the measure in which their sum is largest."""
+    worst = int(np.argmax(sum(errors.values())))
+    return {name: float(np.ravel(parts)[worst]) for name, parts in errors.items()}
+
+
 def first_sizes(target: float, fewest_steps: int, steps_matter: bool, slices: int = 0) -> Sizes:
     """Sizes of the first trial runs, somewhat coarser than those that will be chosen; `slices`: the default number, 0
     in the plane."""
     finer = sqrt(0.01 / target)
     steps = round_steps(max(FIRST_STEPS * finer, fewest_steps) if steps_matter else fewest_steps)
     return Sizes(
-        FIRST_MESH / max(finer, 1.0), steps, max(even(FIRST_SLICES * finer * slices), FEWEST_SLICES) if slices else 0
+        FIRST_MESH / max(finer, COARSEST_FIRST if slices else 1.0),
+        steps,
+        max(even(FIRST_SLICES * finer * slices), FEWEST_SLICES) if slices else 0,
     )
 
 
@@ -173,7 +200,7 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
     best, least, refused = None, inf, ""
     for mesh in (tried.mesh / RATIO**place for place in range(MESHES)):
         left = target - errors[MESH] * (mesh / tried.mesh) ** 2
-        if left > 0.0:
+        if np.all(left > 0.0):
             cost = inf
             for sizes in _beside(mesh, tried, errors, left):
                 try:
@@ -193,13 +220,14 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
     return best
 
 
-def _beside(mesh: float, tried: Sizes, errors: Errors, left: float) -> Iterator[Sizes]:
+def _beside(mesh: float, tried: Sizes, errors: Errors, left: np.ndarray) -> Iterator[Sizes]:
     """Sizes with a mesh and as many slices and steps as what is `left` of the error for them asks for, from the fewest
     slices on."""
     slicings = [tried.slices * RATIO_OF_SLICES**place for place in range(SLICINGS)] if tried.slices else [0.0]
     for slices in map(even, slicings):
         for_steps = left - (errors.get(SLICES, 0.0) * (tried.slices / slices) ** 2 if slices else 0.0)
-        if for_steps > 0.0:
-            yield Sizes(mesh, round_steps(tried.steps * max(1.0, sqrt(errors.get(STEPS, 0.0) / for_steps))), slices)
-            if not errors.get(STEPS):
+        if np.all(for_steps > 0.0):
+            of_steps = float(np.max(errors.get(STEPS, 0.0) / for_steps))
+            yield Sizes(mesh, round_steps(tried.steps * max(1.0, sqrt(of_steps))), slices)
+            if not of_steps:
                 return

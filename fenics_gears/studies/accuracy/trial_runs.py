@@ -11,6 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import ceil
 
+import numpy as np
+
 from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import Model, model_of
@@ -19,7 +21,12 @@ from fenics_gears.runs.runs import Ticking
 from fenics_gears.scene.accuracy import MOST_CONTACT_NODES
 from fenics_gears.scene.accuracy_rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.data import Output, Scene
-from fenics_gears.studies.accuracy.convergence import SAFETY_OF_SLICES, SAFETY_OF_TWO, error_of_two
+from fenics_gears.studies.accuracy.convergence import (
+    SAFETY_OF_FACE_MESH,
+    SAFETY_OF_SLICES,
+    SAFETY_OF_TWO,
+    errors_of_two,
+)
 from fenics_gears.studies.accuracy.measures import Answer, judged_answer
 from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
 from fenics_gears.studies.accuracy.setting_runs import SettingRuns
@@ -29,6 +36,9 @@ from fenics_gears.studies.accuracy.setting_runs import SettingRuns
 FEWEST_STEPS, MOST_STEPS = 40, 1280
 MESH, STEPS, SLICES = "finite elements and contact nodes", "steps per mesh cycle", "slices"
 FEWEST_LAYERS, ROUNDING = 2, 1e-9
+# Layers per slice in parts of the defaults', which are made for pressures too: three slices share one. Layers are most
+# of the cost, and what they leave is in the error of the slices, with which they are halved.
+COARSER_LAYERS = 2.0 / 3.0
 COARSER = 2
 # Gears kept in memory: pinion and wheel of two meshes.
 KEPT_GEARS = 4
@@ -81,7 +91,7 @@ class TrialRuns:
         if not self.slices:
             return found
         slices = sizes.slices or self.slices
-        layers = ceil(default.layers * slices / default.slices - ROUNDING)
+        layers = ceil(default.layers * COARSER_LAYERS * slices / default.slices - ROUNDING)
         return replace(found, slices=slices, layers=max(layers, FEWEST_LAYERS))
 
     @property
@@ -100,13 +110,14 @@ class TrialRuns:
                 return FEWEST_STEPS
         return steps
 
-    def errors(self, sizes: Sizes) -> dict[str, float]:
-        """Estimated relative errors of a run, the larger of the judged measures, by setting. Raises
-        ComputationError."""
+    def errors(self, sizes: Sizes) -> dict[str, np.ndarray]:
+        """Estimated relative errors of a run, by setting: of each judged measure over the face, where settings tell on
+        different ones; in the plane of the worst of both. Raises ComputationError."""
         self._with_window_long_enough(sizes)
         coarser = replace(sizes, mesh=COARSER * sizes.mesh)
         # The mesh's error is measured where runs are short, beside fewer steps and slices.
-        short, errors = sizes, {}
+        of_mesh = SAFETY_OF_FACE_MESH if self.slices else SAFETY_OF_TWO
+        short, errors = sizes, dict[str, np.ndarray]()
         if self.steps_matter:
             short = replace(short, steps=sizes.steps // COARSER)
             errors[STEPS] = self._error(sizes, short)
@@ -114,7 +125,7 @@ class TrialRuns:
             fewer = replace(short, slices=short.slices // COARSER)
             errors[SLICES] = self._error(short, fewer, SAFETY_OF_SLICES)
             short = fewer
-        return {MESH: self._error(short, replace(coarser, steps=short.steps, slices=short.slices)), **errors}
+        return {MESH: self._error(short, replace(coarser, steps=short.steps, slices=short.slices), of_mesh), **errors}
 
     def cost(self, sizes: Sizes) -> float:
         """Expected seconds of the whole scene's run, which are counted. Raises TargetNotReached where it is beyond the
@@ -146,9 +157,10 @@ class TrialRuns:
         except GearsError as error:
             raise TargetNotReached(f"{setting.words}: {error}") from None
 
-    def _error(self, sizes: Sizes, coarser: Sizes, safety: float = SAFETY_OF_TWO) -> float:
-        """Error of `sizes`, from the difference to a run that is coarser in one of them."""
-        return error_of_two(self._answer(sizes), self._answer(coarser), COARSER, safety)
+    def _error(self, sizes: Sizes, coarser: Sizes, safety: float = SAFETY_OF_TWO) -> np.ndarray:
+        """Errors of `sizes`, from the difference to a run that is coarser in one of them."""
+        errors = errors_of_two(self._answer(sizes), self._answer(coarser), COARSER, safety)
+        return errors if self.slices else errors.max(keepdims=True)
 
     def _answer(self, sizes: Sizes) -> Answer:
         setting = self.setting(sizes)

@@ -16,7 +16,7 @@ from fenics_gears.runs.timed import run_sharing
 from fenics_gears.scene.data import Accuracy, Motion
 from fenics_gears.studies.accuracy import setting_runs, trial_runs
 from fenics_gears.studies.accuracy.measures import JUDGED, distance, judged_answer
-from fenics_gears.studies.accuracy.target import choose
+from fenics_gears.studies.accuracy.target import choose, settings_of
 from fenics_gears.studies.accuracy.trial_runs import MESH, STEPS, Sizes, TargetNotReached, TrialRuns
 from fenics_gears.system.progress import SilentProgress
 
@@ -206,3 +206,14 @@ def test_check_says_that_settings_are_chosen_by_the_run(text, tmp_path, capsys):
     (tmp_path / "scene.toml").write_text(text)
     assert main(["check", str(tmp_path / "scene.toml")]) == 0
     assert "10.000%: a run chooses settings" in capsys.readouterr().out
+
+
+def test_settings_of_targets(scene, monkeypatch):
+    """Definition: what `choose` gives, by name; a target that cannot be reached joins the failures with its reason."""
+    failures = []
+    found = settings_of(scene, (TARGET,), SilentProgress(), failures)
+    assert found == {"target 10 %": (choose(scene, TARGET, SilentProgress()).setting, TARGET)} and not failures
+    monkeypatch.setattr(trial_runs, "MOST_BYTES", 1.0)
+    assert not settings_of(scene, (TARGET,), SilentProgress(), failures)
+    ((name, reason),) = failures
+    assert name == "target 10 %" and "is not reached" in reason
