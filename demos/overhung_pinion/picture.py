@@ -29,7 +29,7 @@ def picture(flanks: dict) -> Figure:
     for colour, (name, each) in zip(PALETTE[3:], flanks.items()):
         order = each.misalignments.argsort()
         words = f"{name}: nine of ten below {each.nine_of_ten:.2f}"
-        panel.plot(each.misalignments[order], each.scattered[order], ".-", color=colour, label=words)
+        panel.plot(each.misalignments[order], each.scattered[order], ".", color=colour, label=words)
     panel.set_xlabel("Misalignment of the axes by mounting (µm over the face)")
     panel.set_ylabel(r"K$_{\mathrm{H}\beta}$, mean of the torques")
     panel.set_ylim(bottom=1.0)

@@ -25,10 +25,16 @@ def table(tree: Tree, name: str) -> Tree | None:
 
 
 def value_at(tree: Tree, *path: str) -> Any:
-    """What a parsed scene has at a path; None where there is nothing."""
-    for name in path[:-1]:
-        tree = table(tree, name) or {}
-    return tree.get(path[-1])
+    """What a parsed scene has at a path, in which tables that are listed have numbers from 1; None where there is
+    nothing."""
+    found: Any = tree
+    for name in path:
+        if name.isdigit():
+            listed = found.get("each") if isinstance(found, Mapping) else found
+            found = listed[int(name) - 1] if isinstance(listed, list) and 1 <= int(name) <= len(listed) else None
+        else:
+            found = found.get(name) if isinstance(found, Mapping) else None
+    return found
 
 
 def with_gears(tree: Tree, name: str) -> dict[Path, Tree]:

@@ -8,6 +8,7 @@ from tests.studies.conftest import write_study
 
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import SceneError
+from fenics_gears.inputs.tree import value_at
 from fenics_gears.studies import fields
 from fenics_gears.studies.study_file import load_study
 
@@ -266,6 +267,7 @@ def test_tables_that_are_listed_are_counted_from_1(path, value, found):
     shaft, bearings = changed["shafts"]["input"]["sections"][1], changed["bearings"]["pinion"]
     assert found in (shaft, bearings[0]["rolling"], len(bearings))
     assert LISTED == before
+    assert value_at(changed, *path) == (None if value == fields.ABSENT else value)
     written = {"bearings": {"pinion": {"each": LISTED["bearings"]["pinion"]}}}
     if path[0] == "bearings":
         assert fields.changed(written, path, value)["bearings"]["pinion"]["each"] == bearings
