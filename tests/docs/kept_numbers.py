@@ -103,6 +103,18 @@ def target() -> str:
     return "\n".join(table(["", "median"], lines))
 
 
+def target_over_face() -> str:
+    """Of each pair over the face the true error and what the settings cost beside the cheapest."""
+    lines = []
+    for line in rows("target_over_face"):
+        worst = max(float(value) for name, value in line.items() if name.startswith("error_"))
+        numbers = (f"{float(line[name]):.1f}" for name in ("true_over_target", "cost_over_cheapest"))
+        chosen, target = line["chosen"].removeprefix("P2 "), f"{100.0 * float(line['target']):g}"
+        lines.append([line["pair"], target, chosen, f"{100.0 * worst:.2g}", *numbers])
+    names = ["pair", "target, %", "chosen", "worst true error, %", "true / target", "cost / cheapest"]
+    return "\n".join(table(names, lines))
+
+
 def growth(name: str) -> str:
     """Exponents over the upper decade beside theory, of all that grows."""
     lines = []
@@ -126,6 +138,7 @@ SECTIONS = {
     ("accuracy.md", "accuracy"): accuracy,
     ("accuracy.md", "orders"): orders,
     ("accuracy.md", "target"): target,
+    ("accuracy.md", "target_face"): target_over_face,
     ("growth.md", "growth"): lambda: growth("growth"),
     ("growth.md", "growth_face"): lambda: growth("growth_face"),
     **{("third_dimension.md", name): lambda name=name: third_dimension(name) for name in NAMES},

@@ -19,6 +19,8 @@ def test_every_target_was_reached():
     """Authority: what the guide promises of `[accuracy] target`; the true errors of all pairs that were measured."""
     found = rows("target_of_pairs")
     assert len(found) > 50 and all(float(line["true, %"]) <= float(line["target, %"]) for line in found)
+    over_face = rows("target_over_face")
+    assert over_face and all(float(line["true_over_target"]) <= 1.0 for line in over_face)
 
 
 def test_the_guide_says_how_much_too_stiff_plane_strain_is():

@@ -42,9 +42,11 @@ def main() -> int:
             continue
         if part.read is None:
             keep(part, numbers, PARTS)
-        for claim, pair in numbers.items():
-            said = "" if part.claims[claim].holds(*pair) else "   OUTSIDE"
-            print(f"{name}, {claim}: {pair[0]:.8g} {pair[1]:.8g} {part.claims[claim].difference(*pair):+.2e}{said}")
+        # A part may measure more than has a row.
+        for row, claim in part.claims.items():
+            pair = numbers[row]
+            said = "" if claim.holds(*pair) else "   OUTSIDE"
+            print(f"{name}, {row}: {pair[0]:.8g} {pair[1]:.8g} {claim.difference(*pair):+.2e}{said}")
         print(f"{name}: {time.process_time() - begun:.0f} s of processor time", flush=True)
     PAGE.write_text(page(PARTS), encoding="utf-8")
     write_section(README, *markers("evidence"), readme_rows(PARTS))
