@@ -130,7 +130,7 @@ class GearRecovery:
     def _joint(self, reach: int) -> CutResponse:
         """Response of the ring's cuts to forces on them."""
         sector = self.sector
-        if sector.sweep is None:
+        if sector.sweep is None or not sector.sweep.alike:
             return cut_response(self._link, self.gear.teeth, reach)
         basis = half_turn_basis(sector.place(sector.lower))
         return half_turn_response(self._link, self.gear.teeth, reach, basis)
@@ -163,8 +163,11 @@ def gear_recovery(
 ) -> GearRecovery:
     """A gear's recovery on the very mesh that `flank_compliance` or `face_compliance` has with the same settings."""
     if isinstance(discretisation, FaceDiscretisation):
+        # Imported here: plane gears have none.
+        from fenics_gears.elasticity.face.compliance import swept_section
+
         scaled = discretisation.in_modules_of(gear)
-        sector = swept_sector(sector_mesh(gear.of_module_one, scaled.sizes), scaled.sweep, material.poissons_ratio)
+        sector = swept_sector(swept_section(gear.of_module_one, scaled.sizes), scaled.sweep, material.poissons_ratio)
     else:
         element = element_named(discretisation.element)
         sizes = discretisation.sizes(gear, both_flanks=coast_flank).in_modules_of(gear)

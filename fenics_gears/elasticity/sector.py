@@ -19,19 +19,28 @@ class Sector:
 
     Its nodes go by height, then by the section's (ElementNodes); a plane one has one height. Dofs are interleaved: x, y
     and of a swept sector z, in the section's frame turned with it. cuts: (c,) nodes of the lower and of the upper cut
-    by height and radius; hub: (h,). link: stiffness (2 d, 2 d) between the dofs of both cuts off the hub. Release the
+    by height and radius; hub: (h,); there: (nodes,), which nodes there are, all unless given; others, beside a web,
+    do not move, and are in no link. link: stiffness (2 d, 2 d) between the dofs of both cuts off the hub. Release the
     factor by `close`.
     """
 
-    def __init__(self, mesh: BodyMesh, section: ElementNodes, stiffness: sparse.csr_matrix, sweep: Sweep | None = None):
+    def __init__(
+        self,
+        mesh: BodyMesh,
+        section: ElementNodes,
+        stiffness: sparse.csr_matrix,
+        sweep: Sweep | None = None,
+        there: np.ndarray | None = None,
+    ):
         self.mesh, self.section, self.sweep = mesh, section, sweep
         self.components, self.heights = (2, np.zeros(1)) if sweep is None else (3, sweep.heights)
         self.hub = self._swept("hub")
         self.cuts = tuple(self._swept(f"{name} cut") for name in ("lower", "upper"))
-        free = np.ones(self.components * self.nodes, dtype=bool)
-        free[dofs_of(self.hub, self.components)] = False
+        moves = np.ones(self.nodes, dtype=bool) if there is None else there.copy()
+        moves[self.hub] = False
+        free = np.repeat(moves, self.components)
         self._free, number = np.flatnonzero(free), np.cumsum(free) - 1
-        self.lower, self.upper = (cut[~np.isin(cut, self.hub)] for cut in self.cuts)
+        self.lower, self.upper = (cut[moves[cut]] for cut in self.cuts)
         self._between = dofs_of(np.concatenate([self.lower, self.upper]), self.components)
         self._factor = Factor(stiffness[free][:, free], "a tooth sector for its stresses", number[self._between])
         # Before any solve: then the factor holds it no longer as it is.
@@ -96,5 +105,5 @@ def swept_sector(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float) -> Sector:
     # Imported here: plane gears have none.
     from fenics_gears.elasticity.face.swept_stiffness import SectionForms, swept_stiffness
 
-    forms = SectionForms(mesh, poissons_ratio)
-    return Sector(mesh, forms.nodes, swept_stiffness(forms, sweep), sweep)
+    forms = SectionForms(mesh, poissons_ratio, sweep.web)
+    return Sector(mesh, forms.nodes, swept_stiffness(forms, sweep), sweep, forms.material(sweep).ravel())

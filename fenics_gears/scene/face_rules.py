@@ -44,13 +44,6 @@ def _faces_are_resolved_by_elastic_contact(tree: Tree, reasons: Sequence[Path]) 
                 as_written(accuracy[name]),
                 f'{why}. Take "{INSTEAD[name]}", or leave one of the two out.',
             )
-    webs = [gear for gear in GEARS if value_at(tree, "gears", gear, "web") is not None]
-    if webs and value_at(tree, "output", "root_stress") is True:
-        message = (
-            f"is not known of gears with a web over the face: cannot stand beside gears.{webs[0]}.web. Leave one of the"
-            " two out."
-        )
-        yield Problem(("output", "root_stress"), "true", message)
     of_scene = next((path for path in reasons if path in NOT_EFFECTS), None)
     if of_scene is None:
         return

@@ -100,13 +100,13 @@ def _computed(
         del sector
     else:
         # Imported here: few gears have such a web.
-        from fenics_gears.elasticity.face.whole_sector import condensed_whole_sector
+        from fenics_gears.elasticity.face.whole_sector import condensed_whole_sector, whole_ring_blocks
 
         if comm is not None and comm.rank > 0:
             return None
         whole = condensed_whole_sector(mesh, face.sweep, poissons_ratio, both)
         condensed = perf_counter()
-        found, blocks = whole.timings, ring_compliance(whole, gear.teeth, farthest)
+        found, blocks = whole.timings, whole_ring_blocks(whole, gear.teeth, farthest)
         del whole
     if blocks is None:
         return None

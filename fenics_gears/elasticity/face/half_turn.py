@@ -67,7 +67,7 @@ def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sp
         raise _not_mapped()
     responses = np.zeros((reach + 1, *same.shape))
     for harmonic in range(teeth // 2 + 1):
-        angle, weight = _harmonic(harmonic, teeth)
+        angle, weight = harmonic_of(harmonic, teeth)
         stiffness = same + np.cos(angle) * real
         stiffness[:even, even:] = -np.sin(angle) * imaginary[:even, even:]
         stiffness[even:, :even] = stiffness[:even, even:].T
@@ -146,7 +146,7 @@ def _joined_through_cuts(
     # In LAPACK's order, as the products that are added.
     found = np.zeros((offsets + 1, motions.shape[1], motions.shape[1])).transpose(0, 2, 1)
     for harmonic in range(teeth // 2 + 1) if comm is None else range(comm.rank, teeth // 2 + 1, comm.size):
-        angle, weight = _harmonic(harmonic, teeth)
+        angle, weight = harmonic_of(harmonic, teeth)
         stiffness = same + np.cos(angle) * differing
         np.multiply(across_signs, -np.sin(angle), out=stiffness[even:, :even])
         # Transposed, it is in LAPACK's order, and its lower triangle alone is read.
@@ -176,7 +176,7 @@ def _joined_through_cuts(
     return found
 
 
-def _harmonic(number: int, teeth: int) -> tuple[float, float]:
+def harmonic_of(number: int, teeth: int) -> tuple[float, float]:
     """The angle (rad) by which a harmonic turns from tooth to tooth, and its share in a sum over all of them."""
     return 2.0 * np.pi * number / teeth, (1.0 if number == 0 or 2 * number == teeth else 2.0) / teeth
 

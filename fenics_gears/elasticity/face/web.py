@@ -18,7 +18,7 @@ twisting of the rim and all their couplings to the teeth are in K: a web that st
 rim by M = F e, which opens the flanks along the face. Harmonics are those of the ring.
 
 A web at mid-width keeps the half turn about a tooth's centreline (`fold`): two halves, real harmonics. Another web does
-not: the whole sector is condensed (`whole_sector`), and harmonics are complex (`ring.ring_compliance`).
+not: the whole sector is condensed (`whole_sector`), and harmonics are complex.
 """
 
 from __future__ import annotations

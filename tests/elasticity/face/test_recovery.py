@@ -1,5 +1,6 @@
 """Displacement and stress recovered in swept sectors."""
 
+from dataclasses import replace
 from math import radians, tan
 
 import numpy as np
@@ -10,9 +11,11 @@ from tests.elasticity.face.swept import TWIST, TWISTED, in_frame, in_place, sect
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+from fenics_gears.elasticity.face.layers import SweptWeb
 from fenics_gears.elasticity.nodal_stress import NodalStress
 from fenics_gears.elasticity.recovery import gear_recovery
 from fenics_gears.elasticity.ring import rotation
+from fenics_gears.geometry.gear_data import Web
 
 PINION_BODY = FaceDiscretisation(2.7, 2, 15.0, tan(radians(15.0)) / PINION.reference_radius)
 
@@ -27,7 +30,22 @@ def recovery():
 def test_flanks_move_as_their_compliance_says(recovery):
     """Identity: what is recovered at the flanks of the loaded tooth and its neighbours is the condensed compliance
     times the forces."""
-    compliance = face_compliance(PINION, STEEL, PINION_BODY, Reach(1))
+    check_flanks(recovery, face_compliance(PINION, STEEL, PINION_BODY, Reach(1)))
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("low", [-3.0, -7.5])
+def test_flanks_beside_a_web_move_as_their_compliance_says(low):
+    """The same identity, of a web in the middle and of one at the left end."""
+    web, width = SweptWeb(18.0, 25.0, low, low + 6.0), PINION_BODY.face_width
+    gear = replace(PINION, web=Web(18.0, 25.0, 6.0 / width, offset=(low + 3.0) / width))
+    body = replace(PINION_BODY, web=web)
+    with gear_recovery(gear, STEEL, body) as recovery:
+        check_flanks(recovery, face_compliance(gear, STEEL, body, Reach(1)))
+
+
+def check_flanks(recovery, compliance):
+    """That recovered motions of the flanks are the compliance times the forces."""
     flank = recovery.sector.flank_nodes("flank")
     forces = np.random.default_rng(1).normal(size=(1, len(compliance.heights), len(compliance.roll_angle), 3))
     found = recovery.recovered({0: forces}, range(-1, 2)).displacement.reshape(3, -1, 3)[:, flank].reshape(3, -1)
