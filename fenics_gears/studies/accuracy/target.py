@@ -29,8 +29,9 @@ from fenics_gears.system.progress import Progress
 FIRST_MESH, FIRST_STEPS = 2.5, 60.0
 # Over the face the first mesh of larger targets is coarser, up to that of this part.
 COARSEST_FIRST = 0.7
-# Slices of the first trial runs for a target of 1 %, in the default number; at least the second.
-FIRST_SLICES, FEWEST_SLICES = 0.7, 4
+# Slices of the first trial runs for a target of 1 %, in the default number; at least the second, whose half has half
+# the layers: with the fewest layers in both runs, what layers leave would not be seen.
+FIRST_SLICES, FEWEST_SLICES = 0.7, 10
 # Ratio of neighbouring numbers of slices in the search for the cheapest, and how many there are.
 RATIO_OF_SLICES, SLICINGS = 2.0**0.25, 13
 # Steps in a mesh cycle are multiples of this, so that curves of different runs have phases in common.
