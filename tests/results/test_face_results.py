@@ -14,7 +14,7 @@ from fenics_gears.results.mesh_curves import read_off
 from fenics_gears.results.pairs import in_middle_slice
 from fenics_gears.results.summary import summary_rows
 from fenics_gears.runs.record import record_of
-from fenics_gears.studies.accuracy.measures import OVER_FACE, answer
+from fenics_gears.studies.accuracy.measures import MEAN, OVER_FACE, answer
 
 OF_FACE = {
     "overlap_ratio",
@@ -61,7 +61,7 @@ def test_measures_of_accuracy_are_of_the_middle_slice():
     """Identity: but for line loads along the face, what settings are compared by is what the middle slice alone
     gives."""
     whole, middle = (answer(each, 1.0) for each in (helical_run(), in_middle_slice(helical_run())))
-    assert whole.keys() == middle.keys() | set(OVER_FACE)
+    assert whole.keys() == middle.keys() | {MEAN, *OVER_FACE}
     for name, values in middle.items():
         np.testing.assert_array_equal(values, whole[name])
 
