@@ -1,5 +1,4 @@
-"""Rolling bearings as springs: loads of a shaft on a row of balls or rollers for a motion of the shaft, and how stiff
-such bearings are under the load of their shaft.
+"""Rolling bearings: loads of a shaft on a row of balls or rollers for a motion of the shaft in it.
 
 ISO/TS 16281:2008: a ball's load grows with the power 3/2 of how much nearer the centres of curvature of both grooves
 are, by Hertz's theory, and its contact angle turns as they move; a roller is cut into slices, each of which has a load
@@ -11,7 +10,6 @@ Motions and loads are those of `elastic_shaft.MOTIONS`, in mm, rad, N and N mm.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 from itertools import pairwise
@@ -19,20 +17,15 @@ from math import cos, log, pi, sin, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq, minimize
+from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
-from fenics_gears.dynamics.tilting import moved
 from fenics_gears.errors import SceneError
 
 if TYPE_CHECKING:
-    from fenics_gears.dynamics.elastic_shaft import ElasticShaft
-    from fenics_gears.effects.bearings import Bearing
     from fenics_gears.effects.rolling_bearings import RollingBearing
-    from fenics_gears.geometry.pair import GearPair
 
 MOTIONS = 5
-NOTHING = np.zeros((MOTIONS, MOTIONS))
 # Steel on steel, of which rolling bearings are.
 YOUNGS_MODULUS, POISSONS_RATIO = 210e3, 0.3
 # N/mm^(10/9) of a roller per mm^(8/9) of its length; slices of a roller (ISO/TS 16281, 4.3).
@@ -40,10 +33,6 @@ OF_A_ROLLER, SLICES = 35948.0, 30
 BALLS_POWER, ROLLERS_POWER = 1.5, 10.0 / 9.0
 # Approach, mm, of every rolling element in the bearing whose stiffness stands for it before its load is known.
 NOMINAL_APPROACH = 0.01
-# Lever arm, mm, that makes tilts comparable with displacements; mm/N that every bearing yields besides in the search of
-# a minimum; parts of the load that the search may leave, and that Newton's method may, with its largest number of
-# iterations.
-ARM, YIELDING, NEAR, LEFT, POLISHED = 30.0, 1e-9, 1e-6, 1e-11, 30
 # Parts of the way from rest to a motion, finer towards its end, since clearances are at its beginning; Gauss points in
 # each; and part of the work that they must find.
 PARTS, ON_A_PART, SEEN = (0.0, *(1.0 - 0.5 ** np.arange(1, 6)), 1.0), 4, 0.5
@@ -99,107 +88,6 @@ def secant_stiffness(rolling: RollingBearing, motion: np.ndarray) -> np.ndarray:
 def nominal_stiffness(rolling: RollingBearing) -> np.ndarray:
     """Stiffness (5, 5) at rest with every rolling element pressed alike by an interference."""
     return _reaction(replace(rolling, clearance=-2.0 * NOMINAL_APPROACH), np.zeros(MOTIONS)).stiffness
-
-
-def even_load(shaft: ElasticShaft, pair: GearPair, torque: float) -> np.ndarray:
-    """Load (5,) of the gear on its shaft under a torque (N mm) on the wheel, spread evenly over the common face, at the
-    pitch point and without friction."""
-    names = (*shaft.coordinates, "rotation_2")
-    normal = pair.cosine * np.array([1.0, 0.0, -pair.slope])
-    row = moved(pair, names, (pair.pitch_point, 0.0), normal)
-    # Tilts are arc lengths there.
-    scale = np.array([1.0, 1.0, 1.0, *[getattr(pair, shaft.gear).base_radius] * 2])
-    return -abs(torque / pair.wheel.base_radius / row[-1]) * row[:-1] * scale
-
-
-def at_work(shaft: ElasticShaft, load: np.ndarray) -> tuple[Bearing, ...]:
-    """The bearings of a shaft under a load (5,) of its gear, rolling ones with their `secant_stiffness`: springs that
-    bend and displace the shaft as they would.
-
-    Raises SceneError where no place of the shaft is found that balances the load.
-    """
-    if not np.any(load):
-        return shaft.bearings
-    motions = _balanced(shaft, load).reshape(-1, MOTIONS)
-    return tuple(
-        each if each.rolling is None else replace(each, worked=each.with_axial(secant_stiffness(each.rolling, motion)))
-        for each, motion in zip(shaft.bearings, motions)
-    )
-
-
-def largest_force(shaft: ElasticShaft, gear: np.ndarray) -> float:
-    """Largest force, N, of a rolling element in the bearings of a shaft whose gear moves so (5,); 0 without any."""
-    motions = (shaft.at_bearings @ gear).reshape(-1, MOTIONS)
-    forces = [
-        _reaction(each.rolling, motion + _braced(each.rolling)).largest
-        for each, motion in zip(shaft.bearings, motions)
-        if each.rolling is not None
-    ]
-    return max(forces, default=0.0)
-
-
-def _balanced(shaft: ElasticShaft, load: np.ndarray) -> np.ndarray:
-    """Motions (5 b,) in the bearings in which a load (5,) of the gear, and the beam between, are in balance.
-
-    The energy of beam and bearings less the load's work has no minimum but this one. It is sought within a trust
-    region, and what is left of balance is then driven to round-off by Newton's method.
-    """
-    flexibility, rigid = shaft.held_flexibility, shaft.rigid_motions
-    bearings, count = shaft.bearings, len(flexibility)
-    scale = np.tile([1.0, 1.0, 1.0, 1.0 / ARM, 1.0 / ARM], len(bearings) + 1)
-    start = np.linalg.solve(shaft.stiffness, load)
-    # A place beside the seat does not yield: there it does as little as does not count.
-    beam = np.linalg.inv(flexibility + np.diag(YIELDING * scale[:count] ** 2))
-    bent = np.hstack([np.eye(count), -rigid])
-    of_beam, worked = bent.T @ beam @ bent, np.concatenate([np.zeros(count), load])
-
-    def energy(scaled: np.ndarray) -> tuple[float, np.ndarray]:
-        motion = scale * scaled
-        stored, loads, _ = _of_all(bearings, motion[:count])
-        elastic = of_beam @ motion
-        slope = elastic - worked + np.concatenate([loads, np.zeros(MOTIONS)])
-        return 0.5 * motion @ elastic + stored - worked @ motion, scale * slope
-
-    def curvature(scaled: np.ndarray) -> np.ndarray:
-        found = of_beam.copy()
-        found[:count, :count] += _of_all(bearings, scale[:count] * scaled[:count])[2]
-        return scale[:, None] * found * scale
-
-    begun = np.concatenate([shaft.at_bearings @ start, start]) / scale
-    size = float(np.abs(load).max())
-    found = minimize(energy, begun, jac=True, hess=curvature, method="trust-exact", options={"gtol": NEAR * size})
-    motion = scale * found.x
-    for _ in range(POLISHED):
-        _, loads, stiffness = _of_all(bearings, motion[:count])
-        apart, missing = bent @ motion + flexibility @ loads, rigid.T @ loads - load
-        if max(np.abs(apart).max() / np.abs(motion).max(), np.abs(missing).max() / size) <= LEFT:
-            return motion[:count]
-        matrix = np.block(
-            [[np.eye(count) + flexibility @ stiffness, -rigid], [rigid.T @ stiffness, np.zeros((MOTIONS,) * 2)]]
-        )
-        motion = motion - np.linalg.lstsq(matrix, np.concatenate([apart, missing]), rcond=None)[0]
-    raise SceneError(
-        f"bearings.{shaft.gear}: no place of the shaft was found in which its rolling bearings balance the load. Check"
-        " numbers, diameters, contact_angle and clearance of their rolling elements"
-    )
-
-
-def _of_all(bearings: Sequence[Bearing], motions: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
-    """Energy, N mm, of all bearings at motions (5 b,) in them, loads (5 b,) on them, and their derivatives
-    (5 b, 5 b)."""
-    energy, loads, stiffness = 0.0, np.zeros_like(motions), np.zeros((len(motions),) * 2)
-    for number, bearing in enumerate(bearings):
-        own = slice(MOTIONS * number, MOTIONS * (number + 1))
-        motion = motions[own]
-        if bearing.rolling is None:
-            linear = np.array(bearing.matrix)
-        else:
-            found, linear = reaction(bearing.rolling, motion), np.array(bearing.with_axial(NOTHING))
-            energy, loads[own], stiffness[own, own] = energy + found.energy, found.loads, found.stiffness
-        pushed = linear @ motion
-        energy, loads[own] = energy + 0.5 * float(motion @ pushed), loads[own] + pushed
-        stiffness[own, own] += linear
-    return energy, loads, stiffness
 
 
 @cache

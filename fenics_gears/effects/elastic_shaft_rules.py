@@ -112,7 +112,7 @@ def shaft_at_work(scene: Any, pair: Any, gear: str, load: np.ndarray | None = No
     found = elastic_shaft(scene, pair, gear)
     if all(each.rolling is None for each in found.bearings):
         return found
-    from fenics_gears.dynamics.rolling_bearing import at_work, even_load
+    from fenics_gears.dynamics.shaft_at_work import at_work, even_load
 
     load = even_load(found, pair, scene.load.wheel_torque) if load is None else load
     return replace(found, bearings=at_work(found, load))

@@ -105,7 +105,7 @@ class BentShafts(AlongTheFace):
         """The largest force of a rolling element under the mean load; empty where no bearing has any."""
         if not self.drivetrain.on_rolling_bearings:
             return {}
-        from fenics_gears.dynamics.rolling_bearing import largest_force
+        from fenics_gears.dynamics.shaft_at_work import largest_force
 
         means = {name: counted[of].mean("time") for name, of in zip(MOTIONS, OF_GEARS)}
         found = (

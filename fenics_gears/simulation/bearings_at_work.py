@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fenics_gears.dynamics.rolling_bearing import even_load
+from fenics_gears.dynamics.shaft_at_work import even_load
 from fenics_gears.errors import ComputationError
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.drivetrain import drivetrain

@@ -5,7 +5,8 @@ import pytest
 from scipy.optimize import root
 
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft
-from fenics_gears.dynamics.rolling_bearing import at_work, reaction, secant_stiffness
+from fenics_gears.dynamics.rolling_bearing import reaction, secant_stiffness
+from fenics_gears.dynamics.shaft_at_work import at_work
 from fenics_gears.effects.bearings import Bearing
 from fenics_gears.effects.rolling_bearings import RollingBearing
 from fenics_gears.effects.shafts import ShaftSection
