@@ -44,6 +44,8 @@ def helical_scene(
 ) -> Scene:
     """A pair of standard proportions with a little backlash: helix (deg), width, backlash and axial offset of the wheel
     (mm), torque on the wheel (N mm)."""
+    # As NumPy 2 does not write them.
+    offset, width, torque = float(offset), float(width), float(torque)
     stretch = 1.0 / cos(radians(helix))
     diameters = [module * count * stretch for count in teeth]
     gears = "".join(

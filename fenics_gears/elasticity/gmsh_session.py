@@ -29,7 +29,7 @@ def gmsh_model(name: str):
 
     started_here = not _is_running(gmsh)
     if started_here:
-        _start(gmsh)
+        start(gmsh)
     saved = {} if started_here else {key: gmsh.option.getNumber(key) for key in OPTIONS}
     try:
         gmsh.model.add(name)
@@ -50,7 +50,8 @@ def _is_running(gmsh) -> bool:
     return hasattr(gmsh, "isInitialized") and bool(gmsh.isInitialized())
 
 
-def _start(gmsh) -> None:
+def start(gmsh) -> None:
+    """Start gmsh from any thread, with no handler of Ctrl-C of its own."""
     options = {"readConfigFiles": False}
     if "interruptible" in inspect.signature(gmsh.initialize).parameters:
         options["interruptible"] = False

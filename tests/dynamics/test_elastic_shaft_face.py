@@ -27,7 +27,7 @@ def test_the_straight_part_is_the_inclination_of_the_axes():
     slope, middle = np.polyfit(z, gap, 1)
     assert gap == pytest.approx(middle + slope * z, abs=1e-12)
     amount = -1e3 * slope * pair.face_widths[0]
-    _, straight = finished(ELASTIC + f'[lead_modifications.pinion]\nhelix_slope = "{amount!r} um"\n', 0.0)
+    _, straight = finished(ELASTIC + f'[lead_modifications.pinion]\nhelix_slope = "{float(amount)!r} um"\n', 0.0)
     assert straight.attrs["mean_axis_inclination_in_plane"] == pytest.approx(
         1e3 * slope * model.pair.face_width, rel=1e-3
     )

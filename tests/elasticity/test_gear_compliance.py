@@ -14,6 +14,7 @@ from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation, element_sizes
 from fenics_gears.elasticity.elements import ELEMENTS
 from fenics_gears.elasticity.gear_compliance import flank_compliance
+from fenics_gears.elasticity.gmsh_session import start
 from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.involute import arc_length, canonical_normal
@@ -122,7 +123,7 @@ def test_body_mesh_from_a_gmsh_file(pinion, steel, coarse_sector, tmp_path):
 
 
 def write_gmsh_file(mesh, path):
-    gmsh.initialize(readConfigFiles=False)
+    start(gmsh)
     gmsh.option.setNumber("General.Terminal", 0)
     surface = gmsh.model.addDiscreteEntity(2)
     coordinates = np.column_stack([mesh.points, np.zeros(len(mesh.points))])

@@ -33,7 +33,7 @@ def of_widths(pinion, wheel, more="", **changes):
     """The scene of gears with widths (mm) of their own."""
     text = helical_scene(more, **{"accuracy": FEW, **changes}).text.replace(f'face_width = "{WIDTH!r} mm"\n', "")
     for name, width in (("pinion", pinion), ("wheel", wheel)):
-        text = text.replace(f"[gears.{name}]\n", f'[gears.{name}]\nface_width = "{width!r} mm"\n')
+        text = text.replace(f"[gears.{name}]\n", f'[gears.{name}]\nface_width = "{float(width)!r} mm"\n')
     return scene_from_text(text)
 
 

@@ -10,6 +10,7 @@ from fenics_gears.elasticity.body_mesh_file import read_body_mesh
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.gear_compliance import flank_compliance
+from fenics_gears.elasticity.gmsh_session import start
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 from fenics_gears.elasticity.whole_body.outline import whole_body
@@ -25,7 +26,7 @@ def gear_in_gmsh(path, holes: int = 0, standing: float = 0.4) -> None:
     flank = outline.involute(np.linspace(PINION.form_roll_angle, PINION.tip_roll_angle, 16))
     drive = np.vstack([outline.fillet[:-1], flank])
     tooth = np.vstack([outline.coast(drive), drive[::-1]]) @ turned.T
-    gmsh.initialize(readConfigFiles=False)
+    start(gmsh)
     try:
         gmsh.option.setNumber("General.Terminal", 0)
         geo, corners = gmsh.model.geo, []
@@ -49,7 +50,7 @@ def gear_in_gmsh(path, holes: int = 0, standing: float = 0.4) -> None:
 
 def written_as(version: float, binary: bool, source, path) -> None:
     """Write a mesh file in another format of gmsh."""
-    gmsh.initialize(readConfigFiles=False)
+    start(gmsh)
     try:
         gmsh.option.setNumber("General.Terminal", 0)
         gmsh.open(str(source))

@@ -10,6 +10,7 @@ from tests.whole_gear import whole_gear_mesh
 
 from fenics_gears import SceneError
 from fenics_gears.elasticity.body_mesh_file import read_body_mesh, write_body_mesh
+from fenics_gears.elasticity.gmsh_session import start
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.whole_body.outline import OUTLINE_TOLERANCE, whole_body
@@ -152,7 +153,7 @@ def test_teeth_need_not_be_meshed_alike():
 
 def edited(whole, path, change) -> None:
     write_body_mesh(BodyMesh(whole.points, whole.cells, {}), path)
-    gmsh.initialize(readConfigFiles=False)
+    start(gmsh)
     gmsh.option.setNumber("General.Terminal", 0)
     gmsh.open(str(path))
     change()
