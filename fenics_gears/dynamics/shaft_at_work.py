@@ -10,7 +10,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from fenics_gears.dynamics.rolling_bearing import MOTIONS, reaction, secant_stiffness
-from fenics_gears.dynamics.tilting import moved
+from fenics_gears.dynamics.tilting import contact_normal, moved
 from fenics_gears.errors import SceneError
 
 if TYPE_CHECKING:
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from fenics_gears.effects.bearings import Bearing
     from fenics_gears.geometry.pair import GearPair
 
-NOTHING = np.zeros((MOTIONS, MOTIONS))
 # Lever arm, mm, that makes tilts comparable with displacements; mm/N that every bearing yields besides in the search of
 # a minimum; parts of the load that the search may leave, and that Newton's method may, with its largest number of
 # iterations.
@@ -29,8 +28,7 @@ def even_load(shaft: ElasticShaft, pair: GearPair, torque: float) -> np.ndarray:
     """Load (5,) of the gear on its shaft under a torque (N mm) on the wheel, spread evenly over the common face, at the
     pitch point and without friction."""
     names = (*shaft.coordinates, "rotation_2")
-    normal = pair.cosine * np.array([1.0, 0.0, -pair.slope])
-    row = moved(pair, names, (pair.pitch_point, 0.0), normal)
+    row = moved(pair, names, (pair.pitch_point, 0.0), contact_normal(pair))
     # Tilts are arc lengths there.
     scale = np.array([1.0, 1.0, 1.0, *[getattr(pair, shaft.gear).base_radius] * 2])
     return -abs(torque / pair.wheel.base_radius / row[-1]) * row[:-1] * scale
@@ -92,11 +90,13 @@ def _balanced(shaft: ElasticShaft, load: np.ndarray) -> np.ndarray:
     begun = np.concatenate([shaft.at_bearings @ start, start]) / scale
     size = float(np.abs(load).max())
     found = minimize(energy, begun, jac=True, hess=curvature, method="trust-exact", options={"gtol": NEAR * size})
-    motion = scale * found.x
+    motion, near = scale * found.x, False
     for _ in range(POLISHED):
         _, loads, stiffness = _of_all(bearings, motion[:count])
         apart, missing = bent @ motion + flexibility @ loads, rigid.T @ loads - load
-        if max(np.abs(apart).max() / np.abs(motion).max(), np.abs(missing).max() / size) <= LEFT:
+        # One step after that: a hardly loaded bearing is as stiff as its load divided by a small part of the motion.
+        near, before = max(np.abs(apart).max() / np.abs(motion).max(), np.abs(missing).max() / size) <= LEFT, near
+        if near and before:
             return motion[:count]
         matrix = np.block(
             [[np.eye(count) + flexibility @ stiffness, -rigid], [rigid.T @ stiffness, np.zeros((MOTIONS,) * 2)]]
@@ -118,7 +118,7 @@ def _of_all(bearings: Sequence[Bearing], motions: np.ndarray) -> tuple[float, np
         if bearing.rolling is None:
             linear = np.array(bearing.matrix)
         else:
-            found, linear = reaction(bearing.rolling, motion), np.array(bearing.with_axial(NOTHING))
+            found, linear = reaction(bearing.rolling, motion), np.diag([0.0, 0.0, bearing.axial_stiffness, 0.0, 0.0])
             energy, loads[own], stiffness[own, own] = energy + found.energy, found.loads, found.stiffness
         pushed = linear @ motion
         energy, loads[own] = energy + 0.5 * float(motion @ pushed), loads[own] + pushed

@@ -83,11 +83,16 @@ def mesh_over_face(pair: GearPair, names: tuple[str, ...]) -> MeshOverFace:
     coordinates as arc lengths (mm)."""
     # Gauss points: two springs at +- b/(2 sqrt 3) have the second moment of an even one over b.
     heights = np.array([-1.0, 1.0]) * pair.face_width / (2.0 * sqrt(3.0))
-    normal = pair.cosine * np.array([1.0, 0.0, -pair.slope])
+    normal = contact_normal(pair)
     normals = [moved(pair, names, (pair.pitch_point + pair.slope * height, height), normal) for height in heights]
     return MeshOverFace(
         np.array(normals), moved(pair, names, (pair.pitch_point, 0.0), np.array([0.0, 1.0, 0.0]))[None, :]
     )
+
+
+def contact_normal(pair: GearPair) -> np.ndarray:
+    """Unit normal (3,) of touching flanks, along the line of action and the axis."""
+    return pair.cosine * np.array([1.0, 0.0, -pair.slope])
 
 
 def moved(pair: GearPair, names: tuple[str, ...], place: tuple[float, float], direction: np.ndarray) -> np.ndarray:

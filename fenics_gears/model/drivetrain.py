@@ -29,13 +29,14 @@ def drivetrain(scene: Scene, pair: GearPair, gear_loads: Mapping[str, np.ndarray
     Raises SceneError for a load so heavy that the wheel is nothing beside it.
     """
     gears = {} if scene.inertia is None else lumped_gears(scene, pair)
-    supports = Supports(
-        scene.shafts, scene.bearings, scene.inertia, gears, scene.damping, _elastic(scene, pair, gear_loads or {})
-    )
+    elastic = _elastic(scene, pair, gears, gear_loads or {})
+    supports = Supports(scene.shafts, scene.bearings, scene.inertia, gears, scene.damping, elastic)
     return assembled(pair, scene.load.wheel_torque, supports, mesh_stiffness(scene))
 
 
-def _elastic(scene: Scene, pair: GearPair, gear_loads: Mapping[str, np.ndarray]) -> tuple[ElasticShaft, ...]:
+def _elastic(
+    scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear], gear_loads: Mapping[str, np.ndarray]
+) -> tuple[ElasticShaft, ...]:
     """The shafts that also bend, of pinion and wheel."""
     if scene.shafts is None or scene.shafts.sections is None:
         return ()
@@ -46,15 +47,14 @@ def _elastic(scene: Scene, pair: GearPair, gear_loads: Mapping[str, np.ndarray])
         return shafts
     from fenics_gears.dynamics.elastic_shaft_modes import vibrating
 
-    up_to = 2.0 * highest_of_interest(scene, pair)
+    up_to = 2.0 * highest_of_interest(scene, pair, gears)
     given = {gear: shaft.material.density for gear, shaft in scene.shafts.sections.items()}
     return tuple(vibrating(each, given[each.gear] or scene.inertia.of(each.gear).density, up_to) for each in shafts)
 
 
-def highest_of_interest(scene: Scene, pair: GearPair) -> float:
+def highest_of_interest(scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear]) -> float:
     """Frequency (Hz) up to which shafts vibrate as they would with all of their modes: the highest of so many harmonics
     of the mesh, or the resonance of both gears on it, roughly."""
-    gears = lumped_gears(scene, pair)
     along = sum(getattr(pair, name).base_radius ** 2 / each.moment_of_inertia for name, each in gears.items())
     stiffness = mesh_stiffness(scene)
     resonance = sqrt(stiffness * along) / (2.0 * pi) if isfinite(stiffness) else 0.0

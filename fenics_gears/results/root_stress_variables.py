@@ -19,6 +19,10 @@ from fenics_gears.results.side_by_side import SideBySide
 
 Rows = tuple[RootStressRows, RootStressRows]
 SIDES = ("drive", "coast")
+# Largest tensions are of points whose tangent's angle is at least so much of that at 30 degrees in the normal section.
+# The points beyond are beside the involute: where the contact begins there, their stress is that of the contact, which
+# a section with few elements does not resolve.
+OF_BENDING = 0.5
 
 
 # Of a gear: the teeth loaded at a position, by `sector_of`; and for each tooth pair in its slice the forces on the
@@ -33,6 +37,8 @@ class RootStress:
 
     def __init__(self, pair: GearPair, cycle: Cycle, rows: Rows):
         self.pair, self.cycle, self.rows = pair, cycle, rows
+        angles = np.array([each.tangent_angle for each in rows])
+        self._of_bending = np.tile(angles[:, :-1] >= OF_BENDING * angles[:, -1:], 2)
         self._on_flanks: dict[tuple, tuple[np.ndarray, tuple[OnFlanks, OnFlanks]]] = {}
 
     def on_flanks(self, position: Position) -> tuple[np.ndarray, tuple[OnFlanks, OnFlanks]]:
@@ -115,7 +121,9 @@ class RootStress:
         return {
             "root_stress": along,
             "root_stress_over_face": section,
-            "root_stress_maximum": np.fmax.reduce(along, axis=(-1, -2)),
+            "root_stress_maximum": np.fmax.reduce(
+                np.where(self._of_bending[:, None, :, None], along, np.nan), axis=(-1, -2)
+            ),
             "root_stress_at_30_degrees": np.fmax.reduce(section, axis=-1),
         }
 
@@ -124,7 +132,9 @@ class RootStress:
         angles = np.array([rows.tangent_angle[:-1] for rows in self.rows])
         words = {
             "root_stress": "stress along the surface of the fillets",
-            "root_stress_maximum": "largest tension in the fillets",
+            "root_stress_maximum": (
+                "largest tension in the fillets, where the tangent is over 15 degrees off the centreline"
+            ),
             "root_stress_at_30_degrees": (
                 "stress where the fillet's tangent stands at 30 degrees to the tooth's centreline"
             ),

@@ -8,13 +8,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from fenics_gears.dynamics.march import March
 from fenics_gears.dynamics.shaft_at_work import even_load
 from fenics_gears.errors import ComputationError
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.drivetrain import drivetrain
 from fenics_gears.model.model import Model
 from fenics_gears.results.bent_shafts import OF_GEARS
-from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
 
 # Change of a gear's mean load from one run to the next, in parts of its force (moments over the face width), that ends
@@ -25,10 +25,10 @@ FASTEST, TINY = 0.8, 1e-300
 # What a run that is repeated is called among the stages.
 AGAIN = "march, bearings as loaded"
 
-Recorded = tuple[Recorder, RunResult]
+Marched = tuple[Recorder, March]
 
 
-def with_bearings_at_work(model: Model, recorded: Callable[..., Recorded]) -> Recorded:
+def with_bearings_at_work(model: Model, marched: Callable[..., Marched]) -> Marched:
     """The run of a model whose bearings have the stiffness that they have under its own mean load.
 
     Raises ComputationError where loads go on changing.
@@ -37,14 +37,15 @@ def with_bearings_at_work(model: Model, recorded: Callable[..., Recorded]) -> Re
     loads = np.array([even_load(each, model.pair, model.scene.load.wheel_torque) for each in shafts])
     last = np.zeros_like(loads)
     for number in range(MOST_RUNS):
-        run = recorded(model, *([AGAIN] if number else []))
-        if not run[1].attrs["complete"]:
-            return run
-        found = mean_loads(model, run[1])
+        recorder, march = marched(model, *([AGAIN] if number else []))
+        if march.interrupted:
+            return recorder, march
+        recorder.finish()
+        found = mean_loads(model, recorder)
         step = (found - loads) * size
         change = float(np.max(np.linalg.norm(step, axis=1) / np.linalg.norm(found[:, :3], axis=1)))
         if change <= SAME:
-            return run
+            return recorder, march
         # Steps go down by nearly one factor, whose series is summed up.
         factor = float(np.clip((step * last).sum() / max((last**2).sum(), TINY), -FASTEST, FASTEST))
         loads, last = found + factor / (1.0 - factor) * step / size, step
@@ -57,7 +58,7 @@ def with_bearings_at_work(model: Model, recorded: Callable[..., Recorded]) -> Re
     )
 
 
-def mean_loads(model: Model, result: RunResult) -> np.ndarray:
-    """Mean loads (shafts, 5) of gears on their elastic shafts over a run."""
-    motions = np.stack([result[name][1:].mean(axis=0) for name in OF_GEARS])
+def mean_loads(model: Model, recorder: Recorder) -> np.ndarray:
+    """Mean loads (shafts, 5) of gears on their elastic shafts over a recorded run."""
+    motions = np.stack([recorder.arrays[name][1:].mean(axis=0) for name in OF_GEARS])
     return np.array([each.stiffness @ motions[:, GEARS.index(each.gear)] for each in model.drivetrain.elastic])

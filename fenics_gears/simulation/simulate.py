@@ -145,18 +145,20 @@ def _simulated(
     progress.stage("compile")
     compiled = compile_kernels(model.scene.friction is not None, cycle.traits.rigid)
 
-    def recorded(model: Model, stage: str = MARCH) -> tuple[Recorder, RunResult]:
-        recorder = Recorder(model, cycle, stress=root_stress_of(model, cycle, progress, cache), journal=journal)
+    stress = root_stress_of(model, cycle, progress, cache)
+
+    def marched(model: Model, stage: str = MARCH) -> tuple[Recorder, March]:
+        recorder = Recorder(model, cycle, stress=stress, journal=journal)
         progress.stage(stage)
-        march = _marched(recorder, gears, compiled, progress)
-        return recorder, result_of(recorder, march, gears, compiled, "interrupted" if march.interrupted else "")
+        return recorder, _marched(recorder, gears, compiled, progress)
 
     if model.drivetrain.on_rolling_bearings:
         from fenics_gears.simulation.bearings_at_work import with_bearings_at_work
 
-        recorder, result = with_bearings_at_work(model, recorded)
+        recorder, march = with_bearings_at_work(model, marched)
     else:
-        recorder, result = recorded(model)
+        recorder, march = marched(model)
+    result = result_of(recorder, march, gears, compiled, "interrupted" if march.interrupted else "")
     return _with_dynamic_factors(recorder, result, progress)
 
 

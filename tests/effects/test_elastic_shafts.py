@@ -4,12 +4,15 @@ and what is refused."""
 import numpy as np
 import pytest
 from tests.beam_elements import condensed
-from tests.hard_cases.invariants import run_of
+from tests.hard_cases.invariants import cycle_of, run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import SceneError, model_of, scene_from_text
 from fenics_gears.dynamics.elastic_shaft import shear_coefficient
+from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.rolling_bearing import reaction
+from fenics_gears.results.dataset import RunResult
+from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.write import section_trees, text_of
 from fenics_gears.show.bent_shafts import bent_shafts
 from fenics_gears.show.plots import run_figures
@@ -353,14 +356,15 @@ def test_rolling_bearings_carry_by_their_law_in_the_run():
     bodies = on_stand_in_bodies(model)
     shaft = model.drivetrain.elastic[0]
 
-    def recorded(model, stage=""):
-        found = run_of(model, bodies)
-        return model, found.result
+    def marched(model, stage=""):
+        recorder = Recorder(model, cycle_of(model, bodies))
+        return recorder, Marcher(recorder.cycle, model.equations_of_motion).run(model.steps, 1, observe=recorder.take)
 
-    (model, result) = with_bearings_at_work(model, recorded)
+    recorder, march = with_bearings_at_work(model, marched)
+    model, result = recorder.model, RunResult(recorder, march).dataset
     assert result.attrs["largest_rolling_element_force"] > 0.0
     working = model.drivetrain.elastic[0]
-    gear = np.linalg.solve(working.stiffness, mean_loads(model, result)[0])
+    gear = np.linalg.solve(working.stiffness, mean_loads(model, recorder)[0])
     for number, motion in enumerate((working.at_bearings @ gear).reshape(2, 5)):
         law = reaction(shaft.bearings[number].rolling, motion).loads
         for axis, load in zip("xyz", law):

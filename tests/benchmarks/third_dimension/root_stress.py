@@ -46,7 +46,7 @@ def measure() -> list[Row]:
                 "form": form, "correction": correction, "nominal": nominal, "largest_share": share,
                 "helix_factor": helix_angle_factor(pair.overlap_ratio, degrees),
                 "sharing_factor": load_sharing_factor(pair.overlap_ratio, normal_contact_ratio),
-                "largest": float(result["root_stress"].isel(gear=number).max()),
+                "largest": result.attrs[f"largest_root_stress_{name}"],
                 "at_30_degrees": float(over_face.max()),
                 "mean_over_face": float(over_face.mean("face_position").max()),
             })  # fmt: skip
