@@ -11,8 +11,10 @@ from fenics_gears import SceneError, model_of, scene_from_text
 from fenics_gears.dynamics.elastic_shaft import shear_coefficient
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.rolling_bearing import reaction
+from fenics_gears.model.description import describe
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.recorder import Recorder
+from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.write import section_trees, text_of
 from fenics_gears.show.bent_shafts import bent_shafts
 from fenics_gears.show.plots import run_figures
@@ -188,6 +190,31 @@ def test_a_shaft_that_vibrates_keeps_the_balance_of_energy():
     lines = result.attrs["natural_frequencies"].splitlines()
     assert sum("mesh springs" in line for line in lines) >= 1
     assert float(lines[-1].split()[0]) <= model.drivetrain.right_up_to
+
+
+def test_what_is_said_of_shafts_that_vibrate():
+    """Authority: `gears check` has closed forms, density times volume and the reduced mass of two gears along the line
+    of action, and the compliance of the condensed shaft; a summary has the numbers of its result."""
+    scene = helical_scene(VIBRATING, accuracy=FEW, frequency=800.0)
+    said = {label: value for _, rows in describe(scene) for label, value, _ in rows}
+    volume = 0.25 * np.pi * ((28.0**2 - 8.0**2) * 40.0 + 35.0**2 * 90.0)
+    assert said["mass of the pinion's shaft"] == pytest.approx(7.85e-6 * volume, rel=1e-12)
+    model = model_of(scene)
+    along = [2000.0 / getattr(model.pair, gear).base_radius ** 2 for gear in GEARS]
+    reduced = said["reduced mass J1 J2/(J1 rb2^2 + J2 rb1^2)"]
+    assert reduced == pytest.approx(along[0] * along[1] / sum(along), rel=1e-12)
+    per_newton = np.linalg.inv(model.drivetrain.elastic[0].stiffness)
+    words = said["its stiffness at the pinion"]
+    assert [float(part.split()[0]) for part in words.split(", ")] == pytest.approx(
+        [1e-3 / per_newton[axis, axis] for axis in range(3)], rel=1e-3
+    )
+    result = run_of(model, on_stand_in_bodies(model)).result
+    result.attrs |= {"base_radius_wheel": model.pair.wheel.base_radius}
+    printed = {label: value for label, value, *_ in summary_rows(result)}
+    largest = np.sqrt(sum(result[f"bearing_force_{axis}"].values ** 2 for axis in "xyz")).max()
+    assert float(printed["largest force of a bearing"].split()[0]) == pytest.approx(largest, rel=1e-3)
+    lowest = result.attrs["natural_frequencies"].splitlines()[0].split()[0]
+    assert float(printed["natural frequencies"].split()[0]) == pytest.approx(float(lowest), rel=1e-3)
 
 
 def test_a_slow_run_with_inertia_is_the_quasi_static_one():
