@@ -32,7 +32,8 @@ class Problem:
         """Two lines for people: file, line, field and value; then what is wrong and what is allowed."""
         line = self.line(lines)
         place = f"{source}:{line}" if line else source
-        field = ".".join(self.path)
+        # A list of tables is written as the section that it stands for.
+        field = ".".join(self.path).removesuffix(".each")
         if self.written is not None:
             field = f"{field} = {self.written}" if self.written else f"[{field}]"
         return f"{place}: {field}\n    {self.message}"

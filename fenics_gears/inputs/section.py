@@ -84,7 +84,9 @@ def read(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> tu
             try:
                 values[name] = allowed.convert(written)
             except Refused as reason:
-                problems.append(Problem(place, as_written(written), f"{reason} Allowed: {allowed.description}."))
+                # A list of tables says what is allowed of the field that is wrong.
+                said = str(reason) if "Allowed: " in str(reason) else f"{reason} Allowed: {allowed.description}."
+                problems.append(Problem(place, as_written(written), said))
         elif isinstance(written, Mapping):
             values[name], found = read(inner, written, place)
             problems += found

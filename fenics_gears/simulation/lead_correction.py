@@ -53,9 +53,10 @@ class Proposal(NamedTuple):
 
 
 def wanted(model: Model) -> bool:
-    """Whether something tilts the flanks of a scene against each other, under a load."""
+    """Whether something tilts the flanks of a scene against each other, under a load on the drive flanks: coast flanks
+    have no modifications."""
     scene = model.scene
-    if not scene.three_dimensional or not gaps_apart(model) or not scene.load.wheel_torque:
+    if not scene.three_dimensional or not gaps_apart(model) or scene.load.wheel_torque <= 0.0:
         return False
     webs = [gear.web for gear in (model.pair.pinion, model.pair.wheel)]
     bearings, leaning = scene.bearings, scene.misalignment

@@ -299,6 +299,7 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
         (ELASTIC.replace("torque_at", 'seat = "integral"\ntorque_at'), "bearings.wheel has a stiffness_matrix"),
         (CUT.replace('torque_at = "0 mm"', 'torque_at = "110 mm"'), "torque_at = 110 mm is within the face"),
         (ROLLING.replace("number = 9,", ""), "bearings.pinion.* has no rolling.number at place 1"),
+        (ROLLING.replace("number = 9,", "number = 2,"), "pinion = a list.*number = 2 at place 1.*to 500[^:]*$"),
         (ROLLING.replace("number = 9,", "number = 90,"), "place 1, has 90 balls .* do not fit on a pitch_diameter"),
         (ROLLING.replace('length = "10 mm"', ""), "place 2, has rollers without length"),
         (

@@ -12,6 +12,7 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
 from fenics_gears.scene.write import text_of
 from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle
+from fenics_gears.simulation.lead_correction import wanted
 from fenics_gears.simulation.routes import prepared
 from fenics_gears.simulation.simulate import simulate, solved
 
@@ -99,7 +100,11 @@ def test_a_run_with_inertia_has_the_proposal_of_the_quasi_static_one():
 
 
 def test_only_what_tilts_asks_for_a_correction():
-    """By definition: axes that are parallel are told apart from those that are not, and studies look for none."""
+    """By definition: axes that are parallel are told apart from those that are not, and studies look for none; coast
+    flanks have no modifications (docs/model.md)."""
+    for torque in (-3e5, 3e5):
+        on_coast = helical_scene(MISALIGNED + "\n[coast_flanks]\n", helix=0.0, accuracy=ACCURACY, torque=torque)
+        assert wanted(model_of(on_coast)) == (torque > 0.0)
     straight = model_of(helical_scene(STRAIGHT, helix=0.0, accuracy=ACCURACY))
     bodies = on_stand_in_bodies(straight)
     assert "proposed_helix_slope" not in simulate(straight, preparation=Runs(None, bodies).prepare).attrs
