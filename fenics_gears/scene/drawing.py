@@ -27,6 +27,7 @@ from fenics_gears.scene.schema import LoadText
 
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
 NOTABLE_OVERLAP = 0.01
+TOOTH_HEIGHT = 2.25  # Modules, of ISO 53.
 
 
 def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
@@ -221,6 +222,13 @@ def _tip_shortening(
 
     reference = 0.5 * pair.module * sum(gear.teeth for gear in drawn) / cos(pair.helix_angle or 0.0)
     shortening = max(0.0, round(sum(shifts) - (distance - reference) / pair.module, DECIMALS_IN_MODULES))
+    if shortening >= TOOTH_HEIGHT:
+        refuse(
+            "pair",
+            f"centre distance {distance:.6g} mm, where the gears without profile shift have {reference:.6g} mm: no"
+            f" teeth are left when tips are {shortening:.3g} modules shorter: raise gears.centre_distance, or lower"
+            " gears.helix_angle, gears.module or the teeth",
+        )
     formula = "k m_n = a - a_d - (x1 + x2) m_n, not above 0"
     return shortening, [Derived("tip shortening -k", shortening, "modules", formula, unusual.of_shortening(shortening))]
 

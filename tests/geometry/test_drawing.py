@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from tests.drawn_pairs import PAIRS, figures, table
 
-from fenics_gears import RACKS, SceneError, build_scene, gear_pair, load_scene
+from fenics_gears import RACKS, GeometryError, SceneError, build_scene, gear_pair, load_scene
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.gear_data import MATERIALS
 from fenics_gears.scene.data import Material
@@ -246,3 +246,10 @@ def test_measures_that_stand_for_unusual_shifts_are_remarked():
     assert "1.23 modules; usual are -0.5 to 1" in alone
     (beside,) = remarks({"centre_distance": "77.5 mm"}, {"tooth_thickness": "6 mm"})[:1]
     assert "0.632 mm more than that of profile_shift" in beside
+
+
+def test_a_centre_distance_that_leaves_no_teeth_is_named():
+    """Authority: ISO 21771: gears without profile shift have a distance of 3 (19 + 31)/(2 cos 44 deg) = 104.262 mm; no
+    change of the tip diameter, which the program derived, would help."""
+    with pytest.raises(GeometryError, match=r"pair: centre distance 76 mm, .* have 104.262 mm: .* gears.centre_dist"):
+        scene_of({"helix_angle": "44 deg", "pinion_hand": "right", "centre_distance": "76 mm"})
