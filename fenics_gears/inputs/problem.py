@@ -33,7 +33,7 @@ class Problem:
         line = self.line(lines)
         place = f"{source}:{line}" if line else source
         # A list of tables is written as the section that it stands for.
-        field = ".".join(self.path).removesuffix(".each")
+        field = ".".join(self.path).removesuffix(".each" if self.written == "a list" else "")
         if self.written is not None:
             field = f"{field} = {self.written}" if self.written else f"[{field}]"
         return f"{place}: {field}\n    {self.message}"
