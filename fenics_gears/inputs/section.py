@@ -68,6 +68,10 @@ def _section_of(hint: Any) -> type[Section] | None:
     )
 
 
+class PartRefused(Refused):
+    """A part of the value is not allowed; the message says what is allowed of that part too."""
+
+
 def read(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> tuple[Any, list[Problem]]:
     """The section that a parsed file has at a path, None where it is wrong, and all that is wrong with it.
 
@@ -83,10 +87,10 @@ def read(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> tu
             allowed = _allowed(section)[name]
             try:
                 values[name] = allowed.convert(written)
+            except PartRefused as reason:
+                problems.append(Problem(place, as_written(written), str(reason)))
             except Refused as reason:
-                # A list of tables says what is allowed of the field that is wrong.
-                said = str(reason) if "Allowed: " in str(reason) else f"{reason} Allowed: {allowed.description}."
-                problems.append(Problem(place, as_written(written), said))
+                problems.append(Problem(place, as_written(written), f"{reason} Allowed: {allowed.description}."))
         elif isinstance(written, Mapping):
             values[name], found = read(inner, written, place)
             problems += found
@@ -164,7 +168,7 @@ class AllowedTables(Allowed):
                 )
             if problem.written is None:
                 raise Refused(f"has no {name} at place {place}.")
-            raise Refused(f"has {name} = {problem.written} at place {place}, which {said}")
+            raise PartRefused(f"has {name} = {problem.written} at place {place}, which {said}")
         return found
 
     def spelled(self, value: Any) -> list[dict[str, Any]]:

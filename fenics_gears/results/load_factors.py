@@ -78,10 +78,10 @@ def _of_instants(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, fl
     edges = np.where(ended | in_end_zone(pair, z), loads, 0.0)
     found = {}
     for name, values in (("largest_line_load_factor", away), ("edge_line_load_factor", edges)):
-        step = np.unravel_index(values.argmax(), values.shape)[0]
         # Under a torque of nothing loads are round-off, of either sign.
-        if values.max() > 0.0 and force[step] > 0.0:
-            found[name] = float(values.max()) * shortest_lines(pair) / float(force[step])
+        largest = float(values.max(initial=0.0))
+        if largest > 0.0 and (own := force[np.unravel_index(values.argmax(), values.shape)[0]]) > 0.0:
+            found[name] = largest * shortest_lines(pair) / float(own)
     return found
 
 

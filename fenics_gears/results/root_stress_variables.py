@@ -37,8 +37,9 @@ class RootStress:
 
     def __init__(self, pair: GearPair, cycle: Cycle, rows: Rows):
         self.pair, self.cycle, self.rows = pair, cycle, rows
-        angles = np.array([each.tangent_angle for each in rows])
-        self._of_bending = np.tile(angles[:, :-1] >= OF_BENDING * angles[:, -1:], 2)
+        angles, at_section = np.split(np.array([each.tangent_angle for each in rows]), [-1], axis=1)
+        self._angles = np.tile(angles, 2)
+        self._of_bending = self._angles >= OF_BENDING * at_section
         self._on_flanks: dict[tuple, tuple[np.ndarray, tuple[OnFlanks, OnFlanks]]] = {}
 
     def on_flanks(self, position: Position) -> tuple[np.ndarray, tuple[OnFlanks, OnFlanks]]:
@@ -122,14 +123,13 @@ class RootStress:
             "root_stress": along,
             "root_stress_over_face": section,
             "root_stress_maximum": np.fmax.reduce(
-                np.where(self._of_bending[:, None, :, None], along, np.nan), axis=(-1, -2)
+                along, axis=(-1, -2), where=self._of_bending[:, None, :, None], initial=np.nan
             ),
             "root_stress_at_30_degrees": np.fmax.reduce(section, axis=-1),
         }
 
     def labels(self) -> tuple[dict[str, str], dict[str, tuple]]:
         """Long names of the variables, and the coordinates of their fillet points."""
-        angles = np.array([rows.tangent_angle[:-1] for rows in self.rows])
         words = {
             "root_stress": "stress along the surface of the fillets",
             "root_stress_maximum": (
@@ -141,10 +141,10 @@ class RootStress:
         }
         return words, {
             "fillet": ("fillet", list(SIDES), {"long_name": "side of the tooth"}),
-            "fillet_side": ("fillet_point", np.repeat(SIDES, angles.shape[1]), {"long_name": "side of the tooth that "
-                "the fillet point is on"}),
+            "fillet_side": ("fillet_point", np.repeat(SIDES, self._angles.shape[1] // 2),
+                {"long_name": "side of the tooth that the fillet point is on"}),
             "fillet_tangent_angle": (
-                ("gear", "fillet_point"), np.hstack([angles, angles]),
+                ("gear", "fillet_point"), self._angles,
                 {"units": "rad", "long_name": "angle between the fillet's tangent and the tooth's centreline"},
             ),
         }  # fmt: skip

@@ -27,7 +27,7 @@ from fenics_gears.scene.schema import LoadText
 
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
 NOTABLE_OVERLAP = 0.01
-TOOTH_HEIGHT = 2.25  # Modules, of ISO 53.
+TOOTH_HEIGHT = sum(RACKS["ISO 53 A"][:2])  # Modules.
 
 
 def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:

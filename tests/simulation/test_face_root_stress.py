@@ -81,8 +81,8 @@ def _at_fillets(recovery, data, stress):
 def test_largest_values_are_those_over_the_face(coast):
     """Definition: the curves of all steps hold the largest of the points and slices; a slot without a pair in reach has
     none."""
-    result = root_stress_run(coast)[1]
-    of_bending = OF_BENDING * section_angle(gear_pair(root_stress_run(coast)[0].gears).pinion)
+    scene, result = root_stress_run(coast)
+    of_bending = OF_BENDING * section_angle(gear_pair(scene.gears).pinion)
     along, over_face = (
         result["root_stress"]
         .where(result["fillet_tangent_angle"] >= of_bending)
