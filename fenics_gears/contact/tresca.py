@@ -76,8 +76,9 @@ def tresca(problem, status: np.ndarray, polish: Callable):
 
 def frozen_friction(problem, bounds: np.ndarray) -> Frozen | None:
     """The forces that minimise the energy with |p_t| <= `bounds` (n,), N; None where the programme has no solution."""
-    n, force = len(problem.gap), max(np.abs(problem.load).max(initial=0.0), 1e3 * problem.tolerance.force)
-    soft = problem.compliance[0, 0]
+    n, soft = len(problem.gap), problem.compliance[0, 0]
+    # Of the load, or of wedged flanks, which press each other by far more.
+    force = max(np.abs(problem.load).max(initial=0.0), 1e3 * problem.tolerance.force, -problem.gap.min() / soft)
     # Tangents whose bounds are zero are left out.
     rubbing = np.flatnonzero(bounds > 1e-12 * force)
     rows = np.concatenate((np.arange(n), n + rubbing))
