@@ -13,13 +13,13 @@ from typing import Self
 import numpy as np
 from scipy.sparse import identity, kron
 
-from fenics_gears.elasticity.cut_chain import CutResponse
 from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.elasticity.elements import element_named
+from fenics_gears.elasticity.face.condensed import spanned
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_response
+from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_whitened
 from fenics_gears.elasticity.nodal_stress import NodalStress
-from fenics_gears.elasticity.ring import cut_response, cyclic, cyclic_motion, rotation
+from fenics_gears.elasticity.ring import Whitened, cyclic, cyclic_motion, ring_work, rotation, whitened
 from fenics_gears.elasticity.sector import Sector, plane_sector, swept_sector
 from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.gear import Gear
@@ -118,22 +118,22 @@ class GearRecovery:
         Of loads on the tooth m pitches ahead, m from -reach to reach, and on the loaded one; given by what they move
         the free cuts, (2 d, k) and (2 d, j).
         """
-        joint, half = self._joint(reach + 1), self._half
-        responding, loaded = (np.vstack([each[:half], self._pitch.T @ each[half:]]) for each in (responding, loaded))
+        responding, loaded = (
+            np.vstack([each[: self._half], self._pitch.T @ each[self._half :]]) for each in (responding, loaded)
+        )
         held, forces = self._link @ responding, self._link @ loaded
-        # Of the lower cut of each sector, which is the upper one of the sector before.
-        motion = [joint(ahead) @ forces[:half] + joint(ahead - 1) @ forces[half:] for ahead in range(-reach, reach + 2)]
-        found = np.stack([held[:half].T @ lower + held[half:].T @ upper for lower, upper in zip(motion, motion[1:])])
+        # Many loads move the cuts in few ways.
+        (shapes, of_held), (others, of_forces) = spanned(held.T), spanned(forces.T)
+        work = ring_work(self._whitened(), self.gear.teeth, reach, of_held.T, of_forces.T)
+        found = shapes @ work @ others.T
         found[reach] -= held.T @ loaded
         return found
 
-    def _joint(self, reach: int) -> CutResponse:
-        """Response of the ring's cuts to forces on them."""
+    def _whitened(self) -> Whitened:
         sector = self.sector
         if sector.sweep is None or not sector.sweep.alike:
-            return cut_response(self._link, self.gear.teeth, reach)
-        basis = half_turn_basis(sector.place(sector.lower))
-        return half_turn_response(self._link, self.gear.teeth, reach, basis)
+            return whitened(self._link)
+        return half_turn_whitened(self._link, half_turn_basis(sector.place(sector.lower)))
 
     def _cut_motion(self, free: dict[int, np.ndarray]) -> np.ndarray:
         """Motion (teeth, d, 1) of the sectors' lower cuts; `free`: that of the loaded sectors with free cuts."""

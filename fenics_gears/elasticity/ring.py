@@ -8,8 +8,11 @@ many teeth runs of sectors are joined instead, which is quicker (`elasticity.cut
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from scipy.linalg import block_diag, get_lapack_funcs
+from scipy.linalg.blas import ztrsm
 from scipy.sparse import csr_matrix
 
 from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense, without
@@ -131,14 +134,53 @@ def fourier_response(link: np.ndarray, teeth: int, reach: int) -> CutResponse:
     same, ahead = cyclic(link)
     responses = np.zeros((reach + 1, *same.shape))
     for harmonic in range(teeth // 2 + 1):
-        phase = np.exp(2j * np.pi * harmonic / teeth)
+        angle, weight = harmonic_of(harmonic, teeth)
+        phase = np.exp(1j * angle)
         inverse = definite_inverse(same + ahead * phase + ahead.T * np.conj(phase), "a harmonic")
-        own_conjugate = harmonic == 0 or 2 * harmonic == teeth
-        weight = (1.0 if own_conjugate else 2.0) / teeth
         for offset in range(reach + 1):
             turned = weight * phase**offset
             responses[offset] += turned.real * inverse.real - turned.imag * inverse.imag
     return lambda offset: responses[offset] if offset >= 0 else responses[-offset].T
+
+
+def harmonic_of(number: int, teeth: int) -> tuple[float, float]:
+    """The angle (rad) by which a harmonic turns from tooth to tooth, and its share in a sum over all of them."""
+    return 2.0 * np.pi * number / teeth, (1.0 if number == 0 or 2 * number == teeth else 2.0) / teeth
+
+
+# Of a harmonic's angle and forces (2 c, k) on both cuts of a sector: U^-H f (c, k), with the harmonic's stiffness
+# U^H U and its forces f.
+Whitened = Callable[[float, np.ndarray], np.ndarray]
+
+
+def whitened(link: np.ndarray) -> Whitened:
+    """Of a sector between its cuts (2 c, 2 c)."""
+    same, ahead = cyclic(link)
+
+    def of_harmonic(angle: float, forces: np.ndarray) -> np.ndarray:
+        back, (lower, upper) = np.exp(-1j * angle), np.vsplit(forces, 2)
+        # Transposed, the conjugate is in LAPACK's order.
+        factor = definite_factor((same + ahead * back + ahead.T * np.conj(back)).T, "a harmonic")
+        return ztrsm(1.0, factor, lower + upper * back, trans_a=2)
+
+    return of_harmonic
+
+
+def ring_work(of_harmonic: Whitened, teeth: int, reach: int, responding: np.ndarray, loaded: np.ndarray) -> np.ndarray:
+    """Reciprocal work (2 reach + 1, k, j) in a ring of forces (2 c, k) on the cuts of the sector m pitches ahead, m
+    from -reach to reach, and of forces (2 c, j) on those of a sector.
+
+    By harmonics, whose inverses need not be made: few forces take a fraction of their operations.
+    """
+    offsets, both = np.arange(-reach, reach + 1), np.hstack([responding, loaded])
+    found = np.zeros((len(offsets), responding.shape[1], loaded.shape[1]))
+    for harmonic in range(teeth // 2 + 1):
+        angle, weight = harmonic_of(harmonic, teeth)
+        one, other = np.split(of_harmonic(angle, both), [responding.shape[1]], axis=1)
+        product = one.conj().T @ other
+        for offset, work in zip(offsets, found):
+            work += weight * (np.cos(offset * angle) * product.real - np.sin(offset * angle) * product.imag)
+    return found
 
 
 def definite_inverse(matrix: np.ndarray, what: str) -> np.ndarray:

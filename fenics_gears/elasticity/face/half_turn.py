@@ -19,9 +19,8 @@ from scipy import sparse
 from scipy.linalg.blas import dsyrk, dtrsm
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.cut_chain import CutResponse
 from fenics_gears.elasticity.face.condensed import MISSING, SweptSector, spanned
-from fenics_gears.elasticity.ring import cyclic, definite_factor, definite_inverse, rotation
+from fenics_gears.elasticity.ring import Whitened, cyclic, definite_factor, harmonic_of, rotation
 from fenics_gears.elasticity.triangle import symmetric
 from fenics_gears.errors import ComputationError
 
@@ -53,8 +52,8 @@ def half_turn_basis(lower: np.ndarray) -> tuple[sparse.csr_matrix, int]:
     return sparse.hstack(halves, format="csr"), halves[0].shape[1]
 
 
-def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sparse.csr_matrix, int]) -> CutResponse:
-    """As `ring.cut_response`, of a sector that half a turn maps on itself; `basis` of its lower cut. Raises
+def half_turn_whitened(link: np.ndarray, basis: tuple[sparse.csr_matrix, int]) -> Whitened:
+    """As `ring.whitened`, of a sector that half a turn maps on itself; `basis` of its lower cut. Raises
     ComputationError where it does not."""
     vectors, even = basis
     same, ahead = (vectors.T @ (vectors.T @ part.T).T for part in cyclic(link))
@@ -65,22 +64,21 @@ def half_turn_response(link: np.ndarray, teeth: int, reach: int, basis: tuple[sp
     )
     if max(off) > ROUND_OFF * abs(same).max():
         raise _not_mapped()
-    responses = np.zeros((reach + 1, *same.shape))
-    for harmonic in range(teeth // 2 + 1):
-        angle, weight = harmonic_of(harmonic, teeth)
+    across = np.ascontiguousarray(imaginary[:even, even:].T)
+
+    def of_harmonic(angle: float, forces: np.ndarray) -> np.ndarray:
+        lower, upper = np.vsplit(forces, 2)
+        moved = vectors.T @ (lower + upper * np.exp(-1j * angle))
+        moved[even:] *= -1j
         stiffness = same + np.cos(angle) * real
-        stiffness[:even, even:] = -np.sin(angle) * imaginary[:even, even:]
-        stiffness[even:, :even] = stiffness[:even, even:].T
-        inverse = definite_inverse(stiffness, "a harmonic")
-        for offset, response in enumerate(responses):
-            cosine, sine = weight * np.cos(offset * angle), weight * np.sin(offset * angle)
-            response[:even, :even] += cosine * inverse[:even, :even]
-            response[even:, even:] += cosine * inverse[even:, even:]
-            response[:even, even:] += sine * inverse[:even, even:]
-            response[even:, :even] -= sine * inverse[even:, :even]
-    for response in responses:
-        response[:] = vectors @ (vectors @ response.T).T
-    return lambda offset: responses[offset] if offset >= 0 else responses[-offset].T
+        np.multiply(across, -np.sin(angle), out=stiffness[even:, :even])
+        # Transposed, it is in LAPACK's order, and its lower triangle alone is read.
+        factor = definite_factor(stiffness.T, "a harmonic")
+        columns = np.asfortranarray(np.hstack([moved.real, moved.imag]))
+        solved = dtrsm(1.0, factor, columns, trans_a=1, overwrite_b=1)
+        return solved[:, : moved.shape[1]] + 1j * solved[:, moved.shape[1] :]
+
+    return of_harmonic
 
 
 def ring_blocks(sector: SweptSector, teeth: int, offsets: int, comm=None) -> np.ndarray | None:
@@ -174,11 +172,6 @@ def _joined_through_cuts(
         symmetric(block)
         block[first:, :first] *= -1.0
     return found
-
-
-def harmonic_of(number: int, teeth: int) -> tuple[float, float]:
-    """The angle (rad) by which a harmonic turns from tooth to tooth, and its share in a sum over all of them."""
-    return 2.0 * np.pi * number / teeth, (1.0 if number == 0 or 2 * number == teeth else 2.0) / teeth
 
 
 def _not_mapped() -> ComputationError:

@@ -15,12 +15,11 @@ from scipy.linalg.blas import zherk, ztrsm
 
 from fenics_gears.elasticity.condensation import CondensedBody, by_radius, dofs_of, without
 from fenics_gears.elasticity.face.condensed import spanned
-from fenics_gears.elasticity.face.half_turn import harmonic_of
 from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
 from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.mumps import Factor
-from fenics_gears.elasticity.ring import cyclic, definite_factor, definite_inverse, sector_cuts
+from fenics_gears.elasticity.ring import cyclic, definite_factor, definite_inverse, harmonic_of, sector_cuts
 from fenics_gears.elasticity.triangle import symmetric
 
 
