@@ -2,23 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 
 from demos.lundvall2004 import spectrum
-from demos.lundvall2004.measured import (
-    READ,
-    WITH,
-    WITHOUT,
-    Measured,
-    base_pair,
-    base_scene,
-    frequencies_of,
-    one_cycle,
-    peak_to_peak,
-)
+from demos.lundvall2004.measured import WITH, WITHOUT, base_pair, base_scene, one_cycle, peak_to_peak
 
 HELD, IN_PART, NOT_HELD = "held", "in part", "not held"
 MICRO = 1e6
@@ -282,37 +272,3 @@ def claim_10(undamped: xr.Dataset, damped: xr.Dataset) -> Claim:
         f"{text}; with damping in {with_damping} of {damped.warnings.size} runs",
         verdict(bool(beyond.any()) and not with_damping),
     )  # fmt: skip
-
-
-def table_of_claims(measured: Measured) -> list[Claim]:
-    """All claims, with J as we read it."""
-    static, run = measured.study("figure02"), measured.run
-    first = [
-        claim_1(static),
-        claim_2(static),
-        claim_3(static),
-        claim_4(run("figure04", friction=WITH), run("figure04", friction=WITHOUT)),
-    ]
-    smooth = claim_7(run("figure04", friction=WITH), run("figure08", friction=WITH))
-    of_inertia = claims_of_inertia(measured, READ)
-    undamped = claim_10(measured.study("undamped"), measured.curves(READ, "06"))
-    return [*first, *of_inertia[:-2], smooth, *of_inertia[-2:], undamped]
-
-
-def claims_of_inertia(measured: Measured, reading: str) -> list[Claim]:
-    """Claims 5, 6, 8 and 9 under a reading of J."""
-    static, depths = measured.study("figure02"), measured.study("figure09_static")
-    unmodified, modified = measured.curves(reading, "06"), measured.curves(reading, "10")
-    highest = frequencies_of(measured.run(f"{reading}figure05", friction=WITH))[-1]
-    raised = [claim_6a(unmodified), claim_6a(modified, "Section 6, Fig. 10", "6c", " of the modified pair too")]
-    for place, (figure, curve) in enumerate((("06", unmodified), ("10", modified))):
-        if raised[place].verdict != HELD:
-            raised[place] = replace(raised[place], why=spectrum.why_friction_lowers(measured, reading, figure, curve))
-    return [
-        claim_5(static, measured.study(f"{reading}figure05")),
-        raised[0],
-        claim_6b(unmodified, static, highest),
-        raised[1],
-        claim_8(depths, measured.study(f"{reading}figure09_dynamic")),
-        claim_9(unmodified, modified, depths),
-    ]

@@ -4,6 +4,7 @@ them."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
 
@@ -23,8 +24,11 @@ def flank_rows(gear: int, pair: ToothPair, tangential: bool) -> np.ndarray:
     `gear`: 0 the pinion, 1 the wheel. A positive contact force pushes on the flank; that of friction acts against e_y
     of the tooth's frame. The coast flank's are in the frame mirrored at the tooth's centreline, as its compliance is.
     """
-    weights = pair.interpolation[gear].weights
-    axes = directions(pair.place.contact_rolls[gear], tangential)
+    return _pushed(pair.interpolation[gear].weights, directions(pair.place.contact_rolls[gear], tangential))
+
+
+def _pushed(weights: np.ndarray, axes: np.ndarray) -> np.ndarray:
+    """The same where contact nodes have these weights (n, f) of flank nodes and axes (1 or 2, components)."""
     return -np.hstack([np.einsum("nf,d->fdn", weights, axis).reshape(-1, len(weights)) for axis in axes])
 
 
@@ -38,9 +42,12 @@ def rows_in_slice(gear: int, data: Gear, face: Face, pair: ToothPair, tangential
     force at the pair's contact nodes: N over a face of many slices, of one N/mm."""
     if face.slices > 1:
         # Imported here: plane scenes have none.
-        from fenics_gears.contact.face_forces import slice_rows
+        from fenics_gears.contact.face_pairing import FacePair, directions_on_face
 
-        return slice_rows(gear, data, face, pair, tangential)
+        axes = directions_on_face(pair.place, face, gear, tangential)
+        if pair.place.flank == COAST:
+            axes[:, :2] = axes[:, :2] @ centreline_mirror(data).T
+        return _pushed(cast(FacePair, pair).coarse[gear].weights, axes)
     line = flank_rows(gear, pair, tangential) / face.widths[0]
     return unmirrored(data, line) if pair.place.flank == COAST else line
 

@@ -255,11 +255,9 @@ class Averages:
     the weights of the flank's nodes; `points`: where the places of each pair begin and end.
     """
 
-    places, seen, of_flank = (
-        staticmethod(offsets_of_cells),
-        staticmethod(node_averages),
-        staticmethod(flank_interpolations),
-    )
+    places = staticmethod(offsets_of_cells)
+    seen = staticmethod(node_averages)
+    of_flank = staticmethod(flank_interpolations)
 
     def points(self, ends: np.ndarray) -> np.ndarray:
         """Where they begin and end (P + 1,)."""
@@ -285,9 +283,8 @@ class Points:
         """The element's shape functions at the nodes' roll angles."""
         ends, order, found = seeing.ends, seeing.element_order, []
         for flank_rolls, start, end in zip(seeing.flank_rolls, ends[:-1], ends[1:]):
-            arc, places = (
-                0.5 * seeing.base_radius * each**2 for each in (seeing.rolls[start:end], flank_rolls[::order])
-            )
+            rolls = seeing.rolls[start:end], flank_rolls[::order]
+            arc, places = (0.5 * seeing.base_radius * each**2 for each in rolls)
             element = np.clip(np.searchsorted(places, arc, side="right") - 1, 0, len(places) - 2)
             local = np.clip((arc - places[element]) / np.diff(places)[element], 0.0, 1.0)
             if order == 1:

@@ -224,10 +224,6 @@ class Cycle:
         """The contact equations at `step` (any integer)."""
         return self._deviating(step, self._found(step))
 
-    def keeps(self, index: int) -> bool:
-        """Whether position `index` (0 to steps - 1) of the first mesh cycle has been built and is kept."""
-        return (self._mesh_at(index), index) in self._built
-
     def between(self, step: float, before: float) -> Position:
         """The contact equations at `step`, with the step before at `before`; both may lie between whole steps. Kept
         only at places in common after the last whole step.

@@ -6,7 +6,7 @@ Mass and moment of inertia of a gear are given, or follow from its cross-section
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf, isfinite
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from fenics_gears.effects.damping import Damping
     from fenics_gears.effects.inertia import Inertia
     from fenics_gears.effects.shafts import Shafts
-    from fenics_gears.geometry.section import CrossSection
 
 
 # The load's moment of inertia over the wheel's, at most: their sum keeps six digits of the wheel's.
@@ -125,9 +124,8 @@ class Drivetrain:
             return ""
         turning = int(np.argmax(np.abs(motion)))
         torque = 1e-3 * self.load[turning] * self.radii[turning]
-        return (
-            f"{FREE.get(self.coordinates[turning], 'the drivetrain')} turns freely under its torque of {torque:.4g} N m"
-        )
+        name = FREE.get(self.coordinates[turning], "the drivetrain")
+        return f"{name} turns freely under its torque of {torque:.4g} N m"
 
     def value(self, states: np.ndarray, name: str) -> np.ndarray:
         """Coordinate `name`, or "shaft_end" (phi3), of states (..., k), in mm or rad; zero where the scene holds it
@@ -160,9 +158,8 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
     load beside which the wheel's own moment of inertia is lost in round-off.
     """
     names = _moving_coordinates(supports)
-    radii = np.array(
-        [1.0 if MOVED[_kind(name)] == "mass" else getattr(pair, gear_of(name)).base_radius for name in names]
-    )
+    arms = {name: 1.0 if MOVED[_kind(name)] == "mass" else getattr(pair, gear_of(name)).base_radius for name in names}
+    radii = np.array([*arms.values()])
     stiffness, mass, mesh = np.zeros((len(names), len(names))), None, None
     if supports.bearings is not None:
         for name, side in TRANSLATIONS.items():
@@ -281,9 +278,6 @@ def _damping(damping: Damping, undamped: Drivetrain, mesh_stiffness: float) -> n
     return alpha * undamped.stiffness + beta * undamped.mass
 
 
-GEARS = ("pinion", "wheel")
-
-
 @dataclass(frozen=True)
 class LumpedGear:
     """`mass`, N s^2/mm, and `moment_of_inertia`, N mm s^2, at a gear's centre; `width`, mm, of its face;
@@ -304,19 +298,3 @@ class LumpedGear:
         if self.given_tilting is not None:
             return self.given_tilting
         return 0.5 * self.moment_of_inertia + self.mass * self.width**2 / 12.0
-
-
-def lumped(inertia: Inertia, pair: GearPair, section: Callable[[str], CrossSection]) -> dict[str, LumpedGear]:
-    """Lumped masses of "pinion" and "wheel"; `section`: a gear's cross-section, called only where a density is
-    given."""
-    return {name: _lumped(inertia, name, pair.face_widths[number], section) for number, name in enumerate(GEARS)}
-
-
-def _lumped(inertia: Inertia, name: str, width: float, section: Callable[[str], CrossSection]) -> LumpedGear:
-    given = inertia.of(name)
-    if None not in (given.mass, given.moment_of_inertia):
-        return LumpedGear(given.mass, given.moment_of_inertia, width, given.tilting_moment_of_inertia)
-    body, per_area = section(name), given.density * width
-    mass = per_area * body.area if given.mass is None else given.mass
-    moment = per_area * body.polar_moment if given.moment_of_inertia is None else given.moment_of_inertia
-    return LumpedGear(mass, moment, width, given.tilting_moment_of_inertia)

@@ -99,9 +99,8 @@ class Steps:
     def of(cls, records: Sequence[Record]) -> Steps:
         """The steps of some records."""
         coordinates = len(records[0].state.position) if records else 0
-        steps = cls.to_solve(
-            [record.step for record in records], [record.position for record in records], coordinates, ""
-        )
+        numbers, positions = [record.step for record in records], [record.position for record in records]
+        steps = cls.to_solve(numbers, positions, coordinates, "")
         for place, record in enumerate(records):
             steps.put(place, record)
         return steps
@@ -115,11 +114,8 @@ class Steps:
             self.__dict__.pop("in_memory", None)
         self.methods[place] = solution.method
         self.states[place] = state
-        self.forces[forces], self.displacement[forces], self.status[nodes] = (
-            solution.forces,
-            solution.displacement,
-            solution.status,
-        )
+        self.forces[forces], self.displacement[forces] = solution.forces, solution.displacement
+        self.status[nodes] = solution.status
         self.iterations[place] = solution.iterations
         if record.parts:
             self.parts[place] = record.parts

@@ -9,7 +9,7 @@ from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
 from fenics_gears.effects.rolling_bearings import RollingBearing
 from fenics_gears.inputs.allowed import AllowedMatrix, Matrix
 from fenics_gears.inputs.fields import declared, quantities, quantity
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import LISTED, Problem
 from fenics_gears.inputs.section import AllowedTables, Section, names_in
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, quantity_at, quantity_in, shafts_with_sections, table
 from fenics_gears.inputs.written import as_written
@@ -185,7 +185,7 @@ def supports_are_complete(tree: Tree) -> Iterator[Problem]:
     both = table(tree, "bearings")
     if both is None:
         return
-    listed = [gear for gear in GEARS if "each" in (table(both, gear) or {})]
+    listed = [gear for gear in GEARS if LISTED in (table(both, gear) or {})]
     bent = shafts_with_sections(tree)
     if listed or bent:
         # Imported here: few scenes have any.

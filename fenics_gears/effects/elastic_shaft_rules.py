@@ -15,7 +15,7 @@ from fenics_gears.effects.elastic_shaft_housing import check_housing, stiffness_
 from fenics_gears.effects.rolling_bearings import wrong_with
 from fenics_gears.effects.shafts import INTEGRAL, ShaftSection
 from fenics_gears.errors import SceneError
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import LISTED, Problem
 from fenics_gears.inputs.section import names_in
 from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, given_for, shafts_with_sections, table, value_at
 from fenics_gears.inputs.written import as_written
@@ -44,7 +44,7 @@ def rules_of_elastic_shafts(tree: Tree) -> Iterator[Problem]:
                 message = 'is missing. Allowed: a length from the left end of the shaft, such as "58 mm".'
                 yield Problem(("shafts", shaft, name), None, message)
         gear = GEARS[SHAFTS.index(shaft)]
-        if value_at(tree, "bearings", gear, "each") is None:
+        if value_at(tree, "bearings", gear, LISTED) is None:
             message = (
                 f"is missing: nothing holds [shafts.{shaft}], which has sections. Add its bearings, each as a table"
                 f" [[bearings.{gear}]] with at and radial_stiffness."

@@ -107,8 +107,6 @@ class AllowedList(Allowed):
         try:
             if self.kind is not None:
                 converted = _quantity(entry, self.unit, (), self.kind)[0]
-            elif isinstance(entry, bool) or not isinstance(entry, (int, float)):
-                raise Refused("is not a number.")
             else:
                 converted = _bare(entry, whole=False)
             reason = out_of_range(converted, self.lowest, self.highest)

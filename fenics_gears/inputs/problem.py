@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 Path = tuple[str, ...]
+# By this name a section has the tables that a file may also list in its place.
+LISTED = "each"
 
 
 @dataclass(frozen=True)
@@ -32,8 +34,7 @@ class Problem:
         """Two lines for people: file, line, field and value; then what is wrong and what is allowed."""
         line = self.line(lines)
         place = f"{source}:{line}" if line else source
-        # A list of tables is written as the section that it stands for.
-        field = ".".join(self.path).removesuffix(".each" if self.written == "a list" else "")
+        field = ".".join(self.path).removesuffix(f".{LISTED}" if self.written == "a list" else "")
         if self.written is not None:
             field = f"{field} = {self.written}" if self.written else f"[{field}]"
         return f"{place}: {field}\n    {self.message}"

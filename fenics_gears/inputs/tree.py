@@ -7,7 +7,7 @@ from math import pi
 from typing import Any
 
 from fenics_gears.inputs import units
-from fenics_gears.inputs.problem import Path, nearest
+from fenics_gears.inputs.problem import LISTED, Path, nearest
 
 Tree = Mapping[str, Any]
 GEARS = ("pinion", "wheel")
@@ -30,7 +30,7 @@ def value_at(tree: Tree, *path: str) -> Any:
     found: Any = tree
     for name in path:
         if name.isdigit():
-            listed = found.get("each") if isinstance(found, Mapping) else found
+            listed = found.get(LISTED) if isinstance(found, Mapping) else found
             found = listed[int(name) - 1] if isinstance(listed, list) and 1 <= int(name) <= len(listed) else None
         else:
             found = found.get(name) if isinstance(found, Mapping) else None
@@ -64,7 +64,7 @@ def written_out(tree: dict[str, Any]) -> dict[str, Any]:
             home["material"] = {"name": home["material"]}
     for gear in GEARS:
         if isinstance(bearings.get(gear), list):
-            bearings[gear] = {"each": bearings[gear]}
+            bearings[gear] = {LISTED: bearings[gear]}
     return tree
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from fenics_gears.dynamics.drivetrain import Drivetrain, Supports, assembled
 from fenics_gears.geometry.gear_data import rough_pair_stiffness
 from fenics_gears.geometry.pair import GearPair
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
@@ -81,9 +82,18 @@ def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:
     >>> lumped_gears(scene, gear_pair(scene.gears))["wheel"].moment_of_inertia  # N mm s^2
     24.5
     """
-    from fenics_gears.dynamics.drivetrain import lumped
+    from fenics_gears.dynamics.drivetrain import LumpedGear
 
-    return lumped(scene.inertia, pair, lambda name: _section(scene, pair, name))
+    found = {}
+    for name, width in zip(GEARS, pair.face_widths):
+        given = scene.inertia.of(name)
+        mass, moment = given.mass, given.moment_of_inertia
+        if mass is None or moment is None:
+            body, per_area = _section(scene, pair, name), given.density * width
+            mass = per_area * body.area if mass is None else mass
+            moment = per_area * body.polar_moment if moment is None else moment
+        found[name] = LumpedGear(mass, moment, width, given.tilting_moment_of_inertia)
+    return found
 
 
 def _section(scene: Scene, pair: GearPair, name: str) -> CrossSection:

@@ -25,6 +25,7 @@ OF_WHOLE_CYCLES = "a whole mesh cycle was run, at one speed"
 WITH_TEETH = "the teeth are elastic"
 WITH_CONTACT = "the teeth are elastic and contact is resolved over nodes"
 WITH_PRESSURE = "the teeth are elastic, contact is resolved over nodes and a node is loaded"
+PAIR_LOADED = "the forces of the tooth pairs are determined and a pair is loaded"
 WITH_STEPS = "at least one step was computed"
 WITH_FRICTION = "`[friction]` and a load"
 AFTER_LOSS = "contact was lost"
@@ -35,6 +36,7 @@ OVER_FACE = "the flanks are resolved over the face"
 OVER_FACE_WITH_LOAD = "the flanks are resolved over the face and loaded"
 OVER_FACE_WITH_FIELDS = "as `transverse_load_factor`, and contact fields are stored"
 WITH_SECTIONS = "a shaft has `sections`"
+WITH_ROLLING = "a bearing is `rolling`"
 WITH_VIBRATIONS = "a shaft has `sections`, beside `[inertia]`"
 PROPOSED = (
     "a torque, and `[misalignment]` in the plane of action, bearings along the shafts or a web off mid-width; not in"
@@ -133,23 +135,13 @@ _ROWS = (
         "single stiffness c': largest `mesh_stiffness` while one tooth pair is loaded, per face width",
         WITH_TEETH + " and in some steps one pair is loaded",
     ),
-    (
-        "largest_pair_force",
-        "N",
-        "largest normal force of a tooth pair",
-        "the forces of the tooth pairs are determined and a pair is loaded",
-    ),
-    (
-        "largest_pair_force_mesh_phase",
-        "1",
-        "mesh phase of the largest normal force of a tooth pair",
-        "the forces of the tooth pairs are determined and a pair is loaded",
-    ),
+    ("largest_pair_force", "N", "largest normal force of a tooth pair", PAIR_LOADED),
+    ("largest_pair_force_mesh_phase", "1", "mesh phase of the largest normal force of a tooth pair", PAIR_LOADED),
     (
         "largest_pair_force_from",
         "",
         "how the largest normal force was found, as `peak_to_peak_transmission_error_from`",
-        "the forces of the tooth pairs are determined and a pair is loaded",
+        PAIR_LOADED,
     ),
     ("peak_contact_pressure", "MPa", "peak contact pressure: maximum of `largest_contact_pressure`", WITH_CONTACT),
     ("peak_contact_pressure_time", "s", "time of the peak contact pressure", WITH_PRESSURE),
@@ -210,12 +202,7 @@ _ROWS = (
         WITH_VIBRATIONS,
     ),
     ("largest_bearing_force", "N", "largest force of a shaft on one of its bearings", WITH_SECTIONS),
-    (
-        "largest_rolling_element_force",
-        "N",
-        "largest force of a ball or roller under the mean load of the run",
-        "a bearing is `rolling`",
-    ),
+    ("largest_rolling_element_force", "N", "largest force of a ball or roller under the mean load", WITH_ROLLING),
     *(
         (f"proposed_{name}", unit, meaning, PROPOSED)
         for name, unit, meaning in (

@@ -122,11 +122,11 @@ def weights_of(window: str, length: int) -> np.ndarray:
     return sum((-1) ** place * factor * np.cos(place * turn) for place, factor in enumerate(WINDOWS[window]))
 
 
-def sidebands(lines: OrderLines, teeth: tuple[int, int], harmonic: int, count: int = SIDEBANDS) -> Sidebands | None:
-    """The first `count` sidebands on either side of a mesh harmonic, no further than half-way to the next; None where
+def sidebands(lines: OrderLines, teeth: tuple[int, int], harmonic: int) -> Sidebands | None:
+    """The first SIDEBANDS on either side of a mesh harmonic, no further than half-way to the next; None where
     the record cannot tell them apart."""
     turns = {"pinion": 1.0, "wheel": teeth[0] / teeth[1]}
-    found = {gear: _beside(teeth[0], harmonic, turn, count) for gear, turn in turns.items()}
+    found = {gear: _beside(teeth[0], harmonic, turn) for gear, turn in turns.items()}
     every = np.unique(np.round(np.concatenate([*found.values(), [harmonic * teeth[0]]]), 9))
     if np.diff(every).min() < (2 * lines.spread + 1) * lines.spacing * (1.0 - 1e-6) or every[-1] > lines.orders[-1]:
         return None
@@ -136,17 +136,17 @@ def sidebands(lines: OrderLines, teeth: tuple[int, int], harmonic: int, count: i
     return Sidebands(line, sums["pinion"], sums["wheel"], sum(squares.values()) - line)
 
 
-def _beside(teeth: int, harmonic: int, turn: float, count: int) -> np.ndarray:
+def _beside(teeth: int, harmonic: int, turn: float) -> np.ndarray:
     """Orders of the sidebands by a shaft that turns `turn` times as often as the pinion's."""
-    away = turn * np.arange(1, count + 1)
+    away = turn * np.arange(1, SIDEBANDS + 1)
     away = away[away < 0.5 * teeth]
     return harmonic * teeth + np.concatenate([-away, away])
 
 
-def level(amplitude: np.ndarray, reference: float = 1.0) -> np.ndarray:
-    """Level in dB of an amplitude (peak, not r.m.s.) re the amplitude `reference`; minus infinity for none."""
+def level(amplitude: np.ndarray) -> np.ndarray:
+    """Level in dB of an amplitude (peak, not r.m.s.) re 1; minus infinity for none."""
     with np.errstate(divide="ignore"):
-        return 20.0 * np.log10(np.asarray(amplitude) / reference)
+        return 20.0 * np.log10(np.asarray(amplitude))
 
 
 def origin(order: float, teeth: tuple[int, int]) -> str:

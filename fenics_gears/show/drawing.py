@@ -294,12 +294,7 @@ def _draw_flags(axes: Axes, panel: Panel) -> None:
             fontsize=11,
             color=flag.colour,
             va="bottom",
-            arrowprops={
-                "arrowstyle": "-",
-                "color": flag.colour,
-                "linewidth": 0.8,
-                "relpos": (0.0, 0.0),
-                "shrinkA": 0.0,
-                "shrinkB": 0.0,
-            },
+            arrowprops=dict(
+                arrowstyle="-", color=flag.colour, linewidth=0.8, relpos=(0.0, 0.0), shrinkA=0.0, shrinkB=0.0
+            ),
         )

@@ -21,7 +21,7 @@ CYCLES, MOST_NAMED = 2.0, 20
 ROOM, APART = 0.245, 0.042
 
 
-def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "", note: str = "") -> Chart:
+def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "") -> Chart:
     """The chart of a transmission error with the dimensions `load` (a torque, or a power in kW) and `mesh_phase` (mesh
     cycles), in um along the line of action.
 
@@ -50,7 +50,7 @@ def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "", note: str =
         drawn,
         "Mesh phase (mesh cycles)",
         "Transmission error along the line of action (µm)",
-        note,
+        "",
         520,
         least=LEAST_LENGTH,
         x_range=(0.0, CYCLES + ROOM),

@@ -9,7 +9,7 @@ from typing import Any
 
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.allowed import Allowed, AllowedEither, AllowedList, AllowedNumber
-from fenics_gears.inputs.problem import did_you_mean
+from fenics_gears.inputs.problem import LISTED, did_you_mean
 from fenics_gears.inputs.section import AllowedTables, Section, allowed_in, names_in, section_within
 from fenics_gears.inputs.tree import LOADS
 from fenics_gears.scene.schema import known_paths, scene_text
@@ -37,8 +37,7 @@ def _found_at(path: Path) -> tuple[type[Section] | None, Allowed | None] | None:
     allowed: Allowed | None = None
     for name in path:
         if name.isdigit():
-            # Tables of a field "each" stand for the section that has it.
-            listed = allowed_in(section, "each") if section is not None else allowed
+            listed = allowed_in(section, LISTED) if section is not None else allowed
             if not isinstance(listed, AllowedTables):
                 return None
             section, allowed = listed.section, None
@@ -82,7 +81,7 @@ def _changed(home: Any, path: Path, value: Any, whole: Path) -> Any:
     if isinstance(home, list):
         home, name = list(home), _place_in(home, name, whole)
     elif name.isdigit():
-        return {**home, "each": _changed(home.get("each", []), path, value, whole)}
+        return {**home, LISTED: _changed(home.get(LISTED, []), path, value, whole)}
     else:
         home = dict(home)
     if len(path) > 1:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.effects.test_elastic_shafts import ELASTIC, FEW
+from tests.elastic_shaft_scenes import ELASTIC, FEW
 from tests.hard_cases.invariants import run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 

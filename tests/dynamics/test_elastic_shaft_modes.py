@@ -10,7 +10,7 @@ import pytest
 from scipy.linalg import block_diag, eigh
 from tests.beam_elements import FIVE, assembled
 from tests.dynamics.test_elastic_shaft import ON_THREE, STEPS, STIFF, E, G, area, second, shaft, shear
-from tests.effects.test_elastic_shafts import CUT, INERTIA, VIBRATING
+from tests.elastic_shaft_scenes import CUT, INERTIA, VIBRATING
 from tests.helical import helical_scene
 
 from fenics_gears import model_of

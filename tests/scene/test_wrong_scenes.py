@@ -203,7 +203,10 @@ without = partial(paper_text.without, DEMO)
             without("damping") + "\n[damping]\nratios = [0.1, -0.2]\n",
             ["damping.ratios", "-0.2 at place 2", "is negative"],
         ),
-        (without("damping") + '\n[damping]\nratios = ["5 %"]\n', ["damping.ratios", "at place 1", "is not a number"]),
+        (
+            without("damping") + '\n[damping]\nratios = ["5 %"]\n',
+            ["damping.ratios", "at place 1", "is a text, not a bare number"],
+        ),
         (without("damping") + "\n[damping]\nratios = [0, 0.0]\n", ["damping.ratios", "damps nothing"]),
         (
             without("gears.material") + '\n[gears.pinion.material]\nyoungs_modulus = "100 GPa"\npoissons_ratio = 0.3\n',

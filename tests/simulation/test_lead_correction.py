@@ -4,7 +4,7 @@ night."""
 from dataclasses import replace
 
 import pytest
-from tests.effects.test_elastic_shafts import CUT, ELASTIC, FEW, VIBRATING
+from tests.elastic_shaft_scenes import CUT, ELASTIC, FEW, VIBRATING
 from tests.helical import FRICTION, helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of, scene_from_text

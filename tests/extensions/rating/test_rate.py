@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.coarse import COARSE, coarse_scene
-from tests.effects.test_elastic_shafts import ELASTIC
+from tests.elastic_shaft_scenes import ELASTIC
 from tests.hard_cases.invariants import run_of
 from tests.helical import CROWNED, helical_scene, on_stand_in_bodies
 

@@ -1,0 +1,63 @@
+"""A module in the place of the simulation, for tests of what commands do with its outcomes."""
+
+import sys
+import types
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from tests.programs import DEMO
+
+
+def small_result(complete=1):
+    """A result of three steps, as far as the command line looks at it."""
+    steps = ("time",)
+    return xr.Dataset(
+        {"transmission_error": (steps, np.array([0.0, 1e-4, 2e-4])), "newton_iterations": (steps, np.array([2, 3, 4]))},
+        {"time": np.arange(3.0), "mesh_phase": (steps, np.arange(3.0) / 2.0)},
+        attrs={
+            "complete": complete,
+            "scene": DEMO.read_text(encoding="utf-8"),
+            "mean_transmission_error": 5e-5,
+            "peak_to_peak_transmission_error": 2e-4,
+            "base_radius_wheel": 50.0,
+            "time_mesh": 1.25,
+            "time_march": 2.5,
+        },
+    )
+
+
+@pytest.fixture
+def simulation(monkeypatch, tmp_path):
+    """A module in the place of the simulation, whose ``outcome`` is returned or raised; the test runs in an empty
+    directory."""
+    monkeypatch.chdir(tmp_path)
+    stand_in = types.ModuleType("fenics_gears.simulation.simulate")
+    stand_in.outcome, stand_in.calls = small_result(), []
+
+    def simulate(scene, *, progress=None, job=None, journal=None):
+        stand_in.calls.append(scene)
+        progress.stage("march")
+        progress.update(1, 3)
+        if isinstance(stand_in.outcome, BaseException):
+            raise stand_in.outcome
+        return stand_in.outcome
+
+    stand_in.simulate = simulate
+    plots = types.ModuleType("fenics_gears.show.plots")
+
+    def draw_run(dataset, directory):
+        picture = Path(directory) / "transmission_error.png"
+        picture.write_bytes(b"picture")
+        return [picture]
+
+    plots.draw_run = draw_run
+    monkeypatch.setitem(sys.modules, "fenics_gears.simulation.simulate", stand_in)
+    monkeypatch.setitem(sys.modules, "fenics_gears.show.plots", plots)
+    return stand_in
+
+
+def files(directory):
+    """The names of all files below a directory, hidden ones too."""
+    return sorted(str(each.relative_to(directory)) for each in Path(directory).rglob("*") if each.is_file())

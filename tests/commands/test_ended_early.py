@@ -1,0 +1,90 @@
+"""Runs that are interrupted or fail: exit codes, and what is kept. The simulation is replaced by one that returns at
+once."""
+
+import os
+import signal
+
+import pytest
+from tests.commands.conftest import files, small_result
+from tests.programs import DEMO
+
+from fenics_gears import ComputationError
+from fenics_gears.commands.cli import main
+
+
+def test_ctrl_c_waits_for_the_end_of_a_step(simulation, tmp_path):
+    """Authority: issue 2; a real signal in the middle of a step ends the march between two steps, and the handler is
+    given back."""
+    before = signal.getsignal(signal.SIGINT)
+    steps = []
+
+    def march(scene, *, progress, job, journal):
+        progress.stage("march")
+        try:
+            for step in range(10):
+                progress.update(step, 10)
+                if step == 4:
+                    os.kill(os.getpid(), signal.SIGINT)
+                steps.append(step)
+        except KeyboardInterrupt:
+            return small_result(complete=0)
+        return small_result()
+
+    simulation.simulate = march
+    assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 130
+    assert steps == [0, 1, 2, 3, 4]
+    assert files(tmp_path) == ["here/run.nc"]
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+def test_a_second_ctrl_c_does_not_wait(simulation, tmp_path):
+    """Authority: issue 2; a step that never ends can be left."""
+
+    def hang(scene, *, progress, job, journal):
+        progress.stage("march")
+        progress.update(1, 10)
+        os.kill(os.getpid(), signal.SIGINT)
+        os.kill(os.getpid(), signal.SIGINT)
+        raise AssertionError("the second signal was not heeded")
+
+    simulation.simulate = hang
+    assert main(["run", str(DEMO), "--output", "here", "--quiet"]) == 130
+    assert files(tmp_path) == []
+
+
+@pytest.mark.parametrize("before", [signal.default_int_handler, signal.SIG_IGN], ids=["terminal", "background"])
+def test_ctrl_c_that_mpirun_gets_too(tmp_path, monkeypatch, capsys, before):
+    """Authority: docs/promises.md, exit code 130; mpirun itself ends with 1. It takes Ctrl-C also as a job in a shell's
+    background, where Python ignores it."""
+    mpirun, found = tmp_path / "mpirun", signal.getsignal(signal.SIGINT)
+    mpirun.write_text("#!/bin/sh\nkill -INT $PPID\nexit 1\n")
+    mpirun.chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:{os.environ['PATH']}")
+    signal.signal(signal.SIGINT, before)
+    try:
+        assert main(["study", "study.toml", "--processes", "2"]) == 130
+        assert signal.getsignal(signal.SIGINT) is before and "Interrupted" in capsys.readouterr().err
+    finally:
+        signal.signal(signal.SIGINT, found)
+
+
+def test_ctrl_c_before_the_recorded_cycles_says_so(simulation, capsys, tmp_path):
+    """Authority: docs/promises.md; a run without a step is kept, marked incomplete, and not summed up as if it had
+    some."""
+    simulation.outcome = small_result(complete=0).isel(time=slice(0, 0))
+    assert main(["run", str(DEMO), "--output", "here"]) == 130
+    output = capsys.readouterr()
+    assert "Newton" not in output.out
+    assert "marked incomplete: here/run.nc, none of the run's steps" in output.err
+
+
+@pytest.mark.parametrize("partial", [True, False])
+def test_a_failed_computation_keeps_what_was_done(simulation, capsys, tmp_path, partial):
+    """Authority: docs/promises.md; exit code 3, what was done is kept, marked incomplete."""
+    simulation.outcome = ComputationError("no convergence in step 17")
+    simulation.outcome.partial = small_result(complete=0) if partial else None
+    assert main(["run", str(DEMO), "--output", "here"]) == 3
+    error = capsys.readouterr().err
+    assert "no convergence in step 17" in error
+    assert files(tmp_path) == (["here/run.nc"] if partial else [])
+    assert ("marked incomplete: here/run.nc" in error) == partial

@@ -1,0 +1,138 @@
+"""Elastic shafts and bearings that do not fit, housings from files, and what a scene is told of its shafts."""
+
+import numpy as np
+import pytest
+from tests.elastic_shaft_scenes import CUT, ELASTIC, INERTIA, INPUT, PINION, ROLLING
+from tests.helical import helical_scene
+
+from fenics_gears import SceneError, model_of, scene_from_text
+
+ONE = PINION[: PINION.index("[[bearings.pinion]]", 5)]
+PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        (INPUT.replace("114 mm", "125 mm") + PINION, "shafts.input.gear_at = 125 mm: .* reaches beyond the shaft"),
+        (INPUT + ONE, "bearings.pinion: one bearing holds .* tilts about x and tilts about y: add a second bearing"),
+        (INPUT + PINION.replace('axial_stiffness = "0.1e6 N/mm"', ""), "freely moves along its axis: give one"),
+        (INPUT + PINION.replace("85 mm", "110 mm"), "the bearing at 110 mm, place 2, overlaps the gear"),
+        (INPUT + PINION.replace("85 mm", "131 mm"), "the bearing at 131 mm, place 2, is beyond the shaft"),
+        (
+            INPUT.replace('40 mm"', '4 mm"').replace('90 mm"', '9 mm"') + PINION,
+            "sections: are 13 mm long in all, shorter than the pinion's face of 24 mm",
+        ),
+        (INPUT.replace('"0 mm"', '"131 mm"') + PINION, "shafts.input.torque_at = 131 mm: is beyond"),
+        (INPUT.replace('bore = "8 mm"', 'bore = "28 mm"') + PINION, "the bore of 28 mm at place 1 leaves nothing"),
+        (
+            INPUT.replace('bore = "8 mm"', 'bore = "8 mm", end_diameter = "9 mm"') + PINION,
+            "the cone at place 1 .* divide",
+        ),
+        (INPUT + PINION.replace('radial_stiffness = "0.3e6 N/mm"', ""), "place 1, has no radial_stiffness"),
+        (ELASTIC.replace("[3e5, 1e4, 0", "[3e5, 2e4, 0"), "stiffness_matrix .* is not symmetric: 20000 in row 1"),
+        (ELASTIC.replace("[0, 0, 2e5", "[0, 0, -2e5"), "stiffness_matrix .* is not positive"),
+        (ELASTIC.replace(", [2e5, 0, 0, 0, 1e7]", ""), "is not 5 rows of 5 numbers"),
+        (
+            ELASTIC.replace('at = "20 mm"\n', 'at = "20 mm"\naxial_stiffness = "1 N/mm"\n'),
+            "beside its stiffness_matrix",
+        ),
+        (INPUT + PINION + PLACED, "bearings.places.pinion .* stands beside"),
+        (INPUT + '[bearings]\nstiffness = "1e5 N/mm"\n' + PINION, "bearings.stiffness .* not clear whose"),
+        (INPUT + "[bearings.pinion]\nstiffness = '1e5 N/mm'\n", "bearings.pinion.* is missing: nothing holds"),
+        (PINION, "bearings.pinion.* are bearings of a shaft with sections"),
+        (INPUT.replace('torque_at = "0 mm"', "") + PINION, "shafts.input.torque_at.* is missing"),
+        (
+            INPUT.replace("gear_at", 'torsional_stiffness = "1e8 N mm/rad"\ngear_at') + PINION,
+            "shafts.input.sections .* stands beside torsional_stiffness",
+        ),
+        ('[shafts]\ntorsional_stiffness = "1e8 N mm/rad"\n' + INPUT + PINION, "shafts.torsional_stiffness .* whose"),
+        ('[shafts.input]\ngear_at = "10 mm"\ntorsional_stiffness = "1e8 N mm/rad"', "gear_at .* has no effect"),
+        (INPUT + PINION + "[shafts.output]\n", "shafts.output.torsional_stiffness.* is missing.* or sections"),
+        (
+            INPUT + PINION + "[shafts.output]\ntorsional_stiffness = '1e8 N mm/rad'\ngear_at = '5 mm'",
+            "output.gear_at.* no effect",
+        ),
+        (ELASTIC + INERTIA, "shafts.input.material.density.* is missing: .* nothing tells how dense"),
+        (INPUT.replace("torque_at", 'seat = "loose"\ntorque_at') + PINION, "shafts.input.seat"),
+        (INPUT.replace('"35 mm"', '"50 mm"') + PINION, "the shaft is 50 mm thick under the pinion's face, more than"),
+        (ELASTIC.replace("torque_at", 'seat = "integral"\ntorque_at'), "output.seat .* two materials"),
+        (ELASTIC.replace("torque_at", 'seat = "integral"\ntorque_at'), "bearings.wheel has a stiffness_matrix"),
+        (CUT.replace('torque_at = "0 mm"', 'torque_at = "110 mm"'), "torque_at = 110 mm is within the face"),
+        (ROLLING.replace("number = 9,", ""), "bearings.pinion.* has no rolling.number at place 1"),
+        (ROLLING.replace("number = 9,", "number = 2,"), "pinion = a list.*number = 2 at place 1.*to 500[^:]*$"),
+        (ROLLING.replace("number = 9,", "number = 90,"), "place 1, has 90 balls .* do not fit on a pitch_diameter"),
+        (ROLLING.replace('length = "10 mm"', ""), "place 2, has rollers without length"),
+        (
+            ROLLING.replace("rolling = {", 'radial_stiffness = "1 N/mm"\nrolling = {'),
+            "radial_stiffness beside its rolling",
+        ),
+        (ROLLING.replace("number = 9,", 'number = 9, preload = "10 N",'), "has a preload without contact_angle"),
+        (
+            ROLLING.replace("number = 9,", 'number = 9, preload = "10 N", contact_angle = "15 deg",'),
+            "preloads push the shaft with 10 N along its axis",
+        ),
+        (
+            ROLLING.replace("gear_at", 'material = { density = "7.85 g/cm^3" }\ngear_at') + INERTIA,
+            "bearings.pinion: rolling beside .inertia.: how stiff",
+        ),
+        (ROLLING.replace("torque_at", 'seat = "integral"\ntorque_at'), "has a stiffness_matrix or rolling"),
+    ],
+)
+def test_what_does_not_fit_is_refused_before_any_computation(more, said):
+    """Authority: the issue's list of bad input; each message names what is wrong, and where."""
+    with pytest.raises(SceneError, match=f"(?s){said}"):
+        model_of(helical_scene(more, accuracy=""))
+
+
+HOUSING = INPUT.replace("torque_at", 'housing = "housing.txt"\ntorque_at') + PINION
+SEATS = np.diag(np.tile([3e5, 2e5, 1e5, 1e8, 2e8, 0.0], 2))
+
+
+def written(folder, matrix):
+    """The text of a scene with a housing, whose file is written into a folder."""
+    rows = "\n".join(" ".join(f"{each:.9e}" for each in row) for row in matrix)
+    (folder / "housing.txt").write_text(f"# of an export\n{rows}\n".replace("e+", "D+"))
+    return helical_scene(INPUT + PINION, accuracy="").text.replace(INPUT + PINION, HOUSING)
+
+
+def test_a_housing_from_a_file_is_in_series_with_the_bearings(tmp_path):
+    """Identity: two seats that do not hold each other are springs behind the bearings; the file is found beside the
+    scene."""
+    scene = scene_from_text(written(tmp_path, SEATS), directory=tmp_path)
+    found = model_of(scene).drivetrain.elastic[0]
+    wanted = [0.15e6, 0.12e6, 0.05e6, 0.0, 0.0, 0.4e6 * 0.3 / 0.7, 0.4e6 * 0.2 / 0.6, 0.0, 1e15 / 1.1e8, 2e15 / 2.1e8]
+    assert found.springs == pytest.approx(np.diag(wanted), rel=1e-12)
+    assert scene.shafts.input.housing.digest
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda matrix: matrix[:6, :6], "has 6 rows for 2 bearings; allowed are 12"),
+        (lambda matrix: matrix[:-1], "is not 11 rows of 11 numbers"),
+        (lambda matrix: matrix + np.eye(12, k=3) * 1e4, "is not symmetric: 10000 in row"),
+        (lambda matrix: matrix - 2.0 * np.diag([0, 0, 1e5, *np.zeros(9)]), "is not positive"),
+        (lambda matrix: matrix[:0], "has no numbers"),
+    ],
+)
+def test_a_housing_that_is_none_is_refused(tmp_path, change, said):
+    """Authority: the issue: symmetric, positive, and of the seats that there are."""
+    text = written(tmp_path, change(SEATS))
+    with pytest.raises(SceneError, match=f"shafts.input.housing.*{said}"):
+        model_of(scene_from_text(text, directory=tmp_path))
+    with pytest.raises(SceneError, match="shafts.input.housing.*there is no such file"):
+        model_of(scene_from_text(text, directory=tmp_path / "elsewhere"))
+
+
+def test_a_shaft_that_is_not_as_thick_as_the_bore_is_told():
+    """The issue's sanity: a shaft of 3 mm under a bore of 22.4 mm is said before the run; one that fits is not, nor one
+    that the teeth are cut into."""
+
+    def said(more):
+        return [each for each in model_of(helical_scene(more, accuracy="")).warnings if "face, whose bore" in each]
+
+    thin = INPUT.replace('"35 mm"', '"3 mm"') + PINION
+    assert "is 3 mm thick under the pinion's face, whose bore is 22.3" in said(thin)[0]
+    fits = INPUT.replace('"35 mm"', f'"{float(0.4 * 54.0 / np.cos(np.radians(15.0)))!r} mm"') + PINION
+    assert not said(fits) and not said(CUT)

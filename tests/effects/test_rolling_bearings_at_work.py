@@ -1,0 +1,36 @@
+"""Rolling bearings of shafts that bend, in a whole run on bodies without finite elements."""
+
+import numpy as np
+from tests.elastic_shaft_scenes import FEW, OUTPUT, ROLLING, WHEEL
+from tests.hard_cases.invariants import cycle_of
+from tests.helical import helical_scene, on_stand_in_bodies
+
+from fenics_gears import model_of
+from fenics_gears.dynamics.march import Marcher
+from fenics_gears.dynamics.rolling_bearing import reaction
+from fenics_gears.results.dataset import RunResult
+from fenics_gears.results.recorder import Recorder
+from fenics_gears.simulation.bearings_at_work import mean_loads, with_bearings_at_work
+
+
+def test_rolling_bearings_carry_by_their_law_in_the_run():
+    """Authority: the bearings' own law at the motions of the shaft in the run, on the average; the run knows linear
+    springs alone, which it repeats until they agree."""
+    model = model_of(helical_scene(ROLLING + OUTPUT + WHEEL, offset=2.0, accuracy=FEW))
+    bodies = on_stand_in_bodies(model)
+    shaft = model.drivetrain.elastic[0]
+
+    def marched(model, stage=""):
+        recorder = Recorder(model, cycle_of(model, bodies))
+        return recorder, Marcher(recorder.cycle, model.equations_of_motion).run(model.steps, 1, observe=recorder.take)
+
+    recorder, march = with_bearings_at_work(model, marched)
+    model, result = recorder.model, RunResult(recorder, march).dataset
+    assert result.attrs["largest_rolling_element_force"] > 0.0
+    working = model.drivetrain.elastic[0]
+    gear = np.linalg.solve(working.stiffness, mean_loads(model, recorder)[0])
+    for number, motion in enumerate((working.at_bearings @ gear).reshape(2, 5)):
+        law = reaction(shaft.bearings[number].rolling, motion).loads
+        for axis, load in zip("xyz", law):
+            found = result[f"bearing_force_{axis}"].values[1:, number].mean()
+            assert abs(found - load) <= 2e-4 * np.abs(law[:3]).max()

@@ -1,0 +1,68 @@
+"""Scenes of gears on elastic shafts, coarse over the face."""
+
+FEW = "slices = 5\ncontact_nodes = 9\nsteps_per_mesh_cycle = 8"
+INPUT = """
+[shafts.input]
+sections = [{ length = "40 mm", diameter = "28 mm", bore = "8 mm" }, { length = "90 mm", diameter = "35 mm" }]
+gear_at = "114 mm"
+torque_at = "0 mm"
+"""
+PINION = """
+[[bearings.pinion]]
+at = "12 mm"
+radial_stiffness = "0.3e6 N/mm"
+axial_stiffness = "0.1e6 N/mm"
+[[bearings.pinion]]
+at = "85 mm"
+radial_stiffness = "0.4e6 N/mm"
+tilting_stiffness = "1e7 N mm/rad"
+"""
+OUTPUT = """
+[shafts.output]
+sections = [{ length = "150 mm", diameter = "40 mm" }]
+gear_at = "60 mm"
+torque_at = "150 mm"
+material = "ductile cast iron"
+"""
+ROWS = "[[3e5, 1e4, 0, 0, 2e5], [1e4, 3e5, 0, 1e5, 0], [0, 0, 2e5, 0, 0], [0, 1e5, 0, 1e7, 0], [2e5, 0, 0, 0, 1e7]]"
+WHEEL = f"""
+[[bearings.wheel]]
+at = "20 mm"
+stiffness_matrix = {ROWS}
+[[bearings.wheel]]
+at = "110 mm"
+radial_stiffness = "0.4e6 N/mm"
+"""
+ELASTIC = INPUT + PINION + OUTPUT + WHEEL
+# Teeth cut into both shafts, on bearings that are alike in all directions.
+CUT = (
+    (INPUT + PINION + OUTPUT + WHEEL)
+    .replace("torque_at", 'seat = "integral"\ntorque_at')
+    .replace(f"stiffness_matrix = {ROWS}", 'radial_stiffness = "0.3e6 N/mm"\naxial_stiffness = "0.2e6 N/mm"')
+    .replace('material = "ductile cast iron"\n', "")
+)
+INERTIA = '[inertia]\nmass = "2 kg"\nmoment_of_inertia = "0.002 kg m^2"\n'
+# The same shafts with a density, and what vibrates.
+VIBRATING = (
+    ELASTIC.replace('torque_at = "0 mm"', 'torque_at = "0 mm"\nmaterial = { density = "7.85 g/cm^3" }').replace(
+        '"ductile cast iron"', '{ name = "ductile cast iron", density = "7.2 g/cm^3" }'
+    )
+    + INERTIA
+)
+ROLLING = (
+    INPUT
+    + """
+[[bearings.pinion]]
+at = "12 mm"
+rolling = { number = 9, diameter = "12.7 mm", pitch_diameter = "65 mm", clearance = "15 um" }
+[[bearings.pinion]]
+at = "85 mm"
+[bearings.pinion.rolling]
+elements = "rollers"
+number = 14
+diameter = "9 mm"
+length = "10 mm"
+pitch_diameter = "65 mm"
+clearance = "20 um"
+"""
+)
