@@ -10,7 +10,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from fenics_gears.dynamics.rolling_bearing import MOTIONS, reaction, secant_stiffness
-from fenics_gears.dynamics.tilting import contact_normal, moved
+from fenics_gears.dynamics.tilting import coast_normal, contact_normal, moved
 from fenics_gears.errors import SceneError
 
 if TYPE_CHECKING:
@@ -26,9 +26,11 @@ ARM, YIELDING, NEAR, LEFT, POLISHED = 30.0, 1e-9, 1e-6, 1e-11, 30
 
 def even_load(shaft: ElasticShaft, pair: GearPair, torque: float) -> np.ndarray:
     """Load (5,) of the gear on its shaft under a torque (N mm) on the wheel, spread evenly over the common face, at the
-    pitch point and without friction."""
+    pitch point and without friction, on coast flanks if that is negative."""
     names = (*shaft.coordinates, "rotation_2")
-    row = moved(pair, names, (pair.pitch_point, 0.0), contact_normal(pair))
+    # Both lines of action pass through the pitch point.
+    normal = coast_normal(pair) if torque < 0.0 else contact_normal(pair)
+    row = moved(pair, names, (pair.pitch_point, 0.0), normal)
     # Tilts are arc lengths there.
     scale = np.array([1.0, 1.0, 1.0, *[getattr(pair, shaft.gear).base_radius] * 2])
     return -abs(torque / pair.wheel.base_radius / row[-1]) * row[:-1] * scale

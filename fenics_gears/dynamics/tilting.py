@@ -95,6 +95,12 @@ def contact_normal(pair: GearPair) -> np.ndarray:
     return pair.cosine * np.array([1.0, 0.0, -pair.slope])
 
 
+def coast_normal(pair: GearPair) -> np.ndarray:
+    """The same (3,) of touching coast flanks: mirrored at the line of centres, as the pinion approaches along it."""
+    double = 2.0 * pair.operating_pressure_angle
+    return pair.cosine * np.array([-np.cos(double), -np.sin(double), pair.slope])
+
+
 def moved(pair: GearPair, names: tuple[str, ...], place: tuple[float, float], direction: np.ndarray) -> np.ndarray:
     """Relative displacement (k,) along a direction (3,), per coordinate, of flanks that touch at a place (mm): on the
     path of contact, and the height.

@@ -7,6 +7,7 @@ from itertools import groupby
 from tests.benchmarks.third_dimension import resolved
 from tests.benchmarks.third_dimension.__main__ import main as third_dimension
 from tests.benchmarks.third_dimension.table import read_rows
+from tests.elasticity.face import test_web_on_shaft as web_on_shaft
 from tests.evidence.claim import RESOLVED, Claim, Numbers, Part, within
 from tests.face_reference.reference import OPENINGS
 
@@ -59,4 +60,25 @@ def measured(_: str) -> Numbers:
     return kept()
 
 
-PARTS = [Part("resolved", RESOLVED, "third_dimension.md#fully-resolved-models", _claims(), measured, kept, minutes=0.5)]
+def on_shaft(_: str) -> Numbers:
+    """Of a wheel with web on a steel shaft: inclination (µrad) of the overhung one, offset (µm) of the other."""
+    scales = {"overhung": ("inclination", 1e6), "between bearings": ("offset", 1e3)}
+    found = {}
+    for name, (quantity, unit) in scales.items():
+        rigid = web_on_shaft.axis(name, web_on_shaft.PLAIN, web_on_shaft.FACE)
+        each = unit * 1e3 / web_on_shaft.FORCE / 206e3
+        found[name] = each * web_on_shaft.by_solid(name)[quantity], each * rigid[quantity]
+    return found
+
+
+SOLID = "one solid of shaft, hub and web, by harmonics"
+ON_SHAFT = {
+    "overhung": Claim("inclination of the axis of an overhung wheel with web", SOLID, "µrad/kN", within(0.02),
+                      "a seat rigid over the face"),
+    "between bearings": Claim("offset of the axis of a wheel with web between bearings", SOLID, "µm/kN", within(0.02),
+                              "the shaft bends under the hub, the rigid seat does not"),
+}  # fmt: skip
+PARTS = [
+    Part("resolved", RESOLVED, "third_dimension.md#fully-resolved-models", _claims(), measured, kept, minutes=0.5),
+    Part("web_on_shaft", RESOLVED, "third_dimension.md#a-wheel-on-its-shaft", ON_SHAFT, on_shaft),
+]

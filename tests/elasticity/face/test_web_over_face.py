@@ -5,28 +5,18 @@ from math import pi
 
 import numpy as np
 import pytest
-import ufl
-from scipy.sparse.linalg import spsolve
 from tests.coarse_sector import PINION, STEEL
+from tests.elasticity.face.body_of_revolution import BORE, OUTER, POISSON, SECTORS, Meridian, Part, motion, simpson
 
-from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.compliance import Reach
-from fenics_gears.elasticity.condensation import by_radius
 from fenics_gears.elasticity.face.compliance import face_compliance
-from fenics_gears.elasticity.face.condensed import condensed_swept_sector
 from fenics_gears.elasticity.face.cost import expected_size
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-from fenics_gears.elasticity.face.half_turn import ring_blocks
 from fenics_gears.elasticity.face.layers import Sweep, SweptWeb, layers_of_face, layers_with_web
-from fenics_gears.elasticity.face.web import _cells
-from fenics_gears.elasticity.face.whole_sector import condensed_whole_sector
-from fenics_gears.elasticity.mesh_data import BodyMesh, oriented
-from fenics_gears.elasticity.ring import ring_compliance
 from fenics_gears.elasticity.slice_averages import slice_averages
-from fenics_gears.elasticity.stiffness import assembled
 from fenics_gears.geometry.gear_data import Web
 
-WIDTH, POISSON, BOTH = 12.0, 0.3, Reach(1, (-1, 1))
+WIDTH, BOTH = 12.0, Reach(1, (-1, 1))
 WEB = Web(18.0, 25.0, 0.4)
 
 
@@ -98,47 +88,6 @@ def test_layers_end_at_the_sides_of_a_web():
     found = layers_with_web(layers_of_face(10, 30.0), -1.1, 3.1)
     assert {-1.1, 3.1, -15.0, 15.0} <= set(found) and 3.0 not in found and 0.0 in found
     assert layers_with_web(layers_of_face(3, 30.0), 1.0, 2.0).tolist() == [-15.0, -5.0, 1.0, 1.5, 2.0, 5.0, 15.0]
-
-
-# A body of revolution: sectors without teeth, loaded on a line of their outer circle. Young's modulus 1 MPa.
-SECTORS, ARCS, BORE, OUTER = 24, 6, 20.0, 60.0
-
-
-def ring_sector(rim):
-    """A sector whose centreline stands upright, with its radii from bore to `rim` and to the outer circle; "flank": a
-    part of the latter."""
-    radii = np.concatenate([np.linspace(BORE, rim, 17), np.linspace(rim, OUTER, 4)[1:]])
-    angles = 0.5 * pi + pi / SECTORS * np.linspace(-1.0, 1.0, ARCS + 1)
-    points = (radii[:, None, None] * np.stack([np.cos(angles), np.sin(angles)], axis=-1)).reshape(-1, 2)
-    grid = np.arange(len(points)).reshape(len(radii), -1)
-    lines = {"hub": grid[0], "lower cut": grid[:, 0], "upper cut": grid[:, -1], "flank": grid[-1, ARCS // 2 + 1 :][:2]}
-    edges = {name: np.column_stack([line[:-1], line[1:]]) for name, line in lines.items()}
-    return BodyMesh(points, oriented(points, _cells(grid)), edges)
-
-
-def motion(rim, width, thickness, order, direction, offset=0.0):
-    """Heights (h,), and what the outer circle moves there (h, 3), radially, around and along the axis, under forces
-    cos(order theta) in a `direction` (3,), of 1 N in every sector and even over the face. A rim of a `width` is on a
-    web of a `thickness` (mm) that is held at the bore."""
-    mesh = ring_sector(rim)
-    web = SweptWeb(0.5 * BORE, rim, offset - 0.5 * thickness, offset + 0.5 * thickness)
-    sweep = Sweep(layers_with_web(layers_of_face(4, width), web.low, web.high), 0.0, web)
-    if sweep.alike:
-        blocks = ring_blocks(condensed_swept_sector(mesh, sweep, POISSON, 0.5 * pi, SECTORS), SECTORS, SECTORS // 2)
-    else:
-        blocks = ring_compliance(condensed_whole_sector(mesh, sweep, POISSON), SECTORS, SECTORS // 2)
-    x, y = (place := by_radius(mesh.edge_nodes("flank", 2)).mean(axis=0)) / np.linalg.norm(place)
-    around = np.array([[x, -y, 0.0], [y, x, 0.0], [0.0, 0.0, 1.0]])
-    heights = sweep.heights
-    over_face = slice_averages(heights, 2, np.zeros(1), np.array([width]))[0]
-    # The flank's three nodes alike.
-    force = np.kron(over_face, np.tile(around @ direction / 3.0, 3))
-    ahead = [block @ force for block in blocks]
-    behind = [block.T @ force for block in blocks]
-    total = ahead[0] + ahead[-1] * (-1.0) ** order
-    for sectors in range(1, SECTORS // 2):
-        total = total + np.cos(2.0 * pi * order * sectors / SECTORS) * (ahead[sectors] + behind[sectors])
-    return heights, total.reshape(len(heights), 3, 3).mean(axis=1) @ around
 
 
 def moved(rim, width, thickness, order, radial, offset=0.0):
@@ -242,43 +191,13 @@ def test_a_ring_that_is_free_and_one_on_a_web_that_becomes_oval(thickness):
 
 def resolved(rim, width, thickness, order, offset, size=0.5):
     """Heights (k,), and radial displacement (k,) of the outer circle as `motion` has it under radial forces, by an
-    assembly of its own: the body's meridian section in squares of second order of a `size` (mm), with u_r = u cos(n
-    theta), u_t = v sin(n theta), u_z = w cos(n theta)."""
-    radii, heights = np.arange(BORE, OUTER + 0.5 * size, size), np.arange(-0.5 * width, 0.5 * width + 0.5 * size, size)
-    points = np.stack(np.meshgrid(radii, heights, indexing="ij"), axis=-1).reshape(-1, 2)
-    grid = np.arange(len(points)).reshape(len(radii), -1)
-    cells = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=-1).reshape(-1, 4)
-    r, z = points[cells].mean(axis=1).T
-    cells = cells[(r > rim) | (abs(z - offset) < 0.5 * thickness)]
-    used = np.unique(cells)
-    space = adapter.vector_space(adapter.create_mesh(points[used], np.searchsorted(used, cells)), 2, components=3)
-    radius, lame, shear = (
-        ufl.SpatialCoordinate(space.mesh)[0],
-        POISSON / ((1.0 + POISSON) * (1.0 - 2.0 * POISSON)),
-        0.5 / (1.0 + POISSON),
-    )
-
-    def strains(u):
-        own = [u[0].dx(0), (u[0] + order * u[1]) / radius, u[2].dx(1)]
-        across = [u[1].dx(0) - (order * u[0] + u[1]) / radius, u[1].dx(1) - order * u[2] / radius]
-        return own, [*across, u[0].dx(1) + u[2].dx(0)]
-
-    (of_u, across_u), (of_v, across_v) = strains(ufl.TrialFunction(space)), strains(ufl.TestFunction(space))
-    energy = lame * sum(of_u) * sum(of_v) + shear * sum(2.0 * a * b for a, b in zip(of_u, of_v))
-    energy += shear * sum(a * b for a, b in zip(across_u, across_v))
-    stiffness = assembled(adapter.assemble_matrix(adapter.compile_form(pi * energy * radius * ufl.dx)))
-    nodes = adapter.node_coordinates(space)[:, :2]
-    free = np.repeat(nodes[:, 0] > BORE + 1e-9, 3)
-    outer = np.flatnonzero(nodes[:, 0] > OUTER - 1e-9)
-    outer = outer[np.argsort(nodes[outer, 1])]
-    load = np.zeros(3 * len(nodes))
-    # Simpson's rule; half the sectors' forces, since the mean of cos^2 is 1/2.
-    simpson = np.tile([2.0, 4.0], len(outer))[: len(outer)]
-    simpson[[0, -1]] = 1.0
-    load[3 * outer] = 0.5 * SECTORS * simpson / simpson.sum()
-    found = np.zeros(len(load))
-    found[free] = spsolve(stiffness[free][:, free].tocsc(), load[free])
-    return nodes[outer, 1], found[3 * outer]
+    assembly of its own."""
+    web = Part(BORE, rim, offset - 0.5 * thickness, offset + 0.5 * thickness)
+    body = Meridian([web, Part(rim, OUTER, -0.5 * width, 0.5 * width)], order, size)
+    # Half the sectors' forces, since the mean of cos^2 is 1/2.
+    found = body.solved(0.5 * SECTORS * body.even_over(OUTER, 0), body.nodes[:, 0] < BORE + 1e-9)
+    outer = body.at_radius(OUTER)
+    return body.nodes[outer, 1], found[3 * outer]
 
 
 @pytest.mark.nightly
@@ -294,9 +213,7 @@ def test_a_rim_on_a_web_against_a_resolved_model(offset):
             motion(rim, width, thickness, order, radial, offset),
         )
         over_face = slice_averages(swept[0], 2, np.zeros(1), np.array([width]))[0]
-        simpson = np.tile([2.0, 4.0], len(fine[0]))[: len(fine[0])]
-        simpson[[0, -1]] = 1.0
-        means.append((simpson @ fine[1] / simpson.sum(), over_face @ swept[1][:, 0]))
+        means.append((simpson(len(fine[0])) @ fine[1], over_face @ swept[1][:, 0]))
         # By least squares, to all heights.
         tilts.append([np.polyfit(*each, 1)[0] for each in (fine, (swept[0], swept[1][:, 0]))])
     (one, own_one), (two, own_two), (four, own_four) = means
