@@ -25,7 +25,6 @@ from fenics_gears.studies.accuracy.convergence import (
     SAFETY_OF_FACE_MESH,
     SAFETY_OF_SLICES,
     SAFETY_OF_TWO,
-    SAFETY_WHERE_RESOLVED,
     errors_of_two,
 )
 from fenics_gears.studies.accuracy.measures import Answer, judged_answer
@@ -41,9 +40,6 @@ FEWEST_LAYERS, ROUNDING = 2, 1e-9
 # of the cost, and what they leave is in the error of the slices, with which they are halved.
 COARSER_LAYERS = 2.0 / 3.0
 COARSER = 2
-# Errors are of order 2 from this mesh of the plane's on, and from so many steps on where vibrations are what they
-# resolve. Without inertia what steps err by is confined to the reversal of friction, and has no order.
-RESOLVED_MESH, RESOLVED_STEPS = 1.2, 80
 # Gears kept in memory: pinion and wheel of two meshes.
 KEPT_GEARS = 4
 # Factor by which the contact window is lengthened where contact reaches its end, and how often.
@@ -120,12 +116,11 @@ class TrialRuns:
         self._with_window_long_enough(sizes)
         coarser = replace(sizes, mesh=COARSER * sizes.mesh)
         # The mesh's error is measured where runs are short, beside fewer steps and slices.
-        of_mesh = SAFETY_OF_FACE_MESH if self.slices else _safety(sizes.mesh <= RESOLVED_MESH)
+        of_mesh = SAFETY_OF_FACE_MESH if self.slices else SAFETY_OF_TWO
         short, errors = sizes, dict[str, np.ndarray]()
         if self.steps_matter:
             short = replace(short, steps=sizes.steps // COARSER)
-            vibrations = self._whole.inertia is not None and not self.slices
-            errors[STEPS] = self._error(sizes, short, _safety(vibrations and short.steps >= RESOLVED_STEPS))
+            errors[STEPS] = self._error(sizes, short)
         if self.slices:
             fewer = replace(short, slices=short.slices // COARSER)
             errors[SLICES] = self._error(short, fewer, SAFETY_OF_SLICES)
@@ -196,8 +191,3 @@ class TrialRuns:
             raise ComputationError(
                 f"while accuracy.target was choosing settings, the run with {setting.words} failed: {error}"
             ) from error
-
-
-def _safety(resolved: bool) -> float:
-    """Of two runs of the plane: less where the coarser one resolves what it is about."""
-    return SAFETY_WHERE_RESOLVED if resolved else SAFETY_OF_TWO
