@@ -76,8 +76,8 @@ def pairs(paper: Scene) -> dict[str, Scene]:
 
 
 def held_out(paper: Scene, seed: int) -> dict[str, Scene]:
-    """Twelve random pairs of another seed, by which no factor was chosen."""
-    return random_pairs(replace(paper, accuracy=Accuracy(), motion=Motion(200.0, SETTLING, 1)), 12, seed)
+    """Random pairs of another seed, by which no factor was chosen."""
+    return random_pairs(replace(paper, accuracy=Accuracy(), motion=Motion(200.0, SETTLING, 1)), 26, seed)
 
 
 def random_pairs(dynamic: Scene, count: int, seed: int = 2026) -> dict[str, Scene]:
