@@ -38,6 +38,11 @@ class ElementNodes:
     order: int
 
     @property
+    def middles(self) -> np.ndarray:
+        """Means (m, 2) of the cells' corners."""
+        return self.points[self.cells[:, : self.corners]].mean(axis=1)
+
+    @property
     def subcells(self) -> np.ndarray:
         """First-order cells (j, 3) or (j, 4) over all nodes."""
         return np.vstack([self.cells[:, part] for part in SUBCELLS[self.corners, self.order]])

@@ -9,6 +9,7 @@ linear and taken at the nodes. The geometry of swept elements is that of `face.s
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from scipy import sparse
@@ -32,18 +33,27 @@ class NodalStress:
     displacements in the mesh's unit of length.
 
     weight: (n,), areas of the elements that meet at the section's nodes. On a sector's cut some of its elements are in
-    the neighbouring sector, whose stress counts by its own weight.
+    the neighbouring sector, whose stress counts by its own weight. Beside a web the section is rim and hub alone; where
+    there is no material stress is zero.
     """
 
     def __init__(self, nodes: ElementNodes, poissons_ratio: float, sweep: Sweep | None = None):
         self.nodes, self.sweep = nodes, sweep
         self.components, self._heights = (2, 1) if sweep is None else (3, len(sweep.heights))
-        self._slopes, self.weight = _averaged_slopes(nodes)
+        whole, self.weight = _averaged_slopes(nodes)
+        # Of layers in a web, or of all of a body without one, and of those beside.
+        self._slopes, self._there = {True: whole}, {True: np.ones(len(nodes.points))}
+        if sweep is not None and sweep.web is not None:
+            beside = replace(nodes, cells=nodes.cells[sweep.web.beside(nodes.middles)])
+            self._slopes[False], area = _averaged_slopes(beside)
+            self._there[False] = (area > 0.0).astype(float)
         self._shear = 0.5 / (1.0 + poissons_ratio)
         self._lame = poissons_ratio / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))
         self._layers = [*self._gradients()]
-        # Between two layers their mean counts.
-        self._layers_at = np.bincount(np.concatenate([[*heights] for heights, _ in self._layers]))
+        # Between two layers their mean counts: how many meet at a node (h, n).
+        self._layers_at = np.zeros((self._heights, len(nodes.points)))
+        for within, (heights, _) in zip([True] if sweep is None else sweep.in_web.tolist(), self._layers):
+            self._layers_at[heights.start : heights.stop] += self._there[within]
 
     def at_nodes(self, displacement: np.ndarray) -> np.ndarray:
         """Stress (h, n, 3, 3) from displacement (h, n, 2) or (h, n, 3), both in the section's frame at each height."""
@@ -52,7 +62,7 @@ class NodalStress:
             moved = displacement[heights.start : heights.stop].ravel()
             for height, gradient in zip(heights, gradients):
                 total[height] += self._stress((gradient @ moved).reshape(-1, 3, 3))
-        return total / self._layers_at[:, None, None, None]
+        return total / np.maximum(self._layers_at, 1.0)[:, :, None, None]
 
     def rows(
         self, nodes: np.ndarray, weights: np.ndarray, directions: np.ndarray, averages: np.ndarray
@@ -68,6 +78,8 @@ class NodalStress:
         between = sparse.csr_matrix((weights[:, :, None] * normal.reshape(-1, 1, 9)).reshape(len(weights), -1))
         chosen, of_height = dofs_of(nodes, 9), self.components * len(self.nodes.points)
         found = sparse.csr_matrix((len(averages) * len(weights), of_height * self._heights))
+        # The same at all these nodes, none of which is of a web.
+        meeting = self._layers_at[:, nodes].max(axis=1)
         for heights, gradients in self._layers:
             for height, gradient in zip(heights, gradients):
                 own = between @ gradient[chosen]
@@ -75,7 +87,7 @@ class NodalStress:
                 placed = sparse.csr_matrix(
                     (own.data, own.indices + of_height * heights.start, own.indptr), (len(weights), found.shape[1])
                 )
-                found = found + sparse.kron(averages[:, [height]] / self._layers_at[height], placed, format="csr")
+                found = found + sparse.kron(averages[:, [height]] / meeting[height], placed, format="csr")
         return found
 
     def _stress(self, gradient: np.ndarray) -> np.ndarray:
@@ -87,26 +99,27 @@ class NodalStress:
         """Heights of each layer, and for each of them the displacement's gradient (9 n, dofs of the layer) in the
         section's frame at that height."""
         if self.sweep is None:
-            yield range(1), [_along_section(self._slopes, np.eye(3)[:2], components=2)]
+            yield range(1), [_along_section(self._slopes[True], np.eye(3)[:2], components=2)]
             return
-        known: dict[float, list[sparse.csr_matrix]] = {}
-        for layer, thickness in enumerate(self.sweep.thicknesses.tolist()):
-            if thickness not in known:
-                known[thickness] = [*self._of_layer(thickness)]
-            yield range(2 * layer, 2 * layer + 3), known[thickness]
+        known: dict[tuple[float, bool], list[sparse.csr_matrix]] = {}
+        for layer, kind in enumerate(zip(self.sweep.thicknesses.tolist(), self.sweep.in_web.tolist())):
+            if kind not in known:
+                known[kind] = [*self._of_layer(*kind)]
+            yield range(2 * layer, 2 * layer + 3), known[kind]
 
-    def _of_layer(self, thickness: float) -> Iterator[sparse.csr_matrix]:
+    def _of_layer(self, thickness: float, within: bool) -> Iterator[sparse.csr_matrix]:
         """The gradient at a layer's three heights, from `face.swept_stiffness`: taken in the frame of its middle."""
+        slopes, there = self._slopes[within], sparse.diags(self._there[within])
         points, angles = self.nodes.points, 0.5 * self.sweep.twist * thickness * np.array([-1.0, 0.0, 1.0])
         frames, turns, axial = [rotation(angle, 3) for angle in angles], np.exp(1j * angles), np.eye(3)[2:]
         for place, frame in enumerate(frames):
             change = shapes(place - 1.0)[1] / (0.5 * thickness)
             swept = points @ _as_matrix(change @ turns / turns[place]).T
-            of_height = [slope * _along_section([sparse.eye(len(points))], axial) for slope in change]
+            of_height = [slope * _along_section([there], axial) for slope in change]
             of_height[place] = (
                 of_height[place]
-                + _along_section(self._slopes, np.pad(_as_matrix(1.0 / turns[place]), ((0, 0), (0, 1))))
-                - sum(_along_section([sparse.diags(swept[:, b]) @ self._slopes[b]], axial) for b in (0, 1))
+                + _along_section(slopes, np.pad(_as_matrix(1.0 / turns[place]), ((0, 0), (0, 1))))
+                - sum(_along_section([sparse.diags(swept[:, b]) @ slopes[b]], axial) for b in (0, 1))
             )
             back = sparse.kron(sparse.eye(len(points)), np.kron(frame.T, frame.T), format="csr")
             to_middle = [sparse.kron(sparse.eye(len(points)), each, format="csr") for each in frames]

@@ -105,28 +105,42 @@ def fitted(view: View, width: float, height: float) -> View:
 
 def surface(points: np.ndarray, gear: GearInSpace) -> np.ndarray:
     """Triangles (k, 3) of the surface of sectors whose nodes are points (s, h, n, 3): sides swept over the heights, and
-    both end faces."""
+    end faces, those of a web too."""
     sectors, heights, nodes = points.shape[:3]
-    near, far = gear.outline[:, 0], gear.outline[:, 1]
-    quads = np.concatenate(
-        [
-            np.vstack([np.column_stack([near, far, far + nodes]), np.column_stack([near, far + nodes, near + nodes])])
-            + nodes * low
-            for low in range(heights - 1)
-        ]
-    )
+    parts = []
     # Seen from outside, all are counter-clockwise.
-    subcells = gear.section.subcells
-    ends = np.vstack([subcells[:, ::-1], subcells + nodes * (heights - 1)])
-    one = np.vstack([quads, ends])
+    for low in range(heights - 1):
+        near, far = gear.of_layer(low // 2)[1].T
+        quads = [np.column_stack([near, far, far + nodes]), np.column_stack([near, far + nodes, near + nodes])]
+        parts += [quad + nodes * low for quad in quads]
+    for height in range(0, heights, 2):
+        below, above = (_cells_of(gear, layer) for layer in (height // 2 - 1, height // 2))
+        for own, other, turn in ((above, below, -1), (below, above, 1)):
+            ends = replace(gear.section, cells=gear.section.cells[own & ~other]).subcells
+            parts.append(ends[:, ::turn] + nodes * height)
+    one = np.vstack(parts)
     return (one[None] + heights * nodes * np.arange(sectors)[:, None, None]).reshape(-1, 3)
+
+
+def _cells_of(gear: GearInSpace, layer: int) -> np.ndarray:
+    """Which of the section's cells (m,) a layer has; none beyond the face."""
+    cells = gear.section.cells
+    if not 0 <= layer < len(gear.in_web):
+        return np.zeros(len(cells), dtype=bool)
+    return np.isin(cells, gear.of_layer(layer)[0].cells).all(axis=1)
 
 
 def wedges(gear: GearInSpace) -> np.ndarray:
     """Cells (k, 18) of VTK's wedge of second order over all nodes, by sector and layer."""
     sectors, heights, nodes = gear.points.shape[:3]
-    one = np.column_stack([nodes * height + gear.section.cells[:, node] for height, node in WEDGE_NODES])
-    layers = np.concatenate([one + 2 * nodes * layer for layer in range(heights // 2)])
+    layers = np.concatenate(
+        [
+            np.column_stack(
+                [nodes * (2 * layer + height) + gear.of_layer(layer)[0].cells[:, node] for height, node in WEDGE_NODES]
+            )
+            for layer in range(heights // 2)
+        ]
+    )
     return (layers[None] + heights * nodes * np.arange(sectors)[:, None, None]).reshape(-1, 18)
 
 

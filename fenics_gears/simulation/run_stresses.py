@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
@@ -14,6 +14,7 @@ from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.elasticity.element_nodes import ElementNodes
 from fenics_gears.elasticity.recovery import GearRecovery, gear_recovery
 from fenics_gears.elasticity.ring import rotation
+from fenics_gears.elasticity.sector import Sector
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import tooth_outline
@@ -39,11 +40,12 @@ class GearInSpace:
     at the origin, z along the axes from the middle of the common face.
 
     sectors: numbers of those recovered. Nodes by sector, height and the section's node; in the plane there is one
-    height. points (s, h, n, 3), mm, without load. elastic: of the same shape, mm, displacement from where the hub is
-    held. stress (s, h, n, 3, 3), MPa. others: points (t, h, n, 3) of all other sectors. centre: (2,), mm. motion: of
-    the hub from its nominal one, mm, mm, rad. section: nodes and cells of a sector's section; outline: (k, 2) sides of
-    its boundary, of first order, without those on the cuts. in_root, on_flank: (n,), whether a node lies in a fillet or
-    below, and whether it is on the involute that carries.
+    height. in_web: (layers,), whether a layer over the face has the whole section; beside: what the others have, rim
+    and hub, and the sides of its boundary. points (s, h, n, 3), mm, without load. elastic: of the same shape, mm,
+    displacement from where the hub is held. stress (s, h, n, 3, 3), MPa. others: points (t, h, n, 3) of all other
+    sectors. centre: (2,), mm. motion: of the hub from its nominal one, mm, mm, rad. section: nodes and cells of a
+    sector's section; outline: (k, 2) sides of its boundary, of first order, without those on the cuts. in_root,
+    on_flank: (n,), whether a node lies in a fillet or below, and whether it is on the involute that carries.
     """
 
     sectors: tuple[int, ...]
@@ -57,6 +59,12 @@ class GearInSpace:
     outline: np.ndarray
     in_root: np.ndarray
     on_flank: np.ndarray
+    in_web: np.ndarray
+    beside: tuple[ElementNodes, np.ndarray] | None = None
+
+    def of_layer(self, layer: int) -> tuple[ElementNodes, np.ndarray]:
+        """The section of a layer over the face, and the sides of its boundary."""
+        return (self.section, self.outline) if self.in_web[layer] else self.beside
 
     @property
     def von_mises(self) -> np.ndarray:
@@ -161,6 +169,8 @@ class RunStresses:
         moved = np.pad(found.displacement, [(0, 0)] * 3 + [(0, 3 - found.displacement.shape[-1])])
         section, radius = recovery.sector.section, np.linalg.norm(recovery.points, axis=1)
         outline = outer_sides(section, recovery.sector.mesh)
+        in_web, beside = layers_of(recovery.sector)
+        inner = data.bore_radius if data.web is None else data.web.rim_radius
         return GearInSpace(
             sectors=found.sectors,
             points=places[own],
@@ -171,8 +181,10 @@ class RunStresses:
             motion=motion,
             section=section,
             outline=outline,
-            in_root=(radius < data.form_radius) & (radius > 0.5 * (data.bore_radius + data.root_radius)),
+            in_root=(radius < data.form_radius) & (radius > 0.5 * (inner + data.root_radius)),
             on_flank=_on_flank(data, recovery.points, outline, stored.on_coast_flanks),
+            in_web=in_web,
+            beside=beside,
         )
 
     def _sectors(self, gear: Gear, forces: dict[int, np.ndarray]) -> range:
@@ -208,13 +220,6 @@ class RunStresses:
             raise SceneError(
                 "stresses are recovered from gears of equal sectors; this run has gears meshed as a whole"
                 " ([body_meshes])."
-            )
-        if self.model.scene.three_dimensional and any(
-            gear.web is not None for gear in (self.model.pair.pinion, self.model.pair.wheel)
-        ):
-            raise SceneError(
-                "stresses over the face are recovered from bodies without a web; this run has one (gears.pinion.web or"
-                " gears.wheel.web). A scene without it has stresses."
             )
         if self.model.resolution.condensation != ONCE:
             raise SceneError(
@@ -252,6 +257,15 @@ def hub_motion(result: xr.Dataset, index: int) -> np.ndarray:
         if name in result:
             motion[:, place] = result[name].values[index]
     return motion
+
+
+def layers_of(sector: Sector) -> tuple[np.ndarray, tuple[ElementNodes, np.ndarray] | None]:
+    """`in_web` and `beside` of a `GearInSpace`."""
+    sweep, section = sector.sweep, sector.section
+    if sweep is None or sweep.web is None:
+        return np.ones(0 if sweep is None else len(sweep.thicknesses), dtype=bool), None
+    part = replace(section, cells=section.cells[sweep.web.beside(section.middles)])
+    return sweep.in_web, (part, outer_sides(part, sector.mesh))
 
 
 def outer_sides(nodes, mesh) -> np.ndarray:

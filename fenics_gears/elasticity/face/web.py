@@ -101,8 +101,7 @@ def _cells(grid: np.ndarray) -> np.ndarray:
 
 def beside_web(mesh: BodyMesh, web: SweptWeb) -> BodyMesh:
     """The section of a body beside its web: rim and hub."""
-    radius = np.linalg.norm(mesh.points[mesh.cells].mean(axis=1), axis=1)
-    cells = mesh.cells[(radius < web.hub_radius) | (radius > web.rim_radius)]
+    cells = mesh.cells[web.beside(mesh.points[mesh.cells].mean(axis=1))]
     used = np.unique(cells)
     return BodyMesh(mesh.points[used], np.searchsorted(used, cells), {})
 

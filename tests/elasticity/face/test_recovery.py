@@ -1,21 +1,26 @@
 """Displacement and stress recovered in swept sectors."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from math import radians, tan
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from tests.coarse_sector import PINION, STEEL
-from tests.elasticity.face.swept import TWIST, TWISTED, in_frame, in_place, section, swept_points
+from tests.elasticity.face.swept import SIZES, TWIST, TWISTED, in_frame, in_place, mesh, section, swept_points
 
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
-from fenics_gears.elasticity.face.layers import SweptWeb
+from fenics_gears.elasticity.face.layers import Sweep, SweptWeb
+from fenics_gears.elasticity.face.swept_stiffness import SectionForms
+from fenics_gears.elasticity.face.web import webbed_section
 from fenics_gears.elasticity.nodal_stress import NodalStress
 from fenics_gears.elasticity.recovery import gear_recovery
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.gear_data import Web
+from fenics_gears.show.stress_grid import surface, wedges
+from fenics_gears.simulation.run_stresses import GearInSpace, layers_of, outer_sides
 
 PINION_BODY = FaceDiscretisation(2.7, 2, 15.0, tan(radians(15.0)) / PINION.reference_radius)
 
@@ -65,17 +70,50 @@ def test_loads_of_several_teeth_superpose(recovery):
         assert np.abs(getattr(together, name) - alone).max() < 1e-10 * np.abs(alone).max()
 
 
-def test_uniform_strain_has_its_stress():
+def webbed():
+    """The pinion of module one with a web from its one end, twisted: forms, mesh and sweep."""
+    gear = replace(PINION, web=Web(18.0, 25.0, 0.25)).of_module_one
+    web = SweptWeb(gear.web.hub_radius, gear.web.rim_radius, -1.5, -0.5)
+    mesh = webbed_section(gear, SIZES)
+    return SectionForms(mesh, 0.3, web), mesh, Sweep(np.array([-1.5, -0.5, 1.5]), TWIST, web)
+
+
+@pytest.mark.parametrize("with_web", [False, True])
+def test_uniform_strain_has_its_stress(with_web):
     """Exact: a displacement linear in space has one stress at all nodes of a twisted body, Hooke's, turned into each
-    height's frame."""
-    points = swept_points(section().nodes.points, TWISTED)
+    height's frame; beside a web, where there is material."""
+    forms, _, sweep = webbed() if with_web else (section(), mesh(), TWISTED)
+    there = forms.material(sweep)
+    points = swept_points(forms.nodes.points, sweep)
     gradient = np.random.default_rng(3).normal(size=(3, 3))
     moved = in_frame((in_place(points, TWIST) @ gradient.T)[..., None], points, TWIST).reshape(
-        len(TWISTED.heights), -1, 3
+        len(sweep.heights), -1, 3
     )
+    moved[~there] = 0.0
     strain, shear, lame = 0.5 * (gradient + gradient.T), 0.5 / 1.3, 0.3 / (1.3 * 0.4)
     stress = 2.0 * shear * strain + lame * np.trace(strain) * np.eye(3)
-    found = NodalStress(section().nodes, 0.3, TWISTED).at_nodes(moved)
-    for height, at_height in zip(TWISTED.heights, found):
+    found = NodalStress(forms.nodes, 0.3, sweep).at_nodes(moved)
+    assert there.all() != with_web and not found[~there].any()
+    for height, at_height, own in zip(sweep.heights, found, there):
         frame = rotation(TWIST * height, 3)
-        assert np.abs(frame @ at_height @ frame.T - stress).max() < 1e-9 * np.abs(stress).max()
+        assert np.abs(frame @ at_height[own] @ frame.T - stress).max() < 1e-9 * np.abs(stress).max()
+
+
+def test_the_surface_beside_a_web_encloses_its_body():
+    """Divergence theorem: the surface of all sectors, seen from outside, encloses the volume of the layers' cells; as
+    many wedges are written as there are cells."""
+    forms, mesh, sweep = webbed()
+    nodes, sweep = forms.nodes, replace(sweep, twist=0.0)
+    in_web, beside = layers_of(SimpleNamespace(section=nodes, sweep=sweep, mesh=mesh))
+    one = swept_points(nodes.points, sweep).reshape(len(sweep.heights), -1, 3)
+    teeth = [one @ rotation(angle, 3).T for angle in PINION.angular_pitch * np.arange(PINION.teeth)]
+    shown = dict(sectors=range(len(teeth)), points=np.array(teeth), section=nodes, outline=outer_sides(nodes, mesh))
+    unused = {each.name: None for each in fields(GearInSpace) if each.name not in shown}
+    gear = GearInSpace(**(unused | shown | {"in_web": in_web, "beside": beside}))
+    a, b, c = np.moveaxis(gear.points.reshape(-1, 3)[surface(gear.points, gear)], 1, 0)
+    along, across = (nodes.points[nodes.cells[:, corner]] - nodes.points[nodes.cells[:, 0]] for corner in (1, 2))
+    area = 0.5 * np.cross(along, across)
+    layers = [area.sum() if within else area[sweep.web.beside(nodes.middles)].sum() for within in in_web]
+    volume = len(teeth) * (layers @ sweep.thicknesses)
+    assert np.einsum("ki,ki->", a, np.cross(b, c)) / 6.0 == pytest.approx(volume, rel=1e-12)
+    assert len(wedges(gear)) == len(teeth) * (len(nodes.cells) + len(beside[0].cells))
