@@ -55,6 +55,8 @@ def _effects_fit_together(tree: Tree) -> Iterator[Problem]:
     if table(tree, "gears") is None or material_sections(tree):
         sections.add(TEETH)
     for effect, need in effects.missing_needs(sections):
+        if effect.section not in tree:
+            continue
         missing = effects.effect_named(need).written
         yield Problem(
             (effect.section,),

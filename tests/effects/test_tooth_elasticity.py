@@ -59,7 +59,7 @@ def test_relief_is_the_least_gap_of_the_pairs_on_the_line_of_action(rigid_scene,
 
 
 def test_friction_needs_elastic_teeth(paper_scene):
-    """Between rigid flanks friction is not determined: refused in words."""
+    """Between rigid flanks friction is not determined: refused in words; of a misspelt section nothing more is said."""
     text = (
         paper_scene.text.replace("[gears.material]\n", "")
         .replace('youngs_modulus = "206 GPa"\n', "")
@@ -67,6 +67,9 @@ def test_friction_needs_elastic_teeth(paper_scene):
     )
     with pytest.raises(SceneError, match=r"\[friction\]\n    needs the section \[gears.material\], which is missing"):
         scene_from_text(text)
+    with pytest.raises(SceneError) as refused:
+        scene_from_text(text.replace("[friction]", "[fricton]"))
+    assert 'Did you mean "friction"' in str(refused.value) and "needs the section" not in str(refused.value)
 
 
 def test_rigid_gears_accelerate_as_their_errors_say(rigid_scene, paper_scene):
