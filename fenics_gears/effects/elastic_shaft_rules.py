@@ -13,7 +13,7 @@ from fenics_gears.dynamics.elastic_shaft import STEEPEST_CONE, ElasticShaft, fre
 from fenics_gears.effects.bearings import Bearing, Stiffnesses
 from fenics_gears.effects.elastic_shaft_housing import check_housing, stiffness_of_seats
 from fenics_gears.effects.rolling_bearings import wrong_with
-from fenics_gears.effects.shafts import INTEGRAL, ShaftSection
+from fenics_gears.effects.shafts import INTEGRAL, RIGID_SEAT, ShaftSection
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import LISTED, Problem
 from fenics_gears.inputs.section import names_in
@@ -234,8 +234,7 @@ def _stiffness_is_given_once(bearing: Bearing, name: str) -> Iterator[str]:
 
 
 def _teeth_are_outside(scene: Any, pair: Any, found: ElasticShaft, shaft: str) -> Iterator[str]:
-    """The shaft fits within the root circle, and a gear that is cut into it is of one piece with it and coupled beside
-    its face."""
+    """The shaft fits within the root circle; a gear cut into it is of one piece with it and coupled beside its face."""
     own, gear = scene.shafts.sections[found.gear], getattr(pair, found.gear)
     root, thickest = 2.0 * gear.root_radius, max(_under_the_face(own.sections, found.seat_ends), default=0.0)
     if thickest > root:
@@ -248,6 +247,8 @@ def _teeth_are_outside(scene: Any, pair: Any, found: ElasticShaft, shaft: str) -
     named, material = f'shafts.{shaft}.seat = "{INTEGRAL}"', scene.gears.materials[GEARS.index(found.gear)]
     if found.material != (material.youngs_modulus, material.poissons_ratio):
         yield f"{named}: {found.gear} and shaft are one piece, but of two materials; leave shafts.{shaft}.material out"
+    if gear.web is not None:
+        yield f'{named}: gears.{found.gear}.web stands between teeth and shaft; leave one out, or seat = "{RIGID_SEAT}"'
     if abs(found.torque_at - found.gear_at) < 0.5 * found.seat - ROUND_OFF:
         yield f"{named}: torque_at = {found.torque_at:g} mm is within the face; move the coupling beside it"
     if found.housing is not None:

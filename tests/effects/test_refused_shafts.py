@@ -8,6 +8,7 @@ from tests.helical import helical_scene
 from fenics_gears import SceneError, model_of, scene_from_text
 
 ONE = PINION[: PINION.index("[[bearings.pinion]]", 5)]
+WEB = '[gears.wheel.web]\nrim_inner_diameter = "88 mm"\nhub_diameter = "60 mm"\nwidth = "6 mm"\n'
 PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
 
 
@@ -59,6 +60,7 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
         (ELASTIC.replace("torque_at", 'seat = "integral"\ntorque_at'), "output.seat .* two materials"),
         (ELASTIC.replace("torque_at", 'seat = "integral"\ntorque_at'), "bearings.wheel has a stiffness_matrix"),
         (CUT.replace('torque_at = "0 mm"', 'torque_at = "110 mm"'), "torque_at = 110 mm is within the face"),
+        (CUT + WEB, 'output.seat = "integral": gears.wheel.web stands between teeth and shaft'),
         (ROLLING.replace("number = 9,", ""), "bearings.pinion.* has no rolling.number at place 1"),
         (ROLLING.replace("number = 9,", "number = 2,"), "pinion = a list.*number = 2 at place 1.*to 500[^:]*$"),
         (ROLLING.replace("number = 9,", "number = 90,"), "place 1, has 90 balls .* do not fit on a pitch_diameter"),
