@@ -43,6 +43,9 @@ class Arrays(NamedTuple):
 # A row: how many contact nodes there are, and the address of each array, 0 where it is not there.
 ROW = np.dtype([(name, np.int64) for name in ("nodes", *Arrays._fields)])
 NODES, GAP = (ROW.names.index(name) for name in ("nodes", "gap"))
+# In the table of Factors (`contact.factored_compliance`), addresses of room and of what is factored there (its number of
+# forces, their rows, tangential forces per normal one), without friction; with friction so much later; and of pivots.
+ROOM, KNOWN, OF_FRICTION, PIVOTS = 0, 1, 2, 4
 
 
 def _pointer_to(kind):
@@ -103,6 +106,15 @@ def solver_of(address):
         return 0, 0
     addresses = carray(to_integer(address), 3)
     return addresses[1], addresses[2]
+
+
+@njit(cache=True)
+def factored_last(address, friction):
+    """Rows of the forces between which factors were made last at a position, with or without `friction`, by the table
+    of its Factors; none where none were."""
+    table = carray(to_integer(address), PIVOTS + 1)
+    numbers = to_number(table[KNOWN + OF_FRICTION if friction else KNOWN])
+    return carray(numbers, 1 + int(carray(numbers, 1)[0]))[1:]
 
 
 @njit(cache=True)
