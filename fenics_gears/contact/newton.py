@@ -12,7 +12,16 @@ from typing import NamedTuple
 import numpy as np
 from numba import carray, cfunc, njit
 
-from fenics_gears.contact.addresses import call, factored_last, not_inlined, solver_of, to_integer, to_number, to_set
+from fenics_gears.contact.addresses import (
+    call,
+    close_as_factored,
+    from_afar,
+    not_inlined,
+    solver_of,
+    to_integer,
+    to_number,
+    to_set,
+)  # fmt: skip
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, next_status, presses
 from fenics_gears.contact.mixed_form import Equations, Iterate, product, relative_displacement, solve_sets
 
@@ -23,10 +32,6 @@ COUNT, FAILED = len(OUTCOMES), -1
 NUMBERS = 21
 ROUND_OFF = 1e-12
 MOST_ITERATIONS = 40
-# Of the closed nodes: where more than this were open over a face when friction was last solved for at the position, or
-# the other way round, the sets without friction are solved for. That takes two or three iterations of a third of the
-# cost, and two or three with friction follow in place of five.
-SHARE_CHANGED = 0.03
 # How sets change: every node by its projection; the same with reversals of slip stopping at stick first; or only the
 # first node that wants to change. The last is Murty's least-index rule, which cannot cycle where the matrix is a
 # P-matrix (K. G. Murty, Linear Complementarity, Linear and Nonlinear Programming, 1988, chapter 4).
@@ -258,32 +263,8 @@ def _newton(equations, iterate, method, history, sets):
 
 
 @njit(cache=True)
-def _from_afar(equations, status):
-    """Whether the closed nodes are others than those with which friction was last solved for at this position, if it
-    was at all."""
-    n, known = len(status), factored_last(solver_of(equations.rows)[1], True)
-    closed, alike, had = 0, 0, 0
-    for j in range(n):
-        closed += status[j] != OPEN
-    for row in known:
-        if row < n:
-            had += 1
-            alike += status[int(row)] != OPEN
-    return closed + had - 2 * alike > SHARE_CHANGED * closed
-
-
-@njit(cache=True)
-def _close_as_factored(equations, status):
-    """Close the nodes between which factors without friction were made last at this position, and no others."""
-    known = factored_last(solver_of(equations.rows)[1], False)
-    if len(known):
-        status[:] = OPEN
-        for row in known:
-            status[int(row)] = SLIP_FORWARD
-
-
-@njit(cache=True)
 def _without_friction(equations):
+    """The equations without friction."""
     slip_before = equations.slip_before[:0]
     return Equations(
         equations.stiffness, equations.load, equations.compliance, equations.jacobian, equations.gap, slip_before,
@@ -305,12 +286,14 @@ def _slip_as_they_move(equations, iterate):
 @njit(cache=True)
 def _newton_over_face(equations, iterate, method, history, sets):
     """As `newton`; with friction over a face it begins at the sets without friction, where those of a solution that is
-    near are not known, and goes on through stick where sets repeat."""
-    n, status = len(equations.gap), iterate.status
-    frictional = len(equations.slip_before) and method.rule == ALL_AT_ONCE and solver_of(equations.rows)[0] != 0
-    if frictional and _from_afar(equations, status):
+    near are not known, and goes on through stick where sets repeat. Fallbacks do neither: they begin at what the step
+    before had."""
+    n, status, (solver, factors) = len(equations.gap), iterate.status, solver_of(equations.rows)
+    first = method.rule == ALL_AT_ONCE and method.r_scale == 1.0
+    frictional = len(equations.slip_before) and first and solver != 0
+    if frictional and from_afar(factors, status):
         before, room = status.copy(), (np.empty_like(history), np.empty_like(sets))
-        _close_as_factored(equations, status)
+        close_as_factored(factors, status)
         # Called from here, for a function of its own would have Newton compiled into it too.
         if _newton(_without_friction(equations), iterate, method, *room)[0] == CONVERGED:
             _slip_as_they_move(equations, iterate)
