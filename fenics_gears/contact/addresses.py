@@ -15,6 +15,8 @@ from numba import carray, from_dtype, njit, types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
+from fenics_gears.contact.laws import OPEN, SLIP_FORWARD
+
 
 class Arrays(NamedTuple):
     """Those of a contact operator (n nodes, m = n or with friction 2 n, k coordinates) in compiled code, named as
@@ -43,6 +45,14 @@ class Arrays(NamedTuple):
 # A row: how many contact nodes there are, and the address of each array, 0 where it is not there.
 ROW = np.dtype([(name, np.int64) for name in ("nodes", *Arrays._fields)])
 NODES, GAP = (ROW.names.index(name) for name in ("nodes", "gap"))
+# In the table of Factors (`contact.factored_compliance`), addresses of room and of what is factored there (its number
+# of forces, their rows, tangential forces per normal one), without friction; with friction so much later; and of
+# pivots.
+ROOM, KNOWN, OF_FRICTION, PIVOTS = 0, 1, 2, 4
+# Of the closed nodes: where more than this were open over a face when friction was last solved for at the position, or
+# the other way round, the sets without friction are solved for. That takes two or three iterations of a third of the
+# cost, and two or three with friction follow in place of five.
+SHARE_CHANGED = 0.03
 
 
 def _pointer_to(kind):
@@ -103,6 +113,41 @@ def solver_of(address):
         return 0, 0
     addresses = carray(to_integer(address), 3)
     return addresses[1], addresses[2]
+
+
+@njit(cache=True)
+def factored_last(address, friction):
+    """Rows of the forces between which factors were made last at a position, with or without `friction`, by the table
+    of its Factors; none where none were."""
+    table = carray(to_integer(address), PIVOTS + 1)
+    numbers = to_number(table[KNOWN + OF_FRICTION if friction else KNOWN])
+    return carray(numbers, 1 + int(carray(numbers, 1)[0]))[1:]
+
+
+@njit(cache=True)
+def from_afar(address, status):
+    """Whether the closed nodes are others than those with which friction was last solved for at this position, if it
+    was at all; `address` of the table of its Factors."""
+    n, known = len(status), factored_last(address, True)
+    closed, alike, had = 0, 0, 0
+    for j in range(n):
+        closed += status[j] != OPEN
+    for row in known:
+        if row < n:
+            had += 1
+            alike += status[int(row)] != OPEN
+    return closed + had - 2 * alike > SHARE_CHANGED * closed
+
+
+@njit(cache=True)
+def close_as_factored(address, status):
+    """Close the nodes between which factors without friction were made last at this position, and no others;
+    `address` as before."""
+    known = factored_last(address, False)
+    if len(known):
+        status[:] = OPEN
+        for row in known:
+            status[int(row)] = SLIP_FORWARD
 
 
 @njit(cache=True)

@@ -5,9 +5,9 @@ of these forces,
 
     G q - C p = g,    K q + G~^T p = F    give    (K + G~^T C^-1 G) q = F + G~^T C^-1 g,    p = C^-1 (G q - g)
 
-Factors are Cholesky's without friction, else those of elimination with pivots. A position's last until its sets change.
-The march finds there those of the mesh cycle before; a run of a search, those of the run before. What they give is the
-same to the last digit whatever came before.
+Factors are Cholesky's without friction, else those of elimination with pivots; with friction a position has both, for
+Newton's method begins without it. They last until the sets change: the march finds there those of the mesh cycle
+before; a run of a search, those of the run before. What they give is the same to the last digit whatever came before.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ import numpy as np
 from numba import carray, cfunc, njit
 from numba.extending import get_cython_function_address
 
-from fenics_gears.contact.addresses import call, to_integer, to_number
+from fenics_gears.contact.addresses import KNOWN, OF_FRICTION, PIVOTS, ROOM, call, to_integer, to_number
 from fenics_gears.contact.mixed_form import add_slip, put_entries, put_solution, system_of
 from fenics_gears.system.memory import pages
 
@@ -28,16 +28,17 @@ LEAST_PIVOT = 1e-6
 # What LAPACK is told; and bytes of its integers.
 LOWER, TRANSPOSED = ord("L"), ord("T")
 INT = 4
-# Addresses in the table of Factors: of room, of what is factored, of pivots, and of LAPACK's functions.
-ROOM, KNOWN, PIVOTS, POTRF, POTRS, GETRF, GETRS = range(7)
+# After the addresses of rooms in the table of Factors those of LAPACK's functions.
+POTRF, POTRS, GETRF, GETRS = range(5, 9)
 
 
 class Factors:
-    """Room for factors between some of m forces, which takes memory as far as it is used; `table` is for compiled
-    code."""
+    """Room for factors between some of m forces of n nodes, without and with friction, which takes memory as far as it
+    is used; `table` is for compiled code."""
 
-    def __init__(self, forces: int):
-        self._arrays = pages(forces, forces), np.zeros(2 * forces + 1), np.zeros(forces, dtype=np.int32)
+    def __init__(self, nodes: int, forces: int):
+        rooms = [(pages(size, size), np.zeros(2 * size + 1)) for size in (nodes, forces)]
+        self._arrays = *rooms[0], *rooms[1], np.zeros(forces, dtype=np.int32)
         self.table = np.array([*(array.ctypes.data for array in self._arrays), *_lapack()])
 
 
@@ -82,7 +83,7 @@ def factored_solver():
 def _solve(address):
     """Returns 1, or 0 where the compliance is not safely regular or the drivetrain is loose."""
     at = carray(to_integer(address), 13)
-    m, k, size, slipping, table = at[1], at[2], at[3], at[4], carray(to_integer(at[0]), 7)
+    m, k, size, slipping, table = at[1], at[2], at[3], at[4], carray(to_integer(at[0]), 9)
     compliance = carray(to_number(at[5]), (m, m))
     system = _System(
         compliance,
@@ -94,8 +95,11 @@ def _solve(address):
         carray(to_number(at[11]), size),
         1.0 / compliance[0, 0],
     )
+    room = OF_FRICTION if slipping else 0
     factored = _Factored(
-        carray(to_number(table[ROOM]), (size, size)), carray(to_number(table[KNOWN]), 2 * m + 1), table
+        carray(to_number(table[room + ROOM]), (size, size)),
+        carray(to_number(table[room + KNOWN]), size + slipping + 1),
+        table,
     )
     if not _are_known(factored.known, system) and not _factor(factored, system):
         return 0

@@ -103,7 +103,7 @@ class FormedRows:
         if rows is columns:
             from fenics_gears.contact.factored_compliance import Factors, factored_solver
 
-            factors = Factors(n)
+            factors = Factors(len(rows.group), n)
             table[0, 1:3] = factored_solver().address, factors.table.ctypes.data
         return cls(matrix, formed, by_columns, table, arrays, factors)
 

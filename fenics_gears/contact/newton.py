@@ -12,7 +12,16 @@ from typing import NamedTuple
 import numpy as np
 from numba import carray, cfunc, njit
 
-from fenics_gears.contact.addresses import call, not_inlined, solver_of, to_integer, to_number, to_set
+from fenics_gears.contact.addresses import (
+    call,
+    close_as_factored,
+    from_afar,
+    not_inlined,
+    solver_of,
+    to_integer,
+    to_number,
+    to_set,
+)  # fmt: skip
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, next_status, presses
 from fenics_gears.contact.mixed_form import Equations, Iterate, product, relative_displacement, solve_sets
 
@@ -23,10 +32,6 @@ COUNT, FAILED = len(OUTCOMES), -1
 NUMBERS = 21
 ROUND_OFF = 1e-12
 MOST_ITERATIONS = 40
-# Of the closed nodes: where more sets change in the first iteration over a face with friction, those without friction
-# are solved for. That takes about three iterations of a third of the cost, and two or three with friction follow in
-# place of five.
-SHARE_CHANGED = 0.03
 # How sets change: every node by its projection; the same with reversals of slip stopping at stick first; or only the
 # first node that wants to change. The last is Murty's least-index rule, which cannot cycle where the matrix is a
 # P-matrix (K. G. Murty, Linear Complementarity, Linear and Nonlinear Programming, 1988, chapter 4).
@@ -57,11 +62,31 @@ def _tangents(equations, iterate):
         if status[j] != OPEN or displacement[j] > gap[j]:
             rows[count], displacement[n + j] = n + j, product(jacobian[n + j], coordinates)
             count += 1
-    for j in range(len(forces)):
-        force = forces[j]
-        if force != 0.0:
-            for i in range(count):
-                displacement[rows[i]] -= compliance[j, rows[i]] * force
+    places, loaded = rows[:count], np.flatnonzero(forces)
+    moved, first = displacement[places], len(loaded) % 4
+    for j in loaded[:first]:
+        _subtract(moved, forces[j], compliance[j], places)
+    for j in range(first, len(loaded), 4):
+        _subtract_four(moved, forces, compliance, loaded[j : j + 4], places)
+    displacement[places] = moved
+
+
+@njit(cache=True)
+def _subtract(moved, force, row, places):
+    """Subtract what a force displaces at some places, by its row of the compliance."""
+    for i in range(np.uint64(len(moved))):
+        moved[i] -= row[np.uint64(places[i])] * force
+
+
+@njit(cache=True)
+def _subtract_four(moved, forces, compliance, loaded, places):
+    """As `_subtract` with four forces, one after the other: so numbers are read and written once for all of them."""
+    # Unsigned places need no look for a negative index.
+    a, b, c, d = (compliance[loaded[0]], compliance[loaded[1]], compliance[loaded[2]], compliance[loaded[3]])
+    one, two, three, four = (forces[loaded[0]], forces[loaded[1]], forces[loaded[2]], forces[loaded[3]])
+    for i in range(np.uint64(len(moved))):
+        place = np.uint64(places[i])
+        moved[i] = moved[i] - a[place] * one - b[place] * two - c[place] * three - d[place] * four
 
 
 @njit(cache=True, error_model="numpy")
@@ -238,17 +263,8 @@ def _newton(equations, iterate, method, history, sets):
 
 
 @njit(cache=True)
-def _changed_much(before, after):
-    """Whether so many sets change that those without friction are nearer to the solution."""
-    changed, closed = 0, 0
-    for j in range(len(before)):
-        changed += before[j] != after[j]
-        closed += before[j] != OPEN
-    return SHARE_CHANGED * closed < changed
-
-
-@njit(cache=True)
 def _without_friction(equations):
+    """The equations without friction."""
     slip_before = equations.slip_before[:0]
     return Equations(
         equations.stiffness, equations.load, equations.compliance, equations.jacobian, equations.gap, slip_before,
@@ -268,21 +284,25 @@ def _slip_as_they_move(equations, iterate):
 
 
 @njit(cache=True)
-def _newton_from_afar(equations, iterate, method, history, sets):
-    """As `newton`; with friction over a face the first iteration tells whether the sets are near the solution's. If
-    not, they begin at those of the solution without friction, where there is one."""
-    outcome, done, n = CYCLED, 0, len(equations.gap)
-    if len(equations.slip_before) and method.rule == ALL_AT_ONCE and solver_of(equations.rows)[0] != 0:
-        outcome, done = _newton(equations, iterate, method, history[:1], sets[:1])
-        if outcome == CYCLED and _changed_much(sets[0], iterate.status):
-            before, room = iterate.status.copy(), (np.empty_like(history), np.empty_like(sets))
-            # Called from here, for a function of its own would have Newton compiled into it too.
-            if _newton(_without_friction(equations), iterate, method, *room)[0] == CONVERGED:
-                _slip_as_they_move(equations, iterate)
-            else:
-                iterate.status[:] = before
-    if outcome == CYCLED:
-        outcome, more = _newton(equations, iterate, method, history[done:], sets[done:])
+def _newton_over_face(equations, iterate, method, history, sets):
+    """As `newton`; with friction over a face it begins at the sets without friction, where those of a solution that is
+    near are not known, and goes on through stick where sets repeat. Fallbacks do neither: they begin at what the step
+    before had."""
+    n, status, (solver, factors) = len(equations.gap), iterate.status, solver_of(equations.rows)
+    first = method.rule == ALL_AT_ONCE and method.r_scale == 1.0
+    frictional = len(equations.slip_before) and first and solver != 0
+    if frictional and from_afar(factors, status):
+        before, room = status.copy(), (np.empty_like(history), np.empty_like(sets))
+        close_as_factored(factors, status)
+        # Called from here, for a function of its own would have Newton compiled into it too.
+        if _newton(_without_friction(equations), iterate, method, *room)[0] == CONVERGED:
+            _slip_as_they_move(equations, iterate)
+        else:
+            status[:] = before
+    outcome, done = _newton(equations, iterate, method, history, sets)
+    if frictional and outcome == CYCLED and done < len(history):
+        through = Method(method.r_scale, np.int64(THROUGH_STICK), method.length_tolerance, method.force_tolerance)
+        outcome, more = _newton(equations, iterate, through, history[done:], sets[done:])
         done += more
     relative_displacement(equations, iterate, n, len(equations.compliance))
     return outcome, done
@@ -316,7 +336,7 @@ def _newton_in_place(numbers, method):
     history, sets = carray(to_number(at[11]), (most, 5)), carray(to_set(at[12]), (most, n))
     how = Method(method[1], rule, method[2], method[3])
     try:
-        outcome, iterations = _newton_from_afar(equations, iterate, how, history, sets)
+        outcome, iterations = _newton_over_face(equations, iterate, how, history, sets)
     except Exception:
         return FAILED
     return COUNT * iterations + outcome

@@ -20,8 +20,10 @@ from functools import lru_cache
 from itertools import compress
 
 import numpy as np
+from numba import njit
 
 from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, STICK
+from fenics_gears.contact.mixed_form import add_slip, put_entries
 
 # Below this part of the largest eigenvalue a stiffness holds nothing.
 SINGULAR = 1e-14
@@ -100,23 +102,19 @@ def _plainly_only(stiffness: np.ndarray, friction: float, judged: list[tuple]) -
     for place, (_, nodes, _) in enumerate(judged):
         of_size[len(nodes)].append(place)
     for m, places in of_size.items():
-        compliance, moved, share = (
-            np.empty((len(places), m, 2 * m)),
+        matrices, moved, share = (
+            np.empty((len(places), m, m)),
             np.empty((len(places), 2 * m, len(values))),
             np.empty((len(places), m)),
         )
         for i, place in enumerate(places):
             operator, nodes, sigma = judged[place]
-            both = np.concatenate((nodes, len(sigma) + nodes))
-            compliance[i], moved[i] = operator.stored.rows[nodes[:, None], both], operator.jacobian[both]
+            moved[i] = operator.jacobian[np.concatenate((nodes, len(sigma) + nodes))]
             share[i] = friction * sigma[nodes]
+            between_closed(matrices[i], operator.stored.rows, nodes, share[i])
         moved = moved @ vectors
         normal, sliding = moved[:, :m], moved[:, :m] + share[:, :, None] * moved[:, m:]
-        matrices = (
-            compliance[:, :, :m]
-            + compliance[:, :, m:] * share[:, None, :]
-            + (normal[..., held] / values[held]) @ sliding[..., held].transpose(0, 2, 1)
-        )
+        matrices = matrices + (normal[..., held] / values[held]) @ sliding[..., held].transpose(0, 2, 1)
         if free and m:
             a, b = normal[..., 0], sliding[..., 0]
             apart = np.all(a * b > 0.0, axis=1)
@@ -126,6 +124,16 @@ def _plainly_only(stiffness: np.ndarray, friction: float, judged: list[tuple]) -
         for place, matrix in zip(places, matrices):
             found[place] = together or _positive(matrix)
     return found
+
+
+@njit(cache=True)
+def between_closed(matrix, compliance, nodes, share):
+    """Put the normal compliance between closed nodes into a matrix (m, m), with what tangential forces give that are
+    the `share` (m,) of the normal ones."""
+    for i in range(len(nodes)):
+        row = compliance[nodes[i]]
+        put_entries(matrix[i], row, nodes, np.int64(0), 1.0)
+        add_slip(matrix[i], row[len(compliance) // 2 :], nodes, share, 1.0)
 
 
 @lru_cache(maxsize=4)

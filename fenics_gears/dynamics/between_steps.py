@@ -117,11 +117,18 @@ class BetweenSteps(Stepper):
         reach = ceil(FIRST_REACH * self.cycle.steps)
         while reach < 2 * self.cycle.steps:
             # A march starts at step -1.
-            first = max(step - reach, -1)
-            record = self._static_start(first)
-            for passed in range(first + 1, step + 1):
-                record = self.step(self.static, record, passed)
-            if self._marched(record):
+            record = self._on_the_way(max(step - reach, -1), step)
+            if record is not None and self._marched(record):
                 return record
             reach *= 2
         return None
+
+    def _on_the_way(self, first: int, step: int) -> Record | None:
+        """A step solved from static equilibrium at the step `first`; None where one of them has no solution."""
+        try:
+            record = self._static_start(first)
+            for passed in range(first + 1, step + 1):
+                record = self.step(self.static, record, passed)
+        except ContactNotConverged:
+            return None
+        return record

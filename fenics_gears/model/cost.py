@@ -12,7 +12,7 @@ from math import lcm
 
 import numpy as np
 
-from fenics_gears.contact.places import pair_places
+from fenics_gears.contact.places import pairs_in_windows
 from fenics_gears.effects import effects_on
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.model.model import Model
@@ -108,12 +108,8 @@ def too_large(model: Model, cost: ExpectedCost, allowed: float) -> str:
 
 def loaded_pairs(model: Model) -> float:
     """Pairs of flanks in contact windows, on the average over the mesh cycle."""
-    grid = model.resolution.contact_grid
-    pairs = [
-        len(pair_places(model.pair, grid, phase / 16, model.scene.coast_flanks is not None, model.corner))
-        for phase in range(16)
-    ]
-    return sum(pairs) / len(pairs)
+    coast_flanks = model.scene.coast_flanks is not None
+    return pairs_in_windows(model.pair, model.resolution.contact_grid, coast_flanks, model.corner)
 
 
 def contact_rows(model: Model) -> float:

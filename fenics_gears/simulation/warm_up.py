@@ -75,6 +75,10 @@ def _run_once(tangential: bool, rigid: bool) -> None:
     )
     for evaluated in (contact_work, stiffness_curves, energy_of_teeth, smallest_openings, drive_flanks_touch):
         evaluated(steps)
+    if tangential:
+        from fenics_gears.contact.uniqueness import between_closed
+
+        between_closed(np.zeros((1, 1)), np.eye(2), np.array([0]), np.ones(1))
     if rigid:
         from fenics_gears.contact.rigid_mesh import solve_rigid
 

@@ -20,7 +20,7 @@ class Contact:
         self.compliance, self.frictional = 1e-5 * (root @ root.T / forces + np.eye(forces)), frictional
         self.jacobian, self.opening = draw.normal(size=(forces, COORDINATES)), 1e-3 * draw.normal(size=forces)
         self.stiffness, self.load = 1e4 * np.eye(COORDINATES), np.full(COORDINATES, 100.0)
-        self.factors, self.solver = Factors(forces), ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_int64)
+        self.factors, self.solver = Factors(forces, forces), ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_int64)
 
     def rows(self, closed, status):
         """Unknown forces, and tangential ones per normal one."""
