@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.linalg import block_diag, get_lapack_funcs
+from scipy.linalg import block_diag, cho_solve, get_lapack_funcs
 from scipy.linalg.blas import ztrsm
 from scipy.sparse import csr_matrix
 
@@ -112,8 +112,9 @@ def cyclic_motion(same: np.ndarray, ahead: np.ndarray, loads: np.ndarray) -> np.
     harmonics = np.fft.rfft(loads, axis=0)
     phase = np.exp(2j * np.pi * np.arange(len(harmonics)) / len(loads))
     for k, turn in enumerate(phase):
-        stiffness = same + ahead * turn + ahead.T * np.conj(turn)
-        harmonics[k] = np.linalg.solve(stiffness, harmonics[k])
+        # Transposed, the conjugate is in LAPACK's order.
+        factor = definite_factor((same + ahead * np.conj(turn) + ahead.T * turn).T, "a harmonic")
+        harmonics[k] = cho_solve((factor, False), harmonics[k], check_finite=False)
     return np.fft.irfft(harmonics, n=len(loads), axis=0)
 
 
