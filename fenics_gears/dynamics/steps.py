@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import carray, njit
@@ -82,9 +82,11 @@ class Steps:
     parts: dict[int, tuple[Record, ...]] = field(default_factory=dict)
 
     @classmethod
-    def to_solve(cls, numbers: Sequence[float], positions: list[Position], coordinates: int, method: str) -> Steps:
-        """Room for the solutions at these positions."""
-        count, table = len(positions), table_of(positions)
+    def to_solve(
+        cls, numbers: Sequence[float], positions: list[Position], coordinates: int, method: str, table: Any = None
+    ) -> Steps:
+        """Room for the solutions at these positions, whose rows are those of a `table` (s, r) where it is given."""
+        count, table = len(positions), table_of(positions) if table is None else table
         nodes = int(table[:, NODES].sum())
         forces = nodes * (1 if not count or positions[-1].operator.rigid_slip is None else 2)
         steps = cls(

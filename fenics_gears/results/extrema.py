@@ -62,7 +62,8 @@ class Extrema:
     """Locates the largest values of curves over the settled steps of a run.
 
     `mesh_phase`, `transmission_error` (s,), rad: of consecutive steps; the latter tells whether a position solved again
-    is that of the march. `march`: holds solutions with friction, from which positions are solved.
+    is that of the march. `march`: holds solutions with friction, from which positions are solved. `first`: the step
+    from which on these are counted.
     """
 
     def __init__(
@@ -78,7 +79,7 @@ class Extrema:
         self._period = common_period(model.scene) * cycle.steps
         whole = isfinite(self._period) and len(self._steps) > self._period
         # Solved in the first period, so that the same cycles give the same bits however many are run.
-        self._first, self._whole = (
+        self.first, self._whole = (
             int((self._steps[-1] - self._period) // self._period * self._period) if whole else 0,
             whole,
         )
@@ -96,7 +97,7 @@ class Extrema:
             marched = partial(
                 _is_marched, model, transmission_error, self._place(0), same if self._quasi_static else np.inf
             )
-            held = partial(_held, march, self._first)
+            held = partial(_held, march, self.first)
             self._between = BetweenSteps(cycle, model.equations_of_motion, marched, held)
 
     def largest(self, quantities: Sequence[Quantity]) -> list[Extremum]:
@@ -132,7 +133,7 @@ class Extrema:
                 for each in asking:
                     ways[each] = STEPS if np.isnan(values[each]) else SOLVED
                 search.take(values)
-        return [(self._first + step, top, way) for (step, top), way in zip(search.tops.tolist(), ways)]
+        return [(self.first + step, top, way) for (step, top), way in zip(search.tops.tolist(), ways)]
 
     def _values(self, asked: Sequence[tuple[Quantity, float]]) -> list[float]:
         """Values of quantities at places between steps; not a number where one cannot be solved."""
@@ -145,7 +146,7 @@ class Extrema:
 
     def _place(self, step: float) -> int:
         """Place of a step of the period among all steps."""
-        return int(step) + self._first - int(self._steps[0])
+        return int(step) + self.first - int(self._steps[0])
 
     def _records(self, steps: Iterable[float]) -> dict[float, Record | None]:
         """What is solved at places between steps and, with inertia, at the steps on either side of them."""
@@ -171,7 +172,7 @@ class Extrema:
         repeats; of all steps where none is whole."""
         if not self._whole:
             return self._steps.astype(float), curves
-        steps, values = self._steps[-self._period - 1 :] - self._first, curves[:, -self._period - 1 :]
+        steps, values = self._steps[-self._period - 1 :] - self.first, curves[:, -self._period - 1 :]
         return np.concatenate(([steps[0] - 1.0], steps, [steps[-1] + 1.0])), np.concatenate(
             (values[:, -2:-1], values, values[:, 1:2]), axis=1
         )
@@ -206,33 +207,40 @@ def repeating_steps(model: Model) -> int:
 Numbers = dict[str, float | str]
 
 
-def extremes(extrema: Extrema, curves: Mapping[str, np.ndarray], force: bool) -> tuple[Numbers, Numbers]:
-    """T_EPP, rad, where the extremes of the transmission error are, and how they were found; and the same of the
-    largest normal force of a tooth pair, N, where it is asked for."""
-    error, of = curves["transmission_error"], extrema.transmission_error
-    quantities = [Quantity(error, of), Quantity(-error, lambda record: -of(record))]
-    if force:
-        quantities.append(pair_force(curves))
-    largest, least, *forces = extrema.largest(quantities)
-    of_error: Numbers = {
+def extremes(
+    extrema: Extrema, runs: Sequence[tuple[int, Mapping[str, np.ndarray], bool]]
+) -> list[tuple[Numbers, Numbers]]:
+    """Of each run, by its number and curves, T_EPP, rad, where the extremes of the transmission error are, and how they
+    were found; and the same of the largest normal force of a tooth pair, N, where it is asked for."""
+    of, quantities = extrema.transmission_error, []
+    for run, curves, force in runs:
+        error = curves["transmission_error"]
+        quantities += [Quantity(error, of, run), Quantity(-error, lambda record: -of(record), run)]
+        quantities += [pair_force(curves, run)] if force else []
+    found = iter(extrema.largest(quantities))
+    return [(_of_error(next(found), next(found)), _of_force(next(found)) if force else {}) for *_, force in runs]
+
+
+def _of_error(largest: Extremum, least: Extremum) -> Numbers:
+    return {
         "peak_to_peak_transmission_error": largest.value + least.value,
         "peak_to_peak_transmission_error_from": least.found_by if largest.found_by == SOLVED else largest.found_by,
         "largest_transmission_error_mesh_phase": largest.mesh_phase,
         "least_transmission_error_mesh_phase": least.mesh_phase,
     }
-    of_force: Numbers = {}
-    for found in forces:
-        of_force = {
-            "largest_pair_force": found.value,
-            "largest_pair_force_mesh_phase": found.mesh_phase,
-            "largest_pair_force_from": found.found_by,
-        }
-    return of_error, of_force
 
 
-def pair_force(curves: Mapping[str, np.ndarray]) -> Quantity:
+def _of_force(found: Extremum) -> Numbers:
+    return {
+        "largest_pair_force": found.value,
+        "largest_pair_force_mesh_phase": found.mesh_phase,
+        "largest_pair_force_from": found.found_by,
+    }
+
+
+def pair_force(curves: Mapping[str, np.ndarray], run: int = 0) -> Quantity:
     """The largest normal force of a tooth pair, N."""
-    return Quantity(largest_force_over_time(curves), _largest_force_of_a_pair)
+    return Quantity(largest_force_over_time(curves), _largest_force_of_a_pair, run)
 
 
 def _largest_force_of_a_pair(record: Record) -> float:

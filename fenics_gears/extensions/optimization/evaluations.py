@@ -74,7 +74,7 @@ class Evaluator:
 
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
         self.design, self._progress = design, progress
-        self.runs, self.others = Runs(Lines(directory, line_of), team), kept(directory)[1]
+        self.runs, self.others = Runs(Lines(directory, line_of, tuple(self._names)), team), kept(directory)[1]
         self.designs = 0, 0
 
     def of_designs(self, designs: Sequence[Mapping[str, float | str]], deviations: np.ndarray) -> list[Evaluation]:
