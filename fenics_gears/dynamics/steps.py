@@ -64,11 +64,9 @@ BLOCK = np.dtype([(name, np.int64) for name in ("steps", "kinds", "coordinates",
 @dataclass
 class Steps:
     """Steps (s,) of a march: their `numbers`, `positions` and the `methods` that solved them; n contact nodes at each,
-    N at all.
-
-    `states` (s, 3, k): centre coordinates, mm, velocities and accelerations; `forces` and `displacement` (N,) or, with
-    friction, (2 N,): a step's as in StepSolution, then the next step's; `status` (N,); `iterations` (s,) of Newton's
-    method. `parts`: by place, those of steps that were divided.
+    N at all. `states` (s, 3, k): centre coordinates, mm, velocities and accelerations; `forces` and `displacement` (N,)
+    or, with friction, (2 N,): a step's as in StepSolution, then the next step's; `status` (N,); `iterations` (s,) of
+    Newton's method. `parts`: by place, those of steps that were divided.
     """
 
     numbers: np.ndarray

@@ -26,31 +26,26 @@ NEAR = 25.0
 # where the lower of the parabolas from either side is above the steps by at least this part of the higher one; between
 # steps where their curvatures are as much alike.
 LIKE = 0.5
-# A cubic holds where it differs from a value between its steps by at most so many parts of what is sought: those
-# through this value then differ by a tenth of that. Such a value is asked for at most this part of the interval from
-# its middle.
+# A cubic holds where it differs from a value between its steps by at most so many parts of what is sought: those that
+# go through it then differ by a tenth of that. It is asked for at most this part of the interval from its middle.
 AGREES, MIDDLE = 2.0, 0.25
 # A position is sought no nearer to a step than this part of the distance to the next.
 NEAREST = 0.02
 
-
-# What is known of an interval between two points of a curve: how high the curve may be there and where that is, whether
-# a value was asked for, whether a cubic holds; and its crest, place and height, where a cubic holds or no place is
-# between.
+# Of an interval between two points: how high the curve may be there and where that is, whether a value was asked for,
+# whether a cubic holds; and its crest, place and height, where a cubic holds or no place is between.
 KNOWN = BOUND, PLACE, ASKED, CUBIC, CREST, HEIGHT = range(6)
-# Of a search: points, values that may still be asked for (less than none before it has begun), and the interval of the
-# one that is asked for now.
+# Of a search: its points, values that it may still ask for (-1 before it begins), interval of the one asked for now.
 COUNTED = COUNT, LEFT, AT = range(3)
 
 
 class Searches:
     """Searches for the largest values of curves (c, s) that are given at `steps` (s,), side by side: each asks for
-    values of its curve at one place after the other between them.
+    values of its curve between them, at places that are multiples of the `finest` part of a step, until these say what
+    is `sought` (c,) of its largest value. `corners`: between two places a curve may be higher than both at a corner.
 
-    Places are multiples of the `finest` part of a step; `sought` (c,): down to which difference a largest value is
-    sought; `corners`: between two places a curve may be higher than both at a corner. `asked` (c,): the places whose
-    values are asked for now; not a number where a search has ended. `tops` (c, 2): place and largest value, as far as
-    they are known.
+    `asked` (c,): the places whose values are asked for now, not a number where a search has ended; `tops` (c, 2): place
+    and largest value, as far as they are known.
 
     Between the first two and the last two steps nothing is sought, nor where the curve is level at its top: it reaches
     what bounds it there. A search ends where no crossing of lines is higher by what is sought and on either side of the
@@ -97,10 +92,8 @@ def _is_level(values):
     """Whether a curve has its largest value at three steps in a row: two may lie on either side of a crest."""
     least, row = values.max() - SAME * np.abs(values).max(), 0
     for value in values:
-        row = row + 1 if value >= least else 0
-        if row == 3:
-            return True
-    return False
+        row = row + 1 if value >= least or row >= 3 else 0
+    return row >= 3
 
 
 @njit(cache=True)
@@ -231,11 +224,8 @@ def _corner(x, y):
     bend_after = ((y[5] - y[4]) / (x[5] - x[4]) - after) / (x[5] - x[3])
     # Slopes at the third and the fourth point; the first parabola less the second is c + u (b + u a), u from the third.
     before, after = before + (x[2] - x[1]) * bend_before, after - (x[4] - x[3]) * bend_after
-    a, b, c = (
-        bend_before - bend_after,
-        before - after + 2.0 * h * bend_after,
-        y[2] - y[3] + h * (after - h * bend_after),
-    )
+    a, b = bend_before - bend_after, before - after + 2.0 * h * bend_after
+    c = y[2] - y[3] + h * (after - h * bend_after)
     inside = b * b - 4.0 * a * c
     if not (c < 0.0 < c + h * (b + h * a) and inside >= 0.0):
         return 0.0, -inf
@@ -253,8 +243,7 @@ def _differences(x, y):
 
 @njit(cache=True)
 def _holds(x, y, place, found, most):
-    """Whether the cubic through four points x, y (4,), concave between the middle two, has the value `found` at a place
-    in the middle there, but for `most`."""
+    """Whether the cubic through four points x, y (4,), concave in the middle, is `found` at a place, by `most`."""
     slope, (one, _), third = _differences(x, y)
     after = place - x[1]
     cubic = y[1] + after * (slope + (place - x[2]) * (one + third * (place - x[0])))
@@ -278,20 +267,17 @@ def _crest(x, y):
     a, b = slope - h * curvature, curvature - h * third
     inside = b * b - 3.0 * a * third
     fall = sqrt(inside) - b if inside >= 0.0 else 0.0
-    if fall <= 0.0 or not 0.0 < a / fall < h:
+    u = a / fall if fall > 0.0 else h
+    if not 0.0 < u < h:
         return x[1], -inf
-    u = a / fall
     return x[1] + u, y[1] + u * (a + u * (b + u * third))
 
 
 def largest_of_cubics(steps: np.ndarray, values: np.ndarray) -> tuple[float, float]:
     """Place and largest value of the cubics through each four consecutive `values` (s,) at whole `steps`, between the
-    middle two.
-
-    Only where the parabolas through three of them, either way, have crests alike: where the curve has a corner it is
-    not a cubic.
-    """
-    return _largest_of_cubics(np.asarray(steps, dtype=float), np.asarray(values, dtype=float))
+    middle two; only where the parabolas through three of them, either way, have crests alike: at a corner the curve is
+    no cubic."""
+    return _largest_of_cubics(*(np.asarray(each, dtype=float) for each in (steps, values)))
 
 
 @njit(cache=True)

@@ -157,7 +157,7 @@ def _together(runs: Sequence[Run], asked: Collection[str]) -> dict[str, Any]:
     groups: list[list[tuple[str, Model]]] = []
     for run in runs:
         model = run.model
-        group = next((each for each in groups if alike(each[0][1].scene, model.scene)), None)
+        group = next((each for each in groups if alike(each[0][1], model)), None)
         if group is not None:
             group.append((run.key, model))
         elif can_be_solved_together(model, asked):

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import fields
 
 from fenics_gears.contact.mesh_cycle import Gaps
 from fenics_gears.effects import common_period, effects_on
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.model.model import Model
+from fenics_gears.model.model import RELIEFS, Model, differ_only
 from fenics_gears.results.extrema import repeating_steps
 from fenics_gears.results.together import OFFERED, NumbersOfRun, numbers_together
-from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.elastic_route import reliefs_apart
 from fenics_gears.simulation.routes import Preparation
 from fenics_gears.simulation.simulate import memory_for_operators
@@ -34,14 +32,9 @@ def can_be_solved_together(model: Model, asked: Collection[str]) -> bool:
     return OFFERED.issuperset(asked) and plane and steady and held and not (own or gaps or locking)
 
 
-def alike(one: Scene, other: Scene) -> bool:
-    """Whether two scenes with the same contact operators differ in nothing else but words."""
-    words = "title", "name", "derived"
-    may = {"load", *words, *(each.section for each in (*effects_on(one), *effects_on(other)) if each.removal)}
-    return all(getattr(one, each.name) == getattr(other, each.name) for each in _COMPARED if each.name not in may)
-
-
-_COMPARED = [each for each in fields(Scene) if each.compare]
+def alike(one: Model, other: Model) -> bool:
+    """Whether the runs of two models with the same contact operators differ in nothing but load and reliefs."""
+    return one.scene is other.scene or differ_only(one.scene, other.scene, ("load", *RELIEFS))
 
 
 def solved_together(
