@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, Points
-from fenics_gears.contact.mesh_cycle import Cycle, PerPosition, Position
+from fenics_gears.contact.mesh_cycle import Cycle, Gaps, PerPosition, Position
 from fenics_gears.contact.operator import node_ends, over_nodes
 from fenics_gears.contact.tooth_pair import DRIVE, Removal, facing_points, seen_gap
 from fenics_gears.geometry.relief import side_by_side
@@ -85,6 +85,13 @@ class Profiles:
         counts = [len(each.gap) for each in facing]
         pinion, wheel = (side_by_side([self._removals[run][gear] for run, _ in asked], counts) for gear in (0, 1))
         return self._cycle.face.cosine * _gaps(self._cycle, _joined(facing), (pinion, wheel))
+
+    def of(self, run: int) -> Cycle:
+        """The cycle with the gaps of a run."""
+        if self._removals[run] == (None, None):
+            return self._cycle
+        profile, of_steps = profile_of(self._cycle, self._removals[run])
+        return self._cycle.with_gaps(Gaps(profile, of_steps=of_steps))
 
 
 def _facing_points(cycle: Cycle) -> PerPosition[Facing]:

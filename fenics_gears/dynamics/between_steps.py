@@ -84,7 +84,7 @@ class BetweenSteps(Stepper):
                     record = (
                         self.in_balance(place, position, self.sets_near(place, position))
                         if last is None
-                        else self._part(self.static, last, place, position)
+                        else self.part(self.static, last, place, position)
                     )
                 except ContactNotConverged:
                     continue

@@ -5,12 +5,14 @@ than to solve."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from math import ceil
 from typing import Protocol
 
 import numpy as np
 
 from fenics_gears.contact.addresses import GAP, NODES, ROW
+from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.contact.step_solver import NEWTON
 from fenics_gears.dynamics.between_steps import StepBefore
@@ -30,20 +32,25 @@ class OpenedNodes(Protocol):
     def at(self, asked: Sequence[tuple[int, Position]]) -> np.ndarray:
         """Gaps (n,), mm, of runs at a position each, one after the other."""
 
+    def of(self, run: int) -> Cycle:
+        """The cycle with the gaps of a run."""
+
 
 class Marches:
     """The marches of runs over `steps` steps from step 0 on a `cycle` without gaps of its own; `equations` by run,
     alike but for the load; `opened`: their gaps.
 
-    `block`: the steps of all runs, one run's after the other's, at positions whose operators have other gaps; `solved`
-    (runs,): those that Newton's method solved at all steps. `first`: from which step on places between steps are
-    counted (`at`).
+    Steps that Newton's method does not solve at once are solved as a march by itself does. `block`: the steps of all
+    runs, one run's after the other's, at positions whose operators have other gaps; `solved` (runs,): those with a
+    solution at all steps, none of them divided. `first`: from which step on places between steps are counted (`at`).
     """
 
     def __init__(self, cycle: Cycle, equations: Sequence[EquationsOfMotion], opened: OpenedNodes, steps: int):
         self.cycle, self._opened, self._count = cycle, opened, len(equations)
         self._stepper, self._motions, self._loads = Stepper(cycle, equations[0]), [], []
         self._take(equations)
+        self._equations: Sequence[EquationsOfMotion] = equations
+        self._alone: dict[int, Stepper] = {}
         self.friction, self.solved, self.first = self._stepper.friction, np.ones(len(equations), dtype=bool), 0
         self._numbers = np.arange(steps + 1)
         positions = [cycle.position(step) for step in range(cycle.steps)]
@@ -87,8 +94,34 @@ class Marches:
         own = len(steps) // self._count
         course = Course(np.zeros(len(steps)), np.repeat(self._loads, own, axis=0), sets, at_rest)
         for run in np.flatnonzero(self.solved).tolist():
-            end = (run + 1) * own
-            self.solved[run] = solve_steps(steps, end - own + 1, end, self._motions[run], course) == end
+            done, end = run * own + 1, (run + 1) * own
+            while self.solved[run] and (done := solve_steps(steps, done, end, self._motions[run], course)) < end:
+                record = self._by_itself(run, steps, done, at_rest and done == run * own + 1)
+                self.solved[run] = record is not None
+                if record is not None:
+                    steps.put(done, record)
+                    done += 1
+
+    def _by_itself(self, run: int, steps: Steps, place: int, in_balance: bool) -> Record | None:
+        """A step of a run as a march by itself solves it, after the step before it or in balance; None where it has no
+        solution, or was divided."""
+        stepper, number = self._stepper_of(run), int(steps.numbers[place])
+        try:
+            if in_balance:
+                position = stepper.cycle.position(number)
+                record = stepper.in_balance(number, position, stepper.sets_near(number, position))
+            else:
+                last = replace(steps.record(place - 1), position=stepper.cycle.position(number - 1))
+                record = stepper.step(stepper.static, last, number)
+        except ContactNotConverged:
+            return None
+        # Its position has gaps of its own; the block has these in its table.
+        return None if record.parts else replace(record, position=steps.positions[place])
+
+    def _stepper_of(self, run: int) -> Stepper:
+        if run not in self._alone:
+            self._alone[run] = Stepper(self._opened.of(run), self._equations[run])
+        return self._alone[run]
 
     def _start(self) -> None:
         """Step 0 as `Stepper.start` has it: in balance, with friction after a step that is in balance after long
@@ -97,7 +130,7 @@ class Marches:
         before, *positions = (self.cycle.position(step) for step in range(first - 1, 1))
         rows = self._rows[:, [*range(first - 1, 1)]]
         if self.friction:
-            slid = STEPS_SLID_BEFORE_START * positions[0].operator.rigid_slip
+            slid = np.asarray(STEPS_SLID_BEFORE_START * positions[0].operator.rigid_slip)
             rows[:, 1, RIGID_SLIP] = slid.ctypes.data
         steps, sets = self._room(range(first - 1, 1), [before, *positions], rows), []
         # Of all but the first position in balance the sets are those of the step before.
@@ -135,12 +168,12 @@ class Marches:
         return self.block.between(run * len(self._numbers), (run + 1) * len(self._numbers))
 
     def at(self, asked: Iterable[tuple[int, float]]) -> dict[tuple[int, float], Record | None]:
-        """The motion of runs at places after the step `first`, counted from it in steps; None, and the run is not
-        `solved`, where Newton's method has no solution."""
+        """The motion of runs at places after the step `first`, counted from it in steps; None where it has no
+        solution."""
         every = list(dict.fromkeys(asked))
-        if new := [each for each in every if each not in self._between and self.solved[each[0]]]:
+        if new := [each for each in every if each not in self._between]:
             self._solve_each(new)
-        return {each: self._between.get(each) for each in every}
+        return {each: self._between[each] for each in every}
 
     def _solve_each(self, asked: list[tuple[int, float]]) -> None:
         stepper = self._stepper
@@ -166,13 +199,24 @@ class Marches:
         loads = np.repeat([self._loads[run] for run, _ in asked], 2, axis=0)
         course = Course(np.zeros(len(steps)), loads, np.concatenate(sets) if sets else NO_SETS, at_rest=True)
         for at, (run, place) in enumerate(asked):
-            record = None
             if solve_steps(steps, 2 * at + 1, 2 * at + 2, self._motions[run], course) > 2 * at + 1:
-                record = steps.record(2 * at + 1)
-                stepper.remember(place, record.solution.status)
+                record: Record | None = steps.record(2 * at + 1)
             else:
-                self.solved[run] = False
+                record = self._between_by_itself(run, place, steps.record(2 * at))
             self._between[run, place] = record
+            if record is not None:
+                stepper.remember(place, record.solution.status)
+
+    def _between_by_itself(self, run: int, place: float, last: Record) -> Record | None:
+        """As `BetweenSteps` solves it after the step `last`."""
+        stepper = self._stepper_of(run)
+        position = stepper.cycle.between(place, ceil(place) - 1)
+        try:
+            if not self.friction:
+                return stepper.in_balance(place, position, stepper.sets_near(place, position))
+            return stepper.part(stepper.static, last, place, position)
+        except ContactNotConverged:
+            return None
 
     def _copy(self, run: int, step: int, steps: Steps, at: int) -> None:
         """Take over the solution of a run's step as that at a place of other steps."""

@@ -45,7 +45,8 @@ class ReliefCurve:
         if len({curve.power for curve in curves}) > 1:
             return None
         ends = np.array([(curve.depth, curve.start_roll_angle, curve.end_roll_angle) for curve in curves])
-        return cls(*np.repeat(ends, counts, axis=0).T, curves[0].power)
+        depth, start, end = np.repeat(ends, counts, axis=0).T
+        return cls(depth, start, end, curves[0].power)
 
     @property
     def kinks(self) -> tuple[float, ...]:

@@ -2,7 +2,7 @@
 contact fields, no dataset, no texts.
 
 They are those of `results.dataset`, from the same functions. A run of which there would be more to say has to be run by
-itself: contact that is lost, gears that pass through each other, steps that need more than Newton's method.
+itself: contact that is lost, gears that pass through each other, steps that are divided or have no solution.
 """
 
 from __future__ import annotations
@@ -97,8 +97,6 @@ def numbers_together(
     iterations = marches.block.iterations.reshape(count, -1)[:, 1:].sum(axis=1)
     seconds = (time.perf_counter() - begun) / count
     for place, run in enumerate(runs):
-        if not marches.solved[run]:
-            continue
         error, (of_error, of_force) = counted[place]["transmission_error"], located[place]
         numbers = others[place] | loss[place] | of_error | of_force
         numbers |= {

@@ -1,11 +1,12 @@
 """What a run costs among others that differ in modifications, misalignment and torque, and what it costs by itself.
 
-``python -m tests.benchmarks.designs [--runs N] [--friction] [--plane]``: runs of the pair of `demos/helical_gearbox` over the
-face, and of the paper's pair in the plane, quasi-static, drawn at random about the designs of the demonstrations; gears
-are condensed before. Processor seconds of a run in medians: of this process and of the kernel; contact operators that
-were built, positions between steps that were asked for, Newton's iterations. "alone": nothing but gears is shared;
-"shared": one after the other on the same contact operators, the second half of them; "together": as a search computes
-plane runs, a task at a time, of which T_EPP alone is asked. `--plane`: the plane alone.
+``python -m tests.benchmarks.designs [--runs N] [--friction] [--plane]``: runs of the pair of `demos/helical_gearbox`
+over the face (left out by `--plane`), and of the paper's pair in the plane, quasi-static, drawn at random about the
+designs of the demonstrations; gears are condensed before. Processor seconds of a run in medians: of this process and of
+the kernel; contact operators that were built, positions between steps that were asked for, Newton's iterations.
+"alone": nothing but gears is shared;
+"shared": one after the other on the same contact operators, the second half of them; "together": as a search
+computes plane runs, a task at a time, of which T_EPP alone is asked.
 """
 
 from __future__ import annotations
