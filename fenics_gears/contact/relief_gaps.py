@@ -3,15 +3,16 @@ nothing else."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, Points
-from fenics_gears.contact.mesh_cycle import Cycle, PerPosition, Position
+from fenics_gears.contact.mesh_cycle import Cycle, Gaps, PerPosition, Position
 from fenics_gears.contact.operator import node_ends, over_nodes
 from fenics_gears.contact.tooth_pair import DRIVE, Removal, facing_points, seen_gap
+from fenics_gears.geometry.relief import side_by_side
 
 
 @dataclass(frozen=True)
@@ -52,24 +53,57 @@ def profile_of(
     """The gaps (n,), mm, at a position of a `cycle` of flanks along the line of action from which `removal` is taken;
     what the cycle's own flanks lack is not counted. And those of all steps, one after the other, where they are
     known."""
-    points, view = cycle.beside(FacingPoints), INTERPOLATIONS[cycle.grid.interpolation]
-    facing = PerPosition(lambda position: _facing(cycle, position), points.known)
-
-    def gaps(at: Facing) -> np.ndarray:
-        gap = at.gap
-        for removed, rolls in zip(removal, at.rolls):
-            if removed is not None:
-                gap = gap + np.where(at.drive, removed(rolls), 0.0)
-        return seen_gap(view, at.offsets, at.node_ends, gap)
-
+    points, facing = cycle.beside(FacingPoints), _facing_points(cycle)
     known: dict[float, np.ndarray] = {}
-    of_steps = None if (together := points.of_steps(cycle.steps)) is None else gaps(together)
+    of_steps = None if (together := points.of_steps(cycle.steps)) is None else _gaps(cycle, together, removal)
     if of_steps is not None:
         first = 0
         for step in range(cycle.steps):
             end = first + len(points.known[step].offsets)
             known[step], first = of_steps[first:end], end
-    return PerPosition(lambda position: gaps(facing(position)), known), of_steps
+    return PerPosition(lambda position: _gaps(cycle, facing(position), removal), known), of_steps
+
+
+class Profiles:
+    """The gaps of several runs on the contact operators of one `cycle`, from whose flanks each has material of its own
+    removed: `removals` of pinion and wheel, by run."""
+
+    def __init__(self, cycle: Cycle, removals: Sequence[tuple[Removal | None, Removal | None]]):
+        self._cycle, self._removals, self._facing = cycle, removals, _facing_points(cycle)
+
+    def of_steps(self, positions: Sequence[Position]) -> np.ndarray:
+        """Gaps (runs, n), mm along the normal, at all steps of the mesh cycle, one after the other."""
+        for position in positions:
+            self._facing(position)
+        together = self._cycle.beside(FacingPoints).of_steps(self._cycle.steps)
+        assert together is not None
+        return self._cycle.face.cosine * np.array([_gaps(self._cycle, together, each) for each in self._removals])
+
+    def at(self, asked: Sequence[tuple[int, Position]]) -> np.ndarray:
+        """Gaps (n,), mm along the normal, of runs at a position each, one after the other."""
+        facing = [self._facing(position) for _, position in asked]
+        counts = [len(each.gap) for each in facing]
+        pinion, wheel = (side_by_side([self._removals[run][gear] for run, _ in asked], counts) for gear in (0, 1))
+        return self._cycle.face.cosine * _gaps(self._cycle, _joined(facing), (pinion, wheel))
+
+    def of(self, run: int) -> Cycle:
+        """The cycle with the gaps of a run."""
+        if self._removals[run] == (None, None):
+            return self._cycle
+        profile, of_steps = profile_of(self._cycle, self._removals[run])
+        return self._cycle.with_gaps(Gaps(profile, of_steps=of_steps))
+
+
+def _facing_points(cycle: Cycle) -> PerPosition[Facing]:
+    return PerPosition(lambda position: _facing(cycle, position), cycle.beside(FacingPoints).known)
+
+
+def _gaps(cycle: Cycle, at: Facing, removal: tuple[Removal | None, Removal | None]) -> np.ndarray:
+    gap = at.gap
+    for removed, rolls in zip(removal, at.rolls):
+        if removed is not None:
+            gap = gap + np.where(at.drive, removed(rolls), 0.0)
+    return seen_gap(INTERPOLATIONS[cycle.grid.interpolation], at.offsets, at.node_ends, gap)
 
 
 def _joined(parts: list[Facing]) -> Facing:

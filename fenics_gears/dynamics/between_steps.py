@@ -22,7 +22,7 @@ from fenics_gears.dynamics.steps import Record, Steps
 FIRST_REACH = 0.1
 
 
-class _StepBefore(NamedTuple):
+class StepBefore(NamedTuple):
     """In place of the position of a step that is solved: compiled code reads nothing of it but how many nodes it
     has."""
 
@@ -84,7 +84,7 @@ class BetweenSteps(Stepper):
                     record = (
                         self.in_balance(place, position, self.sets_near(place, position))
                         if last is None
-                        else self._part(self.static, last, place, position)
+                        else self.part(self.static, last, place, position)
                     )
                 except ContactNotConverged:
                     continue
@@ -97,7 +97,7 @@ class BetweenSteps(Stepper):
         for place, position, last in asked:
             nodes = position.node_before.max(initial=-1) + 1 if last is None else len(last.solution.status)
             numbers += [ceil(place) - 1, place]
-            positions += [_StepBefore.of(nodes), position]
+            positions += [StepBefore.of(nodes), position]
             sets += [np.zeros(nodes, dtype=np.int8), self.sets_near(place, position)] if last is None else []
         steps = Steps.to_solve(numbers, positions, len(self.drivetrain.coordinates), NEWTON)
         for number, (_, _, last) in enumerate(asked):

@@ -182,7 +182,7 @@ class Stepper:
 
     def _step(self, scheme: AverageAcceleration | BackwardEuler, last: Record, step: int) -> Record:
         try:
-            return self._part(scheme, last, step, self.cycle.position(step))
+            return self.part(scheme, last, step, self.cycle.position(step))
         except ContactNotConverged as failure:
             # Without friction a static solution does not depend on the way to it.
             depends_on_way = scheme.inert or self.friction > 0.0
@@ -206,14 +206,14 @@ class Stepper:
         for end in (0.5 * (last.step + step), step):
             finer = type(scheme)(drivetrain, self.clock.duration(record.step, end))
             try:
-                record = self._part(finer, record, end, self.cycle.between(end, record.step))
+                record = self.part(finer, record, end, self.cycle.between(end, record.step))
             except ContactNotConverged as failed:
                 record = self._divided(finer, record, end, failed, halvings + 1)
             parts += record.parts or (record,)
         iterations = sum(part.solution.iterations for part in parts)
         return replace(record, solution=replace(record.solution, iterations=iterations, method=HALVED), parts=parts)
 
-    def _part(self, scheme: AverageAcceleration, last: Record, step: float, position: Position) -> Record:
+    def part(self, scheme: AverageAcceleration, last: Record, step: float, position: Position) -> Record:
         """From `last` to `position` without dividing."""
         operator = position.operator
         slip_before = NO_SLIP

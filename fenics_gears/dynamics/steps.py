@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import carray, njit
@@ -64,11 +64,9 @@ BLOCK = np.dtype([(name, np.int64) for name in ("steps", "kinds", "coordinates",
 @dataclass
 class Steps:
     """Steps (s,) of a march: their `numbers`, `positions` and the `methods` that solved them; n contact nodes at each,
-    N at all.
-
-    `states` (s, 3, k): centre coordinates, mm, velocities and accelerations; `forces` and `displacement` (N,) or, with
-    friction, (2 N,): a step's as in StepSolution, then the next step's; `status` (N,); `iterations` (s,) of Newton's
-    method. `parts`: by place, those of steps that were divided.
+    N at all. `states` (s, 3, k): centre coordinates, mm, velocities and accelerations; `forces` and `displacement` (N,)
+    or, with friction, (2 N,): a step's as in StepSolution, then the next step's; `status` (N,); `iterations` (s,) of
+    Newton's method. `parts`: by place, those of steps that were divided.
     """
 
     numbers: np.ndarray
@@ -82,9 +80,11 @@ class Steps:
     parts: dict[int, tuple[Record, ...]] = field(default_factory=dict)
 
     @classmethod
-    def to_solve(cls, numbers: Sequence[float], positions: list[Position], coordinates: int, method: str) -> Steps:
-        """Room for the solutions at these positions."""
-        count, table = len(positions), table_of(positions)
+    def to_solve(
+        cls, numbers: Sequence[float], positions: list[Position], coordinates: int, method: str, table: Any = None
+    ) -> Steps:
+        """Room for the solutions at these positions, whose rows are those of a `table` (s, r) where it is given."""
+        count, table = len(positions), table_of(positions) if table is None else table
         nodes = int(table[:, NODES].sum())
         forces = nodes * (1 if not count or positions[-1].operator.rigid_slip is None else 2)
         steps = cls(

@@ -32,8 +32,12 @@ SIZE_VARIABLE, DEFAULT_SIZE = "FENICS_GEARS_CACHE_SIZE", "2 GB"
 def content_key(inputs: dict) -> str:
     """Hash of inputs made of numbers, strings, lists, dicts and dataclasses; equal inputs have equal keys on every
     machine."""
-    text = json.dumps(inputs, sort_keys=True, separators=(",", ":"), allow_nan=False, default=_fields_of)
-    return hashlib.sha256(text.encode()).hexdigest()
+    return hashlib.sha256(as_json(inputs).encode()).hexdigest()
+
+
+def as_json(inputs: Any) -> str:
+    """Such inputs in the words of which their key is the hash."""
+    return json.dumps(inputs, sort_keys=True, separators=(",", ":"), allow_nan=False, default=_fields_of)
 
 
 def _fields_of(data: Any) -> dict[str, Any]:

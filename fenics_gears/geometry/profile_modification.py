@@ -6,7 +6,8 @@ active profile to the tip.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
@@ -34,8 +35,17 @@ class ProfileCurve:
         along = (np.asarray(roll_angle, dtype=float) - self.start_roll_angle) / (
             self.end_roll_angle - self.start_roll_angle
         )
-        crowned = own.crowning * (2.0 * along - 1.0) ** 2 - min(own.crowning, 0.0)
-        return np.maximum(crowned, 0.0) + np.maximum(own.slope * along - min(own.slope, 0.0), 0.0)
+        crowned = own.crowning * (2.0 * along - 1.0) ** 2 - np.minimum(own.crowning, 0.0)
+        return np.maximum(crowned, 0.0) + np.maximum(own.slope * along - np.minimum(own.slope, 0.0), 0.0)
+
+    @classmethod
+    def side_by_side(cls, curves: Sequence[ProfileCurve], counts: Sequence[int]) -> ProfileCurve:
+        """One curve for roll angles of several flanks one after the other, so many of each."""
+        ends = [
+            (of.modification.crowning, of.modification.slope, of.start_roll_angle, of.end_roll_angle) for of in curves
+        ]
+        crowning, slope, start, end = np.repeat(np.array(ends), counts, axis=0).T
+        return cls(replace(curves[0].modification, crowning=crowning, slope=slope), start, end)
 
 
 def profile_curves(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import degrees, isfinite, sqrt
 from typing import TYPE_CHECKING
@@ -37,10 +38,41 @@ class ReliefCurve:
             * np.maximum((np.asarray(roll_angle, dtype=float) - self.start_roll_angle) / length, 0.0) ** self.power
         )
 
+    @classmethod
+    def side_by_side(cls, curves: Sequence[ReliefCurve], counts: Sequence[int]) -> ReliefCurve | None:
+        """One curve for roll angles of several flanks one after the other, so many of each; None where powers
+        differ."""
+        if len({curve.power for curve in curves}) > 1:
+            return None
+        ends = np.array([(curve.depth, curve.start_roll_angle, curve.end_roll_angle) for curve in curves])
+        depth, start, end = np.repeat(ends, counts, axis=0).T
+        return cls(depth, start, end, curves[0].power)
+
     @property
     def kinks(self) -> tuple[float, ...]:
         """Roll angle (rad) of the start where the relief is linear."""
         return (self.start_roll_angle,) if self.power == 1 and self.depth > 0.0 else ()
+
+
+def side_by_side(removals: Sequence[Callable | None], counts: Sequence[int]) -> Callable | None:
+    """One removal, a function of the roll angle, for roll angles of several flanks one after the other, so many of
+    each; None where none has any."""
+    kinds = {type(removal) for removal in removals}
+    if kinds == {type(None)}:
+        return None
+    together = getattr(next(iter(kinds)), "side_by_side", None) if len(kinds) == 1 else None
+    found = None if together is None else together(removals, counts)
+    return _one_by_one(removals, counts) if found is None else found
+
+
+def _one_by_one(removals: Sequence[Callable | None], counts: Sequence[int]) -> Callable:
+    ends = np.cumsum(counts)[:-1]
+
+    def removed(roll_angle: np.ndarray) -> np.ndarray:
+        parts = zip(removals, np.split(roll_angle, ends))
+        return np.concatenate([np.zeros(len(rolls)) if of is None else of(rolls) for of, rolls in parts])
+
+    return removed
 
 
 @dataclass(frozen=True)

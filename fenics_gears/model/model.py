@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from math import inf, lcm
@@ -262,6 +262,24 @@ def model_of(scene: Scene) -> Model:
     if whole.stored_bytes > MOST_STORED_BYTES:
         raise SceneError(_too_large(model, whole))
     return whole
+
+
+# Effects of a plane scene that change nothing of its model but the material removed from the flanks.
+RELIEFS = ("tip_relief", "root_relief", "profile_modifications")
+# What a model does not depend on.
+WORDS = ("title", "name", "derived", "written", "folder")
+
+
+def differ_only(one: Scene, other: Scene, names: Collection[str]) -> bool:
+    """Whether two scenes differ in fields of these `names` alone, and in words."""
+    apart = {each for each in Scene.__dataclass_fields__ if getattr(one, each) != getattr(other, each)}
+    return apart.issubset((*names, *WORDS))
+
+
+def with_reliefs(model: Model, scene: Scene) -> Model:
+    """The model of a plane scene that differs from that of a model in RELIEFS alone. Raises GeometryError for those
+    that do not fit the flanks."""
+    return replace(model, scene=scene, removal=removals(scene, model.pair))
 
 
 def _too_large(curves: Model, whole: Model) -> str:

@@ -3,6 +3,7 @@ with a thin rim."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import exp
 from typing import TYPE_CHECKING
@@ -66,6 +67,18 @@ class Removals:
     def __call__(self, roll_angle) -> np.ndarray:
         """Removal (mm) at roll angles (rad, any shape) by all of them together."""
         return sum(part(roll_angle) for part in self.parts)
+
+    @classmethod
+    def side_by_side(cls, removals: Sequence[Removals], counts: Sequence[int]) -> Removals | None:
+        """One removal for roll angles of several flanks one after the other, so many of each; None where the effects
+        that remove differ."""
+        # Imported here: true involutes have none.
+        from fenics_gears.geometry.relief import side_by_side
+
+        parts = [[type(part) for part in removal.parts] for removal in removals]
+        if any(kinds != parts[0] for kinds in parts):
+            return None
+        return cls(tuple(side_by_side(of_effect, counts) for of_effect in zip(*(each.parts for each in removals))))
 
     @property
     def kinks(self) -> tuple[float, ...]:

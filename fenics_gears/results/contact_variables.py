@@ -50,8 +50,7 @@ def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
     if nodes.tangential is not None:
         reactions += _summed(nodes.of("rows_of_tangents"), nodes.tangential, nodes.layouts.starts)
     reaction_x, reaction_y, reaction_couple = of_gears(reactions[:6])
-    values = {
-        "normal_force": nodes.summed(nodes.normal * drive),
+    values = normal_forces(scene, nodes) | {
         "reaction_x": reaction_x,
         "reaction_y": reaction_y,
         "reaction_couple": reaction_couple,
@@ -63,12 +62,21 @@ def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
     if scene.friction is not None:
         values["friction_force"] = nodes.summed(nodes.tangential * drive)
     if scene.coast_flanks is not None:
-        values["coast_normal_force"] = nodes.summed(nodes.normal * ~drive)
         if scene.friction is not None:
             values["coast_friction_force"] = nodes.summed(nodes.tangential * ~drive)
         for name, flank in (("drive_flank_opening", DRIVE), ("coast_flank_opening", COAST)):
             values[name] = np.maximum(smallest_openings(steps)[:, flank], 0.0)
     return values
+
+
+def normal_forces(scene: Scene, nodes: SideBySide) -> Values:
+    """Normal forces of the whole mesh at consecutive steps, on drive and on coast flanks."""
+    values = {"normal_force": nodes.summed(nodes.normal * nodes.drive)}
+    return (
+        values
+        if scene.coast_flanks is None
+        else values | {"coast_normal_force": nodes.summed(nodes.normal * ~nodes.drive)}
+    )
 
 
 @njit(cache=True)

@@ -11,10 +11,10 @@ Of a smooth curve that is known at the steps alone the largest value is that of 
 
 from __future__ import annotations
 
-from collections.abc import Generator
 from math import inf, isnan, nan, sqrt
 
 import numpy as np
+from numba import njit
 
 from fenics_gears.results.numbers import SAME
 
@@ -26,134 +26,175 @@ NEAR = 25.0
 # where the lower of the parabolas from either side is above the steps by at least this part of the higher one; between
 # steps where their curvatures are as much alike.
 LIKE = 0.5
-# A cubic holds where it differs from a value between its steps by at most so many parts of what is sought: those
-# through this value then differ by a tenth of that. Such a value is asked for at most this part of the interval from
-# its middle.
+# A cubic holds where it differs from a value between its steps by at most so many parts of what is sought: those that
+# go through it then differ by a tenth of that. It is asked for at most this part of the interval from its middle.
 AGREES, MIDDLE = 2.0, 0.25
 # A position is sought no nearer to a step than this part of the distance to the next.
 NEAREST = 0.02
 
+# Of an interval between two points: how high the curve may be there and where that is, whether a value was asked for,
+# whether a cubic holds; and its crest, place and height, where a cubic holds or no place is between.
+KNOWN = BOUND, PLACE, ASKED, CUBIC, CREST, HEIGHT = range(6)
+# Of a search: its points, values that it may still ask for (-1 before it begins), interval of the one asked for now.
+COUNTED = COUNT, LEFT, AT = range(3)
 
-def highest(
-    steps: np.ndarray, values: np.ndarray, sought: float, finest: float, corners: bool = True
-) -> Generator[float, float, tuple[float, float]]:
-    """Place and largest value of a curve given at `steps` (s,) by `values` (s,): as a generator, which asks for its
-    value, which may be not a number, at one place after the other between them. These are multiples of the `finest`
-    part of a step; `corners`: between two of them the curve may be higher than both at a corner.
+
+class Searches:
+    """Searches for the largest values of curves (c, s) that are given at `steps` (s,), side by side: each asks for
+    values of its curve between them, at places that are multiples of the `finest` part of a step, until these say what
+    is `sought` (c,) of its largest value. `corners`: between two places a curve may be higher than both at a corner.
+
+    `asked` (c,): the places whose values are asked for now, not a number where a search has ended; `tops` (c, 2): place
+    and largest value, as far as they are known.
 
     Between the first two and the last two steps nothing is sought, nor where the curve is level at its top: it reaches
-    what bounds it there. Ends where no crossing of lines is higher by `sought` and on either side of the largest value
-    the curve falls by NEAR times that in small parts, so that lines are those beside the crest; or after MOST_SOLVED.
+    what bounds it there. A search ends where no crossing of lines is higher by what is sought and on either side of the
+    largest value the curve falls by NEAR times that in small parts, so that lines are those beside the crest; or after
+    MOST_SOLVED values.
     """
-    curve = _Curve(steps, values, sought, finest, corners)
-    for _ in range(0 if _is_level(values) else MOST_SOLVED):
-        interval, place = curve.next_place()
-        found = (yield place) if interval else nan
-        if isnan(found):
-            break
-        curve.take(interval, place, found)
-    return curve.top()
+
+    def __init__(self, steps: np.ndarray, curves: np.ndarray, sought: np.ndarray, finest: float, corners: bool = True):
+        count, s = curves.shape
+        self._points = np.zeros((count, 2, s + MOST_SOLVED))
+        self._points[:, 0, :s], self._points[:, 1, :s] = steps, curves
+        self._intervals = np.zeros((count, len(KNOWN), s + MOST_SOLVED))
+        self._counted, self._ends = np.tile([s, -1, 0], (count, 1)), np.full((count, 3), nan)
+        self._settings = sought, float(finest), bool(corners)
+        self.asked, self.tops = self._ends[:, 0], self._ends[:, 1:]
+        self.take(self.asked)
+
+    def take(self, values: np.ndarray) -> None:
+        """Go on with the values (c,) at the places that were asked for; a search ends that gets none (not a number)."""
+        _go_on(self._points, self._intervals, self._counted, self._ends, np.array(values), *self._settings)
 
 
-def _is_level(values: np.ndarray) -> bool:
+@njit(cache=True)
+def _go_on(points, intervals, counted, ends, values, sought, finest, corners):
+    """Take the values (c,) that were asked for, and ask for the next ones."""
+    for c in range(len(points)):
+        x, y, known, own, settings = points[c, 0], points[c, 1], intervals[c], counted[c], (sought[c], finest, corners)
+        if own[LEFT] < 0:
+            own[LEFT] = 0 if _is_level(y[: own[COUNT]]) else MOST_SOLVED
+            _begin(x[: own[COUNT]], y[: own[COUNT]], known, settings)
+        elif isnan(values[c]):
+            own[LEFT] = 0
+        else:
+            _take(x, y, known, own[COUNT], (own[AT], ends[c, 0], values[c]), settings)
+            own[COUNT], own[LEFT] = own[COUNT] + 1, own[LEFT] - 1
+        x, y, known = x[: own[COUNT]], y[: own[COUNT]], known[:, : max(own[COUNT] - 1, 0)]
+        place, top = _top(x, y, known)
+        own[AT], asked = _next(x, y, known, top, settings) if own[LEFT] else (0, nan)
+        ends[c] = asked, place, top
+
+
+@njit(cache=True)
+def _is_level(values):
     """Whether a curve has its largest value at three steps in a row: two may lie on either side of a crest."""
-    top = values >= values.max() - SAME * np.abs(values).max()
-    return bool((top[2:] & top[1:-1] & top[:-2]).any())
+    least, row = values.max() - SAME * np.abs(values).max(), 0
+    for value in values:
+        row = row + 1 if value >= least or row >= 3 else 0
+    return row >= 3
 
 
-class _Curve:
-    """What a search knows of a curve: its points, and of each interval between two of them how high the curve may be
-    there and where that is, whether a value was asked for, whether a cubic holds; and its crest, place and height,
-    where a cubic holds or there is no place between.
-
-    Plain numbers in lists: a new point changes four intervals, for which numpy takes ten times as long.
-    """
-
-    def __init__(self, steps: np.ndarray, values: np.ndarray, sought: float, finest: float, corners: bool):
-        self._x, self._y, self._sought, self._finest = steps.tolist(), values.tolist(), sought, finest
-        self._corners = corners
-        count = max(len(values) - 1, 0)
-        self._bounds, self._places, self._asked = [-inf] * count, [0.0] * count, [False] * count
-        self._cubic, self._crests, self._heights = [False] * count, [0.0] * count, [-inf] * count
-        for interval in _rising_beyond(steps, values, sought).tolist():
-            self._look_at(interval)
-
-    def top(self) -> tuple[float, float]:
-        """Place and largest value of all points and crests."""
-        value, crest = max(self._y), max(self._heights, default=-inf)
-        if value >= crest:
-            return self._x[self._y.index(value)], value
-        return self._crests[self._heights.index(crest)], crest
-
-    def next_place(self) -> tuple[int, float]:
-        """The interval in which the largest value may lie, and the place there to ask for; 0 where it is known."""
-        bound, crossing = max(self._bounds, default=-inf), True
-        interval = self._bounds.index(bound) if bound > -inf else 0
-        if bound <= self.top()[1] + self._sought:
-            top, crossing = self._y.index(max(self._y)), False
-            # Beside the crest of a cubic that holds there are no lines.
-            known = any(self._cubic[max(top - 1, 0) : top + 1])
-            interval = 0 if known else self._steep_neighbour(top)
-        if not interval:
-            return 0, nan
-        start, end, part = self._x[interval], self._x[interval + 1], self._finest
-        place = self._places[interval] if crossing and self._asked[interval] else 0.5 * (start + end)
-        return interval, min(max(part * round(place / part), start + part), end - part)
-
-    def take(self, interval: int, place: float, found: float) -> None:
-        """The value found at a place in an interval, which it divides."""
-        four = slice(interval - 1, interval + 3)
-        holds = _holds(self._x[four], self._y[four], place, found, AGREES * self._sought)
-        self._x.insert(interval + 1, place)
-        self._y.insert(interval + 1, found)
-        for known, both in (
-            (self._bounds, -inf), (self._places, 0.0), (self._asked, True), (self._cubic, holds), (self._crests, 0.0),
-            (self._heights, -inf),
-        ):  # fmt: skip
-            known[interval : interval + 1] = [both, both]
-        for each in range(max(interval - 2, 1), min(interval + 4, len(self._bounds) - 1)):
-            self._look_at(each)
-
-    def _look_at(self, interval: int) -> None:
-        """How high the curve may be in an interval, or is."""
-        x, y = (of[interval - 1 : interval + 3] for of in (self._x, self._y))
-        height, place, jumps = _bound(x, y)
-        divisible, cubic = x[2] - x[1] >= 2.0 * self._finest, self._cubic[interval]
-        self._bounds[interval], self._places[interval] = height if divisible and not cubic else -inf, place
-        crest = 0.0, -inf
-        if self._corners and not (divisible or cubic or jumps) and 1 < interval < len(self._x) - 3:
-            crest = _corner(*(of[interval - 2 : interval + 4] for of in (self._x, self._y)))
-        if cubic or not divisible and _is_smooth(x, y):
-            of_cubic = tuple(float(each) for each in _crests(np.array(x), np.array(y)))
-            crest = max(crest, of_cubic, key=lambda each: each[1])
-        self._crests[interval], self._heights[interval] = crest
-
-    def _steep_neighbour(self, top: int) -> int:
-        """The steeper of the intervals in which the curve falls below its largest value, at the point `top`, by more
-        than NEAR times what is sought on either side within a step of it; 0 where neither falls by so much in itself,
-        has a place between, or both are at an end."""
-        x, y, found = self._x, self._y, {}
-        near = NEAR * self._sought
-        for side in (-1, 1):
-            end = top
-            while 0 < end + side < len(y) - 1 and y[end + side] >= y[top] - near and abs(x[end + side] - x[top]) < 1.0:
-                end += side
-            interval = min(end, end + side)
-            if 0 < interval < len(y) - 2 and x[interval + 1] - x[interval] >= 2.0 * self._finest:
-                found[interval] = y[end] - y[end + side]
-        interval = max(found, key=found.__getitem__, default=0)
-        return interval if interval and found[interval] > near else 0
+@njit(cache=True)
+def _begin(x, y, known, settings):
+    """Look at the intervals but the outer ones in which a line from either side rises above the largest value by more
+    than is sought: elsewhere the curve is lower, whatever is found beside it."""
+    known[BOUND], known[HEIGHT] = -inf, -inf
+    highest = y.max() + settings[0]
+    for i in range(1, len(x) - 2):
+        h = x[i + 1] - x[i]
+        from_left = y[i] + (y[i] - y[i - 1]) / (x[i] - x[i - 1]) * h
+        from_right = y[i + 1] - (y[i + 2] - y[i + 1]) / (x[i + 2] - x[i + 1]) * h
+        if max(from_left, from_right) > highest:
+            _look_at(x, y, known, i, settings)
 
 
-def _rising_beyond(steps: np.ndarray, values: np.ndarray, sought: float) -> np.ndarray:
-    """The intervals but the outer ones in which a line from either side rises above the largest value by more than is
-    sought: elsewhere the curve is lower, whatever is found beside it."""
-    slope, h = np.diff(values) / np.diff(steps), np.diff(steps)[1:-1]
-    highest_line = np.maximum(values[1:-2] + slope[:-2] * h, values[2:-1] - slope[2:] * h)
-    return np.flatnonzero(highest_line > values.max() + sought) + 1
+@njit(cache=True)
+def _top(x, y, known):
+    """Place and largest value of all points and crests."""
+    top = y.argmax()
+    if len(known[HEIGHT]):
+        crest = known[HEIGHT].argmax()
+        if known[HEIGHT, crest] > y[top]:
+            return known[CREST, crest], known[HEIGHT, crest]
+    return x[top], y[top]
 
 
-def _bound(x: list[float], y: list[float]) -> tuple[float, float, bool]:
+@njit(cache=True)
+def _next(x, y, known, top, settings):
+    """The interval in which the largest value may lie, and the place there to ask for; 0 where it is known."""
+    interval, crossing, bound, (sought, finest, _) = 0, True, -inf, settings
+    if len(known[BOUND]):
+        bound = known[BOUND].max()
+        interval = known[BOUND].argmax() if bound > -inf else 0
+    if bound <= top + sought:
+        at, crossing = y.argmax(), False
+        # Beside the crest of a cubic that holds there are no lines.
+        interval = 0 if known[CUBIC, max(at - 1, 0) : at + 1].any() else _steep_neighbour(x, y, at, sought, finest)
+    if not interval:
+        return 0, nan
+    start, end = x[interval], x[interval + 1]
+    place = known[PLACE, interval] if crossing and known[ASKED, interval] else 0.5 * (start + end)
+    return interval, min(max(finest * round(place / finest), start + finest), end - finest)
+
+
+@njit(cache=True)
+def _steep_neighbour(x, y, top, sought, finest):
+    """The steeper of the intervals in which the curve falls below its largest value, at the point `top`, by more than
+    NEAR times what is sought on either side within a step of it; 0 where neither falls by so much in itself, has a
+    place between, or both are at an end."""
+    near, steepest, fall = NEAR * sought, 0, -inf
+    for side in (-1, 1):
+        end = top
+        while 0 < end + side < len(y) - 1 and y[end + side] >= y[top] - near and abs(x[end + side] - x[top]) < 1.0:
+            end += side
+        interval = min(end, end + side)
+        if (
+            0 < interval < len(y) - 2
+            and x[interval + 1] - x[interval] >= 2.0 * finest
+            and y[end] - y[end + side] > fall
+        ):
+            steepest, fall = interval, y[end] - y[end + side]
+    return steepest if fall > near else 0
+
+
+@njit(cache=True)
+def _take(x, y, known, count, value, settings):
+    """The value found in an interval at a place, which divides it; x, y and what is known have room for it."""
+    interval, place, found = value
+    holds = _holds(x[interval - 1 :], y[interval - 1 :], place, found, AGREES * settings[0])
+    for i in range(count, interval + 1, -1):
+        x[i], y[i] = x[i - 1], y[i - 1]
+        known[:, i - 1] = known[:, i - 2]
+    x[interval + 1], y[interval + 1] = place, found
+    for i in (interval, interval + 1):
+        known[:, i] = 0.0
+        known[BOUND, i], known[HEIGHT, i], known[ASKED, i], known[CUBIC, i] = -inf, -inf, 1.0, holds
+    for i in range(max(interval - 2, 1), min(interval + 4, count - 1)):
+        _look_at(x[: count + 1], y[: count + 1], known, i, settings)
+
+
+@njit(cache=True)
+def _look_at(x, y, known, interval, settings):
+    """How high the curve may be in an interval, or is."""
+    _, finest, corners = settings
+    four, heights = x[interval - 1 : interval + 3], y[interval - 1 : interval + 3]
+    height, place, jumps = _bound(four, heights)
+    divisible, cubic = four[2] - four[1] >= 2.0 * finest, known[CUBIC, interval] != 0.0
+    known[BOUND, interval] = height if divisible and not cubic else -inf
+    known[PLACE, interval], crest, top = place, 0.0, -inf
+    if corners and not (divisible or cubic or jumps) and 1 < interval < len(x) - 3:
+        crest, top = _corner(x[interval - 2 : interval + 4], y[interval - 2 : interval + 4])
+    if cubic or not divisible and _is_smooth(four, heights):
+        of_cubic, its_height = _crest(four, heights)
+        if its_height > top:
+            crest, top = of_cubic, its_height
+    known[CREST, interval], known[HEIGHT, interval] = crest, top
+
+
+@njit(cache=True)
+def _bound(x, y):
     """How high a curve may be between the middle two of four points x, y (4,); the place that is to be solved there;
     and whether it may jump.
 
@@ -173,7 +214,8 @@ def _bound(x: list[float], y: list[float]) -> tuple[float, float, bool]:
     return max(a, b), x[1] + 0.5 * h, False
 
 
-def _corner(x: list[float], y: list[float]) -> tuple[float, float]:
+@njit(cache=True)
+def _corner(x, y):
     """Place and height of the crossing of the parabolas through the first and the last three of six points x, y (6,)
     between them; no height where they do not cross there, the first from below."""
     h = x[3] - x[2]
@@ -182,11 +224,8 @@ def _corner(x: list[float], y: list[float]) -> tuple[float, float]:
     bend_after = ((y[5] - y[4]) / (x[5] - x[4]) - after) / (x[5] - x[3])
     # Slopes at the third and the fourth point; the first parabola less the second is c + u (b + u a), u from the third.
     before, after = before + (x[2] - x[1]) * bend_before, after - (x[4] - x[3]) * bend_after
-    a, b, c = (
-        bend_before - bend_after,
-        before - after + 2.0 * h * bend_after,
-        y[2] - y[3] + h * (after - h * bend_after),
-    )
+    a, b = bend_before - bend_after, before - after + 2.0 * h * bend_after
+    c = y[2] - y[3] + h * (after - h * bend_after)
     inside = b * b - 4.0 * a * c
     if not (c < 0.0 < c + h * (b + h * a) and inside >= 0.0):
         return 0.0, -inf
@@ -194,62 +233,68 @@ def _corner(x: list[float], y: list[float]) -> tuple[float, float]:
     return x[2] + u, y[2] + u * (before + u * bend_before)
 
 
+@njit(cache=True)
 def _differences(x, y):
-    """Divided differences of four points x, y (4, ...): the middle first one, both second ones, the third one."""
-    first = [(y[k + 1] - y[k]) / (x[k + 1] - x[k]) for k in range(3)]
-    one, other = ((first[k + 1] - first[k]) / (x[k + 2] - x[k]) for k in range(2))
-    return first[1], (one, other), (other - one) / (x[3] - x[0])
+    """Divided differences of four points x, y (4,): the middle first one, both second ones, the third one."""
+    before, middle, after = (y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1]), (y[3] - y[2]) / (x[3] - x[2])
+    one, other = (middle - before) / (x[2] - x[0]), (after - middle) / (x[3] - x[1])
+    return middle, (one, other), (other - one) / (x[3] - x[0])
 
 
-def _holds(x: list[float], y: list[float], place: float, found: float, most: float) -> bool:
-    """Whether the cubic through four points x, y (4,), concave between the middle two, has the value `found` at a place
-    in the middle there, but for `most`."""
+@njit(cache=True)
+def _holds(x, y, place, found, most):
+    """Whether the cubic through four points x, y (4,), concave in the middle, is `found` at a place, by `most`."""
     slope, (one, _), third = _differences(x, y)
     after = place - x[1]
     cubic = y[1] + after * (slope + (place - x[2]) * (one + third * (place - x[0])))
     return _is_smooth(x, y) and abs(found - cubic) <= most and abs(after / (x[2] - x[1]) - 0.5) <= MIDDLE
 
 
-def _is_smooth(x: list[float], y: list[float]) -> bool:
+@njit(cache=True)
+def _is_smooth(x, y):
     """Whether a curve bends alike through the first and the last three of four points x, y (4,), and down."""
     one, other = _differences(x, y)[1]
     return max(one, other) < 0.0 and min(one / other, other / one) >= LIKE
 
 
-def _crests(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Places and values of the crests of the cubics through each four points x, y (4, ...) between the middle two; no
-    value where one has none there."""
+@njit(cache=True)
+def _crest(x, y):
+    """Place and value of the crest of the cubic through four points x, y (4,) between the middle two; no value where it
+    has none there."""
     slope, (one, _), third = _differences(x, y)
     # It is y[1] + u (a + u (b + u third)), u from x[1] on.
     curvature, h = one + third * (x[1] - x[0]), x[2] - x[1]
     a, b = slope - h * curvature, curvature - h * third
-    with np.errstate(divide="ignore", invalid="ignore"):
-        # Not a number where there is none.
-        fall = np.sqrt(b * b - 3.0 * a * third) - b
-        u = a / fall
-        inside = (fall > 0.0) & (u > 0.0) & (u < h)
-        return x[1] + u, np.where(inside, y[1] + u * (a + u * (b + u * third)), -inf)
+    inside = b * b - 3.0 * a * third
+    fall = sqrt(inside) - b if inside >= 0.0 else 0.0
+    u = a / fall if fall > 0.0 else h
+    if not 0.0 < u < h:
+        return x[1], -inf
+    return x[1] + u, y[1] + u * (a + u * (b + u * third))
 
 
 def largest_of_cubics(steps: np.ndarray, values: np.ndarray) -> tuple[float, float]:
     """Place and largest value of the cubics through each four consecutive `values` (s,) at whole `steps`, between the
-    middle two.
+    middle two; only where the parabolas through three of them, either way, have crests alike: at a corner the curve is
+    no cubic."""
+    return _largest_of_cubics(*(np.asarray(each, dtype=float) for each in (steps, values)))
 
-    Only where the parabolas through three of them, either way, have crests alike: where the curve has a corner it is
-    not a cubic.
-    """
-    place = int(values.argmax())
-    found = float(steps[place]), float(values[place])
-    if len(values) < 4:
-        return found
-    x, y = (np.array([each[k : len(each) - 3 + k] for k in range(4)], dtype=float) for each in (steps, values))
-    _, (one, other), _ = _differences(x, y)
-    top = np.maximum(y[1], y[2])
-    with np.errstate(divide="ignore", invalid="ignore"):
+
+@njit(cache=True)
+def _largest_of_cubics(x, y):
+    top = y.argmax()
+    place, largest, crest, height = x[top], y[top], 0.0, -inf
+    for i in range(1, len(x) - 2):
+        four, own = x[i - 1 : i + 3], y[i - 1 : i + 3]
+        one, other = _differences(four, own)[1]
+        if not (one < 0.0 and other < 0.0):
+            continue
         # Crests of both parabolas above the middle two values.
-        crests = y[1] - (0.5 * (y[2] - y[0])) ** 2 / (4.0 * one), y[2] - (0.5 * (y[3] - y[1])) ** 2 / (4.0 * other)
-        alike = np.minimum(*crests) - top >= LIKE * (np.maximum(*crests) - top)
-    places, cubic = _crests(x, y)
-    cubic = np.where((one < 0.0) & (other < 0.0) & alike, cubic, -inf)
-    highest_one = int(cubic.argmax())
-    return max(found, (float(places[highest_one]), float(cubic[highest_one])), key=lambda crest: crest[1])
+        above = own[1] - (0.5 * (own[2] - own[0])) ** 2 / (4.0 * one)
+        beyond = own[2] - (0.5 * (own[3] - own[1])) ** 2 / (4.0 * other)
+        between = max(own[1], own[2])
+        if min(above, beyond) - between >= LIKE * (max(above, beyond) - between):
+            at, found = _crest(four, own)
+            if found > height:
+                crest, height = at, found
+    return (crest, height) if height > largest else (place, largest)

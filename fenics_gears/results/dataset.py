@@ -206,9 +206,9 @@ def _numbers(recorder: Recorder, march: March, result: RunResult, first: int) ->
     extrema = Extrema(model, recorder.cycle, counted["mesh_phase"], error, march)
     friction: dict[str, float] = {}
     if len(error) > 1 and model.scene.friction is not None and not march.locked:
-        friction = _friction_loss(counted) if largest_normal_force(result) > NO_FORCE else {}
+        friction = friction_loss(counted) if largest_normal_force(result) > NO_FORCE else {}
     others = key_numbers(counted, model.pair, friction.get("friction_loss"), model.scene.motion.speed_given)
-    of_error, of_force = extremes(extrema, counted, "largest_pair_force" in others)
+    ((of_error, of_force),) = extremes(extrema, [(0, counted, "largest_pair_force" in others)])
     # The last step begins the next cycle.
     mean = float(error[:-1].mean() if len(error) > 1 else error[0])
     numbers |= of_error | {"mean_transmission_error": mean} | friction | others
@@ -220,7 +220,7 @@ def _numbers(recorder: Recorder, march: March, result: RunResult, first: int) ->
     return numbers | of_force
 
 
-def _friction_loss(counted: Mapping[str, np.ndarray]) -> dict[str, float]:
+def friction_loss(counted: Mapping[str, np.ndarray]) -> dict[str, float]:
     """The share of the drive's work that friction takes; nothing where the drive does no work."""
     drive, taken = abs(transmitted(counted).drive), counted["work_friction"]
     return {"friction_loss": float(taken[-1] - taken[0]) / drive} if drive else {}

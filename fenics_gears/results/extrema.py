@@ -21,7 +21,7 @@ from fenics_gears.dynamics.march import March, thread_pools
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.effects import common_period
 from fenics_gears.model.model import Model
-from fenics_gears.results.crests import highest, largest_of_cubics
+from fenics_gears.results.crests import Searches, largest_of_cubics
 from fenics_gears.results.key_numbers import largest_force_over_time
 from fenics_gears.results.numbers import CUBICS, SAME, SOLVED, STEPS
 
@@ -41,10 +41,12 @@ SAME_POSITION = 0.1
 
 @dataclass(frozen=True)
 class Quantity:
-    """A `curve` (s,) over the settled steps of a run, and its value `of` a position that is solved."""
+    """A `curve` (s,) over the settled steps of a run, and its value `of` a position that is solved; the `run`, of
+    several that are marched together."""
 
     curve: np.ndarray
     of: Callable[[Record], float]
+    run: int = 0
 
 
 @dataclass(frozen=True)
@@ -60,7 +62,8 @@ class Extrema:
     """Locates the largest values of curves over the settled steps of a run.
 
     `mesh_phase`, `transmission_error` (s,), rad: of consecutive steps; the latter tells whether a position solved again
-    is that of the march. `march`: holds solutions with friction, from which positions are solved.
+    is that of the march. `march`: holds solutions with friction, from which positions are solved. `first`: the step
+    from which on these are counted.
     """
 
     def __init__(
@@ -76,7 +79,7 @@ class Extrema:
         self._period = common_period(model.scene) * cycle.steps
         whole = isfinite(self._period) and len(self._steps) > self._period
         # Solved in the first period, so that the same cycles give the same bits however many are run.
-        self._first, self._whole = (
+        self.first, self._whole = (
             int((self._steps[-1] - self._period) // self._period * self._period) if whole else 0,
             whole,
         )
@@ -94,50 +97,48 @@ class Extrema:
             marched = partial(
                 _is_marched, model, transmission_error, self._place(0), same if self._quasi_static else np.inf
             )
-            held = partial(_held, march, self._first)
+            held = partial(_held, march, self.first)
             self._between = BetweenSteps(cycle, model.equations_of_motion, marched, held)
 
     def largest(self, quantities: Sequence[Quantity]) -> list[Extremum]:
         """The largest value of each quantity; what they ask for between steps is solved together."""
-        located = self._solved(quantities) if self._way == SOLVED else [(0.0, -np.inf, self._way)] * len(quantities)
+        curves = np.array([quantity.curve for quantity in quantities])
+        tops, round_off = curves.max(axis=1), _round_off(curves)
+        if self._way == SOLVED:
+            located = self._solved(quantities, curves, round_off)
+        else:
+            cubics = self._way == CUBICS
+            located = [
+                (*(largest_of_cubics(self._steps, each) if cubics else (0.0, -np.inf)), self._way) for each in curves
+            ]
+        # The first of all that differ by round-off: cycles repeat.
+        firsts = self._steps[np.argmax(curves >= (tops - round_off)[:, None], axis=1)]
         found = []
-        for quantity, (step, value, way) in zip(quantities, located):
-            curve = quantity.curve
-            if way == CUBICS:
-                step, value = largest_of_cubics(self._steps, curve)
-            top, round_off = float(curve.max()), _round_off(curve)
-            if value <= top + round_off:
-                # The first of all that differ by round-off: cycles repeat.
-                step, value = float(self._steps[np.argmax(curve >= top - round_off)]), top
+        for (step, value, way), top, least, first in zip(located, tops.tolist(), round_off.tolist(), firsts.tolist()):
+            if value <= top + least:
+                step, value = float(first), top
             found.append(Extremum(value, step / self._cycle.steps, way))
         return found
 
-    def _solved(self, quantities: Sequence[Quantity]) -> list[tuple[float, float, str]]:
+    def _solved(
+        self, quantities: Sequence[Quantity], curves: np.ndarray, round_off: np.ndarray
+    ) -> list[tuple[float, float, str]]:
         """Step, largest value, and the way, of each quantity by positions that are solved."""
-        searches = []
-        for curve in (quantity.curve for quantity in quantities):
-            sought = self._sought * float(np.ptp(curve)) + _round_off(curve)
-            searches.append(highest(*self._last_period(curve), sought, self._finest, self._corners))
-        found, asked = [(0.0, -np.inf, SOLVED)] * len(searches), {}
-
-        def answer(number: int, value: float | None) -> None:
-            way = STEPS if value is not None and np.isnan(value) else SOLVED
-            try:
-                # A generator begins with nothing.
-                asked[number] = searches[number].send(value)  # type: ignore[arg-type]
-            except StopIteration as end:
-                step, top = end.value
-                found[number] = self._first + step, top, way
-                asked.pop(number, None)
-
-        for number in range(len(searches)):
-            answer(number, None)
+        sought, ways = self._sought * np.ptp(curves, axis=1) + round_off, [SOLVED] * len(quantities)
+        search = Searches(*self._last_period(curves), sought, self._finest, self._corners)
         with thread_pools().limit(limits=1):
-            while asked:
-                records = self._records(asked.values())
-                for number, step in list(asked.items()):
-                    answer(number, self._at(step, quantities[number], records))
-        return found
+            while len(asking := np.flatnonzero(~np.isnan(search.asked)).tolist()):
+                values = np.full(len(quantities), np.nan)
+                values[asking] = self._values([(quantities[each], float(search.asked[each])) for each in asking])
+                for each in asking:
+                    ways[each] = STEPS if np.isnan(values[each]) else SOLVED
+                search.take(values)
+        return [(self.first + step, top, way) for (step, top), way in zip(search.tops.tolist(), ways)]
+
+    def _values(self, asked: Sequence[tuple[Quantity, float]]) -> list[float]:
+        """Values of quantities at places between steps; not a number where one cannot be solved."""
+        records = self._records(step for _, step in asked)
+        return [self._at(step, quantity, records) for quantity, step in asked]
 
     def transmission_error(self, record: Record) -> float:
         """The transmission error, rad, at a position."""
@@ -145,7 +146,7 @@ class Extrema:
 
     def _place(self, step: float) -> int:
         """Place of a step of the period among all steps."""
-        return int(step) + self._first - int(self._steps[0])
+        return int(step) + self.first - int(self._steps[0])
 
     def _records(self, steps: Iterable[float]) -> dict[float, Record | None]:
         """What is solved at places between steps and, with inertia, at the steps on either side of them."""
@@ -166,19 +167,19 @@ class Extrema:
         apart = [quantity.curve[self._place(end)] - each for end, each in zip(ends, static)]
         return value + float(np.interp(step, ends, apart)) if apart else value
 
-    def _last_period(self, curve: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Steps from the first of a period and values of the last one, with a step before and after it as it repeats;
-        of all steps where none is whole."""
+    def _last_period(self, curves: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Steps from the first of a period and values (c, ...) of the last one, with a step before and after it as it
+        repeats; of all steps where none is whole."""
         if not self._whole:
-            return self._steps.astype(float), curve
-        steps, values = self._steps[-self._period - 1 :] - self._first, curve[-self._period - 1 :]
+            return self._steps.astype(float), curves
+        steps, values = self._steps[-self._period - 1 :] - self.first, curves[:, -self._period - 1 :]
         return np.concatenate(([steps[0] - 1.0], steps, [steps[-1] + 1.0])), np.concatenate(
-            (values[-2:-1], values, values[1:2])
+            (values[:, -2:-1], values, values[:, 1:2]), axis=1
         )
 
 
-def _round_off(curve: np.ndarray) -> float:
-    return SAME * float(np.abs(curve).max())
+def _round_off(curves: np.ndarray) -> np.ndarray:
+    return SAME * np.abs(curves).max(axis=1)
 
 
 def _is_marched(model: Model, transmission_error: np.ndarray, first: int, same: float, record: Record) -> bool:
@@ -206,33 +207,40 @@ def repeating_steps(model: Model) -> int:
 Numbers = dict[str, float | str]
 
 
-def extremes(extrema: Extrema, curves: Mapping[str, np.ndarray], force: bool) -> tuple[Numbers, Numbers]:
-    """T_EPP, rad, where the extremes of the transmission error are, and how they were found; and the same of the
-    largest normal force of a tooth pair, N, where it is asked for."""
-    error, of = curves["transmission_error"], extrema.transmission_error
-    quantities = [Quantity(error, of), Quantity(-error, lambda record: -of(record))]
-    if force:
-        quantities.append(pair_force(curves))
-    largest, least, *forces = extrema.largest(quantities)
-    of_error: Numbers = {
+def extremes(
+    extrema: Extrema, runs: Sequence[tuple[int, Mapping[str, np.ndarray], bool]]
+) -> list[tuple[Numbers, Numbers]]:
+    """Of each run, by its number and curves, T_EPP, rad, where the extremes of the transmission error are, and how they
+    were found; and the same of the largest normal force of a tooth pair, N, where it is asked for."""
+    of, quantities = extrema.transmission_error, []
+    for run, curves, force in runs:
+        error = curves["transmission_error"]
+        quantities += [Quantity(error, of, run), Quantity(-error, lambda record: -of(record), run)]
+        quantities += [pair_force(curves, run)] if force else []
+    found = iter(extrema.largest(quantities))
+    return [(_of_error(next(found), next(found)), _of_force(next(found)) if force else {}) for *_, force in runs]
+
+
+def _of_error(largest: Extremum, least: Extremum) -> Numbers:
+    return {
         "peak_to_peak_transmission_error": largest.value + least.value,
         "peak_to_peak_transmission_error_from": least.found_by if largest.found_by == SOLVED else largest.found_by,
         "largest_transmission_error_mesh_phase": largest.mesh_phase,
         "least_transmission_error_mesh_phase": least.mesh_phase,
     }
-    of_force: Numbers = {}
-    for found in forces:
-        of_force = {
-            "largest_pair_force": found.value,
-            "largest_pair_force_mesh_phase": found.mesh_phase,
-            "largest_pair_force_from": found.found_by,
-        }
-    return of_error, of_force
 
 
-def pair_force(curves: Mapping[str, np.ndarray]) -> Quantity:
+def _of_force(found: Extremum) -> Numbers:
+    return {
+        "largest_pair_force": found.value,
+        "largest_pair_force_mesh_phase": found.mesh_phase,
+        "largest_pair_force_from": found.found_by,
+    }
+
+
+def pair_force(curves: Mapping[str, np.ndarray], run: int = 0) -> Quantity:
     """The largest normal force of a tooth pair, N."""
-    return Quantity(largest_force_over_time(curves), _largest_force_of_a_pair)
+    return Quantity(largest_force_over_time(curves), _largest_force_of_a_pair, run)
 
 
 def _largest_force_of_a_pair(record: Record) -> float:

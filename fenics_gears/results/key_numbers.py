@@ -41,8 +41,9 @@ STUDIED = (
 def key_numbers(
     counted: Mapping[str, np.ndarray], pair: GearPair, friction_loss: float | None, timed: bool
 ) -> dict[str, float | str]:
-    """All numbers of the settled steps of a result but those of root stress; `friction_loss`: its attribute. timed: the
-    scene has a speed, without which there is no power."""
+    """All numbers of the settled steps of a result but those of root stress, as far as the curves that they are taken
+    from are among those `counted`; `friction_loss`: its attribute. timed: the scene has a speed, without which there is
+    no power."""
     # The last step begins the next cycle.
     last = max(len(counted["time"]) - 1, 1)
     settled = {name: values[:last] for name, values in counted.items()}
@@ -93,6 +94,8 @@ def _stiffness(settled: Curves, pair: GearPair) -> dict[str, float]:
 def _pair_force(settled: Curves) -> dict[str, float]:
     """The largest normal force of a tooth pair, N, at the steps, on drive or coast flanks; nothing where shares of
     rigid pairs are not determined, or nothing presses."""
+    if "pair_normal_force" not in settled:
+        return {}
     over_time = largest_force_over_time(settled)
     if np.isnan(over_time).any() or over_time.max() <= NO_FORCE:
         return {}
@@ -169,6 +172,8 @@ def largest_root_stress(counted: xr.Dataset) -> dict[str, float | str]:
 def _power(counted: Curves, loss: float | None, timed: bool) -> dict[str, float]:
     """Mean power of the drive, W, friction loss, W, and efficiency of the mesh; no power without a speed, nothing if
     the drive does no work."""
+    if "work_input" not in counted:
+        return {}
     seconds, drive = float(np.ptp(counted["time"])), abs(transmitted(counted).drive)
     if not seconds or not drive or largest_normal_force(counted) <= NO_FORCE:
         return {}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from functools import cached_property
 
 import numpy as np
@@ -185,14 +186,24 @@ class SideBySide:
     """
 
     def __init__(self, known: KnownLayouts, cycle: Cycle, steps: Steps, slots: int, first_number: int):
-        self.cycle, self.steps, self.slots, self.first_number = cycle, steps, slots, first_number
+        self.cycle, self.slots, self.first_number = cycle, slots, first_number
         self.layouts = known.joined(cycle, steps)
         self.step, self.of = self.layouts.step, self.layouts.of
         self.cycles = (steps.numbers // self.cycle.steps).astype(int)
-        self.normal = steps.forces[self.layouts.normal]
-        self.tangential = steps.forces[self.layouts.tangential] if steps.kinds == 2 else None
         self.number = self.cycles[self.step] - self.of("index") + first_number
         self.slot = self.number % slots
+        self._take(steps)
+
+    def _take(self, steps: Steps) -> None:
+        self.steps, self.normal = steps, steps.forces[self.layouts.normal]
+        self.tangential = steps.forces[self.layouts.tangential] if steps.kinds == 2 else None
+
+    def with_forces(self, steps: Steps) -> SideBySide:
+        """The same nodes with the forces of another run, whose steps stand at the same positions."""
+        other = copy(self)
+        other.__dict__.pop("closed", None)
+        other._take(steps)
+        return other
 
     def slot_of(self, place: int | np.ndarray, index: int | np.ndarray) -> np.ndarray:
         """Slot of the tooth pair of that index at a step, given by its place; or those of many."""

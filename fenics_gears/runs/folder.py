@@ -11,6 +11,7 @@ import traceback
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import ClassVar
 
 from fenics_gears import results
 from fenics_gears.errors import ComputationError
@@ -31,6 +32,7 @@ class Folder:
     """A folder of runs. A file is known by what it holds: a run whose index is another by now gives it a new name."""
 
     directory: Path
+    asked: ClassVar[None] = None
 
     def known(self, runs: Iterable[Run]) -> dict[str, Record]:
         """Records of the runs whose whole and undamaged files are there."""

@@ -11,7 +11,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.numbers_version import NUMBERS_VERSION
@@ -20,23 +20,30 @@ from fenics_gears.runs.run import Run
 from fenics_gears.runs.runs import Failure, failure_of
 from fenics_gears.system.job import communicator
 
+if TYPE_CHECKING:
+    from fenics_gears.results.together import NumbersOfRun
+
 ENDING = ".jsonl"
 Line = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class Lines:
-    """A folder of lines, each with what `line_of` makes of a run and its result; with `failure` why there is nothing,
-    also of a result that has no meaning."""
+    """A folder of lines, each with what `line_of` makes of a run and its result, the `numbers` that are `asked` for at
+    least; with `failure` why there is nothing, also of a result that has no meaning."""
 
     directory: Path
-    line_of: Callable[[Run, RunResult], Line]
+    line_of: Callable[[Run, RunResult | NumbersOfRun], Line]
+    asked: tuple[str, ...]
 
     def known(self, runs: Iterable[Run]) -> dict[str, Line | Failure]:
-        """All whole lines by their keys, whichever runs are asked for."""
-        return {key: _known(line) for key, line in kept(self.directory)[0].items()}
+        """All whole lines with what is asked for by their keys, whichever runs are."""
+        lines = kept(self.directory)[0].items()
+        return {
+            key: _known(line) for key, line in lines if "failure" in line or {*self.asked} <= line["numbers"].keys()
+        }
 
-    def keep(self, run: Run, result: RunResult) -> Line | Failure:
+    def keep(self, run: Run, result: RunResult | NumbersOfRun) -> Line | Failure:
         """Write the line of a result."""
         line = {"key": run.key, **self.line_of(run, result)}
         append(self.directory, line)
@@ -86,7 +93,8 @@ def kept(directory: Path) -> tuple[dict[str, Line], int]:
             try:
                 line = json.loads(text)
                 if line.get("numbers_version") == NUMBERS_VERSION:
-                    found[line["key"]] = line
+                    numbers = found.get(line["key"], {}).get("numbers", {}) | line.get("numbers", {})
+                    found[line["key"]] = line | ({"numbers": numbers} if numbers else {})
                 else:
                     others += 1
             except (ValueError, KeyError, TypeError, AttributeError):

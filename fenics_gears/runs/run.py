@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
 from functools import partial
 from typing import Any
 
-from fenics_gears.elasticity.cache import content_key
-from fenics_gears.model.model import Model, model_of
+from fenics_gears.elasticity.cache import as_json
+from fenics_gears.model.model import RELIEFS, WORDS, Model, differ_only, model_of, with_reliefs
 from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.runs.gear_store import cycle_key, operators_key
 from fenics_gears.scene.data import Scene
@@ -65,12 +66,42 @@ def run_of(model: Model, index: int = 0, values: dict[str, str] | None = None, m
 
 
 def _received(scene: Scene, key: str, index: int, values: dict[str, str]) -> Run:
-    return Run(key, (0, 0), partial(model_of, scene), index, values)
+    return Run(key, (0, 0), partial(_made_here, scene), index, values)
+
+
+# Models that were made here last.
+_MODELS: list[Model] = []
+
+
+def _made_here(scene: Scene) -> Model:
+    """The model of a scene; a plane one that differs from one before in reliefs alone is that one with others."""
+    known = next((model for model in _MODELS if differ_only(model.scene, scene, RELIEFS)), None)
+    if known is not None:
+        return with_reliefs(known, scene)
+    model = model_of(scene)
+    if not scene.three_dimensional:
+        _MODELS[:] = [model, *_MODELS[:7]]
+    return model
 
 
 def scene_key(scene: Scene) -> str:
     """Hash of all that a scene's result depends on: its values, however they are written, and the version of the
     program's numbers."""
-    words = "title", "name", "derived", "written", "folder"
-    said = {field.name: getattr(scene, field.name) for field in fields(scene) if field.name not in words}
-    return content_key({"scene": said, "numbers": NUMBERS_VERSION})
+    said = ",".join(f'"{name}":{_in_words(getattr(scene, name))}' for name in _SAID)
+    return hashlib.sha256(f'{{"numbers":{NUMBERS_VERSION},"scene":{{{said}}}}}'.encode()).hexdigest()
+
+
+_SAID = sorted({each.name for each in fields(Scene)} - {*WORDS})
+# Sections that scenes have in common are the same objects: those that were put into words last, by identity.
+_MOST_WORDS = 256
+_WORDS: dict[int, tuple[Any, str]] = {}
+
+
+def _in_words(section: Any) -> str:
+    known = _WORDS.get(id(section))
+    if known is None:
+        if len(_WORDS) >= _MOST_WORDS:
+            _WORDS.clear()
+        # It is held as long as its identity is used.
+        known = _WORDS[id(section)] = section, as_json(section)
+    return known[1]

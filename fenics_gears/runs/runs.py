@@ -3,10 +3,11 @@ team of processes, those that share gears and contact operators one after the ot
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import logging
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable, Sequence
 from typing import Any, Protocol
 
 from fenics_gears.errors import GearsError
@@ -23,6 +24,8 @@ from fenics_gears.simulation.simulate import solved
 from fenics_gears.system.progress import Progress, SilentProgress
 
 LOGGER = logging.getLogger(__name__)
+# Runs that are computed together at most, and tasks that each process gets at least.
+MOST_TOGETHER, TASKS = 16, 2
 Tick = Callable[[], None]
 Finished = Callable[[Run, Any], None]
 
@@ -39,6 +42,10 @@ class Store(Protocol):
 
     def keep(self, run: Run, result: RunResult) -> Any:
         """Keep the result of a run."""
+
+    @property
+    def asked(self) -> Collection[str] | None:
+        """The numbers of a run that are kept, where nothing else of it is."""
 
     def seconds(self, known: Any) -> Iterable[float]:
         """As of `spent.seconds_of`, by what is known of a run that was computed."""
@@ -84,16 +91,22 @@ class Runs:
         """Compute runs in this order; each is `known` when `finished` is called with it and what is known of it. `tick`
         is called often and may raise KeyboardInterrupt."""
 
+        together = (
+            1 if self._store.asked is None else min(MOST_TOGETHER, len(missing) // (TASKS * self._team.size) or 1)
+        )
+        tasks = in_tasks(missing, together)
+
         def take(index: int, found: Any) -> None:
             # An exception is one that the worker could not even report, such as an MPI error.
-            known = failure_of(found) if isinstance(found, Exception) else found
-            self.known[missing[index].key] = known
-            self.spent.count(() if isinstance(known, Failure) else self._store.seconds(known))
-            finished(missing[index], known)
+            every = [failure_of(found)] * len(tasks[index]) if isinstance(found, Exception) else found
+            for run, known in zip(tasks[index], every):
+                self.known[run.key] = known
+                self.spent.count(() if isinstance(known, Failure) else self._store.seconds(known))
+                finished(run, known)
 
         begun = time.perf_counter()
         try:
-            self._team.run(functools.partial(computed, self._store), missing, take, tick)
+            self._team.run(functools.partial(computed, self._store), tasks, take, tick)
         finally:
             self.spent.seconds += time.perf_counter() - begun
 
@@ -108,15 +121,54 @@ def in_order_of_sharing(runs: Iterable[Run]) -> list[Run]:
     return [run for group in groups.values() for alike in group.values() for run in alike]
 
 
-def computed(store: Store, run: Run, tick: Tick | None = None) -> Any:
-    """Compute a run and keep it, or why it failed; return what is known of it. Raises KeyboardInterrupt where Ctrl-C
-    ended it."""
+def in_tasks(runs: Iterable[Run], most: int) -> list[list[Run]]:
+    """Runs in their order, at most so many in a task that share contact operators and follow each other."""
+    tasks: list[list[Run]] = []
+    for run in runs:
+        if tasks and len(tasks[-1]) < most and tasks[-1][0].sharing[0] == run.sharing[0]:
+            tasks[-1].append(run)
+        else:
+            tasks.append([run])
+    return tasks
+
+
+def computed(store: Store, runs: Sequence[Run], tick: Tick | None = None) -> list[Any]:
+    """Compute runs and keep them, or why they failed; return what is known of each. Raises KeyboardInterrupt where
+    Ctrl-C ended them."""
+    found, ticking = {} if store.asked is None else _together(runs, store.asked), Ticking(tick)
+    return [_kept(store, run, found.get(run.key), ticking) for run in runs]
+
+
+def _kept(store: Store, run: Run, result: Any, progress: Progress) -> Any:
+    """Keep a run, computed here unless its result is there already."""
     try:
-        return store.keep(run, completed(run.model, own_gear_store().prepared, Ticking(tick)))
+        return store.keep(run, result or completed(run.model, own_gear_store().prepared, progress))
     except Exception as error:
         if isinstance(error.__cause__, KeyboardInterrupt):  # compiled code that a second Ctrl-C hit in the middle
             raise KeyboardInterrupt from error
         return store.keep_failure(run, error)
+
+
+def _together(runs: Sequence[Run], asked: Collection[str]) -> dict[str, Any]:
+    """The numbers of those runs that can be solved together, by their keys."""
+    # Imported here: what keeps whole results does without.
+    from fenics_gears.simulation.together import alike, can_be_solved_together, solved_together
+
+    groups: list[list[tuple[str, Model]]] = []
+    for run in runs:
+        model = run.model
+        group = next((each for each in groups if alike(each[0][1], model)), None)
+        if group is not None:
+            group.append((run.key, model))
+        elif can_be_solved_together(model, asked):
+            groups.append([(run.key, model)])
+    found: dict[str, Any] = {}
+    for group in groups:
+        # What fails together fails by itself, or does not.
+        with contextlib.suppress(GearsError):
+            results = solved_together([model for _, model in group], own_gear_store().prepared, asked)
+            found |= {key: result for (key, _), result in zip(group, results)}
+    return found
 
 
 def completed(scene: Scene | Model, preparation: Preparation, progress: Progress | None = None) -> RunResult:

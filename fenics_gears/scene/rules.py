@@ -8,7 +8,7 @@ reported elsewhere.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from math import lcm
 
 from fenics_gears import effects
@@ -44,6 +44,17 @@ def broken_rules(tree: Tree) -> list[Problem]:
     named = (effects.effect_named(each) for each in effects.SECTIONS if each in (TEETH, *tree))
     rules = (*_RULES, *(effect.rules for effect in named if effect.rules is not None))
     return [problem for rule in rules for problem in rule(tree)]
+
+
+def broken_by_numbers(tree: Tree, sections: Iterable[str]) -> list[Problem]:
+    """Of those rules the ones that other numbers in the sections of some effects can break, where each of these
+    effects acts by itself."""
+    named = [name for name in sections if name in tree]
+    module = {"module": value_at(tree, "gears", "module")}
+    problems = [*_errors_are_small({"gears": module} | {name: tree[name] for name in named})]
+    for rules in (effects.effect_named(name).rules for name in named):
+        problems += [] if rules is None else rules(tree)
+    return problems
 
 
 def _effects_fit_together(tree: Tree) -> Iterator[Problem]:

@@ -89,10 +89,14 @@ if __name__ == "__main__":
     # Of the face: a plane run does without.
     from fenics_gears.contact.factored_compliance import factored_solver
     from fenics_gears.contact.formed_rows import fine_section, row_former, uncertain_slices
+    from fenics_gears.results.crests import Searches, largest_of_cubics
 
     row_former()
     factored_solver()
     uncertain_slices.compile("(int64, float64[::1], float64)")
     fine_section.compile("(int64, int64)")
+    # Of the results: each is loaded where a run looks for its extremes.
+    largest_of_cubics(np.arange(4.0), np.zeros(4))
+    Searches(np.arange(4.0), np.zeros((1, 4)), np.ones(1), 0.125)
     for with_friction in (True, False):
         compile_kernels(with_friction, rigid=True)

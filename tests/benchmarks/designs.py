@@ -1,10 +1,12 @@
 """What a run costs among others that differ in modifications, misalignment and torque, and what it costs by itself.
 
-``python -m tests.benchmarks.designs [--runs N] [--friction]``: runs of the pair of `demos/helical_gearbox` over the
-face, and of the paper's pair in the plane, quasi-static, drawn at random about the designs of the demonstrations; gears
-are condensed before. Processor seconds of a run in medians: of this process and of the kernel; contact operators that
-were built, positions between steps that were asked for, Newton's iterations. "alone": nothing but gears is shared;
-"shared": one after the other on the same contact operators, the second half of them.
+``python -m tests.benchmarks.designs [--runs N] [--friction] [--plane]``: runs of the pair of `demos/helical_gearbox`
+over the face (left out by `--plane`), and of the paper's pair in the plane, quasi-static, drawn at random about the
+designs of the demonstrations; gears are condensed before. Processor seconds of a run in medians: of this process and of
+the kernel; contact operators that were built, positions between steps that were asked for, Newton's iterations.
+"alone": nothing but gears is shared;
+"shared": one after the other on the same contact operators, the second half of them; "together": as a search
+computes plane runs, a task at a time, of which T_EPP alone is asked.
 """
 
 from __future__ import annotations
@@ -21,7 +23,8 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.model.model import Model
 from fenics_gears.runs.gear_store import GearStore
-from fenics_gears.runs.runs import completed
+from fenics_gears.runs.runs import MOST_TOGETHER, completed
+from fenics_gears.simulation.together import solved_together
 from fenics_gears.studies.scenes import model_of_tree
 
 DEMOS = Path(__file__).parents[2] / "demos"
@@ -77,19 +80,38 @@ def spent(model: Model, store: GearStore) -> list[float]:
     return [*seconds, *counted, result.attrs["newton_iterations_total"]]
 
 
+def together(models: Iterator[Model], store: GearStore, runs: int) -> list[float]:
+    """As of `spent`, medians over tasks of runs that are computed together, the second half of so many."""
+    found = []
+    for _ in range(max(runs // MOST_TOGETHER, 2)):
+        task = [next(models) for _ in range(MOST_TOGETHER)]
+        before = resource.getrusage(resource.RUSAGE_SELF)
+        results = solved_together(task, store.prepared, ["peak_to_peak_transmission_error"])
+        after = resource.getrusage(resource.RUSAGE_SELF)
+        seconds = after.ru_utime - before.ru_utime, after.ru_stime - before.ru_stime
+        iterations = sum(result.attrs["newton_iterations_total"] for result in results)
+        found.append([each / MOST_TOGETHER for each in (*seconds, np.nan, np.nan, iterations)])
+    return found
+
+
 def main() -> None:
     """Print a row for each kind of pair and way."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--runs", type=int, default=24)
     parser.add_argument("--friction", action="store_true")
+    parser.add_argument("--plane", action="store_true")
     options = parser.parse_args()
     print(f"{'':26}{'user ms':>9}{'kernel ms':>11}{'built':>7}{'between':>9}{'iterations':>12}")
-    for name, designs in (("over the face", over_the_face), ("in the plane", in_the_plane)):
-        for way, cycles in (("alone", False), ("shared", True)):
-            models, store = designs(options.friction, np.random.default_rng(1)), GearStore(None, cycles)
-            runs = options.runs if cycles else max(options.runs // 6, 2)
-            found = np.array([spent(next(models), store) for _ in range(runs)])
-            user, kernel, *others = np.median(found[runs // 2 :], axis=0)
+    for name, designs in (("over the face", over_the_face), ("in the plane", in_the_plane))[options.plane :]:
+        for way in ("alone", "shared", "together")[: 3 if designs is in_the_plane else 2]:
+            models, store = designs(options.friction, np.random.default_rng(1)), GearStore(None, way != "alone")
+            runs = options.runs if way != "alone" else max(options.runs // 6, 2)
+            each = (
+                together(models, store, runs)
+                if way == "together"
+                else [spent(next(models), store) for _ in range(runs)]
+            )
+            user, kernel, *others = np.median(each[len(each) // 2 :], axis=0)
             figures = "".join(f"{each:>{width}.0f}" for each, width in zip(others, (7, 9, 12)))
             print(f"{f'{name}, {way}':26}{1e3 * user:9.0f}{1e3 * kernel:11.0f}{figures}", flush=True)
 

@@ -14,7 +14,7 @@ from fenics_gears.contact.spring_mesh import PairSprings, spring_mesh
 from fenics_gears.contact.tooth_pair import DRIVE
 from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.dynamics.march import Marcher
-from fenics_gears.results.crests import MOST_SOLVED, highest, largest_of_cubics
+from fenics_gears.results.crests import MOST_SOLVED, Searches, largest_of_cubics
 from fenics_gears.results.numbers import SOLVED
 from fenics_gears.scene.data import ISO_6336, Accuracy
 
@@ -32,13 +32,10 @@ CURVES = {
 
 def located(steps, values, value, sought):
     """Place and largest value by a search, to which `value` gives what it asks for."""
-    search = highest(steps, values, sought, 0.125)
-    try:
-        place = next(search)
-        while True:
-            place = search.send(value(place))
-    except StopIteration as end:
-        return end.value
+    search = Searches(steps, np.array([values]), np.array([sought]), 0.125)
+    while not np.isnan(search.asked[0]):
+        search.take([value(float(search.asked[0]))])
+    return tuple(search.tops[0].tolist())
 
 
 @pytest.mark.parametrize("name", CURVES)

@@ -49,7 +49,7 @@ def scattered(tree: Mapping[str, Any], scatters: Sequence[Scatter], deviations: 
             continue
         factor = factor_of(scatter.unit)
         nominal = 0.0 if written is None else number_in(written, scatter.unit)
-        number = float(np.clip(nominal + deviation * scatter.limit, scatter.lowest / factor, scatter.highest / factor))
+        number = float(min(max(nominal + deviation * scatter.limit, scatter.lowest / factor), scatter.highest / factor))
         changed = fields.changed(changed, scatter.path, f"{number:.10g} {scatter.unit}" if scatter.unit else number)
     return changed
 

@@ -20,7 +20,7 @@ from fenics_gears.runs.run import Run, run_of
 from fenics_gears.runs.runs import Failure, Runs
 from fenics_gears.runs.spent import seconds_of
 from fenics_gears.runs.team import Alone, Together
-from fenics_gears.studies.scenes import NoScene, model_of_tree
+from fenics_gears.studies.scenes import Models, NoScene
 from fenics_gears.system.progress import Interruption
 
 from .conditions import trees_of
@@ -74,8 +74,8 @@ class Evaluator:
 
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
         self.design, self._progress = design, progress
-        self.runs, self.others = Runs(Lines(directory, line_of), team), kept(directory)[1]
-        self.designs = 0, 0
+        self.runs, self.others = Runs(Lines(directory, line_of, tuple(self._names)), team), kept(directory)[1]
+        self._models, self.designs = Models(design.name, design.directory), (0, 0)
 
     def of_designs(self, designs: Sequence[Mapping[str, float | str]], deviations: np.ndarray) -> list[Evaluation]:
         """Designs, by the values of their variables, under deviations (samples, scatters) in parts of their limits."""
@@ -109,7 +109,7 @@ class Evaluator:
     def _case(self, tree: Mapping[str, Any]) -> Run | Failure:
         """The run of a parsed scene, or why it is no scene."""
         try:
-            return run_of(model_of_tree(self.design.name, self._without_fields(tree), self.design.directory))
+            return run_of(self._models.of(self._without_fields(tree)))
         except NoScene as error:
             return Failure(error)
 

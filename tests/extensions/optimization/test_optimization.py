@@ -27,6 +27,7 @@ from fenics_gears.runs import lines as run_lines
 from fenics_gears.runs import runs
 from fenics_gears.runs.team import Alone
 from fenics_gears.scene.read import build_scene, load_scene
+from fenics_gears.simulation import together
 from fenics_gears.simulation.simulate import simulate, solved
 from fenics_gears.system.progress import Interruption, SilentProgress
 
@@ -246,7 +247,11 @@ def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):
             raise ComputationError("deep reliefs fail here")
         return solved(model, **arguments)
 
+    def failing_together(models, *_):
+        raise ComputationError("what fails together is computed run by run")
+
     monkeypatch.setattr(runs, "solved", failing)
+    monkeypatch.setattr(together, "solved_together", failing_together)
     path = write(folder, STILL + VARIABLES + GOAL + FEW)
     outcome = found(path)
     failed = [each for each in outcome.tried if each.failure]

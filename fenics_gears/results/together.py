@@ -1,0 +1,163 @@
+"""The numbers of runs that are marched together, where few are asked for and nothing else of the runs is: no arrays of
+contact fields, no dataset, no texts.
+
+They are those of `results.dataset`, from the same functions. A run of which there would be more to say has to be run by
+itself: contact that is lost, gears that pass through each other, steps that are divided or have no solution.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Collection, Sequence
+from typing import Any
+
+import numpy as np
+
+from fenics_gears.contact.laws import NO_FORCE
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.dynamics.march import thread_pools
+from fenics_gears.dynamics.marches import Marches, OpenedNodes
+from fenics_gears.dynamics.steps import Steps, drive_flanks_touch
+from fenics_gears.model.model import Model
+from fenics_gears.results.contact_variables import (
+    energy_variables,
+    largest_normal_force,
+    node_variables,
+    normal_forces,
+    pair_variables,
+    work_variables,
+)
+from fenics_gears.results.dataset import friction_loss
+from fenics_gears.results.extrema import Extrema, Quantity, extremes
+from fenics_gears.results.key_numbers import HARMONIC_NAMES, key_numbers
+from fenics_gears.results.mesh_curves import EdgesAndKinks, pressure_curves
+from fenics_gears.results.recorder import KnownTouching
+from fenics_gears.results.settled import settled
+from fenics_gears.results.side_by_side import KnownLayouts, SideBySide
+
+ERROR, FORCE, PRESSURE, LOSS = (
+    "peak_to_peak_transmission_error", "largest_pair_force", "peak_contact_pressure", "friction_loss",
+)  # fmt: skip
+# What can be asked for.
+OFFERED = frozenset((ERROR, FORCE, PRESSURE, LOSS, "max_normal_force", *HARMONIC_NAMES))
+
+
+class NumbersOfRun:
+    """Numbers of a run by name (`attrs`), and the curves (steps, ...) that they were taken from; `seconds`: that its
+    numbers took."""
+
+    def __init__(self, attrs: dict[str, Any], curves: dict[str, np.ndarray], seconds: float):
+        self.attrs, self._curves, self.seconds = attrs, curves, seconds
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self._curves[name]
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._curves
+
+
+class _Extrema(Extrema):
+    """Extrema of runs that were marched together."""
+
+    marches: Marches
+
+    def _values(self, asked: Sequence[tuple[Quantity, float]]) -> list[float]:
+        records = self.marches.at((quantity.run, step) for quantity, step in asked)
+        found = [(quantity, records[quantity.run, step]) for quantity, step in asked]
+        return [np.nan if record is None else quantity.of(record) for quantity, record in found]
+
+
+def numbers_together(
+    models: Sequence[Model], cycle: Cycle, opened: OpenedNodes, asked: Collection[str]
+) -> list[NumbersOfRun | None]:
+    """The numbers that are `asked` of OFFERED of runs on a `cycle` without gaps of its own; None of a run that has to
+    be run by itself."""
+    begun, model = time.perf_counter(), models[0]
+    with thread_pools().limit(limits=1):
+        marches = Marches(cycle, _equations(models), opened, model.steps)
+    marched, count = time.perf_counter() - begun, len(models)
+    states = marches.block.states[:, 0].reshape(count, model.steps + 1, -1)
+    errors = model.transmission_error(states)
+    # Of the first step contact is no matter, as `March.take` has it.
+    touch = drive_flanks_touch(marches.block).reshape(count, -1)[:, 1:].all(axis=1)
+    whole = marches.solved & touch & (np.abs(errors).max(axis=1) <= cycle.pair.wheel.angular_pitch)
+    runs = np.flatnonzero(whole).tolist()
+    found: list[NumbersOfRun | None] = [None] * count
+    if not runs:
+        return found
+    curves, first = _curves(models, marches, errors, runs, asked), settled(model, model.steps).first
+    counted = [{name: values[first:] for name, values in of_run.items()} for of_run in curves]
+    loss = [_loss(*each) if LOSS in asked else {} for each in zip(curves, counted)]
+    others = [
+        key_numbers(each, model.pair, of.get(LOSS), model.scene.motion.speed_given) for each, of in zip(counted, loss)
+    ]
+    extrema = _Extrema(model, cycle, counted[0]["mesh_phase"], counted[0]["transmission_error"])
+    extrema.marches, marches.first = marches, extrema.first
+    located = extremes(extrema, [(run, each, FORCE in of) for run, each, of in zip(runs, counted, others)])
+    iterations = marches.block.iterations.reshape(count, -1)[:, 1:].sum(axis=1)
+    seconds = (time.perf_counter() - begun) / count
+    for place, run in enumerate(runs):
+        error, (of_error, of_force) = counted[place]["transmission_error"], located[place]
+        numbers = others[place] | loss[place] | of_error | of_force
+        numbers |= {
+            "mean_transmission_error": float(error[:-1].mean()),
+            "newton_iterations_total": int(iterations[run]),
+            "steps_per_mesh_cycle": model.resolution.steps_per_mesh_cycle,
+            "base_radius_wheel": model.pair.wheel.base_radius,
+            "settled_from": float(curves[place]["time"][first]),
+            "time_march": marched / count,
+            "wall_time": seconds,
+        }
+        found[run] = NumbersOfRun(numbers, curves[place], seconds - marched / count)
+    return found
+
+
+def _equations(models: Sequence[Model]) -> list:
+    """What each run solves for, made once for runs with the same drivetrain and friction."""
+    known: dict[tuple[int, float], Any] = {}
+    for model in models:
+        key = id(model.drivetrain), model.friction_coefficient
+        if key not in known:
+            known[key] = model.equations_of_motion
+    return [known[id(model.drivetrain), model.friction_coefficient] for model in models]
+
+
+Curves = dict[str, np.ndarray]
+
+
+def _loss(curves: Curves, counted: Curves) -> dict[str, float]:
+    pressed = "work_friction" in curves and len(counted["time"]) > 1 and largest_normal_force(curves) > NO_FORCE
+    return friction_loss(counted) if pressed else {}
+
+
+def _curves(
+    models: Sequence[Model], marches: Marches, errors: np.ndarray, runs: Sequence[int], asked: Collection[str]
+) -> list[Curves]:
+    """Those that the numbers are taken from, of some runs."""
+    model, found = models[0], []
+    numbers = np.arange(model.steps + 1)
+    common = {"time": model.clock.times(numbers), "mesh_phase": numbers / model.resolution.steps_per_mesh_cycle}
+    nodes: SideBySide | None = None
+    for run in runs:
+        steps = marches.of(run)
+        nodes = _nodes(marches.cycle, steps) if nodes is None else nodes.with_forces(steps)
+        values = common | {"transmission_error": errors[run]} | _of_nodes(models[run], marches.cycle, nodes, asked)
+        found.append(values)
+    return found
+
+
+def _nodes(cycle: Cycle, steps: Steps) -> SideBySide:
+    ways = cycle.beside(KnownTouching).of(cycle)
+    return SideBySide(cycle.beside(KnownLayouts), cycle, steps, ways.slots, 1 + ways.latest)
+
+
+def _of_nodes(model: Model, cycle: Cycle, nodes: SideBySide, asked: Collection[str]) -> Curves:
+    """Curves of the contact nodes."""
+    scene, steps = model.scene, nodes.steps
+    values = normal_forces(scene, nodes) | (pair_variables(scene, nodes) if FORCE in asked else {})
+    if PRESSURE in asked:
+        values |= pressure_curves(nodes, node_variables(scene, nodes), EdgesAndKinks(model))
+    if LOSS in asked and scene.friction is not None:
+        energies = energy_variables(scene, model.drivetrain, steps)
+        values |= work_variables(scene, cycle, model.drivetrain, model.clock, (), steps, energies["energy"])
+    return values

@@ -1,0 +1,57 @@
+"""Runs of a search whose numbers alone are asked for: those that share contact operators are solved together."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+from fenics_gears.contact.mesh_cycle import Gaps
+from fenics_gears.effects import common_period, effects_on
+from fenics_gears.elasticity.cache import user_cache
+from fenics_gears.model.model import RELIEFS, Model, differ_only
+from fenics_gears.results.extrema import repeating_steps
+from fenics_gears.results.together import OFFERED, NumbersOfRun, numbers_together
+from fenics_gears.simulation.elastic_route import reliefs_apart
+from fenics_gears.simulation.routes import Preparation
+from fenics_gears.simulation.simulate import memory_for_operators
+from fenics_gears.simulation.warm_up import compile_kernels
+from fenics_gears.system.memory import give_back
+from fenics_gears.system.progress import SilentProgress
+
+
+def can_be_solved_together(model: Model, asked: Collection[str]) -> bool:
+    """Whether the numbers `asked` of a run can be had so: of a quasi-static plane pair of elastic teeth, all alike,
+    under a constant load."""
+    scene, drivetrain = model.scene, model.drivetrain
+    plane = reliefs_apart(model) and not scene.three_dimensional and common_period(scene) == 1
+    steady = drivetrain.mass is None and not drivetrain.on_rolling_bearings and not model.loads
+    own = scene.output.root_stress or scene.accuracy.target is not None or scene.speed_ramp is not None
+    gaps = any(effect.gaps for effect in effects_on(scene))
+    # Friction that can lock the teeth is looked at step by step.
+    locking = model.friction_coefficient * model.pair.wheel.tip_roll_angle >= 1.0
+    held = scene.friction is None or repeating_steps(model) > 0
+    return OFFERED.issuperset(asked) and plane and steady and held and not (own or gaps or locking)
+
+
+def alike(one: Model, other: Model) -> bool:
+    """Whether the runs of two models with the same contact operators differ in nothing but load and reliefs."""
+    return one.scene is other.scene or differ_only(one.scene, other.scene, ("load", *RELIEFS))
+
+
+def solved_together(
+    models: Sequence[Model], preparation: Preparation, asked: Collection[str]
+) -> list[NumbersOfRun | None]:
+    """The numbers `asked` of runs that can be solved together and differ in load and reliefs; None of a
+    run that has to be run by itself. Raises GearsError as `simulate` does."""
+    # Imported here, as of true involutes.
+    from fenics_gears.contact.relief_gaps import Profiles
+
+    model = models[0]
+    try:
+        most = memory_for_operators(model)
+        _, cycle = preparation(model, SilentProgress(), user_cache())
+        cycle.kept.most = most
+        compile_kernels(model.scene.friction is not None)
+        involutes = cycle.with_gaps(Gaps())
+        return numbers_together(models, involutes, Profiles(involutes, [each.removal for each in models]), asked)
+    finally:
+        give_back()

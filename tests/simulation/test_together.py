@@ -1,0 +1,132 @@
+"""Runs that are solved together against the same runs one by one."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from tests.coarse import coarse_scene, frictionless, quasi_static
+
+from fenics_gears import model_of
+from fenics_gears.contact.mesh import elastic_mesh
+from fenics_gears.contact.mesh_cycle import Cycle
+from fenics_gears.dynamics.marches import Marches
+from fenics_gears.effects.coast_flanks import CoastFlanks
+from fenics_gears.effects.profile_modifications import ProfileModification, ProfileModifications
+from fenics_gears.effects.relief import Relief
+from fenics_gears.effects.tip_relief import TipRelief
+from fenics_gears.errors import ComputationError
+from fenics_gears.results.together import ERROR, OFFERED
+from fenics_gears.runs.runs import completed
+from fenics_gears.scene.data import Load
+from fenics_gears.simulation.elastic_route import gaps_of
+from fenics_gears.simulation.together import alike, can_be_solved_together, solved_together
+
+# What a run by itself counts differently: how long it took and how often Newton's method was applied, by the sets that
+# the runs before it left.
+OF_ITS_OWN = ("wall_time", "time_march", "newton_iterations_total")
+
+
+def designs(scene):
+    """Scenes with other reliefs and loads: with and without a kink, of one gear, crowned profiles."""
+
+    def both(depth, length, shape="linear"):
+        return TipRelief(*(Relief(depth, length_on_path=length, shape=shape) for _ in "pw"))
+
+    crowned = ProfileModifications(ProfileModification(crowning=3e-3, slope=-2e-3), ProfileModification(slope=4e-3))
+    changes = [
+        {"tip_relief": both(0.01, 4.0)},
+        {"tip_relief": both(0.03, 6.0, "parabolic")},
+        {"tip_relief": both(0.02, 5.0), "profile_modifications": crowned},
+        {"tip_relief": both(0.025, 5.0), "profile_modifications": crowned},
+        {"tip_relief": TipRelief(Relief(0.02, length_on_path=5.0), None)},
+        {"tip_relief": both(0.02, 7.0), "load": Load(300e3)},
+        {"tip_relief": None},
+    ]
+    return [replace(scene, **change) for change in changes]
+
+
+def sharing(scene, flanks):
+    """A preparation of runs on the same operators, with gaps of their own, on teeth without finite elements."""
+    model = model_of(scene)
+    mesh, tangential = elastic_mesh(flanks, model.resolution.contact_grid), scene.friction is not None
+    cycle = Cycle(mesh, model.resolution.steps_per_mesh_cycle, model.drivetrain.indices, tangential)
+    return lambda model, *_: ((), cycle.with_gaps(gaps_of(model, cycle)))
+
+
+def steady(paper_scene, friction, cycles=1):
+    """The paper's pair without inertia, on a coarse mesh."""
+    scene = quasi_static(coarse_scene(paper_scene, cycles))
+    return scene if friction else frictionless(scene)
+
+
+@pytest.mark.parametrize("friction", [False, True], ids=["frictionless", "with friction"])
+@pytest.mark.parametrize("cycles", [1, 2])
+def test_runs_together_have_the_numbers_of_runs_alone(paper_scene, stand_in_flanks, friction, cycles):
+    """Identity: all numbers that can be asked for, of other reliefs and another load, to the last digit. With friction
+    each has a step that Newton's method solves through stick alone."""
+    scene = steady(paper_scene, friction, cycles)
+    models, preparation = [model_of(each) for each in designs(scene)], sharing(scene, stand_in_flanks)
+    assert can_be_solved_together(models[0], OFFERED)
+    assert all(alike(models[0], model) for model in models)
+    found = solved_together(models, preparation, OFFERED)
+    for model, numbers in zip(models, found):
+        single = completed(model, preparation)
+        assert ("steps_by_rung: slip through stick" in single.attrs) == friction
+        asked = {name for name in OFFERED if name in single.attrs}
+        assert asked >= {ERROR, "largest_pair_force", "peak_contact_pressure"} and asked <= numbers.attrs.keys()
+        shared = {name for name in numbers.attrs if name in single.attrs} - {*OF_ITS_OWN}
+        assert {name: numbers.attrs[name] for name in shared} == {name: single.attrs[name] for name in shared}
+        assert np.array_equal(numbers["normal_force"], single["normal_force"])
+        assert np.array_equal(numbers["transmission_error"], single["transmission_error"])
+
+
+def test_only_what_is_asked_for_is_found(paper_scene, stand_in_flanks):
+    """Definition: T_EPP alone is what it is beside all others, and the largest force, of which steps alone would say
+    something else, is not there."""
+    scene = steady(paper_scene, False)
+    models, preparation = [model_of(each) for each in designs(scene)[:2]], sharing(scene, stand_in_flanks)
+    few, many = (solved_together(models, preparation, asked) for asked in ([ERROR], OFFERED))
+    assert [each.attrs[ERROR] for each in few] == [each.attrs[ERROR] for each in many]
+    assert not {"largest_pair_force", "peak_contact_pressure"} & few[0].attrs.keys()
+
+
+def test_a_run_of_which_there_is_more_to_say_is_left_to_itself(paper_scene, stand_in_flanks, monkeypatch):
+    """Authority: the promise of `numbers_together`. A torque a hundred times as large turns the wheel by more than its
+    pitch; steps without solution are made up."""
+    scene = steady(paper_scene, False)
+    models, preparation = [model_of(each) for each in designs(scene)[:3]], sharing(scene, stand_in_flanks)
+    through = model_of(replace(models[0].scene, load=Load(80e6)))
+    found = solved_together([models[1], through], preparation, [ERROR])
+    assert found[0] is not None and found[1] is None
+    assert "the result has no meaning" in completed(through, preparation).attrs["warnings"]
+    solve = Marches._solve
+
+    def failing(marches, steps, sets, at_rest):
+        solve(marches, steps, sets, at_rest)
+        marches.solved[1] = False
+
+    monkeypatch.setattr(Marches, "_solve", failing)
+    assert [each is None for each in solved_together(models, preparation, [ERROR])] == [False, True, False]
+
+
+def test_which_runs_are_solved_together(paper_scene):
+    """Definition: quasi-static plane runs that ask for no more than is offered and differ in load and reliefs."""
+    scene = steady(paper_scene, True)
+    model = model_of(scene)
+    assert can_be_solved_together(model, [ERROR]) and not can_be_solved_together(model, [ERROR, "rms_normal_force"])
+    assert not can_be_solved_together(model_of(coarse_scene(paper_scene)), [ERROR])
+    for changed in (
+        {"friction": replace(scene.friction, coefficient=0.05)},
+        {"motion": replace(scene.motion, mesh_cycles=3)},
+        {"coast_flanks": CoastFlanks()},
+    ):
+        assert not alike(model, model_of(replace(scene, **changed)))
+    assert alike(model, model_of(replace(scene, load=Load(1.0), title="another", tip_relief=TipRelief(None, None))))
+
+
+def test_an_error_of_all_is_raised(paper_scene, stand_in_flanks, monkeypatch):
+    """Authority: docstring; memory that is too small for one run is too small for all."""
+    scene = steady(paper_scene, False)
+    monkeypatch.setenv("FENICS_GEARS_MEMORY", "1 MB")
+    with pytest.raises(ComputationError, match="memory"):
+        solved_together([model_of(scene)], sharing(scene, stand_in_flanks), [ERROR])
