@@ -68,8 +68,8 @@ def test_the_study_is_what_the_readme_says():
 
 @pytest.mark.nightly
 def test_a_stopped_study_goes_on_and_ends_like_one_alone(folder, stopped):
-    """Authority: exact identity; how a study came to its end changes no number of it. Exit code 130 is an interrupted
-    study's (docs/promises.md)."""
+    """Exact identity; how a study came to its end changes no number of it. Exit code 130 is an interrupted study's
+    (docs/promises.md)."""
     first, kept, second = stopped
     assert first == 130 and 1 <= kept < CASES
     assert second == 0 and done(folder / "out") == CASES

@@ -68,7 +68,7 @@ def test_the_chosen_relief_is_the_best(benches, best):
 
 @pytest.mark.nightly
 def test_pictures_and_table_say_what_was_measured(benches, best):
-    """Authority: what they are made from; axes with units, optima marked where they are."""
+    """What they are made from; axes with units, optima marked where they are."""
     bench, designs = benches["μ = 0"], findings.compared(best.design)
     small = findings.Map(
         np.array([0.0, 20.0, 40.0]),

@@ -164,8 +164,8 @@ def test_the_inertia_about_a_diameter_is_a_discs_and_a_prisms():
 
 
 def test_a_mode_is_told_by_what_moves(on_bearings, paper_pair):
-    """Authority: the limit of a gear on its own; bearings of the pinion so near to each other that its slowest modes
-    are tilts, a soft axial support of the wheel."""
+    """The limit of a gear on its own; bearings of the pinion so near to each other that its slowest modes are tilts, a
+    soft axial support of the wheel."""
     soft = Bearings(
         1e6, places=BearingPlaces((-1.0, 1.0), (-200.0, 200.0)), axial_stiffness=1e8, wheel=Support(axial_stiffness=1.0)
     )

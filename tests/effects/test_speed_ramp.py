@@ -148,9 +148,9 @@ def test_a_slow_ramp_follows_the_steady_runs(paper_scene):
 
 
 def test_a_ramp_to_a_crawl_says_what_its_slow_end_does_to_the_whole_run(paper_scene):
-    """Authority: the rule of `dynamics.clock`, half the slowest period, on the ramp's true steps; above the
-    frequency that the warning names, which is that of a steady run, it is gone. A crawl is passed in few steps, none of
-    them as long as its frequency would have."""
+    """The rule of `dynamics.clock`, half the slowest period, on the ramp's true steps; above the frequency that the
+    warning names, which is that of a steady run, it is gone. A crawl is passed in few steps, none of them as long as
+    its frequency would have."""
     crawl = replace(coarse(paper_scene, 20), speed_ramp=SpeedRamp(0.01))
     assert not model_of(crawl).time_scales.samples_vibration
     (said,) = [warning for warning in model_of(crawl).warnings if "backward Euler" in warning]

@@ -49,7 +49,7 @@ def expected_couple(result, ripple, torque=437e3, teeth=24):
     ],
 )
 def test_a_wrong_section_is_refused(harmonics, said):
-    """Authority: house rule 7; what is wrong, at which place of the list, and what is allowed."""
+    """House rule 7; what is wrong, at which place of the list, and what is allowed."""
     with pytest.raises(SceneError) as refused:
         scene_from_text(DEMO + f"[torque_ripple]\nharmonics = {harmonics}\n")
     assert said in str(refused.value) and "Allowed: " in str(refused.value)

@@ -59,8 +59,8 @@ def test_line_load_adds_up_to_the_normal_force(result):
 
 
 def test_both_bodies_at_once_are_those_one_after_the_other(scene, monkeypatch, tmp_path):
-    """Authority: the same bodies with one thread. What the cache has starts no process, nor does a pair whose bodies
-    memory does not hold at once. The first gear of a study brings the second with it."""
+    """The same bodies with one thread. What the cache has starts no process, nor does a pair whose bodies memory does
+    not hold at once. The first gear of a study brings the second with it."""
     model, started = model_of(scene), []
     together = SecondProcess.together
     monkeypatch.setattr(SecondProcess, "together", lambda *given: started.append(given) or together(*given))
