@@ -14,7 +14,6 @@ from demos.cluster_study.stopped import done, run
 from tests.programs import environment
 
 from fenics_gears.commands.cli import main
-from fenics_gears.studies.study_file import load_study
 
 pytestmark = pytest.mark.ranks
 
@@ -55,15 +54,6 @@ def stopped(folder):
         first = run(folder / "study.toml", folder / "out", 2, stop_after=1)
         kept = done(folder / "out")
         return first, kept, run(folder / "study.toml", folder / "out", 2)
-
-
-@pytest.mark.nightly
-def test_the_study_is_what_the_readme_says():
-    """Count: both reliefs at 8 torques and 24 frequencies, the design load among them."""
-    study = load_study(speed_and_load.STUDY)
-    assert len(study.cases) == 384
-    assert {case.scene.load.wheel_torque for case in study.cases} >= {50e3, 437e3, 800e3}
-    assert all(case.scene.friction is not None for case in study.cases)
 
 
 @pytest.mark.nightly

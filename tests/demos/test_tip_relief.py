@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from demos.tip_relief import findings, pictures
-from demos.tip_relief.design import LONG, PARABOLIC, SHORT, Bench, Design, conditions, paper_scene
+from demos.tip_relief.design import PARABOLIC, Bench, Design, conditions, paper_scene
 from demos.tip_relief.optimum import ALLOWED, Optimum, optimum
 from demos.tip_relief.table import table
 from tests.coarse import COARSE
@@ -28,26 +28,6 @@ def best(benches):
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr("demos.tip_relief.optimum.SEARCHED", 60)
         return optimum(benches["μ = 0"])
-
-
-@pytest.mark.parametrize("length", [SHORT, 0.8, LONG])
-def test_without_load_the_relief_is_the_transmission_error(benches, length):
-    """Exact geometry: unloaded, of two pairs the one with less relief touches. A long linear relief then shows half of
-    its depth, a short one nothing."""
-    bench, depth = benches["teeth alone"], 30.0
-    phase, error = bench.error(Design(depth, length), 1e-3)
-    ratio = bench.pair.contact_ratio  # base pitches from start to end of contact
-
-    def removed(place):
-        relieved = length * (ratio - 1.0)
-        return depth * (np.maximum(1.0 - place / relieved, 0.0) + np.maximum(1.0 - (ratio - place) / relieved, 0.0))
-
-    inside = phase % 1.0
-    earlier = np.where(inside + 1.0 <= ratio, removed(inside + 1.0), np.inf)
-    assert error == pytest.approx(np.minimum(removed(inside), earlier), abs=0.6)  # um: what the teeth still give way
-    assert np.ptp(error) == pytest.approx(
-        depth * (1.0 - 0.5 / length), abs=1.5
-    )  # the kink lies between two of 40 steps
 
 
 @pytest.mark.nightly

@@ -111,15 +111,6 @@ def test_equations_are_drawn_in_a_browser(site, tmp_path):
     assert not FAILED_FORMULA.search(shown)
 
 
-@needs_browser
-@pytest.mark.parametrize("formula", [r"\frac{a}{", r"\sqrroot{x}"])
-def test_a_formula_that_cannot_be_drawn_is_noticed(small_checkout, tmp_path, formula):
-    """Authority: by hand; the check above can fail."""
-    (small_checkout / "docs" / "other.md").write_text(f"# Two\n\n${formula}$\n", encoding="utf-8")
-    assert built(small_checkout, tmp_path / "html").returncode == 0
-    assert FAILED_FORMULA.search(in_browser(tmp_path / "html" / "docs" / "other.html", tmp_path / "profile"))
-
-
 def test_pages_load_nothing_from_elsewhere(site):
     """The files; scripts, styles and pictures are the site's own. Links lead where they lead."""
     for page in site.rglob("*.html"):

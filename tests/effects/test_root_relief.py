@@ -170,25 +170,6 @@ def _operator(pair, flanks, scene, grid, step):
     return Cycle(elastic_mesh(flanks, grid), 20, [5], tangential=False).position(step).operator
 
 
-def test_two_pairs_are_never_both_relieved_nor_both_unrelieved(paper_pair):
-    """What HPSTC means: a pair in single contact touches where neither flank is relieved; in double contact one pair
-    touches where the pinion, the other where the wheel is relieved."""
-    pinion, wheel = tip_reliefs(paper_pair, TipRelief(Relief(0.031, None), Relief(0.031, None)))
-
-    def removed(position):
-        return (
-            pinion(paper_pair.pinion_roll_angle(position)) > 0.0,
-            wheel(paper_pair.wheel_roll_angle(position)) > 0.0,
-        )
-
-    start, pitch = paper_pair.path_start, paper_pair.base_pitch
-    for phase in np.linspace(0.01, 0.46, 10):
-        assert removed(start + phase * pitch) == (False, True)
-        assert removed(start + (1.0 + phase) * pitch) == (True, False)
-    for phase in np.linspace(0.48, 0.99, 10):
-        assert removed(start + phase * pitch) == (False, False)
-
-
 @pytest.mark.parametrize(
     ("relief", "said"),
     [

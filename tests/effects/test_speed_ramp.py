@@ -10,7 +10,6 @@ from scipy.integrate import solve_ivp
 from tests.coarse import COARSE, frictionless
 from tests.frozen_gears import frozen_marcher
 from tests.paper_text import PAPER as DEMO
-from tests.paper_text import without
 
 from fenics_gears import Load, SceneError, model_of, scene_from_text, simulate
 from fenics_gears.contact.errors import ContactNotConverged
@@ -45,13 +44,6 @@ def test_a_wrong_section_is_refused(lines, said):
     with pytest.raises(SceneError) as refused:
         scene_from_text(DEMO + f"[speed_ramp]\n{lines}\n")
     assert said in str(refused.value) and "Allowed: " in str(refused.value)
-
-
-def test_a_ramp_needs_inertia():
-    """Authority: without mass nothing depends on speed."""
-    with pytest.raises(SceneError) as refused:
-        scene_from_text(without(DEMO, "inertia", "damping") + '[speed_ramp]\nend_frequency = "260 Hz"\n')
-    assert "[speed_ramp]\n    needs the section [inertia]" in str(refused.value)
 
 
 @pytest.mark.parametrize("clock", [UP, DOWN], ids=["up after a hold", "down"])

@@ -24,12 +24,6 @@ def test_every_picture_is_written_whole_and_nothing_else(tmp_path, absent):
         assert 0.005 < np.mean(picture[..., :3].min(axis=2) < 0.9) < 0.5
 
 
-def test_a_picture_without_its_variable_is_not_written(tmp_path):
-    """Authority: rule 9 of the house."""
-    files = draw_run(made_up_run().drop_vars("contact_pressure"), tmp_path)
-    assert {file.name for file in files} == OF_A_SHORT_RUN - {"contact_pressure.png"}
-
-
 def test_a_failure_leaves_the_pictures_of_before_alone(tmp_path):
     """hard_cases.md, 27: never a half-written result under its final name."""
     before = {file: file.read_bytes() for file in draw_run(made_up_run(), tmp_path)}

@@ -100,12 +100,6 @@ def test_every_setting_of_the_issue_is_refined_with_the_others_fine(scene, repor
             assert replace(level.setting, **{field: getattr(each.base, field) for field in each.fields}) == each.base
 
 
-def test_a_setting_is_charged_at_least_its_parts_and_its_distance(report):
-    """Authority: issue 6, errors that cancel are no accuracy."""
-    for each in report.settings:
-        assert each.total_error >= judged(each.errors) and each.total_error >= sum(each.parts.values()) * (1 - 1e-12)
-
-
 def test_cheaper_models_stand_beside_them(report):
     """Rigid teeth without errors of form have no transmission error: all of it is lost, and there is no pressure."""
     models = {each.name: each for each in report.models}

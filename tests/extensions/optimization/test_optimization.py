@@ -83,25 +83,6 @@ def lines(directory):
     ]
 
 
-@pytest.mark.nightly
-def test_the_search_finds_what_brute_force_finds(folder):
-    """Brute force; no relief of a grid of 6 by 6 over both variables is better than the one found by 40 trials, and it
-    is the least of its designs."""
-    outcome = found(write(folder, STILL + VARIABLES + GOAL + "[search]\nevaluations = 40\n"))
-    with Interruption(SilentProgress()) as interruption:
-        evaluator = Evaluator(outcome.design, folder / "grid", Alone(), interruption)
-        (folder / "grid").mkdir()
-        grid = [
-            {"tip_relief.depth": depth, "tip_relief.length_on_path": length}
-            for depth in np.linspace(1.0, 60.0, 6)
-            for length in np.linspace(3.0, 9.0, 6)
-        ]
-        every = evaluator.of_designs(grid, np.zeros((1, 0)))
-    least = min(every, key=lambda each: each.goals[ERROR])
-    assert outcome.chosen.goals[ERROR] <= least.goals[ERROR] < 0.5 * outcome.before.goals[ERROR]
-    assert outcome.chosen.goals[ERROR] == min(each.goals[ERROR] for each in outcome.tried)
-
-
 @pytest.mark.usefixtures("unwritten")
 def test_the_chosen_design_is_a_scene_that_gives_its_goal(folder):
     """Identity; a run of best.toml alone, without anything shared, has the numbers of the design that was chosen."""
