@@ -1,7 +1,5 @@
 """Other programs on the same input."""
 
-from __future__ import annotations
-
 import numpy as np
 from tests.benchmarks import against_calculix
 from tests.benchmarks.against_exudyn import __main__ as exudyn

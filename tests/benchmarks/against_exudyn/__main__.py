@@ -13,8 +13,6 @@ Exudyn 1.13.6 gave the seven natural frequencies, 215.3 to 4818.5 Hz, the same w
 a step of the couple, both by average acceleration at 2 us, the same within 4e-8 of its swing over 10 ms.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import subprocess

@@ -4,8 +4,6 @@ deformable beam elements, side by side.
     python -m tests.benchmarks.against_exudyn.shaft PYTHON    # PYTHON: that of an environment that has Exudyn
 """
 
-from __future__ import annotations
-
 import sys
 from itertools import pairwise
 from math import ceil

@@ -13,8 +13,6 @@ displacements the same within 1.1e-6 of each. These differences are Exudyn's lar
 proportion to the torque.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import radians, sqrt
 

@@ -8,8 +8,6 @@ Writes the table into docs/evidence/other_programs.md. Programs that PYTHON lack
 (Debian's calculix-ccx) takes three minutes.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import subprocess
