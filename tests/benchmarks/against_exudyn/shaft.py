@@ -9,7 +9,7 @@ from itertools import pairwise
 from math import ceil
 
 import numpy as np
-from tests.benchmarks.against_exudyn.__main__ import asked
+from tests.benchmarks.against_exudyn.pair import asked
 from tests.benchmarks.against_ross.__main__ import BEARINGS, DENSITY, DISC, SHAFTS, UP_TO, elastic, free_frequencies
 
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, properties
