@@ -4,8 +4,6 @@ beside it.
 ``python -m tests.drawn_pairs`` prints the tables of docs/evidence/geometry.md.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import cos, radians
 

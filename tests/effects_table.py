@@ -1,7 +1,5 @@
 """Write the documentation's table of effects from the list: `python -m tests.effects_table`. Writes docs/effects.md."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from tests.docs.markdown import prose

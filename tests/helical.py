@@ -1,8 +1,6 @@
 """Helical pairs for tests: scenes of any proportions, on bodies without finite elements unless a test asks for real
 ones."""
 
-from __future__ import annotations
-
 from math import cos, radians
 
 from tests.stand_in import stand_in_body, stand_in_compliance

@@ -6,8 +6,6 @@ proportional to the load, though, so that the approach per line load of two load
 ln(F1/F2)/(pi E*), whatever the bodies.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

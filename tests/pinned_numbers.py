@@ -6,8 +6,6 @@ they are of.
 version of gmsh.
 """
 
-from __future__ import annotations
-
 import json
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Six-node triangles between a gear's outline and its bore, by gmsh: meshes of references, not the program's."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from fenics_gears.elasticity.gmsh_session import gmsh_model

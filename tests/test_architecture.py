@@ -11,8 +11,7 @@ ROOT = Path(__file__).parents[1]
 
 
 def test_imports_point_one_way(monkeypatch):
-    """Authority: the contracts of import-linter in pyproject.toml. Where import-linter is not installed `.ci/run`
-    checks them."""
+    """The contracts of import-linter in pyproject.toml. Where import-linter is not installed `.ci/run` checks them."""
     cli = pytest.importorskip("importlinter.cli")
     monkeypatch.chdir(ROOT)
     assert cli.lint_imports(no_cache=True) == 0
@@ -49,8 +48,8 @@ def loaded(tmp_path_factory):
 
 
 def test_a_plane_run_with_its_pictures_loads_nothing_of_the_third_dimension(loaded):
-    """Authority: house rule; what a scene does not name is not imported: of the face, the helix, tilts and their
-    pictures. The plane is one slice (`contact.face`)."""
+    """House rule; what a scene does not name is not imported: of the face, the helix, tilts and their pictures. The
+    plane is one slice (`contact.face`)."""
     assert "contact.mesh_cycle" in loaded and "show.plots" in loaded
     assert {
         name
@@ -60,7 +59,7 @@ def test_a_plane_run_with_its_pictures_loads_nothing_of_the_third_dimension(load
 
 
 def test_a_run_loads_what_its_scene_and_its_call_name(loaded):
-    """Authority: house rule. The number of modules is today's: lower it where a run loads fewer."""
+    """House rule. The number of modules is today's: lower it where a run loads fewer."""
     commands = {name for name in loaded if name.startswith(("commands.", "extensions", "command_line"))}
     assert commands == {"commands.cli", "commands.found", "commands.run", "commands.shared"}
     assert not [name for name in loaded if re.search("spring|stiffness_table|iso_6336|corner|flank_gaps", name)]

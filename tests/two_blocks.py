@@ -1,8 +1,6 @@
 """Two elastic blocks, meshed differently where they touch, as contact sees them: compliance and interpolation of
 straight flanks."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from fenics_gears.contact.interpolation import flank_interpolation

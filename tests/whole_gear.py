@@ -1,7 +1,5 @@
 """The whole gear by brute force, to compare the fast routes with: its mesh, its flank compliance."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from fenics_gears import Gear, Material

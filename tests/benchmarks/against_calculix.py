@@ -9,8 +9,6 @@ solves for all unknowns at once. At these positions no tip edge touches: there c
 this program takes it by default.
 """
 
-from __future__ import annotations
-
 import argparse
 import resource
 import tempfile

@@ -5,8 +5,6 @@ without coast flanks, and helical pairs. Each runs in a process of its own on on
 are the processor's, which are those of an idle machine whatever else this one does. Memory is the process's peak.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import resource

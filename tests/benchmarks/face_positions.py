@@ -5,8 +5,6 @@ none), with the positions built, and once more. A position's cost is what the fi
 With an old checkout both take turns. Medians of `TURNS`; seconds of `user` and `sys`, and by the clock.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -5,8 +5,6 @@ The paper's pair under a quarter of its load, where the contact is small beside 
 solution, and their orders from one setting to the next; nothing is extrapolated.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

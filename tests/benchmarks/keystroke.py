@@ -7,8 +7,6 @@ Prints medians of the turns. Both checkouts must be set up (`./gears --set-up-on
 and all that it starts.
 """
 
-from __future__ import annotations
-
 import argparse
 import resource
 import statistics

@@ -4,8 +4,6 @@
 Prints what the process holds after each tenth pair, MB, and the processor's seconds so far.
 """
 
-from __future__ import annotations
-
 import ctypes
 import sys
 import tempfile

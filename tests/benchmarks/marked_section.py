@@ -1,7 +1,5 @@
 """Sections of pages that commands write: between two marker lines, all else left alone."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 

@@ -1,8 +1,6 @@
 """How tooth and rim give way on a rigid bore, and on a thin web, against a solid body; `python -m
 tests.benchmarks.rigid_bore` writes the table of docs/evidence/geometry.md."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import cos, pi, radians, sin, tan
 from pathlib import Path

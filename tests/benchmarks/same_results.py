@@ -8,8 +8,6 @@ difference of. Wall times and versions are left out. Exit code 1 where anything 
 missing.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

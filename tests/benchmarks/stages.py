@@ -7,8 +7,6 @@ a machine that others use, the ratio alone is safe. Each checkout has a process 
 and its gears in the cache of the user.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

@@ -8,8 +8,6 @@ that still reach the target. These are found from the chosen ones: mesh, slices 
 first that saves most, as long as the true error allows it. A pair takes two to five minutes.
 """
 
-from __future__ import annotations
-
 import csv
 import sys
 from dataclasses import replace

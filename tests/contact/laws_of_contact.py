@@ -1,7 +1,5 @@
 """The laws [9], [11], [25] written out, to judge solutions by something the solver does not use."""
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -1,7 +1,5 @@
 """Contact steps without gears: random ones of the size that gears have, and small ones whose behaviour is known."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from fenics_gears.contact.laws import OPEN, Tolerance

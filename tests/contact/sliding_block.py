@@ -1,8 +1,6 @@
 """A march without gears: contact nodes that keep their place while the flanks slide over one another at constant
 speed."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import numpy as np

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.optimize import brentq
 from tests.contact.outlines import centres, distance, placed, rotation_to_touch
 
 from fenics_gears.contact.corner import corner_contact, corner_pairs, corner_place
@@ -57,27 +56,6 @@ def test_the_wheel_turned_by_the_gap_touches_the_edge_of_an_undercut_flank(by, s
     curves = placed(pair, corner.edges, place)
     turn = rotation_to_touch(curves[1], curves[0], centres(pair)[1])
     assert nodes.gap.min() == pytest.approx(pair.wheel.base_radius * turn, rel=2e-4, abs=1e-7)
-
-
-@pytest.mark.parametrize("radius", RADII)
-@pytest.mark.parametrize("error", [0.01, 0.04])
-@pytest.mark.parametrize("tip", TIPS)
-def test_a_pitch_error_lets_the_tip_touch_where_the_outlines_do(tip, error, radius, stand_in_flanks, paper_pair):
-    """Brute force: rigid gears, the mate's tooth `error` mm of base arc ahead; outlines first meet where the gap
-    says."""
-    corner, mate = corner_contact(paper_pair, radius), 1 - tip
-    base = (paper_pair.pinion, paper_pair.wheel)[mate].base_radius
-
-    def by_gap(by):
-        return corner_pairs(stand_in_flanks, FINE, corner, [beyond(paper_pair, tip, by)])[0].gap.min() - error
-
-    def by_outlines(by):
-        curves = placed(paper_pair, corner.edges, beyond(paper_pair, tip, by), count=4001)
-        return base * rotation_to_touch(curves[mate], curves[tip], centres(paper_pair)[mate]) - error
-
-    found, exact = (brentq(function, 1e-3, 3.0, xtol=1e-7) for function in (by_gap, by_outlines))
-    assert 0.1 < exact < 1.5
-    assert found == pytest.approx(exact, abs=1e-3 * exact)
 
 
 @pytest.mark.parametrize("radius", RADII)

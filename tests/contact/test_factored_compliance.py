@@ -55,7 +55,7 @@ class Contact:
 
 @pytest.mark.parametrize("frictional", [False, True])
 def test_factors_give_what_the_whole_system_gives_whatever_was_factored_before(frictional):
-    """Authority: numpy's solution; and exact identity of what new and lasting factors give."""
+    """numpy's solution; and exact identity of what new and lasting factors give."""
     contact, status = Contact(frictional), np.random.default_rng(2).integers(SLIP_FORWARD, STICK + 1, size=NODES)
     one, other = (contact.rows(closed, status[closed]) for closed in (np.arange(5, 50), np.arange(8, 55)))
     found = [contact.solved(*rows) for rows in (one, one, other, one)]
@@ -65,7 +65,7 @@ def test_factors_give_what_the_whole_system_gives_whatever_was_factored_before(f
 
 
 def test_nodes_that_depend_on_each_other_are_left_to_elimination():
-    """Authority: a compliance of which two rows are one has no Cholesky factor; nothing may be made of it."""
+    """A compliance of which two rows are one has no Cholesky factor; nothing may be made of it."""
     contact = Contact(frictional=False)
     contact.compliance[7], contact.compliance[:, 7] = contact.compliance[6], contact.compliance[:, 6]
     contact.compliance[7, 7] = contact.compliance[6, 6]

@@ -85,15 +85,6 @@ def test_without_motion_between_steps_the_earlier_displacement_is_the_present_on
     assert coarse / fine == pytest.approx([2.0, 2.0], rel=0.1)
 
 
-def test_normal_rows_are_the_same_with_and_without_friction(stand_in_flanks, cycle):
-    """Exact: friction adds rows, it does not change those of the normals."""
-    plain = Cycle(elastic_mesh(stand_in_flanks, GRID), STEPS, ALL, tangential=False).position(4).operator
-    full = cycle.position(4).operator
-    n = plain.nodes
-    assert full.compliance[:n, :n] == pytest.approx(plain.compliance, rel=1e-13)
-    assert np.array_equal(full.gap, plain.gap)
-
-
 def test_rigid_slip_over_a_step_is_exact(cycle, paper_pair):
     """Exact: slip is the integral of the sliding speed of the two material points, here by 40 Gauss points of their
     circular motion."""

@@ -20,8 +20,8 @@ from fenics_gears.geometry.helix import Helix
 @pytest.mark.parametrize("coast", [False, True])
 @pytest.mark.parametrize("interpolation", [AVERAGED, COLLOCATED])
 def test_positions_are_those_of_a_mesh_cycle_of_the_same_flanks(paper_pair, coast, interpolation):
-    """Authority: exact identity; whatever the other cycle's own reliefs are, also where operators are made again for
-    want of memory, and between steps."""
+    """Exact identity; whatever the other cycle's own reliefs are, also where operators are made again for want of
+    memory, and between steps."""
     bodies = tuple(stand_in_compliance(gear, coast_flank=coast) for gear in (paper_pair.pinion, paper_pair.wheel))
     flanks, grid = Flanks(paper_pair, bodies, (lambda roll: 0.03 * roll**2, None)), ContactGrid(1.5, 20, interpolation)
     other = replace(flanks, removal=(lambda roll: 0.01 * roll, lambda roll: 0.02 * np.cos(roll)))

@@ -74,11 +74,11 @@ def test_equal_teeth_have_one_cycle_to_the_last_bit(paper_pair, rings, meshed):
 
 @pytest.mark.parametrize("gear", [0, 1])
 def test_a_softer_tooth_is_met_in_its_turn(paper_pair, rings, gear):
-    """Authority: which tooth is in mesh when: the pinion's come clockwise, the wheel's counter-clockwise, tooth 0
-    first.
+    """Which tooth is in mesh when: the pinion's come clockwise, the wheel's counter-clockwise, tooth 0 first.
 
     The operator's own compliance of the tooth's contact nodes is that of the softer tooth in cycle `number` and a turn
-    later, and of no other tooth in any other cycle."""
+    later, and of no other tooth in any other cycle.
+    """
     teeth, number, factor = (16, 24)[gear], 5, 2.0
     tooth = first_tooth(gear, number) % teeth
     assert tooth == ((11, 5)[gear])

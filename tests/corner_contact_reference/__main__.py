@@ -4,8 +4,6 @@ hour).
 With `--only-missing` rows that are in the file already stay as they are.
 """
 
-from __future__ import annotations
-
 import argparse
 import tempfile
 from pathlib import Path

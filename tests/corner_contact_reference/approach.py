@@ -1,8 +1,6 @@
 """Teeth alone at one position: how far the wheel turns under its couple while the pinion's hub is held, without
 friction."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

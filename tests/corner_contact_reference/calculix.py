@@ -5,8 +5,6 @@ is turned by given angles; the couple that this takes is the sum over the bore's
 plane strain, 1 mm thick; fifteen-node wedges are the gears over their face.
 """
 
-from __future__ import annotations
-
 import re
 import subprocess
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Transmission error of the paper's pair by CalculiX: teeth alone, no friction, contact found on the true outlines."""
 
-from __future__ import annotations
-
 import csv
 import subprocess
 from dataclasses import asdict, dataclass, fields

@@ -53,15 +53,6 @@ def test_without_corner_contact_the_wheels_tip_comes_in_wrongly(cycles, paper_sc
     assert abs(error / row.transmission_error - 1.0) > 0.01
 
 
-@pytest.mark.parametrize(
-    "row", [row for row in ROWS.values() if row.case in VARIANTS], ids=lambda row: str(getattr(row, "case", "none yet"))
-)
-def test_the_reference_knows_its_own_answer(row):
-    """Mesh refinement, penalty and the choice of surface move the reference by far less than the 1 % asked of us."""
-    usual = ROWS[case(row.case.phase, row.case.edge_radius)]
-    assert row.transmission_error == pytest.approx(usual.transmission_error, rel=0.002)
-
-
 @pytest.mark.nightly
 @pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed (Debian: calculix-ccx)")
 def test_calculix_gives_the_file_again(paper_scene, paper_pair, tmp_path):

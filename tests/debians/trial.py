@@ -1,175 +1,152 @@
-"""What is tried on one Debian: set-up, README's commands, the suite alone and its finite elements under mpirun."""
+"""What tests/debians/run tries on each Debian: set-up, README's commands, the suite alone and its finite elements under
+mpirun."""
 
+import argparse
 import json
+import os
 import re
-import sys
-import xml.etree.ElementTree as ElementTree
-from dataclasses import dataclass, field
+import shlex
+import shutil
+import signal
+import subprocess
+from dataclasses import dataclass
 from pathlib import Path
 
-from tests.debians.dockerfile import read_dockerfile
 from tests.debians.root import Call, Root
 
 SUITES = {"bookworm": "Debian 12", "trixie": "Debian 13", "sid": "unstable"}
-RANKS = (2, 3)
 DEMO = "demos/lundvall2004.toml"
 # Every rank runs these whole, by itself: what is built on all ranks by mistake would differ from what is built on one,
-# or hang. Jobs that share their work between ranks (studies, every step condensed) are started by tests of the suite,
-# with 1, 2 and 3 ranks.
+# or hang. Jobs that share their work between ranks are started by tests of the suite.
 OF_RANKS = (
     "tests/elasticity", "tests/simulation/reference", "tests/hard_cases/test_row_05_schur_complement.py",
     "tests/hard_cases/test_row_06_condensation.py", "tests/hard_cases/test_row_07_patch_test.py",
 )  # fmt: skip
-QUICK = (
-    "tests/setup", "tests/commands/test_cli.py", "tests/elasticity/test_web.py",
-    "tests/studies/test_ranks.py",
-    "tests/show/test_stress_picture.py",
-)  # fmt: skip
-QUICK_OF_RANKS = ("tests/elasticity/test_web.py", "tests/elasticity/test_ring.py")
-RESULTS = "/results"
-OF_EACH_RANK = 'exec ./gears test -rfEs -p no:cacheprovider --junitxml=$rank.xml "$@" >$rank.log 2>&1'
 # mpirun as root, which containers are: as the Dockerfile has it.
 AS_ROOT = {f"{prefix}_ALLOW_RUN_AS_ROOT{suffix}": "1" for prefix in ("OMPI", "PRTE") for suffix in ("", "_CONFIRM")}
+VERSIONS = "import dolfinx, numpy, gmsh, platform; print(platform.python_version(), *(each.__name__ + ' ' + "
+VERSIONS += "each.__version__ for each in (dolfinx, numpy, gmsh)))"
+CHECKOUT = Path(__file__).resolve().parents[2]
 
 
 @dataclass(frozen=True)
-class Counts:
-    """Outcomes of tests; `complete` when pytest ended by itself with a verdict on all of them."""
-
-    passed: int = 0
-    failed: int = 0
-    skipped: int = 0
-    seconds: float = 0.0
-    complete: bool = False
-    reasons: tuple[str, ...] = ()
-    """Why tests were skipped, each reason once."""
-
-    @property
-    def is_green(self) -> bool:
-        """Whether there were tests and none failed."""
-        return self.complete and self.passed > 0 and self.failed == 0
-
-
-@dataclass
-class Trial:
-    """What came of a suite ("trixie"), as far as it came. own: a command given instead of the usual ones."""
+class Dockerfile:
+    """suite: that of the Debian it starts from. copied_to: where the checkout goes. commands: of the shell, in their
+    order. environment, folder and entry_point: of whoever runs the image."""
 
     suite: str
-    logs: Path
-    quick: bool = False
-    """Whether only a few tests are tried."""
-    versions: dict[str, str] = field(default_factory=dict)
-    set_up_seconds: dict[str, float] = field(default_factory=dict)
-    calls: dict[str, Call] = field(default_factory=dict)
-    tests: dict[int, Counts] = field(default_factory=dict)
-    """By number of ranks."""
-    is_whole: bool = False
-    """Whether nothing was left out because of what came before."""
+    copied_to: str
+    commands: tuple[str, ...]
+    environment: dict[str, str]
+    folder: str
+    entry_point: list[str]
 
-    @property
-    def is_green(self) -> bool:
-        """Whether everything was tried and came out well."""
-        return self.is_whole and all(part.is_green for part in (*self.calls.values(), *self.tests.values()))
+
+def read_dockerfile(path: Path = CHECKOUT / "Dockerfile") -> Dockerfile:
+    """Read it. Raises ValueError for a step that only Docker could carry out."""
+    lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")]
+    steps = [line.split(None, 1) for line in "\n".join(lines).replace("\\\n", " ").splitlines()]
+    one, environment = {name: rest.strip() for name, rest in steps if name not in ("RUN", "ENV")}, {}
+    suite = re.fullmatch(r"debian:(\w+)-slim", one.pop("FROM"))
+    source, target = one.pop("COPY").split()
+    folder, entry_point = one.pop("WORKDIR"), json.loads(one.pop("ENTRYPOINT"))
+    if one or not suite or source != ".":
+        raise ValueError(f"{path}: only Docker can carry out {one or 'its FROM and COPY'}")
+    for name, rest in steps:
+        if name == "ENV":
+            environment.update(pair.split("=", 1) for pair in shlex.split(rest))
+    commands = tuple(rest for name, rest in steps if name == "RUN")
+    return Dockerfile(suite[1], target, commands, environment, folder, entry_point)
+
+
+class Trial:
+    """A suite's system, and whether all that was tried on it ended well so far."""
+
+    def __init__(self, suite: str, options):
+        self.root, self.logs, self.green = Root(suite, options.roots / suite), options.logs / suite, True
+        self.options, self.docker = options, read_dockerfile()
+        self.logs.mkdir(parents=True, exist_ok=True)
 
     def note(self, name: str, call: Call) -> bool:
-        """Keep how a call ended and tell it; whether it ended well."""
-        self.calls[name] = call
-        outcome = "" if call.is_green else f": FAILED (exit code {call.exit_code}), see {self.log(name)}"
-        print(f"tests/debians: {self.suite}: {name}, {call.seconds:.0f} s{outcome}", file=sys.stderr, flush=True)
+        """Tell how a call ended, with the last line of what it printed, such as pytest's counts; whether it ended
+        well."""
+        self.green &= call.is_green
+        last = (call.output.strip().splitlines() or [""])[-1]
+        outcome = last if call.is_green else f"FAILED ({call.exit_code}), see {self.log(name)}: {last}"
+        print(f"{SUITES[self.root.suite]}: {name}, {call.seconds:.0f} s: {outcome}", flush=True)
         return call.is_green
 
     def log(self, name: str) -> Path:
         """File of a call's output."""
         return self.logs / f"{name.replace(' ', '_')}.log"
 
+    def call(self, name: str, *command: str, folder: str = "", environment=None) -> bool:
+        """Run a command inside; whether it ended well."""
+        done = self.root.call(list(command), self.log(name), folder or self.docker.copied_to, environment)
+        return self.note(name, done)
 
-def try_out(trial: Trial, root: Root, archive: bytes, checkout: Path, reuse=False, expired=False, own=()) -> None:
-    """Try everything on a fresh system (with `reuse` on the one that is there), or the command `own` after the set-up;
-    fills the trial."""
-    docker = read_dockerfile(checkout / "Dockerfile")
-    if not (reuse and root.is_there()) and not trial.note("system", root.make(trial.log("system"), expired)):
-        return
-    root.copy_in(archive, docker.copied_to)
+    def run(self, archive: bytes, own: list[str]) -> None:
+        """Try everything on a fresh system (with `--reuse` on the one that is there), or the command `own` after the
+        set-up."""
+        there = self.options.reuse and self.root.is_there()
+        if not there and not self.note("system", self.root.make(self.log("system"), self.options.expired)):
+            return
+        self.root.copy_in(archive, self.docker.copied_to)
+        if not self._set_up():
+            return
+        self.call("versions", "./gears", "python", "-c", VERSIONS)
+        if own:
+            self.call("command", *own, environment=AS_ROOT)
+        elif self.call("set-up of the tests", "./gears", "--set-up-only", "--test"):
+            self.call("tests", "./gears", "test", "-rfEs")
+            for ranks in (2, 3):
+                # Caches of their own, cold as on a cluster's first job.
+                environment = {**AS_ROOT, "XDG_CACHE_HOME": f"/tmp/cache_of_{ranks}"}
+                mpirun = ["mpirun", "--oversubscribe", "-n", str(ranks), "./gears", "test", "-p", "no:cacheprovider"]
+                self.call(f"{ranks} ranks", *mpirun, "-m", "not nightly and not ranks", *OF_RANKS,
+                          environment=environment)  # fmt: skip
 
-    def call(name, *command, folder=docker.copied_to, environment=None):
-        return trial.note(name, root.call(list(command), trial.log(name), folder, environment))
-
-    if not _set_up(trial, call, docker):
-        return
-    python = '{ read -r _ && read -r python; } <.setup/ready && exec "$python" tests/debians/versions.py'
-    if call("versions", "sh", "-c", python):
-        trial.versions = json.loads(trial.calls["versions"].output.splitlines()[-1])
-    if own:
-        call("command", *own, environment=AS_ROOT)
-    elif call("set-up of the tests", "./gears", "--set-up-only", "--test"):
-        trial.set_up_seconds["tests"] = _seconds_of_set_up(trial.calls["set-up of the tests"].output)
-        _run_tests(trial, root, call)
-    else:
-        return
-    trial.is_whole = True
+    def _set_up(self) -> bool:
+        """Set up by the Dockerfile where it starts from this suite, else by README's first command as on a user's
+        machine."""
+        docker = self.docker
+        if docker.suite == self.root.suite:
+            if not self.call("Dockerfile", "sh", "-ec", "\n".join(docker.commands), folder="/"):
+                return False
+            demo = f'mkdir -p {docker.folder} && cd {docker.folder} && cp {docker.copied_to}/{DEMO} scene.toml && "$@"'
+            run = ["sh", "-ec", f"{demo} run scene.toml", "sh", *docker.entry_point]
+            self.call("container", *run, folder="/", environment=docker.environment)
+        return self.call("first command", "./gears", "run", DEMO)
 
 
-def _set_up(trial, call, docker):
-    """Set up by the Dockerfile where it starts from this suite, else by README's first command as on a user's
-    machine."""
-    if docker.suite == trial.suite:
-        if not call("Dockerfile", "sh", "-ec", "\n".join(docker.commands), folder="/"):
-            return False
-        environment = {**docker.environment}
-        demo = (
-            f'mkdir -p {docker.folder} && cd {docker.folder} && cp {docker.copied_to}/{DEMO} scene.toml && exec "$@"'
-            " run scene.toml"
+def main(arguments: list[str], description: str) -> int:
+    """Try what the arguments ask for; the exit code."""
+    at = arguments.index("--") if "--" in arguments else len(arguments)
+    parser = argparse.ArgumentParser(
+        "tests/debians/run", description=description, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("suites", nargs="*", metavar="SUITE", help=f"{', '.join(SUITES)}; without any all of them")
+    parser.add_argument("--reuse", action="store_true", help="take the system that an earlier call left")
+    parser.add_argument("--expired", action="store_true", help="accept a mirror whose lists are past their date")
+    parser.add_argument("--keep", action="store_true", help="leave systems that are green too, 5 GB each, for --reuse")
+    for name, usual in (("roots", Path("/var/tmp/fenics_gears_debians")), ("logs", CHECKOUT / "results" / "debians")):
+        parser.add_argument(f"--{name}", type=Path, default=usual, metavar="DIR", help=f"where {name} are ({usual})")
+    options = parser.parse_args(arguments[:at])
+    missing = [tool for tool in ("mmdebstrap", "unshare", "chroot", "git", "tar") if not shutil.which(tool)]
+    if os.geteuid() != 0 or missing or {*options.suites} - {*SUITES}:
+        print(
+            f"It needs root, mmdebstrap, git and util-linux, and suites among {', '.join(SUITES)}; missing: {missing}"
         )
-        call("container", "sh", "-ec", demo, "sh", *docker.entry_point, folder="/", environment=environment)
-    call("first command", "./gears", "run", DEMO)
-    ready = [trial.calls[name].output for name in ("Dockerfile", "first command") if name in trial.calls]
-    trial.set_up_seconds["program"] = _seconds_of_set_up("\n".join(ready))
-    return trial.calls["first command"].is_green
-
-
-def _seconds_of_set_up(output):
-    """Seconds by the launcher's own account."""
-    told = re.search(r"^gears: ready \((\d+) s\)", output, re.MULTILINE)
-    return float(told[1]) if told else 0.0
-
-
-def _run_tests(trial, root, call):
-    """The suite alone, then what ranks can run by themselves with caches of their own, cold as on a cluster's first
-    job."""
-    folder = root.empty_folder(RESULTS)
-    call("tests", "./gears", "test", "-rfEs", f"--junitxml={RESULTS}/tests.xml", *(QUICK if trial.quick else ()))
-    trial.tests[1] = counted([folder / "tests.xml"])
-    for ranks in RANKS:
-        each = f"rank={RESULTS}/{ranks}.$OMPI_COMM_WORLD_RANK\n" + OF_EACH_RANK
-        which = ["-m", "not nightly and not ranks", *(QUICK_OF_RANKS if trial.quick else OF_RANKS)]
-        mpirun = ["mpirun", "--oversubscribe", "-n", str(ranks)]
-        call(
-            f"{ranks} ranks",
-            *mpirun,
-            "sh",
-            "-c",
-            each,
-            "sh",
-            *which,
-            environment={**AS_ROOT, "XDG_CACHE_HOME": f"/tmp/cache_of_{ranks}"},
-        )
-        for log in folder.glob(f"{ranks}.*.log"):
-            (trial.logs / f"{ranks}_ranks.{log.name.split('.')[1]}.log").write_bytes(log.read_bytes())
-        trial.tests[ranks] = counted([folder / f"{ranks}.{rank}.xml" for rank in range(ranks)])
-
-
-def counted(files) -> Counts:
-    """Outcomes in the JUnit files of all ranks: what every rank passed counts once, what any failed or skipped is added
-    up."""
-    reports = [ElementTree.parse(file).getroot().find("testsuite") for file in files if file.exists()]
-    if not reports:
-        return Counts()
-    suites = [report.attrib for report in reports]
-    reasons = {skip.get("message", "") for report in reports for skip in report.iter("skipped")}
-    failed = [int(suite["failures"]) + int(suite["errors"]) for suite in suites]
-    skipped = [int(suite["skipped"]) for suite in suites]
-    passed = [
-        int(suite["tests"]) - bad - left_out for suite, bad, left_out in zip(suites, failed, skipped, strict=True)
-    ]
-    seconds = max(float(suite["time"]) for suite in suites)
-    return Counts(min(passed), sum(failed), sum(skipped), seconds, len(suites) == len(files), tuple(sorted(reasons)))
+        return 2
+    # Shells start what runs in the background deaf to Ctrl-C, every process below would be too, and tests of Ctrl-C
+    # would wait for ever.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    git = ["git", "-c", "safe.directory=*", "-C", str(CHECKOUT), "archive", "HEAD"]
+    # Once for all suites: the checkout may go on meanwhile.
+    archive = subprocess.run(git, check=True, capture_output=True).stdout
+    trials = [Trial(suite, options) for suite in options.suites or SUITES]
+    for trial in trials:
+        trial.run(archive, arguments[at + 1 :])
+        if trial.green and not options.keep and not options.reuse:
+            trial.root.remove()
+    return 0 if all(trial.green for trial in trials) else 1

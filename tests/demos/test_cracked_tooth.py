@@ -41,7 +41,7 @@ def turns(scene, tmp_path_factory):
 
 
 def test_the_scene_has_the_mesh_that_lies_in_the_repository():
-    """Authority: the demonstration's own words; a turn of the pinion, its mesh found from the scene's folder on."""
+    """The demonstration's own words; a turn of the pinion, its mesh found from the scene's folder on."""
     scene = load_scene(HERE / "cracked_tooth.toml")
     assert scene.motion.mesh_cycles == scene.motion.recorded_cycles == scene.gears.pinion.teeth == 16
     assert scene.body_meshes.pinion.path.endswith("meshes/cracked_pinion.msh") and scene.body_meshes.pinion.digest

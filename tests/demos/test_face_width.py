@@ -24,7 +24,7 @@ def test_widths_are_overlap_ratios_at_the_same_load_per_width():
 
 @pytest.mark.nightly
 def test_a_whole_overlap_ratio_has_less_ripple(tmp_path):
-    """Authority: the demonstration's own words, on coarse bodies and two widths; table and picture have both."""
+    """The demonstration's own words, on coarse bodies and two widths; table and picture have both."""
     text = widths.STUDY.read_text(encoding="utf-8").replace('"pair.toml"', f'"{widths.STUDY.parent / "pair.toml"}"')
 
     # The third and the fourth of each swept field's values, on half as many slices and layers.

@@ -21,7 +21,7 @@ def test_sizes_are_those_of_its_page():
 
 @pytest.mark.nightly
 def test_crowning_takes_the_load_off_the_end():
-    """Authority: the demonstration's own words, on coarse bodies; table and picture have every variant."""
+    """The demonstration's own words, on coarse bodies; table and picture have every variant."""
     coarse = replace(SCENE, accuracy=Accuracy(slices=12, layers=6, body_element_size=1.2, steps_per_mesh_cycle=10))
     results = {name: simulate(scene) for name, scene in gearbox.variants(coarse).items()}
     aligned, misaligned, crowned = (result.attrs["face_load_factor"] for result in results.values())

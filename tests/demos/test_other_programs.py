@@ -23,7 +23,7 @@ def other_python(tmp_path_factory):
 
 @pytest.mark.nightly
 def test_the_same_pair_in_three_programs(other_python):
-    """Authority: Exudyn 1.13.6 and ROSS 2.3.0.
+    """Exudyn 1.13.6 and ROSS 2.3.0.
 
     Natural frequencies agree, ROSS's but for the bending of its shafts. Exudyn reads the mesh from tables of static
     equilibria: its dynamic transmission error has the same swing (measured: 0.10 % off) and lies within 0.5 % of the

@@ -70,7 +70,7 @@ def test_results_are_those_that_it_speaks_of(ran):
 
 @pytest.mark.nightly
 def test_pictures_and_the_kept_run_are_there(ran):
-    """Authority: the script's last cell; the run on disk is the one in memory, pictures are no empty pages."""
+    """The script's last cell; the run on disk is the one in memory, pictures are no empty pages."""
     names, folder = ran
     assert names["again"].identical(names["result"])
     pictures = sorted(path.name for path in Path(folder, "results", "python_interface").glob("*.png"))

@@ -55,7 +55,7 @@ def test_two_steady_vibrations_at_one_speed(monkeypatch, frequency):
 
 
 def test_the_picture_has_both_ways():
-    """Authority: what it is drawn from; two lines, two rows of rings, over the frequencies of the ramps."""
+    """What it is drawn from; two lines, two rows of rings, over the frequencies of the ramps."""
     frequency = np.linspace(150.0, 260.0, 12)
     passed = {
         "up": sweeps.Sweep(frequency, 1e-3 * frequency / 200.0),

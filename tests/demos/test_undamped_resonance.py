@@ -8,8 +8,6 @@ from demos.undamped_resonance import resonance
 from demos.undamped_resonance.drawing import draw
 from demos.undamped_resonance.sweeps import WITH, WITHOUT, sweeps
 
-from fenics_gears.studies.study_file import load_study
-
 
 @pytest.fixture(scope="module")
 def small(tmp_path_factory):
@@ -31,18 +29,6 @@ def small(tmp_path_factory):
     (directory / "study.toml").write_text(text)
     assert resonance.compute(directory / "study.toml", directory / "out") == 0
     return directory / "out", resonance.picture(directory / "out")
-
-
-def test_the_study_sweeps_150_to_260_hz_with_coast_flanks_and_without():
-    """What the demo is about: both scenes at every frequency, undamped, with steps that resolve impacts."""
-    study = load_study(resonance.STUDY)
-    frequencies = {case.scene.motion.mesh_frequency for case in study.cases}
-    assert min(frequencies) == 150.0 and max(frequencies) == 260.0 and len(frequencies) >= 20
-    for coast in (True, False):
-        assert {
-            case.scene.motion.mesh_frequency for case in study.cases if (case.scene.coast_flanks is not None) == coast
-        } == frequencies
-    assert all(case.scene.damping is None and case.scene.accuracy.steps_per_mesh_cycle >= 480 for case in study.cases)
 
 
 @pytest.mark.nightly

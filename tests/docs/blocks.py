@@ -1,7 +1,5 @@
 """The blocks of code in the documentation's pages, and the commands that stand in them and in its text."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path

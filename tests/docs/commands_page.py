@@ -1,7 +1,5 @@
 """docs/commands.md, made from the program's own argument parser."""
 
-from __future__ import annotations
-
 import argparse
 import inspect
 import re

@@ -4,8 +4,6 @@ The numbers were measured once: errors by `gears accuracy` and runs with a targe
 say. A page cannot say otherwise than the numbers that it shows the reader.
 """
 
-from __future__ import annotations
-
 import csv
 from importlib import import_module
 from statistics import median

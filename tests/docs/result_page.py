@@ -1,8 +1,6 @@
 """Tables of docs/result.md, made from the effects' list of variables, from the list of attributes, and from a run that
 has them all."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import xarray as xr

@@ -1,7 +1,5 @@
 """docs/scene.md, made from the schema: every section and field that a scene may have."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -63,7 +63,7 @@ def test_python_runs_and_gives_what_the_page_says(page, readers_folder, monkeypa
 
 
 def test_a_wrong_answer_on_a_page_is_noticed(tmp_path):
-    """Authority: a page that says what is not so, and one whose code does not run."""
+    """A page that says what is not so, and one whose code does not run."""
     page = tmp_path / "wrong.md"
     page.write_text("```python\n>>> one = 1\n\n```\n\n```python\n>>> one + 1\n3\n\n```\n", encoding="utf-8")
     assert "Expected:\n    3\nGot:\n    2" in run_python(page)
@@ -74,8 +74,8 @@ def test_a_wrong_answer_on_a_page_is_noticed(tmp_path):
 
 @pytest.mark.parametrize("page", holding("toml"))
 def test_scenes_and_studies_are_valid(page, readers_folder, tmp_path):
-    """Authority: the program's own reading; a piece of a scene is put into the demo, and what it needs with it; one
-    with gears and a load is whole."""
+    """The program's own reading; a piece of a scene is put into the demo, and what it needs with it; one with gears and
+    a load is whole."""
     for block in blocks(page):
         if block.language != "toml":
             continue
@@ -203,8 +203,7 @@ def micrometres(result):
 
 
 def test_the_summary_is_as_shown(first_run):
-    """Authority: the README; its lines are those of the run, with numbers as meshes of other gmsh versions give
-    them."""
+    """The README; its lines are those of the run, with numbers as meshes of other gmsh versions give them."""
     shown = next(block.code for block in blocks(README) if block.language == "text").splitlines()
     assert shown[0] == first_run.attrs["title"]
     rows = {label: value for label, value, _ in summary_rows(first_run)}
@@ -216,7 +215,7 @@ def test_the_summary_is_as_shown(first_run):
 
 
 def test_tip_relief_does_what_the_readme_says(first_run):
-    """Authority: the README's two numbers; the scene with what it tells to append."""
+    """The README's two numbers; the scene with what it tells to append."""
     text = README.read_text(encoding="utf-8")
     before, after = (float(number) for number in re.search(r"falls from ([\d.]+) to ([\d.]+) um", text).groups())
     appended = next(block.code for block in blocks(README) if block.language == "toml")

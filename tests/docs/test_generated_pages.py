@@ -29,17 +29,17 @@ def kept(name):
 
 @pytest.mark.parametrize("name, page", [("scene.md", scene_page.page), ("commands.md", commands_page.page)])
 def test_the_page_is_up_to_date(name, page):
-    """Authority: identity; `python -m tests.docs.write` writes it anew."""
+    """Identity; `python -m tests.docs.write` writes it anew."""
     assert kept(name) == page()
 
 
 def test_the_page_of_the_result_is_up_to_date(everything):
-    """Authority: identity; `python -m tests.docs.write` writes it anew."""
+    """Identity; `python -m tests.docs.write` writes it anew."""
     assert kept("result.md") == result_page.page(everything)
 
 
 def test_every_field_has_its_line():
-    """Authority: the schema, walked through by itself; as many lines as fields."""
+    """The schema, walked through by itself; as many lines as fields."""
 
     def count(kind):
         found, seen = 0, set()
@@ -60,8 +60,7 @@ def test_every_field_has_its_line():
 
 
 def test_a_field_without_meaning_is_refused():
-    """Authority: the pages' own rule; a field cannot be declared without one, and one that is declared otherwise is
-    named."""
+    """The pages' own rule; a field cannot be declared without one, and one that is declared otherwise is named."""
     with pytest.raises(TypeError, match="meaning"):
         quantity("1 mm to 2 mm", "1 mm")
     silent = make_dataclass("Silent", [("depth", float, declared(Allowed(description="a length")))], bases=(Section,))
@@ -76,8 +75,7 @@ def undeclared(attributes) -> set[str]:
 
 
 def test_a_run_has_no_attribute_that_the_list_does_not_know(everything, paper_scene):
-    """Authority: the list, which the page of the result is made from; a run with all effects, and one that loses
-    contact."""
+    """The list, which the page of the result is made from; a run with all effects, and one that loses contact."""
     assert not undeclared(everything.attrs)
     undamped = coarse_scene(replace(paper_scene, damping=None, friction=None))
     # The first torsional mode of the paper's pair is at 213 Hz.

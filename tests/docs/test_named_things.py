@@ -35,19 +35,19 @@ GUIDE = [page for page in (ROOT / "docs").glob("*.md") if page.stem not in REFER
 
 
 def test_the_guide_is_short():
-    """Authority: CONTRIBUTING.md; who uses the program can read all that is written for users."""
+    """CONTRIBUTING.md; who uses the program can read all that is written for users."""
     pages = [ROOT / "README.md", *GUIDE]
     assert sum(len(page.read_text(encoding="utf-8").split()) for page in pages) <= 20_000
 
 
 @pytest.mark.parametrize("page", [pytest.param(page, id=name_of(page)) for page in PAGES if page.stem != "CHANGELOG"])
 def test_a_page_tells_no_history(page):
-    """Authority: CONTRIBUTING.md; what a commit changed belongs into CHANGELOG.md."""
+    """CONTRIBUTING.md; what a commit changed belongs into CHANGELOG.md."""
     assert not re.findall(r"\b(?:commit|revision) [0-9a-f]{7}", page.read_text(encoding="utf-8"))
 
 
 def test_the_tour_names_files_of_every_folder():
-    """Authority: the checkout; each folder of the package has its place on the page."""
+    """The checkout; each folder of the package has its place on the page."""
     named = set(in_text(ROOT / "docs" / "reading_the_code.md"))
     folders = [path for path in (ROOT / "fenics_gears").iterdir() if (path / "__init__.py").exists()]
     assert folders and all(f"fenics_gears/{folder.name}" in named for folder in folders)
@@ -62,7 +62,7 @@ def reading_table(heading):
 
 
 def test_folders_stand_in_the_order_of_imports():
-    """Authority: the contract that import-linter checks (`tests/test_architecture.py`), the lowest folder first."""
+    """The contract that import-linter checks (`tests/test_architecture.py`), the lowest folder first."""
     settings = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["importlinter"]
     layers = [name.rpartition(".")[2] for name in settings["contracts"][0]["layers"]]
     named = [row[0].strip("` ").rpartition("/")[2] for row in reading_table("folder")]
@@ -72,7 +72,7 @@ def test_folders_stand_in_the_order_of_imports():
 
 @pytest.mark.nightly
 def test_the_page_on_studies_names_all_that_a_studys_dataset_holds(readers_folder):
-    """Authority: a study of frequencies with friction and without, of equal steps."""
+    """A study of frequencies with friction and without, of equal steps."""
     named = set(in_text(ROOT / "docs" / "studies.md"))
     with xarray.open_dataset(readers_folder / "results" / "frequencies" / "study.nc", engine="h5netcdf") as study:
         assert len(study.data_vars) > 8 and not [name for name in study.data_vars if name not in named]

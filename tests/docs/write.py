@@ -1,7 +1,5 @@
 """Write the documentation's generated pages and tables anew: `python -m tests.docs.write`."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from tests.benchmarks.marked_section import markers, write_section

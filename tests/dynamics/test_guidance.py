@@ -14,7 +14,7 @@ def test_a_frequency_of_several_vibrations_is_told_once():
 
 
 def test_a_vibration_that_tilts_a_gear_is_told_as_one():
-    """Authority: the words of `gears check`; what moves stands beside the frequency."""
+    """The words of `gears check`; what moves stands beside the frequency."""
     modes = [Vibration(1592.0, 1e-3, True), Vibration(1800.0, 1e-3, True, "pinion tilts")]
     (said,) = time_step_warnings(modes, 400.0, 20, FOLLOWING)
     assert "about 1592 Hz (5.03 steps per period), 1800 Hz (4.44 steps per period; pinion tilts);" in said

@@ -42,48 +42,6 @@ def on_bearings(paper_scene):
     return replace(paper_scene, bearings=BEARINGS, damping=None)
 
 
-def displaced(shafts, forces):
-    """Static displacement by name, in mm and rad, under forces (k,); the output shaft, whose load is free, is held."""
-    held, wheel = shafts.stiffness.copy(), shafts.coordinates.index("rotation_2")
-    held[wheel, wheel] += 1e6
-    states = np.linalg.solve(held, forces)
-    return {name: float(shafts.value(states, name)) for name in shafts.coordinates}
-
-
-@pytest.mark.parametrize(("number", "gear", "middle"), [("1", "pinion", MIDDLES[0]), ("2", "wheel", MIDDLES[1])])
-def test_bearings_carry_a_force_as_the_lever_rule_says(on_bearings, helical, number, gear, middle):
-    """Exact: six balances of either gear under a force along a leaning normal at a point of the mesh.
-
-    Two supports are statically determinate: each carries the force across the axis, and the moment of the axial force,
-    by the distance from the other one.
-    """
-    pair, force, (xi, height) = helical, 5000.0, (11.0, 4.0)
-    shafts = drivetrain(on_bearings, pair)
-    normal = np.array([1.0, 0.0, -pair.slope]) / sqrt(1.0 + pair.slope**2)
-    found = displaced(shafts, -force * moved(pair, shafts.coordinates, (xi, height), normal))
-    sense = -1.0 if gear == "pinion" else 1.0
-    on_gear = sense * force * normal
-    x, y = (
-        (xi, -pair.pinion.base_radius)
-        if gear == "pinion"
-        else (xi - pair.line_of_action_length, pair.wheel.base_radius)
-    )
-    moment = np.cross((x, y, height - middle), on_gear)
-    first, second = PLACES[gear]
-    reactions = np.array([[
-        0.5 * BEARINGS.of(gear, "x") * (found[f"centre_x{number}"] + place * found[f"tilt_y{number}"]),
-        0.5 * BEARINGS.of(gear, "y") * (found[f"centre_y{number}"] - place * found[f"tilt_x{number}"]),
-    ] for place in (first, second)])  # fmt: skip
-    # About the second bearing: along x by the moment about y, along y by that about x.
-    along = (second * on_gear[0] - moment[1]) / (second - first)
-    off = (second * on_gear[1] + moment[0]) / (second - first)
-    assert reactions[0] == pytest.approx([along, off], rel=1e-10, abs=1e-8)
-    assert reactions.sum(axis=0) == pytest.approx(on_gear[:2], rel=1e-10, abs=1e-8)
-    assert BEARINGS.axial(gear) * found[f"axial_{number}"] == pytest.approx(on_gear[2], rel=1e-12)
-    torsion = on_bearings.shafts.of("input") if gear == "pinion" else 1e6 * pair.wheel.base_radius**2
-    assert torsion * found[f"rotation_{number}"] == pytest.approx(moment[2], rel=1e-12)
-
-
 def test_a_displacement_of_rigid_gears_is_that_of_their_points(helical):
     """Finite differences: rotation matrices move the points that touch, and the difference of both gears' motions along
     a direction is the row."""
@@ -164,8 +122,8 @@ def test_the_inertia_about_a_diameter_is_a_discs_and_a_prisms():
 
 
 def test_a_mode_is_told_by_what_moves(on_bearings, paper_pair):
-    """Authority: the limit of a gear on its own; bearings of the pinion so near to each other that its slowest modes
-    are tilts, a soft axial support of the wheel."""
+    """The limit of a gear on its own; bearings of the pinion so near to each other that its slowest modes are tilts, a
+    soft axial support of the wheel."""
     soft = Bearings(
         1e6, places=BearingPlaces((-1.0, 1.0), (-200.0, 200.0)), axial_stiffness=1e8, wheel=Support(axial_stiffness=1.0)
     )

@@ -25,7 +25,7 @@ def with_bearings(lines):
 
 
 def test_a_gears_own_stiffness_stands_before_that_of_both():
-    """Authority: the section's own words; a direction's stiffness stands before that of every direction."""
+    """The section's own words; a direction's stiffness stands before that of every direction."""
     text = (
         'stiffness = "0.2e6 N/mm"\nstiffness_y = "0.3e6 N/mm"\n[bearings.pinion]\nstiffness_x = "0.1e6 N/mm"\n'
         '[bearings.wheel]\nstiffness_y = "0.5e6 N/mm"'
@@ -36,7 +36,7 @@ def test_a_gears_own_stiffness_stands_before_that_of_both():
 
 
 def test_places_are_read_from_mid_width():
-    """Authority: the section's own words; places in mm, the axial stiffness of a shaft before that of both."""
+    """The section's own words; places in mm, the axial stiffness of a shaft before that of both."""
     text = (
         f'{ISOTROPIC}\naxial_stiffness = "1 N/mm"\nplaces = {{ pinion = ["-40 mm", "6 cm"]'
         ' }\n[bearings.pinion]\naxial_stiffness = "2 N/mm"'
@@ -64,7 +64,7 @@ def test_places_are_read_from_mid_width():
      "Leave it out, or give bearings.places.pinion."),
 ])  # fmt: skip
 def test_what_is_missing_or_cannot_be_is_named(lines, said):
-    """Authority: house rule 7; what is missing or wrong, and where."""
+    """House rule 7; what is missing or wrong, and where."""
     with pytest.raises(SceneError) as refused:
         with_bearings(lines)
     assert said in str(refused.value)

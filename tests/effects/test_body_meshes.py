@@ -40,10 +40,11 @@ def turn(cache):
 
 
 def test_the_mesh_is_softer_while_the_cracked_tooth_carries_and_nowhere_else(turn):
-    """Authority: tooth 8 of the file reaches the start of contact with cycle 8 and the end 1.47 cycles later; its crack
-    deflects it more.
+    """Tooth 8 of the file reaches the start of contact with cycle 8 and the end 1.47 cycles later; its crack deflects
+    it more.
 
-    Neighbours feel it through the body: three teeth away it is below 0.5 % of what it is on the tooth."""
+    Neighbours feel it through the body: three teeth away it is below 0.5 % of what it is on the tooth.
+    """
     cracked, whole = (each.transmission_error.values for each in turn)
     phase, softer = turn[0].mesh_phase.values, np.abs(cracked) - np.abs(whole)
     carrying = (phase > 8.1) & (phase < 9.4)

@@ -25,7 +25,7 @@ def scene(paper_scene):
 
 
 def test_each_gear_has_its_own_radius(paper_scene):
-    """Authority: the page of the section; a gear's own radius before that of both, sharp where none is given."""
+    """The page of the section; a gear's own radius before that of both, sharp where none is given."""
     text = paper_scene.text
     assert scene_from_text(text + "\n[corner_contact]\n").corner_contact.edge_radii == (0.0, 0.0)
     both = '\n[corner_contact]\nedge_radius = "0.1 mm"\n[corner_contact.wheel]\nedge_radius = "0.2 mm"\n'

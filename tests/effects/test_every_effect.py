@@ -72,7 +72,7 @@ def crowds():
 
 
 def test_every_effect_has_an_example():
-    """Authority: house rule; whoever adds an effect adds its example, or nothing here looks at it."""
+    """House rule; whoever adds an effect adds its example, or nothing here looks at it."""
     assert set(EXAMPLES) == set(SECTIONS)
 
 
@@ -85,8 +85,8 @@ def of(scenes, marks=()):
     "sections", [*of(alone()), *of(crowds()), *of(sorted({*pairs()} - {*alone()}), pytest.mark.nightly)]
 )
 def test_effects_run_together_and_the_result_has_their_variables_and_no_others(sections):
-    """Authority: house rule 9 and the list; any two effects run, and the result's variables are exactly those that the
-    list says."""
+    """House rule 9 and the list; any two effects run, and the result's variables are exactly those that the list
+    says."""
     scene = scene_of(*sections)
     assert tuple(each.section for each in effects_on(scene)) == sections
     result = simulate(scene)
@@ -155,7 +155,7 @@ def loaded():
 @pytest.mark.nightly
 @pytest.mark.parametrize("section", SECTIONS)
 def test_what_computes_it_is_loaded_by_a_scene_that_names_it_and_by_no_bare_one(section, loaded):
-    """Authority: house rule 9; modules of an absent effect's physics are not imported, those of a named one are."""
+    """House rule 9; modules of an absent effect's physics are not imported, those of a named one are."""
     own = (imports_of_hooks(section) | METHODS.get(section, set())) - RARE.get(section, set())
     hooks = [getattr(effect_named(section), name) for name in RUN_HOOKS]
     assert own or not any(hooks)

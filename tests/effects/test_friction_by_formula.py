@@ -56,8 +56,8 @@ roughness = "0.8 um"
 
 
 def test_a_formula_outside_its_range_is_refused_by_name(tmp_path):
-    """Authority: Benedict and Kelley's logarithm, which is negative where a full film carries (the coefficient was
-    -0.06); ISO/TR 13989-2 for Schlenk's slowest gears."""
+    """Benedict and Kelley's logarithm, which is negative where a full film carries (the coefficient was -0.06); ISO/TR
+    13989-2 for Schlenk's slowest gears."""
     (tmp_path / "light.toml").write_text(FAST_AND_LIGHT, encoding="utf-8")
     with pytest.raises(
         SceneError, match=r'^friction.formula = "Benedict and Kelley": .* more than 1. Here that is 0\.'

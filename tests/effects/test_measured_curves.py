@@ -116,8 +116,8 @@ def relieved(at):
 
 
 def test_a_tooth_with_relief_stands_where_the_others_do(paper_pair, tmp_path):
-    """Authority: what tip relief is, material removed at the tip alone; the V cylinder of ISO 21771, of diameter d + 2
-    x m, is below it."""
+    """What tip relief is, material removed at the tip alone; the V cylinder of ISO 21771, of diameter d + 2 x m, is
+    below it."""
     text = curve(
         (1, 2),
         places_of(paper_pair, 0, "diameter (mm)"),

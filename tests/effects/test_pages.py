@@ -18,7 +18,7 @@ GUIDE = effects_table.PAGE.with_name("adding_an_effect.md")
 
 
 def test_the_table_of_effects_is_up_to_date():
-    """Authority: identity; `python -m tests.effects_table` writes it anew."""
+    """Identity; `python -m tests.effects_table` writes it anew."""
     assert effects_table.PAGE.read_text(encoding="utf-8") == effects_table.page()
 
 
@@ -153,7 +153,7 @@ def test_the_guides_effect_is_named_by_check_on_and_off(printed):
 
 @pytest.mark.nightly
 def test_the_guides_rule_refuses_with_place_value_and_remedy(printed):
-    """Authority: the guide; a rule's Problem is a message with all that a user needs."""
+    """The guide; a rule's Problem is a message with all that a user needs."""
     code, _, said = printed[1][2]
     assert code == 2
     assert "load.wheel_torque" in said and "-437 N m" in said and "cannot stand beside a brake" in said
@@ -161,8 +161,8 @@ def test_the_guides_rule_refuses_with_place_value_and_remedy(printed):
 
 @pytest.mark.nightly
 def test_the_guides_effect_has_its_known_answer(runs):
-    """Authority: identity; on one hub 400 N m of load and 37 N m of brake are 437 N m, and the brake's work is torque
-    times angle."""
+    """Identity; on one hub 400 N m of load and 37 N m of brake are 437 N m, and the brake's work is torque times
+    angle."""
     _, braked, whole, _ = runs
     assert braked["transmission_error"] == pytest.approx(whole["transmission_error"], rel=1e-12)
     assert braked["work"][-1] == pytest.approx(37e3 * 2.0 * 3.141592653589793 / 24, rel=1e-12)
@@ -170,13 +170,13 @@ def test_the_guides_effect_has_its_known_answer(runs):
 
 @pytest.mark.nightly
 def test_the_guides_brake_works_before_the_output_shaft(runs):
-    """Authority: statics; the shaft of 0.203e9 N mm/rad is twisted by the 400 N m at its end, not by the brake."""
+    """Statics; the shaft of 0.203e9 N mm/rad is twisted by the 400 N m at its end, not by the brake."""
     assert runs[3]["twist"] == pytest.approx([400e3 / 0.203e9] * 21, rel=1e-9)
 
 
 @pytest.mark.nightly
 def test_the_guides_effect_left_out_leaves_nothing_behind(runs, plain):
-    """Authority: house rule 9; a scene without it loads what the package without it loads."""
+    """House rule 9; a scene without it loads what the package without it loads."""
     bare = runs[0]
     assert set(bare["modules"]) <= set(plain["modules"])
     assert bare["variables"] == plain["variables"] and "work_brake" not in bare["variables"]

@@ -85,8 +85,8 @@ def test_a_relief_longer_than_the_flank_is_refused(paper_pair, field, words):
 
 @pytest.mark.parametrize(("section", "word"), [("tip_relief", "HPSTC"), ("root_relief", "LPSTC")])
 def test_a_gears_own_growth_goes_before_that_of_both(paper_scene, section, word):
-    """Authority: docs/scene.md; fields that a gear's own section leaves out are those of both, and shape and exponent
-    say the same."""
+    """docs/scene.md; fields that a gear's own section leaves out are those of both, and shape and exponent say the
+    same."""
     text = f'[{section}]\ndepth = "20 um"\nstart = "{word}"\nexponent = 1.5\n[{section}.wheel]\nshape = "parabolic"\n'
     found = getattr(scene_from_text(f"{paper_scene.text}\n{text}"), section)
     assert (found.pinion.power, found.wheel.power) == (1.5, 2)
@@ -170,25 +170,6 @@ def _operator(pair, flanks, scene, grid, step):
     return Cycle(elastic_mesh(flanks, grid), 20, [5], tangential=False).position(step).operator
 
 
-def test_two_pairs_are_never_both_relieved_nor_both_unrelieved(paper_pair):
-    """Authority: what HPSTC means: a pair in single contact touches where neither flank is relieved; in double contact
-    one pair touches where the pinion, the other where the wheel is relieved."""
-    pinion, wheel = tip_reliefs(paper_pair, TipRelief(Relief(0.031, None), Relief(0.031, None)))
-
-    def removed(position):
-        return (
-            pinion(paper_pair.pinion_roll_angle(position)) > 0.0,
-            wheel(paper_pair.wheel_roll_angle(position)) > 0.0,
-        )
-
-    start, pitch = paper_pair.path_start, paper_pair.base_pitch
-    for phase in np.linspace(0.01, 0.46, 10):
-        assert removed(start + phase * pitch) == (False, True)
-        assert removed(start + (1.0 + phase) * pitch) == (True, False)
-    for phase in np.linspace(0.48, 0.99, 10):
-        assert removed(start + phase * pitch) == (False, False)
-
-
 @pytest.mark.parametrize(
     ("relief", "said"),
     [
@@ -199,7 +180,7 @@ def test_two_pairs_are_never_both_relieved_nor_both_unrelieved(paper_pair):
     ],
 )
 def test_relief_off_the_flank_is_refused(paper_pair, relief, said):
-    """Authority: house rule on errors: what, which gear, the value, what is allowed, the field."""
+    """House rule on errors: what, which gear, the value, what is allowed, the field."""
     with pytest.raises(GeometryError) as refused:
         tip_reliefs(paper_pair, TipRelief(relief, None))
     assert str(refused.value).startswith("pinion: tip")

@@ -10,7 +10,6 @@ from scipy.integrate import solve_ivp
 from tests.coarse import COARSE, frictionless
 from tests.frozen_gears import frozen_marcher
 from tests.paper_text import PAPER as DEMO
-from tests.paper_text import without
 
 from fenics_gears import Load, SceneError, model_of, scene_from_text, simulate
 from fenics_gears.contact.errors import ContactNotConverged
@@ -45,13 +44,6 @@ def test_a_wrong_section_is_refused(lines, said):
     with pytest.raises(SceneError) as refused:
         scene_from_text(DEMO + f"[speed_ramp]\n{lines}\n")
     assert said in str(refused.value) and "Allowed: " in str(refused.value)
-
-
-def test_a_ramp_needs_inertia():
-    """Authority: without mass nothing depends on speed."""
-    with pytest.raises(SceneError) as refused:
-        scene_from_text(without(DEMO, "inertia", "damping") + '[speed_ramp]\nend_frequency = "260 Hz"\n')
-    assert "[speed_ramp]\n    needs the section [inertia]" in str(refused.value)
 
 
 @pytest.mark.parametrize("clock", [UP, DOWN], ids=["up after a hold", "down"])
@@ -148,9 +140,9 @@ def test_a_slow_ramp_follows_the_steady_runs(paper_scene):
 
 
 def test_a_ramp_to_a_crawl_says_what_its_slow_end_does_to_the_whole_run(paper_scene):
-    """Authority: the rule of `dynamics.clock`, half the slowest period, on the ramp's true steps; above the
-    frequency that the warning names, which is that of a steady run, it is gone. A crawl is passed in few steps, none of
-    them as long as its frequency would have."""
+    """The rule of `dynamics.clock`, half the slowest period, on the ramp's true steps; above the frequency that the
+    warning names, which is that of a steady run, it is gone. A crawl is passed in few steps, none of them as long as
+    its frequency would have."""
     crawl = replace(coarse(paper_scene, 20), speed_ramp=SpeedRamp(0.01))
     assert not model_of(crawl).time_scales.samples_vibration
     (said,) = [warning for warning in model_of(crawl).warnings if "backward Euler" in warning]

@@ -5,14 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.coarse import COARSE, frictionless, quasi_static
-from tests.frozen_gears import frozen_marcher
 from tests.paper_text import PAPER as DEMO
 
 from fenics_gears import SceneError, scene_from_text, simulate
-from fenics_gears.contact.laws import OPEN
-from fenics_gears.dynamics.average_acceleration import State
-from fenics_gears.dynamics.steps import Record
-from fenics_gears.dynamics.torque_ripple import varying_load
 from fenics_gears.effects.torque_ripple import Harmonic, TorqueRipple
 from fenics_gears.scene.data import Motion
 
@@ -49,7 +44,7 @@ def expected_couple(result, ripple, torque=437e3, teeth=24):
     ],
 )
 def test_a_wrong_section_is_refused(harmonics, said):
-    """Authority: house rule 7; what is wrong, at which place of the list, and what is allowed."""
+    """House rule 7; what is wrong, at which place of the list, and what is allowed."""
     with pytest.raises(SceneError) as refused:
         scene_from_text(DEMO + f"[torque_ripple]\nharmonics = {harmonics}\n")
     assert said in str(refused.value) and "Allowed: " in str(refused.value)
@@ -70,64 +65,6 @@ def test_quasi_static_transmission_error_follows_the_couple(paper_scene):
         assert result.normal_force.values[step] == pytest.approx(
             couples[step] / result.attrs["base_radius_wheel"], rel=1e-10
         )
-
-
-def tied(marcher, shafts):
-    """Stiffness (k, k), N/mm, of drivetrain and contact with the nodes that are closed at rest; and the record at
-    rest."""
-    rest = marcher.start()
-    operator, closed = rest.position.operator, np.flatnonzero(rest.solution.status != OPEN)
-    rigid = operator.jacobian[closed]
-    return shafts.stiffness + rigid.T @ np.linalg.solve(operator.compliance[np.ix_(closed, closed)], rigid), rest
-
-
-def with_ripple(scene, pair, flanks, time_step, ripple, shaft_step):
-    """A marcher of gears that do not roll, under a couple that ripples."""
-    marcher, shafts = frozen_marcher(replace(scene, friction=None), pair, flanks, time_step)
-    marcher.loads = (varying_load(ripple, shafts, shaft_step),)
-    return marcher, shafts
-
-
-@pytest.mark.parametrize("frequency", [5.0, 120.0, 400.0])
-def test_steady_vibration_is_the_frequency_response(paper_scene, paper_pair, stand_in_flanks, frequency):
-    """Exact solution: gears that do not roll, closed nodes staying closed, are linear; the march's steady answer to one
-    harmonic is that of the matrices, with (2/dt) tan(omega dt/2) for omega, which is how average acceleration sees it
-    (Bathe, Finite Element Procedures, 9.4);
-    that tends to the frequency response with order two."""
-    per_period, errors = 40, []
-    for refinement in (1, 2):
-        count = per_period * refinement
-        time_step, ripple = 1.0 / (frequency * count), TorqueRipple((Harmonic(1.0, 0.5),))
-        marcher, shafts = with_ripple(paper_scene, paper_pair, stand_in_flanks, time_step, ripple, 2.0 * np.pi / count)
-        marcher.loads, loads = (), marcher.loads
-        stiffness, rest = tied(marcher, shafts)
-        marcher.loads = loads
-        force = loads[0](0)
-
-        def response(omega):
-            return np.linalg.solve(stiffness + 1j * omega * shafts.damping - omega**2 * shafts.mass, force)
-
-        omega = 2.0 * np.pi * frequency
-        seen = 2.0 / time_step * np.tan(0.5 * omega * time_step)
-        answer = response(seen)
-        # Begun on the steady vibration itself, so that nothing has to die away.
-        start = State(rest.state.position + answer.real, (1j * seen * answer).real, (-(seen**2) * answer).real)
-        closed = rest.solution.status
-        operator, nodes = rest.position.operator, np.flatnonzero(closed != OPEN)
-        forces = rest.solution.forces.copy()
-        forces[nodes] += np.linalg.solve(
-            operator.compliance[np.ix_(nodes, nodes)], operator.jacobian[nodes] @ answer.real
-        )
-        record, positions = Record(0, start, rest.position, replace(rest.solution, forces=forces)), []
-        for step in range(1, 2 * count + 1):
-            record = marcher.step(marcher.dynamic, record, step)
-            assert np.array_equal(record.solution.status, closed)
-            positions.append(record.state.position - rest.state.position)
-        turned = np.exp(-2j * np.pi * np.arange(1, 2 * count + 1) / count)
-        phasor = 1.0 / count * turned @ np.array(positions)
-        assert phasor == pytest.approx(answer, abs=1e-6 * np.abs(answer).max())
-        errors.append(np.abs(phasor - response(omega)).max() / np.abs(answer).max())
-    assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.15)
 
 
 def test_a_ripple_far_above_all_vibrations_is_not_felt(paper_scene):

@@ -50,7 +50,7 @@ def test_what_needs_a_face_or_does_not_fit_it_is_refused(lines, said):
 
 
 def test_a_class_is_for_face_widths_of_the_standard():
-    """Authority: ISO 1328-1:2013, scope: face widths from 4 mm to 1.2 m; a plane scene draws nothing along the face."""
+    """ISO 1328-1:2013, scope: face widths from 4 mm to 1.2 m; a plane scene draws nothing along the face."""
     narrow = ELASTIC.replace('face_width = "15 mm"', 'face_width = "3 mm"')
     scene_from_text(narrow + CLASS)
     with pytest.raises(SceneError, match="face widths from 4 mm to 1200 mm"):

@@ -37,7 +37,6 @@ def test_the_error_falls_with_the_square_of_the_size(pinion, steel, element, fac
 
 
 def test_an_element_of_third_order_is_refused():
-    """Authority: house rule 7; five modules number nodes at corners and middles of sides only, and would stop with a
-    KeyError."""
+    """House rule 7; five modules number nodes at corners and middles of sides only, and would stop with a KeyError."""
     with pytest.raises(ValueError, match="order = 3.*Allowed: 1 or 2"):
         Element("P3", 3, 3, 4)

@@ -29,8 +29,7 @@ def ring_inverse(link, teeth):
 
 @pytest.mark.parametrize("teeth, reach", [(5, 1), (12, 3), (13, 4), (31, 2), (4, 3), (2, 1)])
 def test_both_routes_are_the_inverse_of_the_whole_ring(teeth, reach):
-    """Authority: brute force, by numpy's dense inverse; odd and even numbers of sectors left to the run, a single one
-    too."""
+    """Brute force, by numpy's dense inverse; odd and even numbers of sectors left to the run, a single one too."""
     link = link_of(teeth)
     exact = ring_inverse(link, teeth)
     for route in (chain_response, fourier_response):
@@ -40,8 +39,7 @@ def test_both_routes_are_the_inverse_of_the_whole_ring(teeth, reach):
 
 
 def test_joining_eliminates_the_common_cut():
-    """Authority: numpy's Schur complement of the assembled pair; and a run of five by doubling is five joined in a
-    row."""
+    """numpy's Schur complement of the assembled pair; and a run of five by doubling is five joined in a row."""
     one, other = link_of(1), link_of(2)
     size = len(one) // 2
     nothing = np.zeros((size, size))
@@ -62,7 +60,7 @@ def test_joining_eliminates_the_common_cut():
 
 
 def test_a_gear_of_many_teeth_takes_the_chain_and_has_the_same_flanks(pinion, coarse_sector, monkeypatch):
-    """Authority: the Fourier transform on the same condensed sector."""
+    """The Fourier transform on the same condensed sector."""
     from fenics_gears.elasticity import ring
 
     sector = condensed_sector(coarse_sector("P2"), ELEMENTS["P2"], 0.3)
@@ -72,7 +70,7 @@ def test_a_gear_of_many_teeth_takes_the_chain_and_has_the_same_flanks(pinion, co
 
 
 def test_few_teeth_are_transformed_and_many_joined():
-    """Authority: the count of operations; a reach all around the ring has no run to join."""
+    """The count of operations; a reach all around the ring has no run to join."""
     assert not chain_is_quicker(16, 4) and not chain_is_quicker(60, 4)
     assert chain_is_quicker(150, 4) and chain_is_quicker(2000, 4)
     assert not chain_is_quicker(100, 99) and not chain_is_quicker(100, 100)
@@ -81,6 +79,6 @@ def test_few_teeth_are_transformed_and_many_joined():
 
 
 def test_a_ring_that_nothing_holds_is_refused():
-    """Authority: house rule; without stiffness of its own a cut has no response."""
+    """House rule; without stiffness of its own a cut has no response."""
     with pytest.raises(ComputationError, match="is the hub held"):
         chain_response(np.zeros((4, 4)), 100, 1)

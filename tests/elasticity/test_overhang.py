@@ -21,10 +21,9 @@ def body(paper_pair):
 
 
 def test_pressure_on_a_half_plane(paper_pair, body):
-    """Authority: Johnson, Contact Mechanics, 1985, eq. 2.30 integrated: a pressure p over a length a to either side
-    moves the point between by 2 (1 - nu^2) p/(pi E) times the sum
-    of a (1 + ln(d/a)), against a point at the distance d; one further away stays. Along and across the flank alike, and
-    neither by the other."""
+    """Johnson, Contact Mechanics, 1985, eq. 2.30 integrated: a pressure p over a length a to either side moves the
+    point between by 2 (1 - nu^2) p/(pi E) times the sum of a (1 + ln(d/a)), against a point at the distance d; one
+    further away stays. Along and across the flank alike, and neither by the other."""
     near = near_field(paper_pair.pinion, STEEL, body.roll_angle).reshape(body.nodes, 2, body.nodes, 2)
     arc, depth = arc_length(paper_pair.pinion.base_radius, body.roll_angle), NEAR_DEPTH * paper_pair.pinion.module
     middle = len(arc) // 2
@@ -40,7 +39,7 @@ def test_pressure_on_a_half_plane(paper_pair, body):
 
 
 def test_near_field_is_positive_definite(paper_pair, body):
-    """Authority: Polya's criterion; the sum with a compliance then is one too, and the energy of any load positive."""
+    """Polya's criterion; the sum with a compliance then is one too, and the energy of any load positive."""
     near = near_field(paper_pair.pinion, STEEL, body.roll_angle)
     assert np.array_equal(near, near.T) and np.linalg.eigvalsh(near)[0] > 0.0
 

@@ -5,7 +5,6 @@ from math import pi, radians
 
 import numpy as np
 import pytest
-from tests.whole_gear import whole_gear_mesh
 
 from fenics_gears import ComputationError, Gear
 from fenics_gears.elasticity.condensation import by_radius
@@ -74,14 +73,6 @@ def test_full_range_of_gears_can_be_meshed(name, teeth, module, shift, bore_shar
     mesh = sector_mesh(gear, element_sizes(gear, element, 0.08 * module), element.quadrilateral)
     assert corner_areas(mesh.points, mesh.cells).min() > 0
     assert len(mesh.edges["lower cut"]) == len(mesh.edges["upper cut"]) < 200
-
-
-def test_whole_gear_is_closed_and_its_hub_a_ring(pinion, coarse_sector):
-    """Exact identity: Euler's formula, points - edges + cells = 0 for an annulus; the hub closes on itself."""
-    mesh = whole_gear_mesh(coarse_sector("P1"), pinion.teeth)
-    sides = np.sort(np.stack([mesh.cells, np.roll(mesh.cells, -1, axis=1)], axis=-1).reshape(-1, 2), axis=1)
-    assert len(mesh.points) - len(np.unique(sides, axis=0)) + len(mesh.cells) == 0
-    assert np.all(np.bincount(mesh.edges["hub"].ravel())[mesh.edge_points("hub")] == 2)
 
 
 def test_folded_cell_is_refused():

@@ -8,8 +8,6 @@
 A part whose other program is not there keeps its numbers, and says so; the call then ends with exit code 1.
 """
 
-from __future__ import annotations
-
 import argparse
 import subprocess
 import sys

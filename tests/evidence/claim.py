@@ -1,7 +1,5 @@
 """What a row of the page says before anything is measured, and the parts in which rows are measured."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -5,8 +5,6 @@ Vijayakar and Imajo computed it in 2000. The oscillator: the pair's mass on a sp
 Without excitation and damping its period with a separation in it is known in closed form.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import acos, pi, sqrt
 from pathlib import Path

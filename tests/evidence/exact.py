@@ -1,7 +1,5 @@
 """Exact solutions: Hertz, Lame, beams with shear."""
 
-from __future__ import annotations
-
 from math import log, pi
 
 from tests.annulus import TOLERANCE, error_under_pressure

@@ -1,8 +1,6 @@
 """FZG gears beside GEARpie (github.com/cfernandesFEUP/GEARpie, REPORT/C14.txt), whose losses are of formulas that were
 fitted to measurements on FZG rigs."""
 
-from __future__ import annotations
-
 from tests.coarse import COARSE
 from tests.evidence.claim import PROGRAMS, Claim, Numbers, Part, within
 from tests.extensions.rating.test_iso_6336 import FZG_C, operation

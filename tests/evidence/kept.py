@@ -1,7 +1,5 @@
 """Numbers of rows as they were measured last, in numbers.csv."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Statics, energy, symmetry: what holds whatever the teeth are."""
 
-from __future__ import annotations
-
 import numpy as np
 from tests.benchmarks.third_dimension.pairs import MODULE, scene_of, standard_pair
 from tests.corner_contact_reference.reference import paper_pair

@@ -1,7 +1,5 @@
 """docs/evidence/index.md from the numbers that are kept."""
 
-from __future__ import annotations
-
 from tests.docs.blocks import ROOT
 from tests.docs.markdown import table
 from tests.evidence.claim import EXPERIMENTS, GROUPS, Claim, Part

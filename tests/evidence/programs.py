@@ -1,10 +1,8 @@
 """Other programs on the same input."""
 
-from __future__ import annotations
-
 import numpy as np
 from tests.benchmarks import against_calculix
-from tests.benchmarks.against_exudyn import __main__ as exudyn
+from tests.benchmarks.against_exudyn import pair as exudyn
 from tests.benchmarks.against_exudyn import shaft, tilting
 from tests.benchmarks.against_getfem import __main__ as getfem
 from tests.benchmarks.against_ross import __main__ as ross

@@ -1,7 +1,5 @@
 """Fully resolved three-dimensional models of tests/face_reference."""
 
-from __future__ import annotations
-
 from itertools import groupby
 
 from tests.benchmarks.third_dimension import resolved

@@ -1,7 +1,5 @@
 """ISO 6336: stiffness, stresses, load factors."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import cos, radians
 

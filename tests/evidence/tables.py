@@ -1,7 +1,5 @@
 """Figures that books and papers print."""
 
-from __future__ import annotations
-
 import numpy as np
 from tests.benchmarks.third_dimension import cited, stiffness_function
 from tests.benchmarks.third_dimension.__main__ import main as third_dimension

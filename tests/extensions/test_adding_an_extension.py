@@ -61,8 +61,8 @@ def test_the_guides_extension_runs(install):
 
 
 def test_one_that_fails_is_left_out_and_named(install):
-    """Authority: house rule on errors; the other commands work. A module that is not there, one without `add`, one
-    whose command's name is taken."""
+    """House rule on errors; the other commands work. A module that is not there, one without `add`, one whose command's
+    name is taken."""
     taken = "def add(commands, shared):\n    commands.add_parser('map')\n"
     folder = install("taken", taken, absent="no_such_module", fourth="loud", second="taken", third="math")
     # Its command is not called.
@@ -81,8 +81,8 @@ def test_one_that_fails_is_left_out_and_named(install):
 
 @pytest.mark.parametrize("name", [name for name in fenics_gears.__all__ if name != "__version__"])
 def test_what_everybody_may_use_is_documented(name):
-    """Authority: docs/adding_an_extension.md; a constant is documented beside its definition. Names of modules that are
-    offered have docstrings too."""
+    """docs/adding_an_extension.md; a constant is documented beside its definition. Names of modules that are offered
+    have docstrings too."""
     found = getattr(fenics_gears, name)
     if inspect.ismodule(found):
         names = getattr(found, "__all__", [each for each in vars(found) if not each.startswith("_")])
@@ -94,7 +94,7 @@ def test_what_everybody_may_use_is_documented(name):
 
 
 def test_names_of_the_guide_are_offered():
-    """Authority: `fenics_gears.__all__` and the modules in it."""
+    """`fenics_gears.__all__` and the modules in it."""
     table = re.search(r"\| for \| take \|\n(.*)", GUIDE.read_text(encoding="utf-8"), re.S)[1]
     for name in re.findall(r"`([\w.]+)`", table):
         first, *rest = name.split(".")

@@ -53,7 +53,7 @@ def python(folder, *arguments, timeout=300):
 
 @pytest.mark.nightly
 def test_its_modules_load_and_a_scene_runs(core):
-    """Authority: the contract that the core imports no extension, by doing; help, check and run."""
+    """The contract that the core imports no extension, by doing; help, check and run."""
     scene = DEMO.read_text(encoding="utf-8").replace("mesh_cycles = 30 ", "mesh_cycles = 2 ").partition("[accuracy]")[0]
     (core / "pair.toml").write_text(scene + ACCURACY, encoding="utf-8")
     done = python(core, "-c", MODULES_AND_COMMANDS)
@@ -67,7 +67,7 @@ def test_its_modules_load_and_a_scene_runs(core):
     sorted(each.name for each in (ROOT / "tests").iterdir() if each.is_dir() and each.name not in OF_THE_WHOLE),
 )
 def test_its_tests_pass(core, folder):
-    """Authority: the core's tests, those that the suite runs by day and that start no mpirun themselves."""
+    """The core's tests, those that the suite runs by day and that start no mpirun themselves."""
     if not list(Path(ROOT, "tests", folder).rglob("test_*.py")):
         pytest.skip("no tests")
     call = ("-m", "pytest", "-n", "0", "-q", "-m", "not nightly and not ranks", f"tests/{folder}")

@@ -42,14 +42,6 @@ def result(scene):
     return simulate(scene)
 
 
-def test_torques_are_as_the_numbers_of_teeth(scene, result):
-    """Exact: without friction every contact force has the base radius as its lever arm on either gear."""
-    pinion, wheel = np.abs(result.reaction_couple.values.T)
-    teeth = scene.gears.pinion.teeth / scene.gears.wheel.teeth
-    np.testing.assert_allclose(pinion / wheel, teeth, rtol=1e-12)
-    np.testing.assert_allclose(wheel, scene.load.wheel_torque, rtol=1e-9)
-
-
 def test_line_load_adds_up_to_the_normal_force(result):
     """Identity: the line loads of all pairs over all slices are the force along the contact normal."""
     of_slices = (result.line_load * result.face_slice_width).sum(("slot", "face_position")).values
@@ -59,8 +51,8 @@ def test_line_load_adds_up_to_the_normal_force(result):
 
 
 def test_both_bodies_at_once_are_those_one_after_the_other(scene, monkeypatch, tmp_path):
-    """Authority: the same bodies with one thread. What the cache has starts no process, nor does a pair whose bodies
-    memory does not hold at once. The first gear of a study brings the second with it."""
+    """The same bodies with one thread. What the cache has starts no process, nor does a pair whose bodies memory does
+    not hold at once. The first gear of a study brings the second with it."""
     model, started = model_of(scene), []
     together = SecondProcess.together
     monkeypatch.setattr(SecondProcess, "together", lambda *given: started.append(given) or together(*given))

@@ -1,7 +1,5 @@
 """The same analyses by the program's own way: bodies over the face, fine plane sections in slices."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 from math import radians

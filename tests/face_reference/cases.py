@@ -1,7 +1,5 @@
 """The pairs, sizes and loads of the reference, and one analysis from geometry to line loads."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import atan, cos, radians, tan
 

@@ -6,8 +6,6 @@ the program's own model; where on either flank a point (offset y, height z) lies
 equation.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -1,7 +1,5 @@
 """Results of the resolved model as rows of approach.csv and line_load.csv, and how they are found."""
 
-from __future__ import annotations
-
 import csv
 from dataclasses import dataclass, replace
 from itertools import groupby

@@ -1,8 +1,6 @@
 """A transverse section of a gear in six-node triangles: fine under bands of a few flanks, coarse elsewhere; its own
 mesher, not the program's."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ Displacements of a node are in the frame that turns with the helix at its height
 and the same matrix.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,8 +1,6 @@
 """Frictionless contact without tension: pressures, and the approach that carries a given force, by a primal-dual active
 set."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 

@@ -38,8 +38,8 @@ def test_either_end_by_itself(paper_pair):
 
 
 def test_the_tables_pairs_are_within_two_per_cent_of_three_dimensions():
-    """Authority: the program's own three-dimensional way, for 1.25 to 2.5 times the width; pairs that the law was not
-    fitted to (`tests.benchmarks.third_dimension.face_widths`)."""
+    """The program's own three-dimensional way, for 1.25 to 2.5 times the width; pairs that the law was not fitted to
+    (`tests.benchmarks.third_dimension.face_widths`)."""
     found = {(row["wheel_teeth"], row["wheel_bore"], row["common"]) for row, _ in quotients(read_rows(NAME))}
     assert len(found) == 5
     for row, equal in quotients(read_rows(NAME)):

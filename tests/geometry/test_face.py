@@ -60,8 +60,8 @@ def contact_gap(pair, misalignment, position, z):
     "misalignment", [Misalignment(in_plane=0.01), Misalignment(out_of_plane=0.01), Misalignment(-0.006, 0.009)]
 )
 def test_misalignment_opens_what_tilted_helicoids_do(helix_angle, hand, misalignment):
-    """Authority: brute force on the helicoids themselves; first order in angles of 3e-4, of which the square times the
-    module is left."""
+    """Brute force on the helicoids themselves; first order in angles of 3e-4, of which the square times the module is
+    left."""
     pair = gear_pair(data_of(helix_angle, hand))
     for position in (pair.path_start, pair.pitch_point, pair.path_end):
         for z in (-15.0, -4.0, 15.0):
@@ -89,8 +89,7 @@ AMOUNTS = {
 
 @pytest.mark.parametrize("name", AMOUNTS)
 def test_lead_modifications_remove_what_is_drawn(name):
-    """Authority: ISO 21771: values of straight lines and parabolas by hand, alike on either gear and for either
-    hand."""
+    """ISO 21771: values of straight lines and parabolas by hand, alike on either gear and for either hand."""
     own, expected = AMOUNTS[name]
     z = np.array([-15.0, -7.5, 0.0, 7.5, 15.0])
     for hand in ("right", "left"):
@@ -102,7 +101,7 @@ def test_lead_modifications_remove_what_is_drawn(name):
 
 
 def test_each_gear_s_modification_is_about_its_own_mid_width():
-    """Authority: identity; crownings of a wide and of an offset gear have their middles where those gears have them."""
+    """Identity; crownings of a wide and of an offset gear have their middles where those gears have them."""
     pair = gear_pair(data_of(widths=(30.0, 40.0), offsets=(2.0, -4.0)))
     crowned = LeadModification(crowning=0.01)
     middle = pair.gear_middles

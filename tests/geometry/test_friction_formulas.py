@@ -17,8 +17,8 @@ def fzg_c():
 
 
 def test_schlenk_is_another_program_s(fzg_c):
-    """Authority: GEARpie's report of C14, 200 N m at 1500 1/min, M32 at 60 degC (13.28 mPa s, X_L 0.85), Ra 0.4 and
-    0.31 um: 0.0449, with X_L in it."""
+    """GEARpie's report of C14, 200 N m at 1500 1/min, M32 at 60 degC (13.28 mPa s, X_L 0.85), Ra 0.4 and 0.31 um:
+    0.0449, with X_L in it."""
     assert 0.85 * schlenk(fzg_c, 5912.1, 1500.0, 13.28, 0.355) == pytest.approx(0.0449, rel=6e-3)
 
 
@@ -39,9 +39,9 @@ def test_above_50_metres_a_second_it_does_not_fall(fzg_c):
 
 
 def test_benedict_and_kelley_is_the_published_formula(fzg_c):
-    """Authority: the formula in its own units, 0.0127 (50/(50 - S)) log10(3.17e8 X/(eta V_s V_r^2)) with lb/in, cP,
-    in/s and microinches, in the middle of recess; the mean over
-    the path lies between its values at the ends and close to the pitch point."""
+    """The formula in its own units, 0.0127 (50/(50 - S)) log10(3.17e8 X/(eta V_s V_r^2)) with lb/in, cP, in/s and
+    microinches, in the middle of recess; the mean over the path lies between its values at the ends and close to the
+    pitch point."""
     inch, pound = 25.4, 4.4482216152605
     force, speed, viscosity, rough = 5912.1, 1500.0, 13.28, 0.4
 

@@ -55,9 +55,9 @@ def gaps(pair, position):
 
 @pytest.mark.parametrize("phase", [0.0, 0.2, 0.47, 0.6, 0.9])
 def test_drive_flanks_touch_and_coast_flanks_are_apart_by_the_backlash(paper_pair, phase):
-    """Authority: brute force over the outlines in space at any phase: drive flanks touch nowhere but exactly, coast
-    flanks are the backlash away (an angle times the base radius, since both normals touch the base circle). The
-    sampling error is of second order in a point distance of 3 um: below 1e-6 mm."""
+    """Brute force over the outlines in space at any phase: drive flanks touch nowhere but exactly, coast flanks are the
+    backlash away (an angle times the base radius, since both normals touch the base circle). The sampling error is of
+    second order in a point distance of 3 um: below 1e-6 mm."""
     pair = paper_pair
     drive, coast = gaps(pair, pair.path_start + phase * pair.base_pitch)
     assert drive * pair.pinion.base_radius == pytest.approx(0.0, abs=1e-6)
@@ -65,8 +65,8 @@ def test_drive_flanks_touch_and_coast_flanks_are_apart_by_the_backlash(paper_pai
 
 
 def test_tip_corner_that_cuts_into_a_fillet_off_the_line_of_action(paper_pair):
-    """Authority: brute force over the outlines: contact on the line of action and tip clearance are in order, yet a
-    shallow pinion root with a large fillet is hit; the paper's own is free."""
+    """Brute force over the outlines: contact on the line of action and tip clearance are in order, yet a shallow pinion
+    root with a large fillet is hit; the paper's own is free."""
     pinion = replace(paper_pair.pinion, root_radius=31.8, rack_tip_radius=0.45 * 4.5)
     shallow = replace(paper_pair, pinion=pinion)
     assert shallow.tip_clearances[1] > 0.0 and shallow.sap_roll_angles[0] > pinion.form_roll_angle

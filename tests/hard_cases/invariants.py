@@ -1,8 +1,6 @@
 """What must hold at every step of every run (rows 1 to 3), computed from the equations and not from what the solver
 says of itself."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

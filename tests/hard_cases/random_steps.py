@@ -1,8 +1,6 @@
 """Rows 1 and 2 on single steps: what a solution must obey, from its forces and coordinates, and steps drawn at
 random."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import event, given, settings
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """Every field that a scene can have, found in the schema itself, and a scene that has them all."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass

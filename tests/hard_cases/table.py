@@ -4,8 +4,6 @@ Writes docs/hard_cases.md, with what the nightly cases measure. Further argument
 was measured then stay as they are, so that `-k over_the_face` renews those of the face alone.
 """
 
-from __future__ import annotations
-
 import platform
 import re
 import sys

@@ -119,20 +119,20 @@ def judged(tally, measured, gears, compliances_of, examples, scenes=valid_scenes
 
 @pytest.mark.parametrize("examples", [3, pytest.param(40, marks=pytest.mark.nightly)])
 def test_every_step_of_any_scene_on_stand_in_teeth(measured, examples):
-    """Authority: the contact laws and Newton's third law, from the equations; teeth without finite elements, so that
-    many can be drawn."""
+    """The contact laws and Newton's third law, from the equations; teeth without finite elements, so that many can be
+    drawn."""
     judged(Tally(), measured, "stand-in teeth", on_stand_ins, examples)
 
 
 def test_every_step_of_any_scene(measured, tmp_path):
-    """Authority: as above, on finite elements of the drawn gears."""
+    """As above, on finite elements of the drawn gears."""
     judged(Tally(), measured, "finite elements", on_elements(Cache(tmp_path)), 1)
 
 
 @pytest.mark.parametrize("examples", [2, pytest.param(30, marks=pytest.mark.nightly)])
 def test_every_step_of_any_frictionless_scene_without_load(measured, examples):
-    """Authority: as above. One scene in fifteen had failed: with no load to measure by, round-off of stiff springs and
-    teeth was taken for a force that nothing balances."""
+    """As above. One scene in fifteen had failed: with no load to measure by, round-off of stiff springs and teeth was
+    taken for a force that nothing balances."""
     scenes = valid_scenes(torques=st.just(0.0)).filter(lambda scene: scene.friction is None)
     judged(Tally(), measured, "stand-in teeth, no load, no friction", on_stand_ins, examples, scenes)
 

@@ -79,7 +79,7 @@ class MethodsToo(Tally):
 
 @pytest.mark.parametrize("examples", [2, pytest.param(60, marks=pytest.mark.nightly)])
 def test_every_step_of_any_scene_over_the_face(measured, examples):
-    """Authority: the contact laws and Newton's third law in three dimensions, from the equations."""
+    """The contact laws and Newton's third law in three dimensions, from the equations."""
     judged(MethodsToo(), measured, "stand-in bodies", on_stand_in_bodies, examples, face_scenes())
 
 

@@ -15,8 +15,7 @@ LIMITS = {
 
 
 def test_any_step_obeys_signorini(measured):
-    """Authority: Signorini's law and equilibrium, from forces and coordinates; frictionless steps must be solved, being
-    convex."""
+    """Signorini's law and equilibrium, from forces and coordinates; frictionless steps must be solved, being convex."""
     judged_steps(measured, steps(FRICTIONS), LIMITS, 120)
 
 

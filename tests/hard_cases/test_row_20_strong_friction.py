@@ -56,8 +56,8 @@ def locks_from(pair):
     "friction", [0.3, *(pytest.param(each, marks=pytest.mark.nightly) for each in (0.6, 1.0)), 2.0]
 )
 def test_strong_friction_converges_or_says_why(friction, dynamic, absent, coarse, paper_pair, measured):
-    """Authority: Coulomb's law at every step from the equations, and the moment balance of the wheel: normal force and
-    friction have the lever arms rb2 and L - x, so that friction can lock from mu = rb2/(L - x) on (1.65 at the start of
+    """Coulomb's law at every step from the equations, and the moment balance of the wheel: normal force and friction
+    have the lever arms rb2 and L - x, so that friction can lock from mu = rb2/(L - x) on (1.65 at the start of
     contact), and not below."""
     run = marched(with_friction(DYNAMIC[dynamic](coarse), friction, absent))
     springs = "all springs" if not absent else "without " + " and ".join(absent)

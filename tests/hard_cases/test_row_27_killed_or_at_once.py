@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.hard_cases.kept_files import ARRAYS, KEY, left_over
-from tests.programs import command, environment, gears
+from tests.programs import command, environment
 from tests.studies.conftest import folder, stamps, undrawn, write_study  # noqa: F401
 from tests.studies.test_run_study import FIVE, load, stopped_in_the_middle
 
@@ -22,45 +22,6 @@ from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.results.journal import is_journal
 from fenics_gears.simulation.unfinished import unfinished
-
-
-def killed_after(seconds, call, folder, **settings):
-    """Start a process and kill it after some time; whether it was still running."""
-    process = subprocess.Popen(
-        call, cwd=folder, env={**environment(), **settings}, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    )
-    time.sleep(seconds)
-    os.kill(process.pid, signal.SIGKILL)
-    return process.wait(timeout=60) == -signal.SIGKILL
-
-
-def kills(folder, measured, moments, what):
-    """Kill a run on an empty cache at so many moments of its time; every result and cache entry that is there is the
-    whole one."""
-    reference = Path("usual")
-    begun = time.monotonic()
-    assert gears(folder, "run", "pair.toml", "--output", reference, "--quiet", "--no-pictures").returncode == 0
-    lasts = time.monotonic() - begun
-    usual, killed, kept = results.load(reference / "run.nc"), 0, 0
-    for number in range(moments):
-        directory, own = folder / f"out{number}", folder / f"cache{number}"
-        call = command("run", "pair.toml", "--output", directory, "--quiet", "--no-pictures")
-        # Half of them while files are written, near the end.
-        moment = lasts * (0.3 + 1.1 * number / moments)
-        killed += killed_after(moment, call, folder, FENICS_GEARS_CACHE=str(own))
-        if (directory / "run.nc").exists():
-            assert results.load(directory / "run.nc").transmission_error.equals(usual.transmission_error)
-            kept += 1
-        for entry in own.glob("*.h5"):
-            assert Cache(own).load(entry.stem) is not None
-    ended = gears(folder, "run", "pair.toml", "--output", directory, "--quiet", "--no-pictures")
-    again = results.load(directory / "run.nc").transmission_error.equals(usual.transmission_error)
-    measured(
-        what,
-        f"{killed} of {moments} killed, {kept} complete results, none incomplete",
-        "no incomplete result; run again, the same to the bit",
-    )
-    assert ended.returncode == 0 and again
 
 
 @pytest.mark.parametrize(

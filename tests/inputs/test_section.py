@@ -25,7 +25,7 @@ class Spring(Section):
 
 
 def test_a_default_is_written_with_its_unit_and_held_in_the_programs():
-    """Authority: units: 3 cm are 30 mm; the page says what was written."""
+    """Units: 3 cm are 30 mm; the page says what was written."""
     assert read(Spring, {"turns": 4}) == (Spring(turns=4, length=30.0), [])
     assert allowed_in(Spring, "length").otherwise == "3 cm"
     assert tree_of(Spring(stiffness=0.2e3)) == {"stiffness": "200 N/mm"}
@@ -58,7 +58,7 @@ def test_a_refused_value_says_why_in_a_sentence():
 
 @pytest.mark.parametrize("section", AT_THE_TOP)
 def test_data_are_plain_values(section):
-    """Authority: what a study does with scenes: it compares them, sends them to other processes and changes a field."""
+    """What a study does with scenes: it compares them, sends them to other processes and changes a field."""
     data = getattr(scene_of(*with_needs(section)), section)
     assert pickle.loads(pickle.dumps(data)) == data == replace(data)
     assert hash(data) == hash(replace(data))

@@ -13,8 +13,8 @@ FIELDS = {".".join(path) for path in known_paths()}
 
 
 def test_every_synonym_is_of_a_field_and_of_one_alone():
-    """Authority: the schema: a hint names what there is, and no word of a section stands for two of its fields, nor is
-    it one itself."""
+    """The schema: a hint names what there is, and no word of a section stands for two of its fields, nor is it one
+    itself."""
     assert set(SYNONYMS) <= FIELDS
     places = [(name.rpartition(".")[0], word) for name, words in SYNONYMS.items() for word in words.split()]
     assert len(places) == len(set(places))
@@ -47,8 +47,7 @@ def test_every_synonym_is_of_a_field_and_of_one_alone():
     ],
 )
 def test_a_synonym_is_answered_with_the_name(old, new, hint):
-    """Authority: the interface: one mistake, which names the field that is meant and does not call it missing
-    besides."""
+    """The interface: one mistake, which names the field that is meant and does not call it missing besides."""
     assert old in DEMO
     with pytest.raises(SceneError) as error:
         scene_from_text(DEMO.replace(old, new, 1), "pair")
@@ -57,8 +56,8 @@ def test_a_synonym_is_answered_with_the_name(old, new, hint):
 
 
 def test_a_word_means_what_its_section_has():
-    """Authority: the field's symbols: mu is friction's coefficient and, of a material, often Poisson's ratio; unknown
-    words mean nothing."""
+    """The field's symbols: mu is friction's coefficient and, of a material, often Poisson's ratio; unknown words mean
+    nothing."""
     assert meant(["friction"], "mu", ["coefficient"]) == "coefficient"
     assert meant(["gears", "material"], "mu", ["youngs_modulus", "poissons_ratio"]) == "poissons_ratio"
     assert meant(["gears", "wheel"], "z", ["teeth"]) == "teeth"

@@ -55,7 +55,7 @@ ROUND_OFF = 4e-16
     ],
 )
 def test_a_quantity_is_what_its_unit_says(text, value, kind):
-    """Authority: the definition of each unit; the last bit may differ."""
+    """The definition of each unit; the last bit may differ."""
     number, found = quantity(text)
     assert found == kind
     assert number == pytest.approx(value, rel=ROUND_OFF)
@@ -65,8 +65,7 @@ def test_a_quantity_is_what_its_unit_says(text, value, kind):
     "written", ["min^-1", "min⁻¹", "min**-1", "1/min", "1 / min", "U/min", "r/min", "rev/min", "U min^-1", "rpm"]
 )
 def test_revolutions_a_minute_as_data_sheets_write_them(written):
-    """Authority: DIN 1301 and ISO 80000-3: 1/min is the rotational frequency's unit where it is wanted, a turn being 2
-    pi rad."""
+    """DIN 1301 and ISO 80000-3: 1/min is the rotational frequency's unit where it is wanted, a turn being 2 pi rad."""
     for blank in ("", " ") if written[0] != "1" else (" ",):
         assert of_kind(f"750{blank}{written}", AN_ANGULAR_SPEED) == (
             pytest.approx(25 * math.pi, rel=ROUND_OFF),
@@ -85,7 +84,7 @@ def test_revolutions_a_minute_as_data_sheets_write_them(written):
     ],
 )
 def test_an_angle_is_a_dimension(one, other):
-    """Authority: docs/promises.md's units; a torque is no torsional stiffness and a frequency no angular speed."""
+    """docs/promises.md's units; a torque is no torsional stiffness and a frequency no angular speed."""
     assert quantity(one)[1] != quantity(other)[1]
 
 
@@ -117,7 +116,7 @@ def test_an_angle_is_a_dimension(one, other):
     ],
 )
 def test_what_is_no_quantity_is_named(text, fragment):
-    """Authority: house rule 7, an error says what and the remedy."""
+    """House rule 7, an error says what and the remedy."""
     with pytest.raises(QuantityError) as error:
         quantity(text)
     assert fragment in str(error.value)
@@ -129,7 +128,7 @@ UNIT_LIKE = st.text(alphabet="0123456789.eE+-*/^() mNkgsradHzP°µ²\n[]{}'\"", 
 @settings(max_examples=150, deadline=None)
 @given(st.one_of(UNIT_LIKE, st.text(max_size=12), UNIT_LIKE.map(lambda text: "3 " + text)))
 def test_any_text_is_a_quantity_or_is_refused(text):
-    """Authority: hard case 26; no text a user can write escapes as another error."""
+    """Hard case 26; no text a user can write escapes as another error."""
     try:
         number, kind = quantity(text)
     except QuantityError as error:

@@ -155,7 +155,7 @@ def test_few_slices_under_the_load_are_warned_of():
 
 
 def test_check_prints_slices_layers_and_motions():
-    """Authority: docs/third_dimension.md, `gears check` prints both; motions that are unknown are told in words."""
+    """docs/third_dimension.md, `gears check` prints both; motions that are unknown are told in words."""
     scene = helical_scene(BEARINGS, accuracy="slices = 12\nlayers = 6")
     wider = replace(scene, gears=replace(scene.gears, pinion=replace(scene.gears.pinion, face_width=32.0)))
     rows = {label: " ".join((str(value), words)) for label, value, words in dict(describe(wider))["Model"]}

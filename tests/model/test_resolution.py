@@ -70,8 +70,8 @@ def test_damping_ratios_and_what_the_mesh_excites(paper_scene, paper_pair):
 
 
 def test_steps_too_few_to_see_the_transmission_error_are_named(paper_scene):
-    """Authority: measured, quasi-static. Of 200 steps' peak-to-peak value 20 see 99 %, 10 as little as 95 %, 4 as
-    little as half."""
+    """Measured, quasi-static. Of 200 steps' peak-to-peak value 20 see 99 %, 10 as little as 95 %, 4 as little as
+    half."""
     few, enough = (
         model_of(
             replace(paper_scene, accuracy=Accuracy(steps_per_mesh_cycle=steps), inertia=None, damping=None)

@@ -30,17 +30,3 @@ def test_shares_of_pairs_that_hand_over_in_a_straight_line():
     forces = 5000.0 * share * np.linspace(1.0, 2.0, len(phase))[:, None]
     found = shares_at([0.0, 0.25, 0.75, 1.25, 1.5, 9.0], phase, numbers, forces)
     assert found[:5] == pytest.approx([1 / 3, 0.5, 1.0, 0.5, 1 / 3], abs=1e-12) and np.isnan(found[5])
-
-
-def test_shares_by_slots_are_those_by_pairs():
-    """Identity: pairs that change their columns with the cycle, as slots do, have the shares of pairs with a column
-    each."""
-    phase = np.linspace(0.0, 3.0, 61)
-    numbers = np.tile(np.arange(-1, 4), (len(phase), 1))
-    forces = np.clip(0.75 - np.abs(phase[:, None] - numbers - 0.75), 0.0, None)
-    present = np.floor(phase).astype(int)[:, None] - np.array([0, 1])
-    slots = np.take_along_axis(forces, present + 1, axis=1)
-    places = [0.1, 0.5, 0.75, 1.2]
-    assert shares_at(places, phase, present, slots) == pytest.approx(
-        shares_at(places, phase, numbers, forces), abs=1e-12
-    )

@@ -92,8 +92,8 @@ def test_extremes_lie_between_the_steps_also_where_cycles_differ_and_springs_jum
 
 
 def test_fewer_cycles_than_the_common_period_are_told_first(by_cycles):
-    """Authority: z1 z2 without common factor; warning, summary and `gears check` say 1081, and a whole period has no
-    such warning."""
+    """z1 z2 without common factor; warning, summary and `gears check` say 1081, and a whole period has no such
+    warning."""
     scene, found = by_cycles
     assert common_period(scene) == 1081 == 23 * 47
     for cycles in (23, 47):

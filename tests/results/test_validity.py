@@ -119,7 +119,7 @@ def test_contact_that_is_not_resolved_is_named(coarse):
 
 
 def test_an_incomplete_run_says_why(coarse):
-    """Authority: docs/result.md; Ctrl-C during the march is an interruption, a complete run says nothing of it."""
+    """docs/result.md; Ctrl-C during the march is an interruption, a complete run says nothing of it."""
 
     class Interrupting(SilentProgress):
         def update(self, done, total, note=""):

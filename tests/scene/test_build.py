@@ -23,14 +23,14 @@ def facts(scene):
 
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
 def test_dictionaries_make_the_scene_that_the_file_makes(path):
-    """Authority: `load_scene`, over every demo; and the text that the scene carries makes it again."""
+    """`load_scene`, over every demo; and the text that the scene carries makes it again."""
     built = build_scene(tomllib.loads(path.read_text(encoding="utf-8")), path.stem, directory=path.parent)
     assert facts(built) == facts(load_scene(path))
     assert scene_from_text(built.text, path.stem, directory=path.parent) == built
 
 
 def test_values_of_numpy_tuples_and_none_are_taken():
-    """Authority: the same scene in plain Python; None is what a file leaves out."""
+    """The same scene in plain Python; None is what a file leaves out."""
     damping = {"ratios": (0.05, np.float64(0.1))}
     sections = DEMO | {"damping": damping, "friction": {"coefficient": np.float64(0.1)}, "tip_relief": None}
     sections["gears"] = DEMO["gears"] | {"material": DEMO["gears"]["material"] | {"youngs_modulus": "206 GPa"}}
@@ -42,7 +42,7 @@ def test_values_of_numpy_tuples_and_none_are_taken():
 
 
 def test_mistakes_are_named_by_field_and_without_lines_of_a_text_that_nobody_wrote():
-    """Authority: the messages of a file, which name lines besides."""
+    """The messages of a file, which name lines besides."""
     with pytest.raises(SceneError) as caught:
         build_scene(DEMO | {"load": {"wheel_torque": 437}, "frictoin": {}}, "mine")
     assert "mine: load.wheel_torque = 437\n    is a number without its unit." in str(caught.value)
@@ -61,8 +61,7 @@ def test_mistakes_are_named_by_field_and_without_lines_of_a_text_that_nobody_wro
     ],
 )
 def test_what_no_file_can_hold_is_refused(sections, said):
-    """Authority: TOML, whose keys are texts and whose values are texts, numbers, truth values, lists and tables of
-    them."""
+    """TOML, whose keys are texts and whose values are texts, numbers, truth values, lists and tables of them."""
     with pytest.raises(SceneError, match=said):
         build_scene(DEMO | sections)
 

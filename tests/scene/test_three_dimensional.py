@@ -85,8 +85,8 @@ def test_what_is_written_is_what_is_read():
     (SPUR + '[bearings]\nstiffness = "1e5 N/mm"\n', False),
 ])  # fmt: skip
 def test_a_scene_is_three_dimensional_where_it_names_what_a_plane_has_not(text, expected):
-    """Authority: the rule; amounts of zero count, for they send a spur pair the three-dimensional way. An axial offset
-    alone makes a face narrower."""
+    """The rule; amounts of zero count, for they send a spur pair the three-dimensional way. An axial offset alone makes
+    a face narrower."""
     assert scene_from_text(text).three_dimensional is expected
 
 
@@ -133,8 +133,7 @@ REFUSED = [
 
 @pytest.mark.parametrize(("text", "place", "fragments"), REFUSED, ids=[place for _, place, _ in REFUSED])
 def test_what_cannot_be_is_refused_by_name(text, place, fragments):
-    """Authority: hard case 26; place, value as written, what is allowed and the remedy, and nothing else is found
-    wrong."""
+    """Hard case 26; place, value as written, what is allowed and the remedy, and nothing else is found wrong."""
     with pytest.raises(SceneError) as raised:
         scene_from_text(text, "pair")
     words = str(raised.value)
@@ -143,7 +142,7 @@ def test_what_cannot_be_is_refused_by_name(text, place, fragments):
 
 
 def test_gears_that_do_not_overlap_axially_are_refused():
-    """Authority: geometry; widths of 30 mm are apart from an offset of 30 mm on."""
+    """Geometry; widths of 30 mm are apart from an offset of 30 mm on."""
     with pytest.raises(GeometryError, match=re.escape("do not overlap axially")) as raised:
         gear_pair(scene_from_text(HELICAL.replace('"2 mm"', '"31 mm"')).gears)
     assert (
@@ -154,8 +153,8 @@ def test_gears_that_do_not_overlap_axially_are_refused():
 
 
 def test_check_shows_the_third_dimension(tmp_path, capsys):
-    """Authority: docs/promises.md on `gears check`; numbers by the formulas of ISO 21771: eps_beta = 28 sin(15 deg)/(3
-    pi) = 0.769, beta_b = 14.08 deg."""
+    """docs/promises.md on `gears check`; numbers by the formulas of ISO 21771: eps_beta = 28 sin(15 deg)/(3 pi) =
+    0.769, beta_b = 14.08 deg."""
     file = tmp_path / "pair.toml"
     file.write_text(HELICAL + LEAD + MISALIGNED, encoding="utf-8")
     assert main(["check", str(file)]) == 0
@@ -173,7 +172,7 @@ def test_check_shows_the_third_dimension(tmp_path, capsys):
 
 
 def test_a_misalignment_of_zero_is_none():
-    """Authority: the words: axes are parallel; the flanks are resolved over the face all the same."""
+    """The words: axes are parallel; the flanks are resolved over the face all the same."""
     scene = scene_from_text(SPUR + '[misalignment]\nin_plane = "0 um"\n')
     assert "misalignment" not in conditions(scene)
     (state,) = [each for each in effect_states(scene) if each.effect.section == "misalignment"]

@@ -282,7 +282,7 @@ def test_sections_that_do_not_fit_are_refused(refusal, text, fragments):
 
 
 def test_every_mistake_is_named_at_once(refusal):
-    """Authority: the interface; a person corrects a file once."""
+    """The interface; a person corrects a file once."""
     text = paper_text.without(DEMO + RELIEF, "inertia")
     for section, key, value in [
         ("gears", "module", "4.5"),
@@ -309,7 +309,7 @@ def test_every_mistake_is_named_at_once(refusal):
 
 
 def test_the_line_is_that_of_the_field():
-    """Authority: the text itself, also behind a text over several lines that looks like a scene."""
+    """The text itself, also behind a text over several lines that looks like a scene."""
     text = DEMO.replace('title = "Lundvall, Strömberg, Klarbring 2004"', 'title = """\n[gears.pinion]\nteeth = 3\n"""')
     text = text.replace('bore_diameter = "30 mm" ', "bore_diameter = 30 ")
     line = next(number for number, each in enumerate(text.splitlines(), 1) if each.startswith("bore_diameter = 30 "))

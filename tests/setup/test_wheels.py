@@ -42,13 +42,13 @@ def _installed(name):
 
 @pytest.mark.parametrize("suite", [path.stem for path in SETUP.glob("*.pip")])
 def test_no_wheel_brings_what_dolfinx_is_built_on(suite):
-    """Authority: DOLFINx, petsc4py and mpi4py are compiled against Debian's numpy and MPI; h5py's wheel carries an HDF5
-    of its own."""
+    """DOLFINx, petsc4py and mpi4py are compiled against Debian's numpy and MPI; h5py's wheel carries an HDF5 of its
+    own."""
     assert not {"numpy", "scipy", "mpi4py", "petsc4py", "h5py", "numba", "fenics-dolfinx"} & wheels(suite).keys()
 
 
 def test_what_the_wheels_require_is_there():
-    """Authority: each wheel's own metadata; a version out of its range, of numpy above all, fails only in use."""
+    """Each wheel's own metadata; a version out of its range, of numpy above all, fails only in use."""
     wanting = []
     for wheel in here():
         for requirement in map(Requirement, metadata.requires(wheel) or ()):
@@ -61,6 +61,6 @@ def test_what_the_wheels_require_is_there():
 
 
 def test_the_one_numpy_is_debians():
-    """Authority: where Debian puts its modules; the wheels' own folder has no numpy in front of it."""
+    """Where Debian puts its modules; the wheels' own folder has no numpy in front of it."""
     here()
     assert Path(numpy.__file__).is_relative_to("/usr/lib/python3/dist-packages")

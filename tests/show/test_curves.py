@@ -31,7 +31,7 @@ def curve(axes, which=-1):
 
 
 def test_transmission_error_and_the_wheels_sideways_motion():
-    """Authority: the dataset's values times exact prefixes; the length axis is rb2 T_E (model.md, section 4)."""
+    """The dataset's values times exact prefixes; the length axis is rb2 T_E (model.md, section 4)."""
     run = made_up_run()
     above, below = transmission_error(run).get_axes()
     for axes, name, values in [
@@ -50,13 +50,13 @@ def test_transmission_error_and_the_wheels_sideways_motion():
 
 
 def test_the_peak_to_peak_is_named():
-    """Authority: 400 µrad by construction (amplitude 200 µrad, extremes on steps), 20 µm on a base radius of 50 mm."""
+    """400 µrad by construction (amplitude 200 µrad, extremes on steps), 20 µm on a base radius of 50 mm."""
     above, _ = transmission_error(made_up_run(steps=41)).get_axes()
     assert above.get_title(loc="left") == "Transmission error on the wheel's base circle: peak to peak 20.00 µm"
 
 
 def test_a_motion_of_rounding_errors_is_shown_as_none():
-    """Authority: contact is solved to 1e-4 um; what is smaller is no curve."""
+    """Contact is solved to 1e-4 um; what is smaller is no curve."""
     run = made_up_run()
     run["centre_y"][:] = run["centre_y"].values * 1e-12
     low, high = transmission_error(run).get_axes()[1].get_ylim()
@@ -64,8 +64,8 @@ def test_a_motion_of_rounding_errors_is_shown_as_none():
 
 
 def test_without_friction_the_shaft_is_shown_along_the_line_of_action():
-    """Authority: without friction the motion off the line of action is exactly zero (model.md, claim 1): a line of
-    nothing shows nothing."""
+    """Without friction the motion off the line of action is exactly zero (model.md, claim 1): a line of nothing shows
+    nothing."""
     run = made_up_run()
     run["centre_x"] = (2.0 * run["centre_y"]).assign_attrs(units="mm")
     for friction, name, title in ((True, "centre_y", "off"), (False, "centre_x", "along")):
@@ -76,8 +76,8 @@ def test_without_friction_the_shaft_is_shown_along_the_line_of_action():
 
 
 def test_a_long_run_shows_its_last_cycles_and_all_of_them_cycle_by_cycle():
-    """Authority: the dataset: the last four mesh cycles; below, least and largest value of each of the twelve, where
-    they are not alike."""
+    """The dataset: the last four mesh cycles; below, least and largest value of each of the twelve, where they are not
+    alike."""
     run = made_up_run(steps=241, cycles=12.0)
     assert [axes.get_xlim() for axes in transmission_error(run).get_axes()] == [(36.0, 40.0)] * 2
     growing = run["transmission_error"] * (1.0 + 0.1 * (run["mesh_phase"] - 28.0))
@@ -91,7 +91,7 @@ def test_a_long_run_shows_its_last_cycles_and_all_of_them_cycle_by_cycle():
 
 
 def test_load_sharing_of_a_long_run_names_the_pairs_that_are_seen():
-    """Authority: the dataset: of 47 cycles' pairs those that carry in the last four."""
+    """The dataset: of 47 cycles' pairs those that carry in the last four."""
     run = made_up_run(steps=941, cycles=47.0)
     names = [line.get_label() for line in load_sharing(run).get_axes()[0].get_lines()]
     last = int(run["pair_number"].max())
@@ -114,7 +114,7 @@ def test_mesh_forces():
 
 
 def test_load_sharing():
-    """Authority: each curve is its pair's force while it carries, and the pairs' sum is the mesh's normal force."""
+    """Each curve is its pair's force while it carries, and the pairs' sum is the mesh's normal force."""
     run = made_up_run()
     (axes,) = load_sharing(run).get_axes()
     lines = {line.get_label(): line for line in axes.get_lines()}

@@ -20,7 +20,7 @@ def run():
 
 
 def test_pictures_of_the_face_are_written_beside_the_others(tmp_path):
-    """Authority: each decodes and shows more than its ground; a plane run has none of them."""
+    """Each decodes and shows more than its ground; a plane run has none of them."""
     files = {file.name: file for file in draw_run(helical_run(), tmp_path)}
     rigid = FACE_PICTURE_FILES[:2]
     assert set(rigid) < set(files) and "contact_pressure.png" in files and "shafts.png" not in files
@@ -31,8 +31,8 @@ def test_pictures_of_the_face_are_written_beside_the_others(tmp_path):
 
 
 def test_pattern_shows_the_largest_pressure_where_it_is(run):
-    """Authority: the result's own fields. Cells hold the largest averaged pressure of their slice's nodes, at the
-    diameter of the node that has it."""
+    """The result's own fields. Cells hold the largest averaged pressure of their slice's nodes, at the diameter of the
+    node that has it."""
     pressure, rolls = (run.dataset[f"contact_{name}"].values for name in ("pressure", "roll_angle"))
     pressure = read_off(pressure, rolls)
     field = contact_patterns(run)[0].field

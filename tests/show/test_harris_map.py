@@ -33,7 +33,7 @@ def drawn(chart) -> dict[str, tuple[np.ndarray, np.ndarray]]:
 
 @pytest.mark.parametrize("cycles, start", [(2.0, 0.0), (2.0, 38.0), (1.0, 5.0), (3.0, 0.0)])
 def test_two_mesh_cycles_of_every_load_are_drawn(cycles, start):
-    """Authority: a periodic error, whatever part of it was recorded."""
+    """A periodic error, whatever part of it was recorded."""
     curves = drawn(harris_map(errors(cycles, start)))
     assert list(curves) == ["50 N m", "100 N m", "200 N m", "437 N m"]
     for load, (phase, values) in zip(LOADS, curves.values()):
@@ -42,14 +42,14 @@ def test_two_mesh_cycles_of_every_load_are_drawn(cycles, start):
 
 
 def test_an_angle_of_the_wheel_is_a_length_on_its_base_circle():
-    """Authority: the length of an arc, base radius times angle."""
+    """The length of an arc, base radius times angle."""
     angle = (errors() / 54.2e3).assign_attrs(units="rad").to_dataset().assign_attrs(base_radius_wheel=54.2)
     for (_, length), (_, same) in zip(drawn(harris_map(errors())).values(), drawn(harris_map(angle)).values()):
         np.testing.assert_allclose(same, length, rtol=1e-12)
 
 
 def test_loads_stand_at_their_curves_and_apart(tmp_path):
-    """Authority: the names' least distance; the picture is written."""
+    """The names' least distance; the picture is written."""
     close = errors().assign_coords(load=("load", [50.0, 50.1, 50.2, 437.0], {"units": "N m"}))
     close[1:3] = close[0]
     chart = harris_map(close)

@@ -6,7 +6,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.text import Annotation
 from tests.show.synthetic import made_up_run
 
-from fenics_gears.results.spectrum import BOTH, HUNTING, MESH, PINION, WHEEL, order_lines, origin
+from fenics_gears.results.spectrum import BOTH, HUNTING, MESH, PINION, WHEEL, origin
 from fenics_gears.show.plots import run_figures
 
 TEETH, PERIOD, STEPS = (16, 24), 48, 40
@@ -17,22 +17,6 @@ def error_of(lines, cycles):
     """A sum of cosines (order, amplitude) over so many mesh cycles, with a mean."""
     turns = np.arange(int(cycles * STEPS) + 1) / (STEPS * TEETH[0])
     return 5.0 + sum(amplitude * np.cos(2.0 * np.pi * order * turns + order) for order, amplitude in lines)
-
-
-def test_whole_periods_have_each_line_by_itself():
-    """Exact: cosines of orders 2/3, 1, 16 and 37 give those lines with those amplitudes and nothing else, also where
-    the record holds more than a period."""
-    lines = [(2.0 / 3.0, 3.0), (1.0, 2.0), (16.0, 4.0), (37.0, 0.5)]
-    for cycles in (PERIOD, 2 * PERIOD, PERIOD + 7):
-        found = order_lines(error_of(lines, cycles), cycles, TEETH)
-        assert found.exact
-        rest = found.amplitudes.copy()
-        for order, amplitude in lines:
-            place = int(np.argmin(np.abs(found.orders - order)))
-            assert found.orders[place] == pytest.approx(order, rel=1e-12)
-            assert found.amplitudes[place] == pytest.approx(amplitude, rel=1e-12)
-            rest[place] = 0.0
-        assert rest.max() < 1e-12
 
 
 def test_orders_are_told_by_what_they_come_back_with():

@@ -29,8 +29,8 @@ def field_of(run):
 
 @pytest.mark.parametrize("steps", [21, 2000])
 def test_every_node_under_pressure_is_in_the_raster(steps):
-    """Authority: the dataset: the cell at a node's place has its pressure, or that of a higher one which falls into it;
-    no cell has another."""
+    """The dataset: the cell at a node's place has its pressure, or that of a higher one which falls into it; no cell
+    has another."""
     field, pressure, place, phase = field_of(made_up_run(steps=steps))
     assert field.values.shape[1] <= MOST_COLUMNS and field.x[0] == phase[0] and field.x[-1] == phase[-1]
     step, slot, node = np.nonzero(pressure > 0.0)
@@ -43,8 +43,7 @@ def test_every_node_under_pressure_is_in_the_raster(steps):
 
 @pytest.mark.parametrize("falling", [False, True])
 def test_cells_tile_uneven_nodes_without_gap_or_overlap(falling):
-    """Authority: half-way points. Edges of neighbouring nodes are shared, whichever way the nodes are counted; the ends
-    mirror."""
+    """half-way points. Edges of neighbouring nodes are shared, whichever way the nodes are counted; the ends mirror."""
     rolls, edges = np.array([1.0, 1.2, 1.6, 2.4, 4.0]), np.array([0.9, 1.1, 1.4, 2.0, 3.2, 4.8])
     low, high = node_edges(rolls[::-1] if falling else rolls)
     np.testing.assert_allclose(np.sort(low), edges[:-1], rtol=1e-13)
@@ -52,8 +51,8 @@ def test_cells_tile_uneven_nodes_without_gap_or_overlap(falling):
 
 
 def test_a_peak_far_above_all_others_is_said_and_leaves_the_scale_alone():
-    """Authority: by construction one cell of 9000 MPa among cells below 1700 MPa; the peak away from edges decides
-    where the result has it."""
+    """By construction one cell of 9000 MPa among cells below 1700 MPa; the peak away from edges decides where the
+    result has it."""
     run = made_up_run(steps=101)
     there = np.flatnonzero(run["contact_pressure"].values[50, :, 2] > 0.0)[0]
     run["contact_pressure"][50, there, 2] = 9000.0
@@ -64,7 +63,7 @@ def test_a_peak_far_above_all_others_is_said_and_leaves_the_scale_alone():
 
 
 def test_pitch_point_and_the_wheels_axis(paper_scene):
-    """Authority: at the pitch point either roll angle is tan(alpha_w) (exact); the paper's alpha_w is 22.44 deg."""
+    """At the pitch point either roll angle is tan(alpha_w) (exact); the paper's alpha_w is 22.44 deg."""
     (axes, _) = contact_pressure(made_up_run(scene=paper_scene.text)).get_axes()
     line = next(each for each in axes.get_lines() if each.get_label() == "pitch point")
     roll = float(line.get_ydata()[0])
@@ -76,8 +75,7 @@ def test_pitch_point_and_the_wheels_axis(paper_scene):
 
 
 def test_no_contact_at_all_and_no_pressure_variable():
-    """Authority: free flight has no pressure (hard_cases.md, 18): an empty flank, no failure; no variable, no
-    picture."""
+    """Free flight has no pressure (hard_cases.md, 18): an empty flank, no failure; no variable, no picture."""
     run = made_up_run()
     run["contact_pressure"][:] = 0.0
     assert mesh(contact_pressure(run)).get_array().count() == 0
@@ -85,8 +83,7 @@ def test_no_contact_at_all_and_no_pressure_variable():
 
 
 def test_pressure_on_the_coast_flanks_has_a_panel_of_its_own():
-    """Authority: the dataset. A pair that the wheel drives presses on its coast flanks only, another one on both in
-    turn."""
+    """The dataset. A pair that the wheel drives presses on its coast flanks only, another one on both in turn."""
     run = made_up_run()
     zero = run["contact_pressure"] * 0.0
     run["coast_contact_roll_angle"] = run["contact_roll_angle"]

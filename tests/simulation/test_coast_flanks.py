@@ -70,8 +70,8 @@ def test_a_pair_that_stays_in_contact_does_not_feel_its_coast_flanks(both_flanks
 
 
 def test_run_out_beyond_the_backlash_wedges_the_teeth_and_is_named(both_flanks, paper_pair):
-    """Authority: geometry. Run-out of the backlash and more closes it; with none both flanks press, along lines of
-    action that the load holds apart."""
+    """Geometry. Run-out of the backlash and more closes it; with none both flanks press, along lines of action that the
+    load holds apart."""
     towards = Eccentricity(
         Offset(2.0 * paper_pair.backlash, radians(-90.0) + paper_pair.operating_pressure_angle), None
     )

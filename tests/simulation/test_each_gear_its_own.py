@@ -93,9 +93,9 @@ steps_per_mesh_cycle = 20
 
 
 def test_unequal_widths_against_a_resolved_model():
-    """Authority: another program's resolved model in three dimensions (18-node wedges, its own outline and contact):
-    9.763 um at phase 0.3, one pair in mesh. The plane is below it by what `gears check` says of plane strain, within 2
-    %; with all of the pinion's 8 mm it was 8.816 um."""
+    """Another program's resolved model in three dimensions (18-node wedges, its own outline and contact): 9.763 um at
+    phase 0.3, one pair in mesh. The plane is below it by what `gears check` says of plane strain, within 2 %; with all
+    of the pinion's 8 mm it was 8.816 um."""
     scene = scene_from_text(RESOLVED)
     result, model = simulate(scene), model_of(scene)
     deflection = 1e3 * result.attrs["base_radius_wheel"] * float(result.transmission_error[6])

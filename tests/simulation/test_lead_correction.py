@@ -67,7 +67,7 @@ class Runs:
 
 @pytest.mark.parametrize("name", TILTED)
 def test_no_slope_and_crowning_are_better(name):
-    """Authority: brute force, a scan of both amounts by whole runs."""
+    """Brute force, a scan of both amounts by whole runs."""
     more, helix, load = TILTED[name]
     model = model_of(helical_scene(more, helix=helix, offset=2.0, accuracy=ACCURACY, **load))
     found = Runs(model.scene, on_stand_in_bodies(model)).check(0.03 if FRICTION in more else 3e-3)
@@ -119,7 +119,7 @@ WEB = '[gears.wheel.web]\nrim_inner_diameter = "82 mm"\nhub_diameter = "60 mm"\n
 @pytest.mark.parametrize("web", ["", WEB], ids=["solid", "web"])
 @pytest.mark.parametrize("more", [STRAIGHT, MISALIGNED, ELASTIC, ELASTIC + MISALIGNED])
 def test_bodies_of_finite_elements_have_the_best_of_a_scan_too(more, web):
-    """Authority: brute force, as above; a web off mid-width alone, and beside shafts and misalignment."""
+    """Brute force, as above; a web off mid-width alone, and beside shafts and misalignment."""
     if web or more != STRAIGHT:
         scene = helical_scene(more, helix=0.0, width=20.0, accuracy=FEW.replace("5", "8"))
         Runs(scene_from_text(text_of(scene) + web)).check()

@@ -31,7 +31,7 @@ def test_the_order_of_an_exact_power_is_found(sizes, order):
 
 
 def test_richardson_on_archimedes_polygons():
-    """Authority: n sin(pi/n) goes to pi as 1/n^2; three polygons give an order near 2, and the limit lies within its
+    """N sin(pi/n) goes to pi as 1/n^2; three polygons give an order near 2, and the limit lies within its
     uncertainty."""
     counts = (24, 48, 96)
     values = [np.array([n * np.sin(np.pi / n)]) for n in counts]
@@ -43,8 +43,7 @@ def test_richardson_on_archimedes_polygons():
 
 @pytest.mark.parametrize("values", [(1.0, 0.9, 0.95), (1.0, 0.9, 0.7), (1.0, 1.0, 1.0)])
 def test_without_an_order_nothing_is_extrapolated(values):
-    """Authority: Roache; where a sequence turns back, diverges or stands still, three times its last difference is
-    uncertain."""
+    """Roache; where a sequence turns back, diverges or stands still, three times its last difference is uncertain."""
     terms = [np.array([value]) for value in values]
     limit = richardson(terms, (0.4, 0.2, 0.1), expected=2.0)
     assert limit.order is None
@@ -54,8 +53,8 @@ def test_without_an_order_nothing_is_extrapolated(values):
 
 
 def test_differences_that_point_anywhere_have_an_order_and_are_not_extrapolated():
-    """Authority: errors of size h in directions at right angles; their norms fall with the first power, their sum has
-    no one direction."""
+    """Errors of size h in directions at right angles; their norms fall with the first power, their sum has no one
+    direction."""
     directions, sizes = np.eye(3), (4.0, 2.0, 1.0)
     steps = [directions[0] * 2.0, directions[1] * 1.0]
     values = [np.full(3, 9.0) - steps[0] - steps[1], np.full(3, 9.0) - steps[1], np.full(3, 9.0)]
@@ -66,7 +65,7 @@ def test_differences_that_point_anywhere_have_an_order_and_are_not_extrapolated(
 
 
 def test_limits_of_several_settings_add_and_so_do_their_uncertainties():
-    """Authority: u = c + a h^2 + b k; both extrapolated from one base give c."""
+    """U = c + a h^2 + b k; both extrapolated from one base give c."""
 
     def u(h, k):
         return np.array([5.0 + 0.7 * h**2 - 0.4 * k])
@@ -90,7 +89,7 @@ def brute_front(points):
 
 @pytest.mark.parametrize("seed", range(20))
 def test_the_front_is_that_of_comparing_each_with_each(seed):
-    """Authority: definition; random points on a coarse lattice, so that there are ties and equal points."""
+    """Definition; random points on a coarse lattice, so that there are ties and equal points."""
     random = np.random.default_rng(seed)
     points = [tuple(map(float, point)) for point in random.integers(1, 9, size=(25, 2))]
     front = whole.pareto_front(points)
@@ -100,7 +99,7 @@ def test_the_front_is_that_of_comparing_each_with_each(seed):
 
 
 def test_errors_that_cancel_are_no_accuracy():
-    """Authority: issue 6; +5 % of one setting and -5 % of another give the right answer and are charged 10 %."""
+    """Issue 6; +5 % of one setting and -5 % of another give the right answer and are charged 10 %."""
 
     def span(h, k):
         return np.array([10.0 * (1.0 + 0.05 * h**2 - 0.05 * k**2)])
@@ -132,8 +131,8 @@ ERRORS |= {("steps", place): error for place, error in enumerate((0.2, 0.05, 0.0
 
 
 def test_the_path_refines_what_limits_it():
-    """Authority: by hand; 0.28, 0.13, 0.07, 0.032, 0.017 by turns of the larger error, kept where the sum falls to 0.7
-    or below."""
+    """By hand; 0.28, 0.13, 0.07, 0.032, 0.017 by turns of the larger error, kept where the sum falls to 0.7 or
+    below."""
     found = [(setting.flank, setting.steps) for setting in whole.path(BASE, [FLANK, STEPS], ERRORS)]
     assert found == [(0.16, 20), (0.16, 40), (0.08, 40), (0.08, 80), (0.04, 80), (0.04, 160)]
 
@@ -176,8 +175,7 @@ def run(steps, amplitude=1.0, nodes=41, first_pair=0):
 
 
 def test_measures_of_a_sine_and_a_parabola():
-    """Authority: exact: 2 a rb peak to peak, rms a rb/sqrt 2 without the mean of 7 rad, F^2/(2U) = 2500, defect
-    0.2/100."""
+    """Exact: 2 a rb peak to peak, rms a rb/sqrt 2 without the mean of 7 rad, F^2/(2U) = 2500, defect 0.2/100."""
     found = measures.answer(run(640), window=2.0)
     assert found[SPAN][0] == pytest.approx(0.1, rel=1e-4)
     assert np.sqrt(np.mean(found[CURVE] ** 2)) == pytest.approx(0.05 / np.sqrt(2.0), rel=1e-4)
@@ -187,8 +185,8 @@ def test_measures_of_a_sine_and_a_parabola():
 
 
 def test_distances_are_relative_and_do_not_see_the_grid():
-    """Authority: linearity; 10 % more is 0.1 in every measure; the same parabola on other nodes and steps is the same
-    but for h^2."""
+    """Linearity; 10 % more is 0.1 in every measure; the same parabola on other nodes and steps is the same but for
+    h^2."""
     one, more = measures.answer(run(640), 2.0), measures.answer(run(640, 1.1), 2.0)
     for name in (CURVE, SPAN, PRESSURE, PEAK):
         assert measures.distance(more, one, name) == pytest.approx(0.1, rel=1e-6)
@@ -202,8 +200,8 @@ def test_distances_are_relative_and_do_not_see_the_grid():
     "counts, common", [((40, 80, 160), 40), ((100, 80), 20), ((200, 1280), 40), ((30, 40), 30), ((10, 20), 10)]
 )
 def test_curves_of_other_steps_are_compared_at_phases_that_both_have(counts, common):
-    """Authority: by hand; their greatest common divisor from 20 on, else those of the fewest steps. Values are those of
-    the curve there, without their mean."""
+    """By hand; their greatest common divisor from 20 on, else those of the fewest steps. Values are those of the curve
+    there, without their mean."""
     curves = [np.arange(1, count + 1) / count for count in counts]
     phases = np.arange(1, common + 1) / common
     for found in measures.comparable(curves, CURVE):

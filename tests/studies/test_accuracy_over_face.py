@@ -61,8 +61,8 @@ def test_slices_layers_and_body_elements_are_refined_one_at_a_time(scene, quick)
 
 
 def test_the_plane_rung_is_the_transverse_section_in_plane_strain(scene):
-    """Authority: ISO 21771; the transverse section of a helical pair has its base circles and transverse contact ratio,
-    and nothing over the face is left."""
+    """ISO 21771; the transverse section of a helical pair has its base circles and transverse contact ratio, and
+    nothing over the face is left."""
     plane = in_the_plane(scene)
     assert not plane.three_dimensional and model_of(plane).face.slices == 1
     assert reports.scene_of(scene, PLANE, None) == plane

@@ -19,8 +19,8 @@ pytestmark = pytest.mark.ranks
 
 @pytest.mark.nightly
 def test_a_study_of_more_ranks_than_cases_gives_what_it_gives_alone(folder, undrawn):
-    """Authority: exact identity; a case's run does not depend on where it runs, but for the sets that it begins with:
-    another test of this process may have left some. Two ranks are compared in hard case 28."""
+    """Exact identity; a case's run does not depend on where it runs, but for the sets that it begins with: another test
+    of this process may have left some. Two ranks are compared in hard case 28."""
     study = write_study(folder, '[sweep]\nfriction = ["absent", "present"]\n')
     assert main(["study", str(study), "--output", "alone", "--quiet"]) == 0
     together = gears(folder, "study", study, "--output", "here", ranks=3)
@@ -46,8 +46,8 @@ def test_what_the_end_needs_is_made_while_others_compute():
 
 @pytest.mark.nightly
 def test_both_of_two_ranks_compute_and_a_wrong_study_ends_both(folder):
-    """Authority: issue 3; rank 0 does not merely hand out: a task ends when one of the other rank's has begun.
-    docs/promises.md: a wrong study ends with exit code 2, nothing written, and no rank is left waiting."""
+    """Issue 3; rank 0 does not merely hand out: a task ends when one of the other rank's has begun. docs/promises.md: a
+    wrong study ends with exit code 2, nothing written, and no rank is left waiting."""
     program = (
         "import os, sys, time\n"
         "from pathlib import Path\n"
@@ -99,7 +99,7 @@ def test_ranks_of_a_study_condense_each_body_over_the_face_once(folder):
 
 
 def test_processes_that_mpi4py_cannot_join_are_refused(folder, monkeypatch, capsys):
-    """Authority: two copies of one study must not both believe to be alone."""
+    """Two copies of one study must not both believe to be alone."""
     study = write_study(folder, FOUR)
     monkeypatch.setenv("PMI_SIZE", "2")
     assert main(["study", str(study)]) == 3
@@ -108,7 +108,7 @@ def test_processes_that_mpi4py_cannot_join_are_refused(folder, monkeypatch, caps
 
 
 def test_an_error_of_a_task_is_its_outcome():
-    """Authority: the promise of `run`; one task's error is not another's."""
+    """The promise of `run`; one task's error is not another's."""
 
     def inverse(task, tick):
         return 1 / task

@@ -33,7 +33,7 @@ def load(directory):
 
 
 def test_every_case_is_what_a_run_of_its_scene_gives(folder):
-    """Authority: exact identity; what cases share changes no digit. The run of each scene alone is the reference."""
+    """Exact identity; what cases share changes no digit. The run of each scene alone is the reference."""
     study = write_study(folder, FOUR)
     assert main(["study", str(study), "--quiet"]) == 0
     combined = load("results/study")
@@ -60,7 +60,7 @@ def test_every_case_is_what_a_run_of_its_scene_gives(folder):
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_study_run_again_computes_only_what_is_new(folder, capsys):
-    """Authority: inode and time of each file; cases are found by content, wherever they stand in the sweep."""
+    """Inode and time of each file; cases are found by content, wherever they stand in the sweep."""
     study = write_study(folder, TWO)
     main(["study", str(study), "--quiet", "--output", "here"])
     before, combined = stamps("here"), load("here")
@@ -87,8 +87,8 @@ def test_a_study_run_again_computes_only_what_is_new(folder, capsys):
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_changed_base_scene_is_noticed_and_so_are_other_numbers(folder, capsys, monkeypatch):
-    """Authority: hash of what the scene says; a comment is no change, another face width is one, and so is another
-    version of the numbers."""
+    """Hash of what the scene says; a comment is no change, another face width is one, and so is another version of the
+    numbers."""
     study = write_study(folder, TWO)
     main(["study", str(study), "--quiet", "--output", "here"])
     before, old = stamps("here"), load("here")
@@ -123,7 +123,7 @@ def test_a_changed_base_scene_is_noticed_and_so_are_other_numbers(folder, capsys
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_failed_case_is_a_record_and_the_others_go_on(folder, capsys, monkeypatch):
-    """Authority: issue 3; the error is the contact's own. Exit code 3; tried again the next time."""
+    """Issue 3; the error is the contact's own. Exit code 3; tried again the next time."""
 
     def fails_once(model, **options):
         if model.scene.friction.coefficient == 0.3:
@@ -162,8 +162,8 @@ def stopped_in_the_middle(folder, study, how, ranks=0):
 
 
 def test_ctrl_c_keeps_what_is_done(folder):
-    """Authority: docs/promises.md; exit code 130, what was done is kept, marked incomplete. Alone MPI is never touched:
-    this process has no mpi4py."""
+    """docs/promises.md; exit code 130, what was done is kept, marked incomplete. Alone MPI is never touched: this
+    process has no mpi4py."""
     study = write_study(folder, FIVE)
     done = stopped_in_the_middle(folder, study, signal.SIGINT)
     assert (

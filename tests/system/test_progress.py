@@ -17,7 +17,7 @@ class Clock:
 
 
 def test_lines_come_at_most_every_few_seconds_and_say_the_time_left():
-    """Authority: identity; a fifth done after 6 s leaves 24 s at the same pace."""
+    """Identity; a fifth done after 6 s leaves 24 s at the same pace."""
     clock, stream = Clock(), io.StringIO()
     lines = progress.LineProgress(stream, interval=5.0, clock=clock)
     lines.stage("march")
@@ -51,7 +51,7 @@ def test_no_time_left_is_said_before_enough_is_known():
 
 
 def test_a_bar_stops_where_the_work_stopped():
-    """Authority: issue 2; an interrupted run must not look finished."""
+    """Issue 2; an interrupted run must not look finished."""
     console = pytest.importorskip("rich.console").Console(file=io.StringIO(), force_terminal=True, width=100)
     bar = progress.BarProgress(console)
     bar.stage("condense pinion")

@@ -4,14 +4,12 @@ deformable beam elements, side by side.
     python -m tests.benchmarks.against_exudyn.shaft PYTHON    # PYTHON: that of an environment that has Exudyn
 """
 
-from __future__ import annotations
-
 import sys
 from itertools import pairwise
 from math import ceil
 
 import numpy as np
-from tests.benchmarks.against_exudyn.__main__ import asked
+from tests.benchmarks.against_exudyn.pair import asked
 from tests.benchmarks.against_ross.__main__ import BEARINGS, DENSITY, DISC, SHAFTS, UP_TO, elastic, free_frequencies
 
 from fenics_gears.dynamics.elastic_shaft import ElasticShaft, properties

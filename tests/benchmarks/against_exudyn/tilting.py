@@ -1,7 +1,5 @@
 """Natural frequencies and static displacements of a helical pair whose gears tilt and move axially, by this program and
-by Exudyn, side by side.
-
-    python -m tests.benchmarks.against_exudyn.tilting PYTHON   # PYTHON: one that has Exudyn; see `__main__`
+by Exudyn.
 
 The pair is pair_19_48.toml of this folder with a helix of 20 degrees on its sections as they are, gears that are not
 opposite each other, bearings at unequal distances from mid-width and of another stiffness in every direction. Exudyn
@@ -13,13 +11,11 @@ displacements the same within 1.1e-6 of each. These differences are Exudyn's lar
 proportion to the torque.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import radians, sqrt
 
 import numpy as np
-from tests.benchmarks.against_exudyn.__main__ import BEARINGS, MESH, SHAFTS, by_exudyn, scene
+from tests.benchmarks.against_exudyn.pair import BEARINGS, MESH, SHAFTS, scene
 
 from fenics_gears import gear_pair, lumped_gears
 from fenics_gears.dynamics.frequencies import natural_frequencies
@@ -68,16 +64,3 @@ def by_this_program() -> tuple[np.ndarray, np.ndarray, dict]:
         "torque": TORQUE,
     }
     return natural_frequencies(shafts, MESH), moved, given
-
-
-def main() -> None:
-    """Print both side by side."""
-    frequencies, moved, given = by_this_program()
-    found = by_exudyn("exudyn_tilting_pair.py", __doc__, frequencies, given)
-    print("motion         this program     Exudyn           difference")
-    for name, own, other in zip(np.ravel(MOTIONS), moved.ravel(), np.ravel(found["moved"])):
-        print(f"{name:<14} {own:<16.9e} {other:<16.9e} {own / other - 1.0:.1e}")
-
-
-if __name__ == "__main__":
-    main()

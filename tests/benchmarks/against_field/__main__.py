@@ -8,8 +8,6 @@ Writes the table into docs/evidence/other_programs.md. Programs that PYTHON lack
 (Debian's calculix-ccx) takes three minutes.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import subprocess
@@ -20,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 from tests.benchmarks import against_calculix
-from tests.benchmarks.against_exudyn import __main__ as exudyn
+from tests.benchmarks.against_exudyn import pair as exudyn
 from tests.benchmarks.against_ross import __main__ as ross
 from tests.benchmarks.marked_section import markers, write_section
 from tests.benchmarks.third_dimension.pairs import in_plane, scene_of, standard_pair

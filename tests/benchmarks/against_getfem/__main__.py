@@ -10,8 +10,6 @@ outline of the teeth, and finds contact itself (`getfem_pair.py`). Only position
 there contact is on the line of action, as this program takes it by default.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import subprocess

@@ -7,8 +7,6 @@ The gear's seat has no width here, since ROSS has no rigid part of a shaft. Each
 elements of ROSS as the second number of its row says.
 """
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

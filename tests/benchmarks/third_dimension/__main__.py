@@ -1,8 +1,6 @@
 """Measure and write the sections of docs/evidence/third_dimension.md: all, or those that are named; `--draw`: from the
 numbers kept."""
 
-from __future__ import annotations
-
 import sys
 from importlib import import_module
 from pathlib import Path

@@ -3,8 +3,6 @@
 The scenes in `cited` name their sources and what was chosen.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import ceil, cos, degrees
 from pathlib import Path

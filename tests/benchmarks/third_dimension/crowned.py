@@ -5,8 +5,6 @@ ellipses are that; short ones are not. What the bodies' shape adds to the approa
 as the ellipse is small: it cancels in the difference of approach per load of two loads on the same flanks.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import ceil, sqrt
 

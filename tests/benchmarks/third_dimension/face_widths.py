@@ -1,8 +1,6 @@
 """Spur pairs of unequal face widths, or side by side in part: in the plane, where a width counts, against three
 dimensions."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from tests.benchmarks.third_dimension.pairs import MODULE, STEEL, in_plane, scene_of, standard_gear, standard_pair

@@ -6,8 +6,6 @@ whole face touches, ``2 sqrt(c b f/(2 F))`` times beyond. ISO 6336-1, 7.5 (metho
 ``c_gamma_beta = 0.85 c_gamma_alpha`` and the misalignment after running-in.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import sqrt
 

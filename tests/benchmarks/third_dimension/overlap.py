@@ -5,8 +5,6 @@ foundation under each line, stiffer or softer along the path as it may be, would
 what the ends of the face and the entering of corners make.
 """
 
-from __future__ import annotations
-
 from math import ceil, degrees, radians
 
 import numpy as np

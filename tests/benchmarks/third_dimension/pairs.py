@@ -1,8 +1,6 @@
 """Pairs of the benchmarks over the face: standard teeth with any helix, in steel, with nothing but teeth and gear
 bodies to give way."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import atan, cos, pi, radians, sin, tan
 

@@ -1,8 +1,6 @@
 """A spur pair by the three-dimensional way over its face width: from plane stress to plane strain, both by the plane
 route."""
 
-from __future__ import annotations
-
 from math import ceil
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Approach and line loads over the face, free ends among them, against the resolved model of tests/face_reference."""
 
-from __future__ import annotations
-
 from itertools import groupby
 
 import numpy as np

@@ -4,8 +4,6 @@ sigma_F0 = F_t/(b m_n) Y_F Y_S Y_beta in the edition of 2006; that of 2019 has l
 Y_beta/cos(beta)^3.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import ceil, cos, radians
 

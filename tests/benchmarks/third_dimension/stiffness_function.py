@@ -7,8 +7,6 @@ the larger their bores are. What elastic coupling along the face does, a mean of
 have none.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import ceil, radians
 

@@ -1,7 +1,5 @@
 """Numbers of a benchmark as lines of a CSV and of a page's table."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 

@@ -5,8 +5,6 @@ It counts the teeth and the body close to them, not the twist of the body down t
 contains; the bores are 0.7 of the root diameter here, as in tests/simulation/test_iso_6336.py.
 """
 
-from __future__ import annotations
-
 from math import ceil, cos, radians
 
 from matplotlib.figure import Figure

@@ -53,7 +53,7 @@ def flank_nodes(section_mesh, side):
 
 
 def test_the_shapes_of_a_flank_are_all_that_its_cuts_move():
-    """Authority: the matrix itself, of a rank that is known, and of full rank."""
+    """The matrix itself, of a rank that is known, and of full rank."""
     numbers = np.random.default_rng(1)
     low, full = numbers.normal(size=(60, 15)) @ numbers.normal(size=(15, 40)), numbers.normal(size=(60, 40))
     for matrix, most in ((low, 25), (low.T, 25), (full, 60)):

@@ -90,8 +90,8 @@ def released(crack: RootCrack, stress) -> float:
 
 @pytest.mark.parametrize("angle", [pytest.param(45.0, marks=pytest.mark.nightly), 90.0])
 def test_a_crack_softens_its_tooth_as_its_stress_intensities_say(angle):
-    """Authority: above; measured +4 to +9 %: the weight function is that of a half-plane, not of a fillet (+12 % at
-    half this depth, whose mouth sees more of the fillet), and no tooth ends opposite (-11 % at twice this depth and 45
+    """Above; measured +4 to +9 %: the weight function is that of a half-plane, not of a fillet (+12 % at half this
+    depth, whose mouth sees more of the fillet), and no tooth ends opposite (-11 % at twice this depth and 45
     degrees)."""
     crack = RootCrack(1.5, np.radians(angle))
     softer = work(crack) - work(None)

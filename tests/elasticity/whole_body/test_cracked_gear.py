@@ -57,9 +57,9 @@ def rotation_under_couple(mesh: BodyMesh) -> float:
 
 @pytest.mark.parametrize("depth", [0.3, 0.6])
 def test_a_crack_lets_a_bent_strip_turn_as_fracture_mechanics_says(depth):
-    """Authority: K_I = sigma sqrt(pi a) F(a/W) of an edge crack in pure bending, F by Brown and Srawley (ASTM STP 410,
-    1966) to 0.2 % up to a/W = 0.6; by energy release (Irwin) the additional rotation is 12 pi sigma/(E' W^2) times the
-    integral of a F^2."""
+    """K_I = sigma sqrt(pi a) F(a/W) of an edge crack in pure bending, F by Brown and Srawley (ASTM STP 410, 1966) to
+    0.2 % up to a/W = 0.6; by energy release (Irwin) the additional rotation is 12 pi sigma/(E' W^2) times the integral
+    of a F^2."""
     shape = np.polynomial.Polynomial([1.122, -1.40, 7.33, -13.08, 14.0])
     integral = (np.polynomial.Polynomial([0.0, 1.0]) * shape**2).integ()(depth / HEIGHT)
     expected = 12.0 * np.pi * integral * (6.0 / HEIGHT**2) * (1.0 - 0.3**2)
@@ -87,8 +87,7 @@ def test_a_cracked_sector_has_two_faces_and_the_cuts_of_a_whole_one():
 
 
 def test_a_crack_begins_where_the_fillet_has_the_angle_and_goes_into_the_tooth():
-    """Authority: the definition; at 30 degrees of the fillet to the centreline, and 45 degrees between centreline and
-    crack."""
+    """The definition; at 30 degrees of the fillet to the centreline, and 45 degrees between centreline and crack."""
     mouth, direction = crack_line(PINION, RootCrack(3.0))
     outline = tooth_outline(PINION, 4001)
     axis = np.array([np.cos(outline.centreline_angle), np.sin(outline.centreline_angle)])

@@ -28,7 +28,7 @@ def cracked_tooth(mesh, gear) -> int:
 
 
 def test_the_repositorys_mesh_is_the_papers_pinion_with_its_ninth_tooth_cracked():
-    """Authority: what the demonstration says of it: 3 mm in tooth 8."""
+    """What the demonstration says of it: 3 mm in tooth 8."""
     pair = model_of(load_scene(SCENE)).pair
     mesh = whole_body(read_body_mesh(ROOT / "meshes" / "cracked_pinion.msh"), pair.pinion, "mesh").mesh
     assert cracked_tooth(mesh, pair.pinion) == 8

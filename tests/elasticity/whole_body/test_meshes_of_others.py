@@ -94,8 +94,8 @@ def solid(solid_file):
 
 
 def test_a_solid_gear_meshed_as_a_whole_has_the_compliance_of_a_ring(solid):
-    """Authority: the ring of sectors on its own mesh; all 16 unlike meshes of the teeth agree with it within 0.2 %,
-    which is the error of straight sides along fillets of twelve points."""
+    """The ring of sectors on its own mesh; all 16 unlike meshes of the teeth agree with it within 0.2 %, which is the
+    error of straight sides along fillets of twelve points."""
     ring = flank_compliance(PINION, STEEL, Discretisation("P2", 0.3), Reach(1))
     own, beside = (bending(ring.roll_angle, ring.block(ahead)) for ahead in (0, 1))
     for tooth in range(PINION.teeth):

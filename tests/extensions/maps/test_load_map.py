@@ -33,8 +33,8 @@ def mapped(loads=(), speeds=(), most=1000, **changes):
     [('pinion_torque = "200 N m"', ("200 N m",), "20 kW"), ('power = "20 kW"', ("20 kW",), "200 N m")],
 )
 def test_a_map_sweeps_the_load_that_the_scene_names(tmp_path, load, loads, other):
-    """Authority: T_2 = T_1 z_2/z_1 and T_2 = P/(2 pi n_2), a power being the same at every speed; and the scene's own
-    field, in words and in the sweep."""
+    """T_2 = T_1 z_2/z_1 and T_2 = P/(2 pi n_2), a power being the same at every speed; and the scene's own field, in
+    words and in the sweep."""
     file = tmp_path / "pair.toml"
     file.write_text(load_scene(DEMO).text.replace('wheel_torque = "437 N m"', load), encoding="utf-8")
     wanted = load_map(file, load_scene(file), (), ("100 Hz", "400 Hz"), 10)
@@ -73,7 +73,7 @@ def test_a_map_sweeps_the_load_that_the_scene_names(tmp_path, load, loads, other
     ],
 )
 def test_what_cannot_be_mapped_is_refused_by_name(arguments, changes, message):
-    """Authority: rule 7 of the house: what, where, the value, what is allowed, the remedy."""
+    """Rule 7 of the house: what, where, the value, what is allowed, the remedy."""
     with pytest.raises(SceneError, match=message) as refusal:
         mapped(**arguments, **changes)
     assert "Nothing was computed or written." in str(refusal.value)
@@ -131,8 +131,7 @@ def test_natural_frequencies_are_those_of_two_inertias(paper_scene, paper_pair):
 
 @pytest.mark.nightly
 def test_a_map_is_what_runs_of_its_scenes_give(folder, capsys):
-    """Authority: exact identity with a run of each scene alone; tables read by pandas; a second call computes
-    nothing."""
+    """Exact identity with a run of each scene alone; tables read by pandas; a second call computes nothing."""
     call = ["map", "pair.toml", "--loads", "100 N m", "200 N m", "--speeds", "300 Hz", "600 Hz", "--output", "out"]
     assert main(call) == 0
     written = {Path(line).name for line in capsys.readouterr().out.splitlines()}

@@ -102,7 +102,7 @@ def test_orders_of_a_ramp_are_those_that_scipy_finds(paper_scene):
 
 
 def test_the_command_writes_them(paper_scene, tmp_path, capsys):
-    """Authority: the files and the charts' axes, which name their reference."""
+    """The files and the charts' axes, which name their reference."""
     run = made_up(paper_scene, PERIOD, cosine(1.0, 4.0), cosine(1.0, 30.0))
     save(run, tmp_path / "run.nc")
     assert main(["plot", str(tmp_path), "--spectrum", "flat-top"]) == 0

@@ -84,29 +84,9 @@ def lines(directory):
     ]
 
 
-@pytest.mark.nightly
-def test_the_search_finds_what_brute_force_finds(folder):
-    """Authority: brute force; no relief of a grid of 6 by 6 over both variables is better than the one found by 40
-    trials, and it is the least of its designs."""
-    outcome = found(write(folder, STILL + VARIABLES + GOAL + "[search]\nevaluations = 40\n"))
-    with Interruption(SilentProgress()) as interruption:
-        evaluator = Evaluator(outcome.design, folder / "grid", Alone(), interruption)
-        (folder / "grid").mkdir()
-        grid = [
-            {"tip_relief.depth": depth, "tip_relief.length_on_path": length}
-            for depth in np.linspace(1.0, 60.0, 6)
-            for length in np.linspace(3.0, 9.0, 6)
-        ]
-        every = evaluator.of_designs(grid, np.zeros((1, 0)))
-    least = min(every, key=lambda each: each.goals[ERROR])
-    assert outcome.chosen.goals[ERROR] <= least.goals[ERROR] < 0.5 * outcome.before.goals[ERROR]
-    assert outcome.chosen.goals[ERROR] == min(each.goals[ERROR] for each in outcome.tried)
-
-
 @pytest.mark.usefixtures("unwritten")
 def test_the_chosen_design_is_a_scene_that_gives_its_goal(folder):
-    """Authority: identity; a run of best.toml alone, without anything shared, has the numbers of the design that was
-    chosen."""
+    """Identity; a run of best.toml alone, without anything shared, has the numbers of the design that was chosen."""
     path = write(folder, STILL + VARIABLES + GOAL + FEW)
     assert main(["optimize", str(path), "--quiet"]) == 0
     scene = load_scene("results/design/best.toml")
@@ -127,7 +107,7 @@ def test_the_chosen_design_is_a_scene_that_gives_its_goal(folder):
 
 
 def test_goals_over_loads_and_tolerances_are_those_of_single_runs(folder):
-    """Authority: numpy on runs of each scene alone: weighted mean over loads, then the quantile over samples."""
+    """Numpy on runs of each scene alone: weighted mean over loads, then the quantile over samples."""
     design = load_design(write(folder, STILL + VARIABLES + OVER_LOADS + GOAL + SCATTER + FEW))
     deviations, values = samples(design), {"tip_relief.depth": 25.0, "tip_relief.length_on_path": 6.0}
     assert deviations.shape == (4, 5)
@@ -157,8 +137,7 @@ def test_operating_points_statistics_and_bounds():
 
 
 def test_the_front_is_that_of_every_pair_compared():
-    """Authority: by hand; a design that breaks a bound or failed is on no front, and one that is tried twice is there
-    once."""
+    """By hand; a design that breaks a bound or failed is on no front, and one that is tried twice is there once."""
     goals = [(1.0, 5.0), (2.0, 2.0), (2.0, 3.0), (5.0, 1.0), (0.5, 0.5), (0.1, 9.0), (2.0, 2.0)]
     tried = [
         Evaluation(
@@ -173,8 +152,8 @@ def test_the_front_is_that_of_every_pair_compared():
 @pytest.mark.nightly
 @pytest.mark.usefixtures("unwritten")
 def test_a_killed_search_repeats_nothing(folder):
-    """Authority: the search that was not stopped. SIGKILL in the middle of a line; then each run is there once, but for
-    that line's, and the result is the same."""
+    """The search that was not stopped. SIGKILL in the middle of a line; then each run is there once, but for that
+    line's, and the result is the same."""
     path = write(folder, RIGID + VARIABLES + GOAL + FEW)
     whole = found(path, folder / "whole")
     call = (
@@ -238,8 +217,8 @@ def test_the_number_of_runs_and_their_time_are_said_before_they_start(folder, mo
 
 
 def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):
-    """Authority: the promise of the page; a design whose run fails has no numbers and the reason, is not chosen, and is
-    not tried again."""
+    """The promise of the page; a design whose run fails has no numbers and the reason, is not chosen, and is not tried
+    again."""
 
     def failing(model, **arguments):
         relief = model.scene.tip_relief
@@ -267,7 +246,7 @@ def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):
 
 @pytest.mark.nightly
 def test_bounds_are_kept_and_refused_where_nothing_keeps_them(folder):
-    """Authority: the constraint itself; the best of what it allows, and an error in words where it allows nothing."""
+    """The constraint itself; the best of what it allows, and an error in words where it allows nothing."""
     text = STILL + VARIABLES + GOAL + FEW + '[constraints]\ntransmission_error_harmonic_2 = {{ at_most = "{} um" }}\n'
     reached = [
         each.at_points["transmission_error_harmonic_2"][0]
@@ -281,8 +260,8 @@ def test_bounds_are_kept_and_refused_where_nothing_keeps_them(folder):
 
 
 def test_several_goals_give_a_front_and_weights_choose_from_it(folder):
-    """Authority: definition; the chosen design has the least weighted sum of goals in parts of those before, and lies
-    on the front."""
+    """Definition; the chosen design has the least weighted sum of goals in parts of those before, and lies on the
+    front."""
     outcome = found(write(folder, STILL + VARIABLES + GOAL + "peak_contact_pressure = 2\n" + FEW))
     assert outcome.best in outcome.front
 
@@ -360,7 +339,7 @@ REFUSED = {
 
 @pytest.mark.parametrize("what", REFUSED)
 def test_what_no_design_could_have_is_refused_by_name(folder, what):
-    """Authority: docs/optimize.md; nothing is computed or written."""
+    """docs/optimize.md; nothing is computed or written."""
     text, words = REFUSED[what]
     with pytest.raises(SceneError) as refusal:
         load_design(write(folder, STILL + text))

@@ -36,10 +36,9 @@ def example():
 
 
 def test_the_standard_s_example(example):
-    """Authority: KISSsoft's numbers for ISO/TR 6336-30:2017, example 1, as a public implementation (class KSISO_6336,
-    example_01) prints them beside its own: F_t 127352 N, Z_H
-    2.39533, Z_E 189.8117, Z_eps 0.803, sigma_H0 1206.58207, Z_L Z_v Z_R 1.04739 * 0.96911 * 0.96599, sigma_H by K_v
-    1.003 and K_Hbeta 1.16 1301.35343, K_v 1.003."""
+    """KISSsoft's numbers for ISO/TR 6336-30:2017, example 1, as a public implementation (class KSISO_6336, example_01)
+    prints them beside its own: F_t 127352 N, Z_H 2.39533, Z_E 189.8117, Z_eps 0.803, sigma_H0 1206.58207, Z_L Z_v Z_R
+    1.04739 * 0.96911 * 0.96599, sigma_H by K_v 1.003 and K_Hbeta 1.16 1301.35343, K_v 1.003."""
     assert example.tangential_force == pytest.approx(127352.0, abs=0.5)
     assert (zone_factor(example), elasticity_factor(example)) == pytest.approx((2.39533, 189.81170), abs=5e-6)
     assert contact_ratio_factor(example) == pytest.approx(0.803, abs=5e-4) and single_pair_factors(example) == (
@@ -75,8 +74,8 @@ H501 = (
 
 @pytest.mark.parametrize(("data", "printed"), [FZG_C, H501])
 def test_factors_of_another_program(data, printed):
-    """Authority: GEARpie's reports of the FZG gears C14 and H501 (DIN 3990, the same factors): Z_H, Z_eps, Y_F, Y_S and
-    Y_beta to the printed digits."""
+    """GEARpie's reports of the FZG gears C14 and H501 (DIN 3990, the same factors): Z_H, Z_eps, Y_F, Y_S and Y_beta to
+    the printed digits."""
     found = operation(data, 200e3, 1500.0)
     assert (zone_factor(found), contact_ratio_factor(found), helix_angle_factor(found)) == pytest.approx(
         (printed["Z_H"], printed["Z_eps"], printed["Y_beta"]), abs=1.1e-3
@@ -89,8 +88,8 @@ def test_factors_of_another_program(data, printed):
 
 
 def test_root_stress_of_another_program():
-    """Authority: GEARpie's report of the FZG gear C14 at 200 N m: nominal root stresses 271.19 and 263.17 MPa of F_t at
-    the pitch circle, 5464.5 N in place of 5555.6."""
+    """GEARpie's report of the FZG gear C14 at 200 N m: nominal root stresses 271.19 and 263.17 MPa of F_t at the pitch
+    circle, 5464.5 N in place of 5555.6."""
     found = operation(FZG_C[0], 200e3, 1500.0)
     roots = root_stresses(found, Finish(), LoadFactors(1.0, 1.0, 1.0, 1.0, 1.0))
     assert [each.nominal * 5464.5 / found.tangential_force for each in roots] == pytest.approx(

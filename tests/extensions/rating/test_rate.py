@@ -121,7 +121,7 @@ def test_the_inclination_of_shafts_that_bend_is_counted(tmp_path, capsys):
 
 
 def test_a_scene_is_no_run(tmp_path, capsys):
-    """Authority: exit code 2, and what to do: `gears run` makes a run of a scene."""
+    """Exit code 2, and what to do: `gears run` makes a run of a scene."""
     scene = tmp_path / "mine.toml"
     scene.write_text(helical_scene().text, encoding="utf-8")
     assert main(["rate", str(scene)]) == 2

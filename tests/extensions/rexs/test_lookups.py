@@ -277,8 +277,8 @@ def test_reliefs_by_their_length_of_roll(tmp_path):
 @pytest.mark.parametrize("form", [rexs.as_xml, rexs.as_json])
 @pytest.mark.parametrize("dtype, code", [("<f4", "float32"), ("<f8", "float64")])
 def test_arrays(paper_scene, tmp_path, form, dtype, code):
-    """Authority: numpy's bytes. An array of one entry, plain or coded, with padding or without, is that entry; a longer
-    one that no scene has a place for is told with its range."""
+    """numpy's bytes. An array of one entry, plain or coded, with padding or without, is that entry; a longer one that
+    no scene has a place for is told with its range."""
     amounts = np.array([-2.5, 0.25, 12.0], dtype)
     coded = {"code": code, "value": base64.b64encode(amounts.tobytes()).decode().rstrip("=")}
     one = {"code": code, "value": base64.b64encode(np.array([4.5], dtype).tobytes()).decode()}

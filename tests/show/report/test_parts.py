@@ -25,8 +25,7 @@ from fenics_gears.show.run import Run
 
 @given(st.lists(st.floats(-1e6, 1e6) | st.just(float("nan")), min_size=1, max_size=400), st.sampled_from([10, 40]))
 def test_thinned_curves_keep_peaks_ends_and_gaps(values, most):
-    """Authority: the whole curve: its extremes, its ends, and a gap in each slice that has one; places in order, and
-    few."""
+    """The whole curve: its extremes, its ends, and a gap in each slice that has one; places in order, and few."""
     values = np.array(values)
     places = thinned(values, most)
     assert places[0] == 0 and places[-1] == len(values) - 1 and (np.diff(places) > 0).all()
@@ -62,8 +61,8 @@ def tiles_of(dataset, tmp_path):
 
 
 def test_the_largest_mesh_force_is_compared_with_the_force_along_the_same_normal(paper_scene, tmp_path):
-    """Authority: statics: F_bn = T_2/(r_b2 cos(beta_b)); a mesh force of just that size is 1.000 times the nominal one,
-    of a helical pair too."""
+    """Statics: F_bn = T_2/(r_b2 cos(beta_b)); a mesh force of just that size is 1.000 times the nominal one, of a
+    helical pair too."""
     for scene, helix in ((paper_scene.text, 0.0), (wide_pair().text, 15.0)):
         run = made_up_run(scene=scene)
         pair = Run(run).pair
@@ -74,8 +73,8 @@ def test_the_largest_mesh_force_is_compared_with_the_force_along_the_same_normal
 
 
 def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp_path):
-    """Authority: conservation of energy: a wheel that drives does the larger work, of which shares are; what is taken
-    from it is positive."""
+    """Conservation of energy: a wheel that drives does the larger work, of which shares are; what is taken from it is
+    positive."""
     dataset = made_up_run(scene=paper_scene.text)
     work = {
         "work_input": -96.0,
@@ -104,8 +103,7 @@ def test_the_account_names_the_side_that_drives_and_keeps_signs(paper_scene, tmp
 
 @pytest.mark.parametrize("coast", [False, True])
 def test_the_drawn_gears_touch_at_the_pitch_point_and_nowhere_overlap(paper_pair, coast):
-    """Authority: at the phase that is drawn a tooth pair touches at the pitch point; rigid involutes with backlash do
-    not overlap.
+    """At the phase that is drawn a tooth pair touches at the pitch point; rigid involutes with backlash do not overlap.
     Outlines are chords of 14 points a flank, so a few thousandths of a millimetre off."""
     phase = (paper_pair.pitch_point - paper_pair.path_start) / paper_pair.base_pitch
     outlines = [gear_outline(paper_pair, gear, phase, coast) for gear in (0, 1)]
@@ -130,8 +128,7 @@ def densely(points):
 
 
 def test_pairs_of_a_long_run_have_curves_where_they_are_seen():
-    """Authority: the result's own slots: what the curves of the pairs show together is the mesh's force in the cycles
-    shown."""
+    """The result's own slots: what the curves of the pairs show together is the mesh's force in the cycles shown."""
     run = Run(made_up_run(steps=401, cycles=20.0))
     curves = run.of_pairs("pair_normal_force", "N")
     assert 4 <= len(curves) <= 7 and len({number for *_, number in curves}) == len(curves)
@@ -141,7 +138,7 @@ def test_pairs_of_a_long_run_have_curves_where_they_are_seen():
 
 
 def test_without_plotly_charts_stay_images_and_the_page_says_what_to_install(monkeypatch):
-    """Authority: the extra of pyproject.toml; with plotly there is the library and no such word."""
+    """The extra of pyproject.toml; with plotly there is the library and no such word."""
     chart = Chart("A line", [Curve("one", np.arange(2.0), np.arange(2.0))], "x", "y")
     page = Page("Report", "A title", "", [Section("charts", "Charts", [chart])])
     assert 'id="library"' in rendered(page) and "[report]" not in rendered(page)

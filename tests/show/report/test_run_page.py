@@ -40,7 +40,7 @@ def captions(page):
 
 
 def test_every_section_is_there_and_says_what_the_result_holds(report, run):
-    """Authority: issue 7's list of sections; the numbers are those of the result's file."""
+    """Issue 7's list of sections; the numbers are those of the result's file."""
     page, dataset = seen(report), results.load(run / "run.nc")
     assert list(page.sections) == SECTIONS
     micrometres = dataset.attrs["peak_to_peak_transmission_error"] * dataset.attrs["base_radius_wheel"] * 1e3
@@ -90,7 +90,7 @@ def test_every_chart_is_an_image_before_any_script_runs(report):
 
 
 def test_every_chart_is_one_that_plotly_knows(report):
-    """Authority: plotly's own Python classes, which refuse names and values that its browser library does not read."""
+    """plotly's own Python classes, which refuse names and values that its browser library does not read."""
     from plotly.graph_objects import Figure
 
     page = seen(report)
@@ -99,8 +99,7 @@ def test_every_chart_is_one_that_plotly_knows(report):
 
 
 def test_the_page_is_well_formed(report):
-    """Authority: HTML's rules: every element closed in its order, each id once, each link of the contents to a
-    section."""
+    """HTML's rules: every element closed in its order, each id once, each link of the contents to a section."""
     page = seen(report)
     assert page.faults == [] and len(page.names) == len(set(page.names))
     links = {attributes["href"] for tag, attributes in page.tags if tag == "a"}
@@ -108,8 +107,7 @@ def test_the_page_is_well_formed(report):
 
 
 def test_nothing_is_loaded_from_anywhere(report):
-    """Authority: issue 7: needs no network. Addresses that a browser fetches are all `data:`; style and script fetch
-    nothing."""
+    """Issue 7: needs no network. Addresses that a browser fetches are all `data:`; style and script fetch nothing."""
     page = seen(report)
     assert page.fetched and all(value.startswith("data:") for _, _, value in page.fetched)
     assert not re.search(r"url\(|@import", "".join(page.styles))
@@ -118,7 +116,7 @@ def test_nothing_is_loaded_from_anywhere(report):
 
 
 def test_a_scene_without_effects_has_neither_their_curves_nor_their_words(made, paper_scene):
-    """Authority: rule 9 of the house: what a scene does not name is not in its result, and so not on the page."""
+    """Rule 9 of the house: what a scene does not name is not in its result, and so not on the page."""
     bare = made(scene_text(paper_scene, without=("shafts", "bearings", "inertia", "damping", "friction")), "bare")
     assert main(["report", str(bare), "--quiet", "--no-stress"]) == 0
     page = seen(bare / "report.html")
@@ -131,7 +129,7 @@ def test_a_scene_without_effects_has_neither_their_curves_nor_their_words(made, 
 
 
 def test_titles_and_scenes_are_shown_as_they_are_written(run, tmp_path):
-    """Authority: HTML: a title is text. Neither a tag nor the end of the page's own scripts can be made of it."""
+    """HTML: a title is text. Neither a tag nor the end of the page's own scripts can be made of it."""
     nasty = "<script>alert('x')</script> </script><!-- & \"quoted\" `code` %{x} 𝄞"
     dataset = results.load(run / "run.nc")
     warned = dataset.assign_attrs(title=nasty, scene=f"# {nasty}\n" + dataset.attrs["scene"], warnings=f"first {nasty}")
@@ -144,8 +142,7 @@ def test_titles_and_scenes_are_shown_as_they_are_written(run, tmp_path):
 
 @pytest.mark.parametrize("steps", [0, 1, 8])
 def test_an_incomplete_run_says_so(run, tmp_path, steps):
-    """Authority: the attribute `complete`; of fewer than two steps there is no curve, and the rest of the page is
-    there."""
+    """The attribute `complete`; of fewer than two steps there is no curve, and the rest of the page is there."""
     whole = contact_times(results.load(run / "run.nc"))
     cut = whole.isel(time=slice(0, steps), contact_time=slice(0, steps)).assign_attrs(complete=0, stopped="interrupted")
     page = page_of(cut, tmp_path)
@@ -156,7 +153,7 @@ def test_an_incomplete_run_says_so(run, tmp_path, steps):
 
 
 def test_a_result_without_meaning_says_so_before_anything(run, tmp_path):
-    """Authority: the run's own warning; it stands above all sections."""
+    """The run's own warning; it stands above all sections."""
     page_of(results.load(run / "run.nc").assign_attrs(warnings="a word\nthe result has no meaning: jammed"), tmp_path)
     text = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "NO MEANING: the result has no meaning: jammed." in text.partition('id="summary"')[0]
@@ -240,7 +237,7 @@ def refusal(capsys, *arguments):
 
 
 def test_wrong_calls_are_refused_before_anything_is_written(run, tmp_path, capsys):
-    """Authority: exit code 2: nothing written; each message says what was given and what is allowed."""
+    """Exit code 2: nothing written; each message says what was given and what is allowed."""
     assert "no such file or directory" in refusal(capsys, tmp_path / "nowhere")
     assert "neither run.nc nor study.nc" in refusal(capsys, tmp_path)
     assert "give --output such a name" in refusal(capsys, run, "--output", tmp_path / "page.pdf")
@@ -254,8 +251,7 @@ def test_wrong_calls_are_refused_before_anything_is_written(run, tmp_path, capsy
 
 
 def test_an_installed_copy_has_the_template():
-    """Authority: setuptools takes along what package-data names; each file of a package that is no module is so
-    named."""
+    """Setuptools takes along what package-data names; each file of a package that is no module is so named."""
     wanted = tomllib.loads((CHECKOUT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"][
         "package-data"
     ]["*"]

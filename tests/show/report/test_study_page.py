@@ -41,7 +41,7 @@ def figures(page):
 
 
 def test_cases_and_curves_are_those_of_the_file(study):
-    """Authority: the study's own dataset, read by xarray alone."""
+    """The study's own dataset, read by xarray alone."""
     page = page_of(study)
     with xr.open_dataset(study / "study.nc", engine="h5netcdf") as opened:
         dataset = opened.load()
@@ -93,8 +93,7 @@ def changed(study, directory, change):
 
 
 def test_failed_and_missing_cases_are_named(study, tmp_path):
-    """Authority: `failed` and `failure` of the dataset; a case without either and without a result is not computed
-    yet."""
+    """`failed` and `failure` of the dataset; a case without either and without a result is not computed yet."""
 
     def fail(dataset):
         for name in ("peak_to_peak_transmission_error", "mean_transmission_error", "max_normal_force", "wall_time"):
@@ -155,7 +154,7 @@ def test_many_lines_become_a_map_or_a_choice(tmp_path):
 
 
 def test_damaged_and_missing_files_are_said(study, tmp_path, capsys):
-    """Authority: the digest at the file's end; nothing is written."""
+    """The digest at the file's end; nothing is written."""
     content = bytearray((study / "study.nc").read_bytes())
     content[len(content) // 2] ^= 1
     (tmp_path / "study.nc").write_bytes(content)

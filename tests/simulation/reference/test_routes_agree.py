@@ -72,16 +72,3 @@ def test_result_is_labelled_and_complete(paper_cases, both_routes):
     for name in fast.data_vars:
         assert fast[name].attrs == reference[name].attrs
         assert fast[name].dims == reference[name].dims
-
-
-def test_static_equilibrium_of_either_gear(paper_cases, both_routes, paper_scene):
-    """Exact identity, quasi-static: the wheel's reaction torque is the load's; without friction nothing acts off the
-    line of action."""
-    reference = both_routes(paper_cases["static"])[1]
-    torque = paper_scene.load.wheel_torque
-    assert reference.reaction_couple.sel(gear="wheel").values == pytest.approx(
-        np.full(reference.sizes["time"], -torque), rel=1e-8
-    )
-    frictionless = both_routes(paper_cases["static frictionless"])[1]
-    assert np.abs(frictionless.centre_y.values).max() < 1e-9
-    assert np.abs(frictionless.reaction_y.values).max() == 0.0

@@ -1,8 +1,5 @@
 """Natural frequencies and a time response of an unequal pair on a constant mesh stiffness, by this program and by
-Exudyn, side by side.
-
-    pip install exudyn                                        # into an environment of its own
-    python -m tests.benchmarks.against_exudyn PYTHON          # PYTHON: that environment's
+Exudyn: `python -m tests.evidence exudyn --python PYTHON`, PYTHON of an environment that has Exudyn.
 
 Exudyn (J. Gerstmayr, https://github.com/jgerstm/EXUDYN) is a multi-body program of the University of Innsbruck. It is
 given rigid bodies and springs only (`exudyn_pair.py`); this program its drivetrain with a mesh of one spring
@@ -13,9 +10,6 @@ Exudyn 1.13.6 gave the seven natural frequencies, 215.3 to 4818.5 Hz, the same w
 a step of the couple, both by average acceleration at 2 us, the same within 4e-8 of its swing over 10 ms.
 """
 
-from __future__ import annotations
-
-import argparse
 import json
 import subprocess
 import sys
@@ -94,32 +88,3 @@ def asked(python: str, script: str, given: dict) -> dict:
     if done.returncode:
         sys.exit(f"Exudyn failed:\n{done.stdout[-2000:]}{done.stderr[-4000:]}")
     return json.loads(done.stdout[done.stdout.index('{"version"') :])
-
-
-def by_exudyn(script: str, words: str, frequencies: np.ndarray, given: dict) -> dict:
-    """What a script of this folder finds in Exudyn; prints the frequencies of both programs."""
-    parser = argparse.ArgumentParser(description=words.splitlines()[0])
-    parser.add_argument(
-        "python", nargs="?", default=sys.executable, help="a Python that has Exudyn (default: this one)"
-    )
-    found = asked(parser.parse_args().python, script, given)
-    print(f"Exudyn {found['version']}\nmode   this program, Hz   Exudyn, Hz      difference")
-    for number, (own, other) in enumerate(zip(frequencies, found["frequencies"]), 1):
-        print(f"{number:<6} {own:<18.6f} {other:<15.6f} {own / other - 1.0:.1e}")
-    return found
-
-
-def main() -> None:
-    """Print both side by side."""
-    frequencies, rotations, given = by_this_program()
-    found = by_exudyn("exudyn_pair.py", __doc__, frequencies, given)
-    for name, own, other in zip(("pinion", "wheel"), rotations, np.array(found["rotations"])):
-        own, other = own[: len(other)], other[: len(own)]
-        print(
-            f"{name}: rotation swings by {np.ptp(own):.6e} and {np.ptp(other):.6e} rad; largest difference"
-            f" {np.abs(own - other).max() / np.ptp(other):.1e} of that"
-        )
-
-
-if __name__ == "__main__":
-    main()
