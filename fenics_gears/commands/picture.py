@@ -6,16 +6,10 @@ import argparse
 from contextlib import closing
 from pathlib import Path
 
-from fenics_gears.commands.shared import (
-    add_output_argument,
-    add_run_argument,
-    loaded_run,
-    print_files,
-    run_file,
-    shown_progress,
-)
 from fenics_gears.errors import SceneError
 from fenics_gears.system.console import printable
+
+from .shared import add_output_argument, add_run_argument, loaded_run, print_files, run_file, shown_progress
 
 PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
 

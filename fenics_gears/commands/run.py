@@ -8,7 +8,12 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from fenics_gears.commands.shared import (
+from fenics_gears.errors import ComputationError
+from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
+from fenics_gears.system.job import Job, led
+from fenics_gears.system.progress import Interruption
+
+from .shared import (
     INTERRUPTED,
     JOURNAL,
     NO_MEANING,
@@ -20,10 +25,6 @@ from fenics_gears.commands.shared import (
     plots,
     shown_progress,
 )
-from fenics_gears.errors import ComputationError
-from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
-from fenics_gears.system.job import Job, led
-from fenics_gears.system.progress import Interruption
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:

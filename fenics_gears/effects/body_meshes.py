@@ -8,13 +8,14 @@ from dataclasses import dataclass, replace
 from math import lcm
 from pathlib import Path
 
-from fenics_gears.effects.effect import Effect
 from fenics_gears.inputs.fields import file_name
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, Tree, table, value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.system import user_file
+
+from .effect import Effect
 
 # A flank of elements this much longer than those the contact asks for does not resolve it.
 COARSE = 1.5

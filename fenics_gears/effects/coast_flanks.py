@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, OF_SLICES, Effect, ResultVariable
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import Tree, value_at
+
+from .effect import OF_NODES, OF_PAIRS, OF_SLICES, Effect, ResultVariable
 
 
 @dataclass(frozen=True)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import Effect, own_or_shared
 from fenics_gears.inputs.fields import quantity
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import Tree, value_at
+
+from .effect import Effect, own_or_shared
 
 
 @dataclass(frozen=True)

@@ -5,11 +5,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
 from fenics_gears.inputs.fields import number, numbers, quantity
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, material_sections, quantity_in, table, with_gears
+
+from .effect import Effect, ResultVariable, own_or_shared
 
 RAYLEIGH, MODAL = ("stiffness_proportional", "mass_proportional"), ("ratio", "ratios")
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import lcm
 
-from fenics_gears.effects.effect import Effect
 from fenics_gears.inputs.fields import quantity
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, Tree, table
+
+from .effect import Effect
 
 
 def _angle(of: str, field: str):

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from fenics_gears.effects.flank_errors_sections import CURVES, LISTS
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.tree import GEARS, Tree, quantity_at, quantity_in, table, teeth_in
+
+from .flank_errors_sections import CURVES, LISTS
 
 # Pitches of a measuring sheet are rounded to 0.1 um: their sum is off by at most half of that for each tooth.
 PITCH_ROUNDING = 0.05e-3

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, Effect, ResultVariable
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.fields import choice, number, quantity
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section, allowed_in
 from fenics_gears.inputs.tree import Tree, quantity_at, table
 from fenics_gears.inputs.written import as_written
+
+from .effect import OF_NODES, OF_PAIRS, Effect, ResultVariable
 
 OF_A_FORMULA = ("viscosity", "roughness")
 

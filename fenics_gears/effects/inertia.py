@@ -5,11 +5,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
 from fenics_gears.inputs.fields import quantity
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, given_for, shafts_with_sections, table, value_at, with_gears
+
+from .effect import Effect, ResultVariable, own_or_shared
 
 LUMPED = ("mass", "moment_of_inertia")
 

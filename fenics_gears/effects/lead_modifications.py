@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import LINEAR, PARABOLIC, POWERS
 from fenics_gears.inputs.fields import choice, quantity
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, Tree, quantity_at, value_at
+
+from .effect import Effect
+from .relief import LINEAR, PARABOLIC, POWERS
 
 BOTH, LEFT, RIGHT = "both", "left", "right"
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
-from fenics_gears.effects.effect import ResultVariable
 from fenics_gears.inputs import units
 from fenics_gears.inputs.allowed import Measured
 from fenics_gears.inputs.fields import choice, either, number, quantity
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section, tree_of
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, with_gears
+
+from .effect import ResultVariable
 
 LINEAR, PARABOLIC = "linear", "parabolic"
 POWERS = {LINEAR: 1, PARABOLIC: 2}

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf
 
-from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.inputs.fields import quantity, whole_number
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import Tree, quantity_in, table
 from fenics_gears.inputs.written import as_written
+
+from .effect import Effect, ResultVariable
 
 
 @dataclass(frozen=True)

@@ -6,12 +6,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable
 from fenics_gears.geometry.gear_data import MATERIALS, Material
 from fenics_gears.inputs.fields import choice, number, quantity
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section, allowed_in
 from fenics_gears.inputs.tree import GEARS, Tree, material_sections, table
+
+from .effect import OF_NODES, Effect, ResultVariable
 
 CONSTANTS = ("youngs_modulus", "poissons_ratio")
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite, lcm, pi
 
-from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.inputs.fields import declared, number, quantity
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import AllowedTables, Section
 from fenics_gears.inputs.tree import Tree, dotted, load_in, quantity_in, table
+
+from .effect import Effect, ResultVariable
 
 HIGHEST_ORDER = 1e6
 MOST_HARMONICS = 1000

@@ -16,10 +16,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.flank_tolerance import FlankTolerance, flank_tolerance, helix_tolerance
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.written import as_written
+
+from .flank_tolerance import FlankTolerance, flank_tolerance, helix_tolerance
+from .gear import Gear
+from .pair import GearPair
 
 if TYPE_CHECKING:
     from fenics_gears.effects.flank_errors_sections import (

@@ -7,7 +7,7 @@ from math import cos, log10, pi, sin
 
 import numpy as np
 
-from fenics_gears.geometry.pair import GearPair
+from .pair import GearPair
 
 # ISO/TR 14179-2: below this line load (N/mm) the coefficient rises no more.
 LEAST_LINE_LOAD = 150.0

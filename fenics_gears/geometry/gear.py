@@ -9,9 +9,10 @@ from math import atan, cos, hypot, pi, sin, tan
 import numpy as np
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.gear_data import GearData, Web
-from fenics_gears.geometry.involute import inverse_involute, involute_function
-from fenics_gears.geometry.outline import crossing, fillet_point, touching_end
+
+from .gear_data import GearData, Web
+from .involute import inverse_involute, involute_function
+from .outline import crossing, fillet_point, touching_end
 
 # Lengths in modules are rounded to so many decimals: what is left of a unit or a scale factor is in the last two digits
 # of a double.

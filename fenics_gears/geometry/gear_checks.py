@@ -11,8 +11,9 @@ from typing import NoReturn
 import numpy as np
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.outline import fillet_point
+
+from .gear import Gear
+from .outline import fillet_point
 
 # Lengths (mm) below which a backlash, clearance or arc counts as exactly zero.
 ROUNDING = 1e-6

@@ -21,10 +21,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.involute import canonical_point, involute_function
+
+from .involute import canonical_point, involute_function
 
 if TYPE_CHECKING:
-    from fenics_gears.geometry.gear import Gear
+    from .gear import Gear
 
 ARC_LENGTH_SAMPLES = 401
 

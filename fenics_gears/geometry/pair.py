@@ -12,14 +12,14 @@ from functools import cached_property, lru_cache
 from math import acos, cos, exp, floor, pi, sin, sqrt, tan
 from typing import TYPE_CHECKING
 
-from fenics_gears.geometry.gear import Gear, transverse_gear
-from fenics_gears.geometry.gear_checks import check_gear
-from fenics_gears.geometry.gear_data import GearPairData
-from fenics_gears.geometry.involute import inverse_involute, involute_function
-from fenics_gears.geometry.pair_checks import check_pair
+from .gear import Gear, transverse_gear
+from .gear_checks import check_gear
+from .gear_data import GearPairData
+from .involute import inverse_involute, involute_function
+from .pair_checks import check_pair
 
 if TYPE_CHECKING:
-    from fenics_gears.geometry.helix import Helix
+    from .helix import Helix
 
 WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
 # Reach, in normal modules, from the load into a face that stands out beyond the mate: of the teeth on a thin rim, what
@@ -295,6 +295,6 @@ def _helix(data: GearPairData) -> Helix | None:
     if not data.helix_angle:
         return None
     # Imported here: spur pairs have none.
-    from fenics_gears.geometry.helix import Helix
+    from .helix import Helix
 
     return Helix(data.helix_angle, data.pinion_hand)

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.gear_checks import ROUNDING, in_degrees, refuse
-from fenics_gears.geometry.involute import involute_function
-from fenics_gears.geometry.outline import fillet_point
+from .gear import Gear
+from .gear_checks import ROUNDING, in_degrees, refuse
+from .involute import involute_function
+from .outline import fillet_point
 
 if TYPE_CHECKING:
-    from fenics_gears.geometry.pair import GearPair
+    from .pair import GearPair
 
 
 # Tip thickness in modules below which design practice calls a tooth pointed.

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.pair import GearPair
+
+from .gear import Gear
+from .pair import GearPair
 
 if TYPE_CHECKING:
     from fenics_gears.effects.relief import Relief, Reliefs

@@ -12,9 +12,9 @@ from math import atan2, pi
 
 import numpy as np
 
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.involute import canonical_point, involute_function
-from fenics_gears.geometry.outline import centreline_angle, fillet_point, fillet_tangent, tip_corner
+from .gear import Gear
+from .involute import canonical_point, involute_function
+from .outline import centreline_angle, fillet_point, fillet_tangent, tip_corner
 
 # The fillet is smooth: from 20 points on nothing but round-off changes.
 QUADRATURE_POINTS = 40

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.involute import canonical_normal, canonical_point
-from fenics_gears.geometry.outline import halved, tip_corner
+
+from .gear import Gear
+from .involute import canonical_normal, canonical_point
+from .outline import halved, tip_corner
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from math import acos, atan, cos, hypot, pi, sqrt, tan
 
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.involute import inverse_involute, involute_function
+from .gear import Gear
+from .involute import inverse_involute, involute_function
 
 
 def base_helix_angle(gear: Gear) -> float:

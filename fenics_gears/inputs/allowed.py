@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from math import inf, isfinite
 from typing import Any
 
-from fenics_gears.inputs import units
-from fenics_gears.inputs.problem import did_you_mean
-from fenics_gears.inputs.written import as_written
+from . import units
+from .problem import did_you_mean
+from .written import as_written
 
 # The longest path that Linux takes.
 LONGEST_FILE_NAME = 4096

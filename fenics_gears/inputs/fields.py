@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import field
 from typing import Any
 
-from fenics_gears.inputs import units
-from fenics_gears.inputs.allowed import (
+from . import units
+from .allowed import (
     LONGEST_FILE_NAME,
     Allowed,
     AllowedChoice,

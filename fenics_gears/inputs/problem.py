@@ -122,7 +122,7 @@ def meant(section: Iterable[str], word: str, known: Iterable[str]) -> str | None
     'depth'
     """
     # A scene without misspelt names does not load it.
-    from fenics_gears.inputs.synonyms import SYNONYMS
+    from .synonyms import SYNONYMS
 
     section, known = tuple(section), tuple(known)
     homes = [section, *([section[:-1], (*section[:-1], "pinion")] if section[-1:] in (("pinion",), ("wheel",)) else [])]

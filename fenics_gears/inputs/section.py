@@ -11,9 +11,9 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import MISSING, Field, dataclass, fields
 from typing import Any, ClassVar, get_args, get_type_hints
 
-from fenics_gears.inputs.allowed import Allowed, Refused
-from fenics_gears.inputs.problem import Path, Problem, did_you_mean
-from fenics_gears.inputs.written import as_written
+from .allowed import Allowed, Refused
+from .problem import Path, Problem, did_you_mean
+from .written import as_written
 
 
 class Section:

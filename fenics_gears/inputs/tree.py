@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from math import pi
 from typing import Any
 
-from fenics_gears.inputs import units
-from fenics_gears.inputs.problem import LISTED, Path, nearest
+from . import units
+from .problem import LISTED, Path, nearest
 
 Tree = Mapping[str, Any]
 GEARS = ("pinion", "wheel")

@@ -11,7 +11,7 @@ import math
 import re
 from collections import Counter
 
-from fenics_gears.inputs.problem import did_you_mean
+from .problem import did_you_mean
 
 # What the units of the program measure.
 # A ratio is a dimension too, so that a percentage is no bare number.

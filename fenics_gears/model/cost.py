@@ -15,9 +15,10 @@ import numpy as np
 from fenics_gears.contact.places import pairs_in_windows
 from fenics_gears.effects import effects_on
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.model.model import Model
-from fenics_gears.model.resolution import EVERY_STEP
-from fenics_gears.model.storage import fillet_points
+
+from .model import Model
+from .resolution import EVERY_STEP
+from .storage import fillet_points
 
 Number = float | np.ndarray
 
@@ -150,7 +151,7 @@ def expected_cost(model: Model, ranks: int = 1) -> ExpectedCost:
     if model.face.slices == 1:
         return _with_root_stress(model, gears, sections)
     # Imported here: plane scenes have none.
-    from fenics_gears.model.face_cost import face_cost
+    from .face_cost import face_cost
 
     return face_cost(model, sections, ranks)
 

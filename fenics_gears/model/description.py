@@ -10,12 +10,13 @@ from fenics_gears.effects.flank_errors_sections import MEAN
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.flank_deviations import v_roll_angle
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.model.cost import SECTOR_UNKNOWNS, expected_cost
-from fenics_gears.model.model import Model, model_of
-from fenics_gears.model.motion_rows import Rows, frequency_rows, inertia_rows, period_rows, speed_rows, unknown_rows
-from fenics_gears.model.plane_strain import NOTABLE as NOTABLE_STIFFNESS
-from fenics_gears.model.plane_strain import too_stiff
 from fenics_gears.scene.data import ISO_6336, Scene
+
+from .cost import SECTOR_UNKNOWNS, expected_cost
+from .model import Model, model_of
+from .motion_rows import Rows, frequency_rows, inertia_rows, period_rows, speed_rows, unknown_rows
+from .plane_strain import NOTABLE as NOTABLE_STIFFNESS
+from .plane_strain import too_stiff
 
 
 @dataclass(frozen=True)
@@ -112,7 +113,7 @@ def _face_rows(model: Model) -> Rows:
     if not scene.three_dimensional:
         return [*widths, *_plane_rows(model)]
     # Imported here: plane scenes have none.
-    from fenics_gears.model.face_resolution import face_discretisation, layers_of_common_face
+    from .face_resolution import face_discretisation, layers_of_common_face
 
     low, high = pair.common_face
     found: Rows = [

@@ -89,7 +89,7 @@ def load(path: str | Path) -> xr.Dataset:
     if "transmission_error" not in result or "scene" not in result.attrs:
         raise ComputationError(f"{path}: holds no run of this program (no transmission_error, no scene text)")
     # The contents' layout, imported here: writing a result does not need it.
-    from fenics_gears.results.layout import mistake_in
+    from .layout import mistake_in
 
     if mistake := mistake_in(result):
         raise ComputationError(f"{path}: is no whole result of this program: {mistake}. Run its scene again.")

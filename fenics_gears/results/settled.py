@@ -16,7 +16,8 @@ from fenics_gears.model.model import Model
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
-    from fenics_gears.results.dataset import RunResult
+
+    from .dataset import RunResult
 
 # The start has died down when so much is left of the slowest vibration that it has set off, in parts of what it was;
 # where the run is long enough, less

@@ -7,10 +7,11 @@ from collections.abc import Iterator, Sequence
 
 from fenics_gears.contact.step_solver import NEWTON, PUBLISHED
 from fenics_gears.model.resolution import EVERY_STEP
-from fenics_gears.results.key_numbers import HARMONIC_NAMES
-from fenics_gears.results.numbers import ESTIMATED, RUNG
-from fenics_gears.results.validity import FEWER_THAN_THE_PERIOD, NO_MEANING
 from fenics_gears.system.progress import seconds_in_words
+
+from .key_numbers import HARMONIC_NAMES
+from .numbers import ESTIMATED, RUNG
+from .validity import FEWER_THAN_THE_PERIOD, NO_MEANING
 
 MICROMETRES = 1e3
 KILO = 1e3

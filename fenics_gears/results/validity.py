@@ -12,14 +12,15 @@ from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.results.key_numbers import wedged
-from fenics_gears.results.numbers import contact_losses
-from fenics_gears.results.pressure_limits import warnings_of_pressure
 from fenics_gears.scene.data import Scene
 
+from .key_numbers import wedged
+from .numbers import contact_losses
+from .pressure_limits import warnings_of_pressure
+
 if TYPE_CHECKING:
-    from fenics_gears.results.dataset import RunResult
-    from fenics_gears.results.recorder import Recorder
+    from .dataset import RunResult
+    from .recorder import Recorder
 
 Watched = Mapping[str, np.ndarray]
 # cos(phi) is 1 within 0.1 % up to here: rotations are taken as small (paper, section 2).

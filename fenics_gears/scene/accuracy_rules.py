@@ -6,8 +6,9 @@ from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import allowed_in, names_in
 from fenics_gears.inputs.tree import Tree, load_in, material_sections, quantity_at, quantity_in, table, value_at
 from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.accuracy import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy
-from fenics_gears.scene.gear_schema import Gears
+
+from .accuracy import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy
+from .gear_schema import Gears
 
 # Smallest and largest sizes in modules: the dense compliance of a flank of finer elements has gigabytes.
 FINEST_ELEMENT, FINEST_BODY = 1e-3, 1e-2

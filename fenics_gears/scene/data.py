@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING
 from fenics_gears.geometry.gear_data import GearData as GearData
 from fenics_gears.geometry.gear_data import GearPairData, Material
 from fenics_gears.inputs.tree import wheel_torque
-from fenics_gears.scene.accuracy import ELASTIC as ELASTIC
-from fenics_gears.scene.accuracy import IN_THE_PLANE, OVER_THE_FACE, Fineness
-from fenics_gears.scene.accuracy import ISO_6336 as ISO_6336
-from fenics_gears.scene.accuracy import RIGID_TEETH as RIGID_TEETH
-from fenics_gears.scene.accuracy import STIFFNESS_TABLE as STIFFNESS_TABLE
-from fenics_gears.scene.accuracy import Accuracy as Accuracy
-from fenics_gears.scene.accuracy import Output as Output
+
+from .accuracy import ELASTIC as ELASTIC
+from .accuracy import IN_THE_PLANE, OVER_THE_FACE, Fineness
+from .accuracy import ISO_6336 as ISO_6336
+from .accuracy import RIGID_TEETH as RIGID_TEETH
+from .accuracy import STIFFNESS_TABLE as STIFFNESS_TABLE
+from .accuracy import Accuracy as Accuracy
+from .accuracy import Output as Output
 
 if TYPE_CHECKING:
     from fenics_gears.effects.bearings import Bearings
@@ -139,7 +140,7 @@ class Scene:
     def text(self) -> str:
         """The scene file that gives these data: as it was read where nothing was changed since, else written anew
         (``scene.write``)."""
-        from fenics_gears.scene.write import text_of
+        from .write import text_of
 
         return text_of(self)
 
@@ -148,7 +149,7 @@ class Scene:
 
     def _repr_html_(self) -> str:
         """The table that notebooks show."""
-        from fenics_gears.scene.write import html
+        from .write import html
 
         return html(self)
 

@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import allowed_in
 from fenics_gears.inputs.tree import GEARS, LOADS, Tree, quantity_at, table
-from fenics_gears.scene.gear_schema import MEASURES, Gear
-from fenics_gears.scene.schema import LoadText
+
+from .gear_schema import MEASURES, Gear
+from .schema import LoadText
 
 
 def _thickness_is_given_once(tree: Tree) -> Broken:

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 
 from fenics_gears.inputs.problem import Broken, Path
 from fenics_gears.inputs.tree import GEARS, Tree, dotted, material_sections, quantity_at, quantity_in, table, value_at
-from fenics_gears.scene.accuracy_rules import EVERY_STEP
+
+from .accuracy_rules import EVERY_STEP
 
 # Effects say themselves what they need.
 NOT_EFFECTS = (("gears", "helix_angle"), ("bearings", "places"))

@@ -15,12 +15,13 @@ from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.inputs.problem import Problem, did_you_mean, line_numbers, listed
 from fenics_gears.inputs.tree import written_out
 from fenics_gears.inputs.written import WrittenFloat, as_toml, as_written
-from fenics_gears.scene import data
-from fenics_gears.scene.drawing import gear_pair_data, load_data
-from fenics_gears.scene.rules import broken_rules
-from fenics_gears.scene.schema import checked_sections, without_echoes
 from fenics_gears.system import user_file
 from fenics_gears.system.console import control_character, printable
+
+from . import data
+from .drawing import gear_pair_data, load_data
+from .rules import broken_rules
+from .schema import checked_sections, without_echoes
 
 # The text of a scene that no file gives (`scene.write`).
 NO_FILE = "# No scene file gives this scene, which was made or changed in Python"

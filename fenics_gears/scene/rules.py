@@ -30,11 +30,12 @@ from fenics_gears.inputs.tree import (
     value_at,
 )
 from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.accuracy_rules import ACCURACY_RULES, EVERY_STEP
-from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
-from fenics_gears.scene.drawing_rules import DRAWING_RULES
-from fenics_gears.scene.gear_schema import Gears
-from fenics_gears.scene.schema import MotionText, scene_text
+
+from .accuracy_rules import ACCURACY_RULES, EVERY_STEP
+from .data import HUNTING_TOOTH_PERIOD
+from .drawing_rules import DRAWING_RULES
+from .gear_schema import Gears
+from .schema import MotionText, scene_text
 
 TEETH = "tooth_elasticity"
 
@@ -180,7 +181,7 @@ def _flanks_are_resolved_over_the_face(tree: Tree) -> Broken:
     """Fields of faces belong to three-dimensional scenes, which have rules of their own, and a hand to a helix."""
     if reasons := over_the_face(tree):
         # Imported here: plane scenes have none.
-        from fenics_gears.scene.face_rules import rules_over_the_face
+        from .face_rules import rules_over_the_face
 
         yield from rules_over_the_face(tree, reasons)
     else:

@@ -17,9 +17,10 @@ from fenics_gears.inputs.fields import quantity, text, whole_number
 from fenics_gears.inputs.problem import MOST_TOLD, Path, Problem, did_you_mean, meant, nearest
 from fenics_gears.inputs.section import Section, names_in, read, section_within
 from fenics_gears.inputs.tree import LOADS
-from fenics_gears.scene.accuracy import Accuracy, Output
-from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
-from fenics_gears.scene.gear_schema import Gears
+
+from .accuracy import Accuracy, Output
+from .data import HUNTING_TOOTH_PERIOD
+from .gear_schema import Gears
 
 
 @dataclass(frozen=True)

@@ -16,10 +16,11 @@ from fenics_gears.geometry.gear_data import GearData, GearPairData, Web
 from fenics_gears.inputs.section import allowed_in, field_of, section_within, tree_of
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_toml, toml_value
-from fenics_gears.scene import data, gear_schema, schema
-from fenics_gears.scene.data import Scene
-from fenics_gears.scene.read import NO_FILE, parsed, scene_from_text
-from fenics_gears.scene.schema import scene_text
+
+from . import data, gear_schema, schema
+from .data import Scene
+from .read import NO_FILE, parsed, scene_from_text
+from .schema import scene_text
 
 # What a scene is called, and where it was read; it has these data whatever they are.
 WORDS = ("title", "name", "derived", "written", "folder")

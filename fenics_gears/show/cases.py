@@ -15,7 +15,8 @@ from fenics_gears import results
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.files import read
 from fenics_gears.results.validity import NO_MEANING
-from fenics_gears.show.panels import factor
+
+from .panels import factor
 
 PRESENT, ABSENT = "present", "absent"
 # Sections whose name says nothing that their fields' names do not.

@@ -18,7 +18,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from fenics_gears.show.chart import (
+from .chart import (
     APART_LEVEL,
     APART_UPRIGHT,
     BAND,
@@ -44,7 +44,7 @@ from fenics_gears.show.chart import (
     Panel,
     Scale,
 )
-from fenics_gears.show.panels import DARK, GRID, styled, thinned, tick_labels, ticks
+from .panels import DARK, GRID, styled, thinned, tick_labels, ticks
 
 DASHES = {"solid": "-", "dash": (0, (5, 2.5)), "dot": (0, (1, 1.6))}
 STILL_POINTS = 1000  # of a curve; a still image is 900 points wide

@@ -11,9 +11,10 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.errors import ComputationError
-from fenics_gears.show.chart import WORDS, Chart, Curve
-from fenics_gears.show.motion import LEAST_LENGTH
-from fenics_gears.show.panels import DARK, digits, factor, in_unit, shades
+
+from .chart import WORDS, Chart, Curve
+from .motion import LEAST_LENGTH
+from .panels import DARK, digits, factor, in_unit, shades
 
 CYCLES, MOST_NAMED = 2.0, 20
 # Room for the loads' words right of the curves, in mesh cycles, and the least distance of two of them, in parts of the

@@ -7,11 +7,12 @@ import numpy as np
 from fenics_gears.results.face_ends import inner_face, slice_ends
 from fenics_gears.results.load_factors import at_edges, mean_line_load, passing
 from fenics_gears.results.pairs import carrying_side
-from fenics_gears.show.chart import MESH_CYCLES, TIME, Chart, Curve, Field
-from fenics_gears.show.contact_pattern import ACROSS
-from fenics_gears.show.panels import DARK, PALETTE, in_unit
-from fenics_gears.show.pressure import COLOURS
-from fenics_gears.show.run import Run
+
+from .chart import MESH_CYCLES, TIME, Chart, Curve, Field
+from .contact_pattern import ACROSS
+from .panels import DARK, PALETTE, in_unit
+from .pressure import COLOURS
+from .run import Run
 
 TITLE = "Line load (N/mm)"
 

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fenics_gears.show.chart import BAND, LEAST_SHARE, Chart, Curve, Second, of_variables, over_time, span
-from fenics_gears.show.panels import DARK, PALETTE, factor
-from fenics_gears.show.run import Run
+from .chart import BAND, LEAST_SHARE, Chart, Curve, Second, of_variables, over_time, span
+from .panels import DARK, PALETTE, factor
+from .run import Run
 
 # Smallest spans shown. Contact is solved to 1e-4 um and to 1e-6 of the transmitted force; what is smaller is no curve.
 LEAST_LENGTH, LEAST_ANGLE = 0.1, 1e-3  # um, urad

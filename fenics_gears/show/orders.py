@@ -22,10 +22,11 @@ from fenics_gears.results.spectrum import (
     origin,
     varying_mesh_force,
 )
-from fenics_gears.show.chart import BARS, Chart, Curve, Flag
-from fenics_gears.show.motion import error_values
-from fenics_gears.show.panels import GREY, PALETTE
-from fenics_gears.show.run import Run
+
+from .chart import BARS, Chart, Curve, Flag
+from .motion import error_values
+from .panels import GREY, PALETTE
+from .run import Run
 
 MESH_ORDERS, FOLLOWED_ORDERS, CYCLES_TO_FOLLOW = 10.5, 4, 8
 # Of the picture by orders of the pinion: mesh orders and decades that it shows. Contact is solved to 1e-4 um.

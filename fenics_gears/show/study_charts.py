@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.show.cases import Cases, SweptField
-from fenics_gears.show.chart import LINES, MARKED_LINES, Chart, Curve, Field
-from fenics_gears.show.panels import LOW_TO_HIGH, PALETTE
+from .cases import Cases, SweptField
+from .chart import LINES, MARKED_LINES, Chart, Curve, Field
+from .panels import LOW_TO_HIGH, PALETTE
 
 # What one plot's legend holds; dashes tell apart what has the same colour.
 MOST_LINES = 2 * len(PALETTE)

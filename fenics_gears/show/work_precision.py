@@ -11,13 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator
 
-from fenics_gears.show.effect_costs import measured_heading
-from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from fenics_gears.studies.accuracy.measures import FACE_LOAD, MEAN, SPAN, judged
 from fenics_gears.studies.accuracy.refinement import CONDENSATION, plan_of
 from fenics_gears.studies.accuracy.report import DEFAULTS, OWN, AccuracyReport, WholeResult
 from fenics_gears.studies.accuracy.table import in_one_sentence, judged_by, limits_it
 from fenics_gears.studies.machine import in_words
+
+from .effect_costs import measured_heading
+from .panels import DARK, GREY, PALETTE, styled
 
 # Measures of single numbers over the face.
 NUMBERS = {SPAN: "peak-to-peak transmission error", MEAN: "mean transmission error", FACE_LOAD: "face load factor"}

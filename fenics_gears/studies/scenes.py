@@ -14,8 +14,9 @@ from fenics_gears.inputs.problem import Problem
 from fenics_gears.inputs.written import as_toml
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.scene.read import scene_of
-from fenics_gears.studies import fields
-from fenics_gears.studies.axis import Axis, label
+
+from . import fields
+from .axis import Axis, label
 
 # Cases whose scenes and models are held, of 8 kB each.
 MOST_HELD = 1000

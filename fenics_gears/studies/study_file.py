@@ -13,10 +13,11 @@ from fenics_gears.inputs.problem import Problem, counted, did_you_mean, line_num
 from fenics_gears.inputs.written import as_written
 from fenics_gears.runs.run import Run, run_of, scene_key
 from fenics_gears.scene.read import load_scene, name_of, parsed, text_of
-from fenics_gears.studies import fields
-from fenics_gears.studies.axis import Axis, AxisError, label, unit_of, values_of
-from fenics_gears.studies.scenes import Changes, NoScene, Scenes
-from fenics_gears.studies.study import Study
+
+from . import fields
+from .axis import Axis, AxisError, label, unit_of, values_of
+from .scenes import Changes, NoScene, Scenes
+from .study import Study
 
 KEYS = ("title", "scene", "combine", "without", "set", "sweep")
 COMBINATIONS = ("product", "zip")

@@ -13,8 +13,9 @@ from typing import Any
 from fenics_gears.show.chart import Chart
 from fenics_gears.show.drawing import still
 from fenics_gears.show.panels import digits
-from fenics_gears.show.report.interactive import figure, height
-from fenics_gears.show.report.page import Beside, Block, Fold, Page
+
+from .interactive import figure, height
+from .page import Beside, Block, Fold, Page
 
 TEMPLATE, STYLE, SCRIPT = "page.html", "page.css", "page.js"
 

@@ -10,9 +10,10 @@ import xarray as xr
 from fenics_gears.errors import GearsError
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.chart import Chart
-from fenics_gears.show.report.page import Picture, Section, sentence
 from fenics_gears.show.run import NO_SCENE, Run
 from fenics_gears.simulation.stored_forces import stored_index
+
+from .page import Picture, Section, sentence
 
 HEADING = "Stress in the gears"
 

@@ -100,7 +100,7 @@ def subsets_of(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
 def _parts(whole: Subset) -> list[Subset]:
     """The whole scene without a part of an effect over the face."""
     # Imported here: few scenes have any.
-    from fenics_gears.studies.effect_costs.parts import without_parts
+    from .parts import without_parts
 
     return [Subset(LEFT_OUT, name, whole.sections, scene) for name, scene in without_parts(whole.scene)]
 
