@@ -67,7 +67,6 @@ def picture(options: argparse.Namespace) -> int:
 
 
 def _written(options, dataset, scene, index: int, output: Path | None, progress) -> list[Path]:
-    """What is asked for."""
     from fenics_gears.show.stress_animation import animate, save_series
     from fenics_gears.show.stress_grid import save_vtu
     from fenics_gears.show.stress_picture import save_picture, still
@@ -95,7 +94,6 @@ def _written(options, dataset, scene, index: int, output: Path | None, progress)
 
 
 def _loaded(file: Path):
-    """A run's result and its scene."""
     from fenics_gears.show.run import scene_of
 
     dataset = loaded_run(file)

@@ -135,7 +135,6 @@ def _study(options: argparse.Namespace, file: Path, output: Path, progress) -> l
 
 
 def _measure_effects(run, progress) -> list[Path]:
-    """Measure the effects of the run's scene, and write what `gears effects` writes beside it."""
     from fenics_gears.show.effect_costs import effect_costs
     from fenics_gears.studies.effect_costs.measured import measure
     from fenics_gears.studies.effect_costs.table import write_csv

@@ -45,7 +45,6 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _run(options: argparse.Namespace, job: Job | None) -> int:
-    """The stages of a run, on rank 0."""
     model, directory = checked_model_and_directory(options, RUN_FILE, *PICTURE_FILES, *FACE_PICTURE_FILES)
     from fenics_gears.results.journal import Place
     from fenics_gears.simulation.simulate import simulate
@@ -104,7 +103,6 @@ def _save(dataset, directory: Path, interruption: Interruption) -> Path:
 
 
 def _kept(dataset, file: Path) -> str:
-    """What an incomplete result holds."""
     steps = dataset.sizes["time"]
     return f"What was done until then is kept, marked incomplete: {file}, {steps or 'none'} of the run's steps"
 

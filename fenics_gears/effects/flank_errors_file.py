@@ -212,7 +212,6 @@ def _number(place: str, name: str, unit: str, cell: str, wanted: str) -> float:
 
 
 def _deviation(place: str, name: str, value: float) -> float:
-    """A deviation in mm."""
     if abs(value) > _LARGEST:
         raise FileProblem(
             f"{place}: {name} = {value:g} mm is no deviation of a tooth. Allowed: from -{_LARGEST:g} mm to"

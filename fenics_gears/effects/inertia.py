@@ -136,7 +136,6 @@ _MISSING = {
 
 
 def _density_stands_alone(tree: Tree) -> Broken:
-    """No section gives a density beside the mass or the moment of inertia that follow from it."""
     for path, section in with_gears(tree, "inertia").items():
         beside = [name for name in LUMPED if name in section]
         if "density" in section and beside:
@@ -148,7 +147,6 @@ def _density_stands_alone(tree: Tree) -> Broken:
 
 
 def _what_tilts_has_places(tree: Tree) -> Broken:
-    """A tilting inertia is that of a gear that tilts."""
     tilting = [gear for gear in GEARS if value_at(tree, "bearings", "places", gear) is not None]
     tilting += [GEARS[SHAFTS.index(shaft)] for shaft in shafts_with_sections(tree)]
     for path, section in with_gears(tree, "inertia").items():

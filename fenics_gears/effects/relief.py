@@ -182,7 +182,6 @@ def _incomplete(both: Tree, own: dict[str, Tree], section: str, word: str) -> Br
 
 
 def _is_diameter(written: Any) -> bool:
-    """Whether a start is written as a length."""
     try:
         return isinstance(written, str) and units.quantity(written)[1] == "a length"
     except units.QuantityError:

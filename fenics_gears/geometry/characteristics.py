@@ -16,7 +16,6 @@ def characteristics(pair: GearPair) -> list[tuple[str, float, str]]:
 
 
 def _rounded(length: float) -> float:
-    """A length (mm), zero where it is a rounding error."""
     return 0.0 if abs(length) < ROUNDING else length
 
 

@@ -181,7 +181,6 @@ def _body_angle(gear: Gear, angle, along=0.0):
 
 
 def _turned(vectors, angle):
-    """Vectors (..., 2) turned counter-clockwise by angles (...)."""
     sine, cosine = np.sin(angle), np.cos(angle)
     x, y = vectors[..., 0], vectors[..., 1]
     return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)

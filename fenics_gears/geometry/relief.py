@@ -151,7 +151,6 @@ def _start(relief: Relief, side: _Side) -> float:
 
 
 def _written_start(relief: Relief, start: float, side: _Side) -> str:
-    """Where a relief starts, in the terms of the scene."""
     end = "tip" if side.section == "tip_relief" else "form circle"
     for length, measured in (
         (relief.length_on_path, "on the path of contact"),
@@ -167,7 +166,6 @@ def _written_start(relief: Relief, start: float, side: _Side) -> str:
 
 
 def _changed(relief: Relief) -> str:
-    """The field of the scene that gives the start."""
     return (
         "length_on_path"
         if relief.length_on_path is not None

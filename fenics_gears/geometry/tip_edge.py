@@ -64,7 +64,6 @@ def tip_edge(gear: Gear, radius: float) -> TipEdge:
 
 
 def _chamfered(gear: Gear, radius: float) -> TipEdge:
-    """The edge between flank and chamfer: the arc's centre is `radius` inside the flank and inside the chamfer."""
     base, foot, end = gear.base_radius, canonical_point(gear.base_radius, gear.tip_roll_angle), tip_corner(gear)
     along = (end - foot) / np.linalg.norm(end - foot)
     outward = np.array([-along[1], along[0]])

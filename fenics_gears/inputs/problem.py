@@ -34,7 +34,7 @@ class Problem:
         return next((lines[self.path[:n]] for n in range(len(self.path), 0, -1) if self.path[:n] in lines), 0)
 
     def describe(self, source: str, lines: Mapping[Path, int]) -> str:
-        """Two lines for people: file, line, field and value; then what is wrong and what is allowed."""
+        """Two lines for people: file, line, field and value; what is wrong and what is allowed."""
         line = self.line(lines)
         place = f"{source}:{line}" if line else source
         field = ".".join(self.path).removesuffix(f".{LISTED}" if self.written == "a list" else "")

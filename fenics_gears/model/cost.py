@@ -249,7 +249,6 @@ def _sections(model: Model, gears: list[_Gear]) -> ExpectedCost:
 
 
 def _with_root_stress(model: Model, gears: list[_Gear], sections: ExpectedCost) -> ExpectedCost:
-    """The cost of a plane run with that of its root stress, where the scene asks for it."""
     if not model.scene.output.root_stress:
         return sections
     held, seconds, step = ON_FLANKS * _positions(model) * contact_rows(model), 0.0, 0.0

@@ -145,7 +145,6 @@ def _face_rows(model: Model) -> Rows:
 
 
 def _curve_rows(model: Model) -> Rows:
-    """Where measured curves are zero."""
     rows: Rows = []
     for name in GEARS if model.scene.flank_errors is not None else ():
         own, gear = getattr(model.scene.flank_errors, name), getattr(model.pair, name)
@@ -178,7 +177,6 @@ def _plane_rows(model: Model) -> Rows:
 
 
 def _amounts(data, names: tuple[str, ...]) -> list[tuple[str, float]]:
-    """Names in words and amounts of what is not zero."""
     return [(name.replace("_", " "), getattr(data, name)) for name in names if data is not None and getattr(data, name)]
 
 
@@ -226,7 +224,6 @@ def _accuracy_rows(model: Model) -> Rows:
 
 
 def _contact_fields(model: Model) -> str:
-    """Of how many steps contact fields are stored."""
     if not model.scene.resolves_contact:
         return "curves are stored for all"
     count = f"the last {model.contact_steps}" if model.contact_steps else "none"

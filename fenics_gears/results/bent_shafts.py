@@ -103,7 +103,6 @@ class BentShafts(AlongTheFace):
         return {"natural_frequencies": "\n".join(lines)}
 
     def _rolling_elements(self, counted: xr.Dataset) -> dict[str, float]:
-        """The largest force of a rolling element under the mean load; empty where no bearing has any."""
         if not self.drivetrain.on_rolling_bearings:
             return {}
         from fenics_gears.dynamics.shaft_at_work import largest_force

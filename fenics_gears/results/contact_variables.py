@@ -33,7 +33,7 @@ class Curves(Protocol):
     """Values (steps, ...) of a result by name, as arrays."""
 
     def __getitem__(self, name: str, /) -> np.ndarray:
-        """The values of a name."""
+        pass
 
     def __contains__(self, name: object, /) -> bool: ...
 

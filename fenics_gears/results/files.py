@@ -181,7 +181,6 @@ def _without_values(layout: Layout) -> bytes:
 
 
 def _made(file: h5py.File, name: str, kind: str, shape: tuple[int, ...], labels: Mapping[str, Any]) -> h5py.Dataset:
-    """The HDF5 dataset of an encoded variable, without values."""
     type_of_values = TEXT if kind == "|O" else np.dtype(kind)
     packed: dict[str, Any] = {}
     if len(shape) > 1 and (size := type_of_values.itemsize * int(np.prod(shape))) > LEAST_COMPRESSED:
@@ -195,7 +194,6 @@ def _made(file: h5py.File, name: str, kind: str, shape: tuple[int, ...], labels:
 
 
 def _fill(file: h5py.File, values: Mapping[str, np.ndarray], attributes: Mapping[str, Any]) -> None:
-    """Write the values of all variables and the attributes of the dataset."""
     _write_attributes(file, attributes)
     for name, each in values.items():
         if each.size:

@@ -98,7 +98,6 @@ def _rate(vibration: Vibration, model: Model) -> float:
 
 
 def _step_at(model: Model, time: float, steps: int) -> float:
-    """The first step at or after a time (s); infinite beyond the last where steps are not all as long."""
     if time <= 0.0 or not steps:
         return 0
     if time <= model.clock.time(steps):

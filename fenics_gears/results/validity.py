@@ -82,7 +82,6 @@ def warnings_of(recorder: Recorder, march: March, result: RunResult) -> list[str
 
 
 def _window(cycle: Cycle, watched: Watched) -> list[str]:
-    """Contact at an end of the window that is no edge of the flank: the window cuts pressure off."""
     reached = int(watched["window reached"].sum())
     if not reached:
         return []
@@ -108,7 +107,6 @@ def _rank(watched: Watched) -> list[str]:
 
 
 def _passed_through(cycle: Cycle, result: RunResult) -> list[str]:
-    """A transmission error of more than a pitch: the teeth of both gears would stand in the same place."""
     pitch = cycle.pair.wheel.angular_pitch
     largest = np.abs(result["transmission_error"]).max(initial=0.0)
     if largest <= pitch:
@@ -139,8 +137,6 @@ def _rotation(result: RunResult) -> list[str]:
 
 
 def _wedged(cycle: Cycle, result: RunResult) -> list[str]:
-    """Teeth pressed on both sides at once, since run-out, errors or deflection need more than the backlash; the load
-    does not explain these forces."""
     if not cycle.coast_flanks:
         return []
     coast, both = result["coast_normal_force"], wedged(result)
@@ -190,8 +186,6 @@ def _when(step: int, cycle: Cycle, clock: Clock) -> str:
 
 
 def _locking(cycle: Cycle, march: March) -> list[str]:
-    """Friction that turns the wheel back by more than the normal force drives it, so that forces grow beyond what the
-    load needs."""
     if not march.locked:
         return []
     return [
@@ -203,7 +197,6 @@ def _locking(cycle: Cycle, march: March) -> list[str]:
 
 
 def _uniqueness(march: March) -> list[str]:
-    """Steps at which the solution cannot be proved to be the only one."""
     if not march.uncertified:
         return []
     return [

@@ -124,7 +124,7 @@ def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Deriv
 
 
 def _shift(pair: Gears, drawn: GearText, name: str) -> tuple[float, list[Derived]]:
-    """The profile shift of the gear's thickness, and what was derived."""
+    """The profile shift of the tooth's thickness."""
     if drawn.measure is None:
         return drawn.profile_shift, []
     # Imported here as below: most drawings give profile shifts.
@@ -282,8 +282,7 @@ def _gear_data(
 
 
 def _of_rack(pair: Gears, drawn: GearText, figure: str) -> float | None:
-    """A figure of the gear's own rack, else of that of both; None where the profile of one of them stands before it, or
-    nothing."""
+    """A figure of the gear's own rack, else of both; None where a profile stands before it, or nothing."""
     for section in (drawn.rack, pair.rack):
         if section is not None and (getattr(section, figure) is not None or section.profile is not None):
             return getattr(section, figure)

@@ -13,7 +13,6 @@ from .schema import LoadText
 
 
 def _thickness_is_given_once(tree: Tree) -> Broken:
-    """Each gear has a profile shift or a measure of its thickness, and what is measured with it."""
     gears = table(tree, "gears") or {}
     for gear in GEARS:
         own = table(gears, gear)
@@ -48,7 +47,6 @@ def _backlash_has_its_place(tree: Tree) -> Broken:
 
 
 def _no_figure_is_given_twice(tree: Tree) -> Broken:
-    """What follows from a figure of the rack is not given beside it."""
     gears = table(tree, "gears") or {}
     if "tip_shortening" in gears and all("tip_diameter" in (table(gears, gear) or {}) for gear in GEARS):
         message = "stands beside the tip diameters of both gears, which say the same. Leave it out, or a tip diameter."
@@ -91,8 +89,7 @@ def _protuberance_is_more_than_the_stock(tree: Tree) -> Broken:
 
 
 def _of_rack(gears: Tree, gear: str, figure: str) -> tuple[tuple[str, ...], float] | None:
-    """Where a quantity of a gear's rack is written, in the gear's own section first, and its number; None where it is
-    not."""
+    """Where a quantity of a gear's rack is written, its own section first, and its number."""
     for path in ((gear, "rack", figure), ("rack", figure)):
         number = quantity_at(gears, *path)
         if number is not None:
@@ -101,7 +98,6 @@ def _of_rack(gears: Tree, gear: str, figure: str) -> tuple[tuple[str, ...], floa
 
 
 def _load_is_given_once(tree: Tree) -> Broken:
-    """There is a torque or a power, and a power has a steady speed."""
     load, motion = table(tree, "load"), tree.get("motion", {})
     if load is None:
         return

@@ -1,5 +1,4 @@
-"""Rules of three-dimensional scenes: what stands beside a helix angle, lead modifications, misalignment and places of
-bearings. Plane scenes do not load them."""
+"""Rules of three-dimensional scenes, which plane scenes do not load."""
 
 from __future__ import annotations
 

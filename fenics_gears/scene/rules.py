@@ -1,7 +1,6 @@
-"""Rules between the fields of a scene, beyond what each field allows by itself. Rules of one effect are in its own
-module.
+"""Rules between the fields of a scene; those of one effect are in its own module.
 
-The rules read the parsed TOML file, so that they apply even where some field is wrong; a value that they cannot read is
+They read the parsed TOML file, so that they apply even where some field is wrong; a value that they cannot read is
 reported elsewhere.
 """
 
@@ -159,8 +158,7 @@ def _contact_fields_are_of_cycles_that_run(tree: Tree) -> Broken:
 
 
 def _cycles(tree: Tree, written) -> object:
-    """Mesh cycles as a number, also of a whole hunting tooth period; what is written where that is no number of
-    cycles."""
+    """Mesh cycles as a number, also of a whole hunting tooth period; else what is written."""
     teeth = [teeth_in(tree, gear) for gear in GEARS]
     return lcm(*teeth) if written == HUNTING_TOOTH_PERIOD and None not in teeth else written
 

@@ -180,7 +180,6 @@ class Cases:
         return factor("rad", "µrad"), "µrad"
 
     def _base_radius(self, case: int) -> float | None:
-        """Of the wheel of a case, mm; None where its file is not there, damaged or without it."""
         try:
             radius = read(self.file.parent / self.texts("case_file")[case], ()).attrs.get("base_radius_wheel")
         except ComputationError:

@@ -64,7 +64,6 @@ def effect_costs(report: EffectReport) -> Figure:
 
 
 def _places(rows: tuple[Row, ...]) -> np.ndarray:
-    """Where each row stands, with room between the kinds."""
     steps = [0.0] + [1.0 if before.subset.kind == row.subset.kind else 1.5 for before, row in zip(rows, rows[1:])]
     return np.cumsum(steps)
 

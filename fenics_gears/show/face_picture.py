@@ -134,7 +134,6 @@ def _upright(pair) -> tuple[np.ndarray, np.ndarray]:
 def _rendered(
     mesh: GearsInMesh, sight: Sight, scale: float, limit: float, tiles: Sequence[PressedTiles], highest: float
 ) -> np.ndarray:
-    """The image of a panel."""
     try:
         import pyvista
     except ImportError as error:

@@ -59,7 +59,6 @@ def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "") -> Chart:
 
 
 def _unit_of(loads: xr.DataArray) -> str:
-    """Powers stay in their unit; torques are in N m."""
     return "kW" if loads.attrs.get("units") == "kW" else "N m"
 
 
@@ -84,7 +83,6 @@ def _two_cycles(phase: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.n
 
 
 def _names(curves: list[Curve]) -> list[Curve]:
-    """Each curve's load right of its end; of very many curves only some have it."""
     named = (
         [
             curves[place]

@@ -98,7 +98,6 @@ def _of_pair(run: Run, side: str, loads: np.ndarray, phase: np.ndarray, slices: 
 
 
 def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
-    """What the three load factors are read off."""
     part, total = run.last_fields, loads.sum(axis=1)
     mean = mean_line_load(part, side)
     away = np.where(at_edges(part, run.pair, side), 0.0, loads).max(axis=(0, 1))
@@ -129,7 +128,6 @@ def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
 
 
 def _correction(found) -> str:
-    """The correction that is proposed, and the face load factor with it."""
     amounts = " and ".join(
         f"{words} {found[f'proposed_{name}']:.1f} µm"
         for words, name in (("helix slope", "helix_slope"), ("crowning", "crowning"))
@@ -138,7 +136,6 @@ def _correction(found) -> str:
 
 
 def _factors(run: Run) -> str:
-    """The load factors of the settled run."""
     names = {
         "face_load_factor": "face load factor",
         "largest_line_load_factor": "largest line load over even one",

@@ -94,7 +94,6 @@ def wheels_shaft(run: Run) -> list[Chart]:
 
 
 def _shafts(run: Run) -> list[Chart]:
-    """Either gear, the output shaft's end; load and speed, where they vary."""
     caption, sides = "Displacement of the gears' centres", {"centre_x": "along", "centre_y": "off"}
     # Without friction gears that do not tilt stay on the line of action.
     if not {"friction_force", "tilt_x"} & set(run.dataset):

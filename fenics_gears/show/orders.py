@@ -114,7 +114,6 @@ def _flags(lines: OrderLines, teeth: int, known: list[tuple[float, str]], bottom
 
 
 def _by_origin(lines: OrderLines, kinds: np.ndarray, seen: np.ndarray, wide: float, narrow: float) -> list[Curve]:
-    """Bars in the colour of their source."""
     colours = {**COLOURS, BETWEEN: GREY}
     return [
         Curve(
@@ -180,7 +179,6 @@ def spectrum(run: Run, values: np.ndarray) -> Spectrum:
 
 
 def _beyond(lines: OrderLines) -> str:
-    """A sentence where the largest line is not in the chart."""
     if not len(lines.orders):
         return ""
     order = lines.orders[np.argmax(lines.amplitudes)]

@@ -88,7 +88,6 @@ def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
 
 
 def _heading(run: Run, subject: str) -> str:
-    """Subject and scene, the operating conditions, and, where it applies, that the run is incomplete."""
     more = [] if run.scene is None else [conditions(run.scene)]
     if not run.complete:
         more.append(f"INCOMPLETE RUN: stopped at mesh cycle {run.phase[-1]:.2f}")

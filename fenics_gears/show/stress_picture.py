@@ -204,7 +204,6 @@ def _triangles(points: np.ndarray, cells: np.ndarray, values: np.ndarray) -> np.
 
 
 def _in_view(points: np.ndarray, parts: np.ndarray, view: View) -> np.ndarray:
-    """Cells or sides (k, j) that reach into a view."""
     left, right, bottom, top = view.extent
     x, y = points[parts, 0], points[parts, 1]
     return parts[(x.max(axis=1) > left) & (x.min(axis=1) < right) & (y.max(axis=1) > bottom) & (y.min(axis=1) < top)]

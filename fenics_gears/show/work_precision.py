@@ -76,7 +76,6 @@ def _whole(axes: Axes, report: AccuracyReport) -> None:
 
 
 def _labels(axes: Axes, front: tuple[WholeResult, ...]) -> None:
-    """Numbers at the points, and what they are in the corner that a falling front leaves free."""
     lines = []
     for number, each in enumerate(front, 1):
         axes.annotate(
@@ -96,7 +95,6 @@ def _labels(axes: Axes, front: tuple[WholeResult, ...]) -> None:
 
 
 def _numbers(axes: Axes, report: AccuracyReport) -> None:
-    """Errors of single numbers of the whole settings, the quickest first; the scene's own and targets' are marks."""
     front = report.front
     for place, name in enumerate(name for name in NUMBERS if name in report.uncertainty):
         look = {"color": PALETTE[place], "markersize": 5.5}
@@ -114,7 +112,6 @@ def _numbers(axes: Axes, report: AccuracyReport) -> None:
 
 
 def _over_time(results: Iterable[WholeResult], name: str) -> tuple[list[float], list[float]]:
-    """Times and errors in a measure."""
     return [each.times.total for each in results], [max(each.errors[name], LEAST_SHOWN) for each in results]
 
 
@@ -149,7 +146,6 @@ def _alone(axes: Axes, report: AccuracyReport) -> None:
 
 
 def _columns(report: AccuracyReport) -> int:
-    """Of either legend."""
     return plan_of(report.scene).columns
 
 

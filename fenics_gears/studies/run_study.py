@@ -98,7 +98,6 @@ def _opening(study: Study, kept: int, missing: int, changed: str, size: int) -> 
 
 
 def _compute(runs: Runs, missing: list[Run], progress: Interruption) -> None:
-    """Run every missing case."""
     if not missing:
         return
     progress.stage("cases")

@@ -91,7 +91,6 @@ def study_of(
 
 
 def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:
-    """The study file's own keys."""
     for key, value in tree.items():
         if key not in KEYS:
             hint = did_you_mean(key, KEYS)
@@ -195,7 +194,6 @@ def _shown(value: Any) -> str:
 
 
 def _axes(swept: list[tuple[fields.Path, tuple[Any, ...]]]) -> tuple[Axis, ...]:
-    """The axes, each named by the last part of its path where that is unique."""
     last = [path[-1] for path, _ in swept]
     return tuple(
         Axis(
@@ -257,7 +255,6 @@ def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: 
 
 
 def _cases(scenes: Scenes, changes: Changes, mistakes: Mistakes) -> tuple[Run, ...]:
-    """All cases, validated; a mistake that many cases share is reported once."""
     cases: list[Run] = []
     by_key: dict[str, Run] = {}
     wrong: dict[tuple, list[str]] = {}

@@ -63,7 +63,6 @@ def _measured(run: Run) -> list[Block]:
 
 
 def _same_scene(run: Run, whole: dict[str, str]) -> bool:
-    """Whether the line of all effects is of this run's, with its transmission error."""
     answer = run.dataset.attrs.get("peak_to_peak_transmission_error", math.nan) * run.micrometres
     measured = float(whole["transmission_error_peak_to_peak_mm"]) * MILLI
     same = not run.complete or math.isclose(measured, answer, rel_tol=SAME_ANSWER, abs_tol=1e-4)

@@ -38,7 +38,6 @@ def geometry(run: Run) -> Section:
 
 
 def _both(run: Run, rows: list[tuple[str, float, str]]) -> Table:
-    """A row for each number that either gear has, one column a gear."""
     given = run.scene.gears
     names = {
         "teeth": "",

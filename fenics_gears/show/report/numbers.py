@@ -36,7 +36,6 @@ def numbers(run: Run) -> Section:
 
 
 def _round_off(name: str, attributes) -> bool:
-    """Whether a force that varies by nothing is all that a number says."""
     return name == "rms_normal_force" and attributes[name] < 1e-9 * attributes.get("largest_pair_force", 0.0)
 
 

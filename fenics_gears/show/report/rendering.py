@@ -64,7 +64,6 @@ def _own_file(name: str) -> str:
 
 
 def _figure(chart: Chart):
-    """A chart as JSON of a plotly figure that may stand in a script element."""
     from jinja2.utils import htmlsafe_json_dumps
 
     return htmlsafe_json_dumps(figure(chart), separators=(",", ":"))
@@ -84,7 +83,6 @@ def _with_code(text: str):
 
 
 def _number(value: Any) -> str:
-    """A value for people."""
     return _micro(str(value)) if isinstance(value, (str, int)) else digits(float(value))
 
 

@@ -53,7 +53,6 @@ def solver(run: Run) -> Section:
 
 
 def _extent(run: Run) -> list[tuple[str, str, str]]:
-    """The steps that are stored; seconds where the scene has a speed."""
     if not run.steps:
         return []
     timed = run.scene is None or run.scene.motion.speed_given

@@ -36,7 +36,6 @@ def stress(run: Run) -> Section:
 
 
 def _why_not(run: Run) -> tuple[str, bool] | None:
-    """Why there is no picture, and whether that is a warning; None where there is one."""
     if not run.stress:
         return "Left out by the option `--no-stress`.", False
     if run.scene is None or not run.steps:
@@ -57,7 +56,6 @@ def _most_loaded(dataset: xr.Dataset) -> int:
 
 
 def _drawn(run: Run, index: int) -> tuple[bytes, str, list[Chart]]:
-    """The picture, what it shows, and the charts that go with it."""
     from fenics_gears.show.stress_picture import charts_of, save_picture, still
     from fenics_gears.simulation.run_stresses import RunStresses
 

@@ -133,7 +133,6 @@ def _results(cases: Cases) -> Section:
 
 
 def _standing_out(cases: Cases) -> Section:
-    """Transmission error of the cases with the least, the middle and the largest values, and their files."""
     heading, scale, unit = "Cases that stand out", *cases.error_scale
     chosen = [
         (case, why, run)

@@ -98,7 +98,6 @@ def subsets_of(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
 
 
 def _parts(whole: Subset) -> list[Subset]:
-    """The whole scene without a part of an effect over the face."""
     # Imported here: few scenes have any.
     from .parts import without_parts
 
@@ -106,7 +105,6 @@ def _parts(whole: Subset) -> list[Subset]:
 
 
 def _beside(kind: str, name: str, sections: Sections, left: Sections) -> tuple[str, ...]:
-    """The effects that were added or left out with an effect."""
     return tuple(in_order({ALONE: sections - {BASE, name}, LEFT_OUT: left - {name}}.get(kind, ())))
 
 
