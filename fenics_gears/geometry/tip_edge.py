@@ -15,11 +15,11 @@ from .outline import halved, tip_corner
 
 @dataclass(frozen=True)
 class TipEdge:
-    """An arc of `radius` (mm) tangent to the involute and to the tip circle, or its chamfer; radius 0 is the sharp edge
-    where the two meet.
+    """An arc of `radius` (mm) tangent to the involute and to the tip circle, or its chamfer; radius 0 is the sharp
+    edge.
 
-    `centre` (2,), mm, of the arc; `flank_roll` (rad): where the arc leaves the involute; `flank_normal` and
-    `tip_normal` (2,): outward unit normals at its two ends, on the flank and on the tip circle or chamfer.
+    `centre` (2,), mm; `flank_roll` (rad): where the arc leaves the involute; `flank_normal` and `tip_normal` (2,):
+    outward unit normals at its ends.
     """
 
     radius: float

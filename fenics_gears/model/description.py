@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import log
+
+import numpy as np
 
 from fenics_gears.dynamics.guidance import NOTABLE, effect_of_inertia
 from fenics_gears.effects import Effect, every_effect, result_variables
 from fenics_gears.effects.flank_errors_sections import MEAN
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.flank_deviations import v_roll_angle
+from fenics_gears.geometry.gear_data import Material
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import ISO_6336, Scene
 
 from .cost import SECTOR_UNKNOWNS, expected_cost
 from .model import Model, model_of
 from .motion_rows import Rows, frequency_rows, inertia_rows, period_rows, speed_rows, unknown_rows
-from .plane_strain import NOTABLE as NOTABLE_STIFFNESS
-from .plane_strain import too_stiff
 
 
 @dataclass(frozen=True)
@@ -174,6 +177,20 @@ def _plane_rows(model: Model) -> Rows:
         words = f"too stiff (mean transmission error) for a face of {modules:.3g} modules; {way_out}"
         found.append(("plane strain", f"about {softer:.1f}%", words))
     return found
+
+
+# By how many per cent the mean transmission error in three dimensions is larger, over the face width in modules:
+# docs/third_dimension.md, plane limits, of steel; from how many on it is told.
+SOFTER = {0.5: 6.03, 1.0: 5.68, 2.0: 4.97, 4.0: 3.87, 8.0: 2.67, 15.0: 1.75, 30.0: 0.95, 60.0: 0.45}
+STEEL, NOTABLE_STIFFNESS = 0.3, 2.0
+
+
+def too_stiff(widths: float, materials: Sequence[Material]) -> float:
+    """Per cent by which the transmission error of a spur pair in plane strain is too small; `widths`: its common face
+    width in modules. Its ends are nearer to plane stress, which differs by nu^2.
+    """
+    squares = sum(each.poissons_ratio**2 for each in materials) / len(materials)
+    return float(np.interp(log(widths), np.log(list(SOFTER)), list(SOFTER.values()))) * squares / STEEL**2
 
 
 def _amounts(data, names: tuple[str, ...]) -> list[tuple[str, float]]:

@@ -39,10 +39,19 @@ class Progress(Protocol):
         """End the last stage."""
 
 
-class SilentProgress(Progress):
+class SilentProgress:
     """Reports nothing and measures nothing."""
 
     finished: Finished = []
+
+    def stage(self, name: str) -> None:
+        pass
+
+    def update(self, done: int, total: int, note: str = "") -> None:
+        pass
+
+    def close(self) -> None:
+        pass
 
 
 class LineProgress:
