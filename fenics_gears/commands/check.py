@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from fenics_gears.commands.shared import add_memory_argument, add_scene_argument, checked_model
 from fenics_gears.errors import ComputationError
 from fenics_gears.system.memory import allowed_memory
+
+from .shared import add_memory_argument, add_scene_argument, checked_model
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:

@@ -17,13 +17,14 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
 from fenics_gears import __version__
-from fenics_gears.commands import found
-from fenics_gears.commands.shared import INTERRUPTED, NOBODY_READS
 from fenics_gears.errors import GearsError
 from fenics_gears.system import environment
 from fenics_gears.system.console import prepare_streams, printable
 from fenics_gears.system.memory import MEMORY_VARIABLE
 from fenics_gears.system.output import check_working_folder
+
+from . import found
+from .shared import INTERRUPTED, NOBODY_READS
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -69,9 +70,9 @@ def _carried_out(arguments: Sequence[str]) -> int:
         before, rest = arguments[: arguments.index(called) + 1], arguments[arguments.index(called) + 1 :]
         _parser().parse_args(before)
         if called == "test":
-            from fenics_gears.commands.test import run_tests as carry_out
+            from .test import run_tests as carry_out
         else:
-            from fenics_gears.commands.python import run_python as carry_out
+            from .python import run_python as carry_out
         return carry_out(rest)
     options = _parser(called).parse_args(arguments)
     _configure_logging(options.verbose)

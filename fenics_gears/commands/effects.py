@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import argparse
 
-from fenics_gears.commands.measuring import measured, print_origin, scene_to_measure, write_report
-from fenics_gears.commands.shared import add_memory_argument, add_output_argument, add_scene_argument
+from .measuring import measured, print_origin, scene_to_measure, write_report
+from .shared import add_memory_argument, add_output_argument, add_scene_argument
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:

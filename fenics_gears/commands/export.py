@@ -4,14 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from fenics_gears.commands.shared import (
-    add_output_argument,
-    add_run_argument,
-    file_to_write,
-    loaded_run,
-    print_files,
-    run_file,
-)
+from .shared import add_output_argument, add_run_argument, file_to_write, loaded_run, print_files, run_file
 
 CURVES_FILE = "curves.csv"
 

@@ -6,9 +6,10 @@ from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 
-from fenics_gears.commands.shared import checked_model_and_directory, shown_progress
 from fenics_gears.errors import SceneError
 from fenics_gears.system.job import communicator
+
+from .shared import checked_model_and_directory, shown_progress
 
 
 def scene_to_measure(options, command: str):

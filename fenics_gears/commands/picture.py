@@ -6,16 +6,10 @@ import argparse
 from contextlib import closing
 from pathlib import Path
 
-from fenics_gears.commands.shared import (
-    add_output_argument,
-    add_run_argument,
-    loaded_run,
-    print_files,
-    run_file,
-    shown_progress,
-)
 from fenics_gears.errors import SceneError
 from fenics_gears.system.console import printable
+
+from .shared import add_output_argument, add_run_argument, loaded_run, print_files, run_file, shown_progress
 
 PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
 
@@ -73,7 +67,6 @@ def picture(options: argparse.Namespace) -> int:
 
 
 def _written(options, dataset, scene, index: int, output: Path | None, progress) -> list[Path]:
-    """What is asked for."""
     from fenics_gears.show.stress_animation import animate, save_series
     from fenics_gears.show.stress_grid import save_vtu
     from fenics_gears.show.stress_picture import save_picture, still
@@ -101,7 +94,6 @@ def _written(options, dataset, scene, index: int, output: Path | None, progress)
 
 
 def _loaded(file: Path):
-    """A run's result and its scene."""
     from fenics_gears.show.run import scene_of
 
     dataset = loaded_run(file)

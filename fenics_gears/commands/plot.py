@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import argparse
 
-from fenics_gears.commands.shared import add_output_argument, add_run_argument, loaded_run, plots, print_files, run_file
 from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
+
+from .shared import add_output_argument, add_run_argument, loaded_run, plots, print_files, run_file
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:

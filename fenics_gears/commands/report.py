@@ -7,7 +7,9 @@ from contextlib import closing
 from os.path import exists, isdir
 from pathlib import Path
 
-from fenics_gears.commands.shared import (
+from fenics_gears.errors import SceneError
+
+from .shared import (
     CASES,
     JOURNAL,
     RUN_FILE,
@@ -18,7 +20,6 @@ from fenics_gears.commands.shared import (
     run_or_journal,
     shown_progress,
 )
-from fenics_gears.errors import SceneError
 
 REPORT_FILE = "report.html"
 ENDINGS = (".html", ".htm")
@@ -134,12 +135,12 @@ def _study(options: argparse.Namespace, file: Path, output: Path, progress) -> l
 
 
 def _measure_effects(run, progress) -> list[Path]:
-    """Measure the effects of the run's scene, and write what `gears effects` writes beside it."""
-    from fenics_gears.commands.measuring import write_report
     from fenics_gears.show.effect_costs import effect_costs
     from fenics_gears.studies.effect_costs.measured import measure
     from fenics_gears.studies.effect_costs.table import write_csv
     from fenics_gears.system.job import communicator
+
+    from .measuring import write_report
 
     if run.scene is None:
         raise SceneError(

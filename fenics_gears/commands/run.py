@@ -8,7 +8,12 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from fenics_gears.commands.shared import (
+from fenics_gears.errors import ComputationError
+from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
+from fenics_gears.system.job import Job, led
+from fenics_gears.system.progress import Interruption
+
+from .shared import (
     INTERRUPTED,
     JOURNAL,
     NO_MEANING,
@@ -20,10 +25,6 @@ from fenics_gears.commands.shared import (
     plots,
     shown_progress,
 )
-from fenics_gears.errors import ComputationError
-from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
-from fenics_gears.system.job import Job, led
-from fenics_gears.system.progress import Interruption
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
@@ -44,7 +45,6 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _run(options: argparse.Namespace, job: Job | None) -> int:
-    """The stages of a run, on rank 0."""
     model, directory = checked_model_and_directory(options, RUN_FILE, *PICTURE_FILES, *FACE_PICTURE_FILES)
     from fenics_gears.results.journal import Place
     from fenics_gears.simulation.simulate import simulate
@@ -103,7 +103,6 @@ def _save(dataset, directory: Path, interruption: Interruption) -> Path:
 
 
 def _kept(dataset, file: Path) -> str:
-    """What an incomplete result holds."""
     steps = dataset.sizes["time"]
     return f"What was done until then is kept, marked incomplete: {file}, {steps or 'none'} of the run's steps"
 

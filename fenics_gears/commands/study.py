@@ -6,7 +6,9 @@ import argparse
 import sys
 from pathlib import Path
 
-from fenics_gears.commands.shared import (
+from fenics_gears.errors import ComputationError
+
+from .shared import (
     INTERRUPTED,
     add_memory_argument,
     add_output_argument,
@@ -15,7 +17,6 @@ from fenics_gears.commands.shared import (
     shown_progress,
     under_mpirun,
 )
-from fenics_gears.errors import ComputationError
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:

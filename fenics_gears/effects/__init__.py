@@ -14,7 +14,7 @@ from importlib import import_module
 from math import inf, lcm
 from typing import Any
 
-from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, OF_POINTS, OF_SLICES, Effect, ResultVariable
+from .effect import OF_NODES, OF_PAIRS, OF_POINTS, OF_SLICES, Effect, ResultVariable
 
 # Effects by their sections, which are their modules' names: those at the top of a scene, and all.
 AT_THE_TOP = (

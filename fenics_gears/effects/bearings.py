@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
 from fenics_gears.effects.rolling_bearings import RollingBearing
 from fenics_gears.inputs.allowed import AllowedMatrix, Matrix
 from fenics_gears.inputs.fields import declared, quantities, quantity
-from fenics_gears.inputs.problem import LISTED, Problem
+from fenics_gears.inputs.problem import LISTED, Broken
 from fenics_gears.inputs.section import AllowedTables, Section, names_in
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, quantity_at, quantity_in, shafts_with_sections, table
-from fenics_gears.inputs.written import as_written
 
 DIRECTIONS = ("x", "y")
 STIFFNESSES = ("stiffness", "stiffness_x", "stiffness_y")
@@ -180,7 +178,7 @@ class Bearings(Stiffnesses):
         return getattr(self.places, gear, None)
 
 
-def supports_are_complete(tree: Tree) -> Iterator[Problem]:
+def supports_are_complete(tree: Tree) -> Broken:
     """Either shaft has a stiffness in either direction."""
     both = table(tree, "bearings")
     if both is None:
@@ -202,23 +200,18 @@ def supports_are_complete(tree: Tree) -> Iterator[Problem]:
     ]
     example = 'Allowed: such as "0.155e6 N/mm"'
     if len(missing) == 4:
-        yield Problem(
-            ("bearings", "stiffness"),
-            None,
-            f"is missing. {example}, or stiffness_x and stiffness_y, along and off the line of action.",
-        )
+        message = f"is missing. {example}, or stiffness_x and stiffness_y, along and off the line of action."
+        yield ("bearings", "stiffness"), message
     elif missing:
         gears = {gear for gear, _ in missing}
         for direction in sorted({direction for _, direction in missing}):
             path = ("bearings",) if len(gears) == 2 else ("bearings", *gears)
-            yield Problem(
-                (*path, f"stiffness_{direction}"), None, f"is missing. {example}, or stiffness for both directions."
-            )
+            yield (*path, f"stiffness_{direction}"), f"is missing. {example}, or stiffness for both directions."
     yield from _bearings_stand_apart(tree, both)
     yield from _axial_stiffness_has_places(both)
 
 
-def _bearings_stand_apart(tree: Tree, both: Tree) -> Iterator[Problem]:
+def _bearings_stand_apart(tree: Tree, both: Tree) -> Broken:
     """The two bearings of a shaft are not on one spot."""
     places = table(both, "places")
     if places is None:
@@ -232,10 +225,10 @@ def _bearings_stand_apart(tree: Tree, both: Tree) -> Iterator[Problem]:
                 "has both bearings on one spot, where nothing holds the shaft's tilt. Allowed: places at least"
                 f" {LEAST_SPAN * module:g} mm apart, a tenth of the module."
             )
-            yield Problem(("bearings", "places", gear), as_written(written), message)
+            yield ("bearings", "places", gear), message
 
 
-def _axial_stiffness_has_places(both: Tree) -> Iterator[Problem]:
+def _axial_stiffness_has_places(both: Tree) -> Broken:
     """An axial stiffness is that of a shaft that can move: one whose bearings have places."""
     places = table(both, "places") or {}
     for path, section, gears in [((), both, GEARS), *(((gear,), table(both, gear) or {}, (gear,)) for gear in GEARS)]:
@@ -244,7 +237,7 @@ def _axial_stiffness_has_places(both: Tree) -> Iterator[Problem]:
             message = (
                 f"has no effect: a shaft whose bearings have no places is held axially. Leave it out, or give {names}."
             )
-            yield Problem(("bearings", *path, "axial_stiffness"), as_written(section["axial_stiffness"]), message)
+            yield ("bearings", *path, "axial_stiffness"), message
 
 
 def warnings(bearings: Bearings, model) -> list[str]:

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import hashlib
 import os
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import lcm
 from pathlib import Path
 
-from fenics_gears.effects.effect import Effect
 from fenics_gears.inputs.fields import file_name
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, Tree, table, value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.system import user_file
+
+from .effect import Effect
 
 # A flank of elements this much longer than those the contact asks for does not resolve it.
 COARSE = 1.5
@@ -68,33 +68,27 @@ def files(meshes: BodyMeshes) -> dict[str, str]:
     return {each.path: each.digest for each in (meshes.pinion, meshes.wheel) if each is not None}
 
 
-def meshes_are_given_and_used(tree: Tree) -> Iterator[Problem]:
+def meshes_are_given_and_used(tree: Tree) -> Broken:
     """A section names a file; only the elastic model, condensed once, can have teeth that are not alike."""
     section = table(tree, "body_meshes")
     if section is None:
         return
     for gear in GEARS:
         if gear in section and value_at(tree, "gears", gear, "web") is not None:
-            yield Problem(
-                ("gears", gear, "web"),
-                "",
-                f"cannot stand beside body_meshes.{gear}, which says where the body is. Leave one of the two out.",
-            )
+            message = f"cannot stand beside body_meshes.{gear}, which says where the body is. Leave one of the two out."
+            yield ("gears", gear, "web"), message
     accuracy = table(tree, "accuracy") or {}
     for name, allowed in (("model", "elastic"), ("condensation", "once")):
         written = accuracy.get(name, allowed)
         if written != allowed and isinstance(written, str):
-            yield Problem(
-                ("accuracy", name),
-                as_written(written),
-                f'cannot stand beside [body_meshes]. Take "{allowed}", or leave one of the two out.',
-            )
+            message = f'cannot stand beside [body_meshes]. Take "{allowed}", or leave one of the two out.'
+            yield ("accuracy", name), message
     if "elastic_teeth" in accuracy:
         message = "cannot stand beside [body_meshes], where all teeth feel each other. Leave one of the two out."
-        yield Problem(("accuracy", "elastic_teeth"), as_written(accuracy["elastic_teeth"]), message)
+        yield ("accuracy", "elastic_teeth"), message
     if value_at(tree, "output", "root_stress") is True:
         message = "knows equal teeth only and cannot stand beside [body_meshes]. Leave one of the two out."
-        yield Problem(("output", "root_stress"), "true", message)
+        yield ("output", "root_stress"), message
 
 
 def check(meshes: BodyMeshes, scene, pair) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, OF_SLICES, Effect, ResultVariable
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import Tree, value_at
+
+from .effect import OF_NODES, OF_PAIRS, OF_SLICES, Effect, ResultVariable
 
 
 @dataclass(frozen=True)
@@ -16,11 +16,11 @@ class CoastFlanks(Section):
     """``[coast_flanks]``: this section has no fields."""
 
 
-def flanks_are_there(tree: Tree) -> Iterator[Problem]:
+def flanks_are_there(tree: Tree) -> Broken:
     """Remeshing at every step does not have the coast flanks."""
     if value_at(tree, "accuracy", "condensation") == "every step" and "coast_flanks" in tree:
         message = 'has no contact on the coast flanks. Take "once", or leave the section [coast_flanks] out.'
-        yield Problem(("accuracy", "condensation"), '"every step"', message)
+        yield ("accuracy", "condensation"), message
 
 
 EFFECT = Effect(

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import Effect, own_or_shared
 from fenics_gears.inputs.fields import quantity
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import Tree, value_at
+
+from .effect import Effect, own_or_shared
 
 
 @dataclass(frozen=True)
@@ -39,13 +39,13 @@ class CornerContact(Edge):
         return next(radii), next(radii)
 
 
-def route_has_corners(tree: Tree) -> Iterator[Problem]:
+def route_has_corners(tree: Tree) -> Broken:
     """Remeshing at every step has no nodes beside the path of contact."""
     if "corner_contact" in tree and value_at(tree, "accuracy", "condensation") == "every step":
         message = (
             'has no contact of tips off the line of action. Take "once", or leave the section [corner_contact] out.'
         )
-        yield Problem(("accuracy", "condensation"), '"every step"', message)
+        yield ("accuracy", "condensation"), message
 
 
 EFFECT = Effect(

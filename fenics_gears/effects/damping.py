@@ -3,15 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
 from fenics_gears.inputs.fields import number, numbers, quantity
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, material_sections, quantity_in, table, with_gears
-from fenics_gears.inputs.written import as_written
+
+from .effect import Effect, ResultVariable, own_or_shared
 
 RAYLEIGH, MODAL = ("stiffness_proportional", "mass_proportional"), ("ratio", "ratios")
 
@@ -82,7 +81,7 @@ class Damping(Rayleigh):
         return alpha, beta
 
 
-def damping_acts(tree: Tree) -> Iterator[Problem]:
+def damping_acts(tree: Tree) -> Broken:
     """Damping is given in one way and whole, is not zero, and not proportional to a stiffness that is not there."""
     damping = table(tree, "damping")
     if damping is None:
@@ -91,20 +90,17 @@ def damping_acts(tree: Tree) -> Iterator[Problem]:
     if modal:
         for name in rayleigh:
             message = f"stands beside {modal[0]}; allowed is one of the two. Leave one out."
-            yield Problem(("damping", name), as_written(damping[name]) or "", message)
+            yield ("damping", name), message
         ratios = damping.get("ratios")
         if isinstance(ratios, list) and ratios and not any(ratios):
-            yield Problem(
-                ("damping", "ratios"),
-                as_written(ratios),
-                "damps nothing: all are zero. For an undamped pair, leave the section [damping] out.",
-            )
+            message = "damps nothing: all are zero. For an undamped pair, leave the section [damping] out."
+            yield ("damping", "ratios"), message
         if not (material_sections(tree) or {"shafts", "bearings"} & set(tree)):
             message = (
                 "damps nothing: between rigid flanks nothing vibrates without [shafts] or [bearings]. Add one of them,"
                 " or [gears.material]."
             )
-            yield Problem(("damping", modal[0]), as_written(damping[modal[0]]), message)
+            yield ("damping", modal[0]), message
         return
     yield from _rayleigh_is_complete(damping)
     yield from _rayleigh_acts(tree)
@@ -113,16 +109,16 @@ def damping_acts(tree: Tree) -> Iterator[Problem]:
 _MISSING = {"stiffness_proportional": "0.4e-3 s", "mass_proportional": "0.5e-3 1/s"}
 
 
-def _rayleigh_is_complete(damping: Tree) -> Iterator[Problem]:
+def _rayleigh_is_complete(damping: Tree) -> Broken:
     for name, example in _MISSING.items():
         gears = [gear for gear in GEARS if name not in given_for(damping, gear)]
         if gears:
             path = ("damping", name) if len(gears) == 2 else ("damping", *gears, name)
             other = "ratio = 0.05 alone, of every mode" if len(gears) == 2 else f"{name} of [damping] for both gears"
-            yield Problem(path, None, f'is missing. Allowed: such as "{example}"; or {other}.')
+            yield path, f'is missing. Allowed: such as "{example}"; or {other}.'
 
 
-def _rayleigh_acts(tree: Tree) -> Iterator[Problem]:
+def _rayleigh_acts(tree: Tree) -> Broken:
     sections = with_gears(tree, "damping")
     values = {
         name: {path: quantity_in(section[name]) for path, section in sections.items() if name in section}
@@ -133,19 +129,15 @@ def _rayleigh_acts(tree: Tree) -> Iterator[Problem]:
     if any(value != 0 for value in of_mass.values()) or not of_stiffness or None in of_stiffness.values():
         return
     if not any(of_stiffness.values()):
-        yield Problem(
-            ("damping",),
-            "",
-            "damps nothing: both values are zero. For an undamped pair, leave the section [damping] out.",
-        )
+        message = "damps nothing: both values are zero. For an undamped pair, leave the section [damping] out."
+        yield ("damping",), message
     elif "shafts" not in tree and "bearings" not in tree:
         message = (
             "damps nothing: there is no stiffness without [shafts] or [bearings]. Add one of them, or allow a"
             " mass_proportional value above 0."
         )
         path = next(path for path, value in of_stiffness.items() if value)
-        section = sections[path]
-        yield Problem((*path, "stiffness_proportional"), as_written(section["stiffness_proportional"]), message)
+        yield (*path, "stiffness_proportional"), message
 
 
 EFFECT = Effect(

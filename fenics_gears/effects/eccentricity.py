@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from math import lcm
 
-from fenics_gears.effects.effect import Effect
 from fenics_gears.inputs.fields import quantity
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, Tree, table
+
+from .effect import Effect
 
 
 def _angle(of: str, field: str):
@@ -68,13 +68,13 @@ class Eccentricity(Section):
     wheel: Offset | None = None
 
 
-def offsets_are_given(tree: Tree) -> Iterator[Problem]:
+def offsets_are_given(tree: Tree) -> Broken:
     """The section of a gear says what the gear does not run true by."""
     for gear in GEARS:
         own = table(table(tree, "eccentricity") or {}, gear)
         if own is not None and not {"distance", "wobble"} & set(own):
             message = 'is missing. Allowed: such as "10 um"; or a wobble in a three-dimensional scene.'
-            yield Problem(("eccentricity", gear, "distance"), None, message)
+            yield ("eccentricity", gear, "distance"), message
 
 
 def gaps(eccentricity: Eccentricity, model):

@@ -7,12 +7,12 @@ effect; it imports the effect's physics inside the function, so that a scene wit
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section, tree_of
 
 # Over the tooth pairs that can touch at once, and over the contact nodes of each at the steps whose contact fields are
@@ -46,7 +46,7 @@ class Effect:
     ``needs`` and ``excludes`` are section names; ``absent`` says what the model is without the effect; ``unknowns``,
     ``terms`` and ``variables`` say what it adds. ``fields`` declares the section and is its data; where the data are
     something else, ``read`` makes them of the section, and ``write`` a section (a dictionary) of them. ``rules`` finds
-    what is wrong between fields.
+    what is wrong between fields: each place, and what to do about it.
     ``within``: the section's path where a scene does not have it at the top; the scene's attribute is ``section`` all
     the same.
 
@@ -81,7 +81,7 @@ class Effect:
     within: tuple[str, ...] = ()
     read: Callable[[Any], Any] | None = None
     write: Callable[[Any], dict[str, Any]] | None = None
-    rules: Callable[[Mapping[str, Any]], Iterator[Problem]] | None = None
+    rules: Callable[[Mapping[str, Any]], Broken] | None = None
     removal: Callable | None = None
     gaps: Callable | None = None
     load: Callable | None = None

@@ -15,10 +15,9 @@ from fenics_gears.effects.elastic_shaft_housing import check_housing, stiffness_
 from fenics_gears.effects.rolling_bearings import wrong_with
 from fenics_gears.effects.shafts import INTEGRAL, RIGID_SEAT, ShaftSection
 from fenics_gears.errors import SceneError
-from fenics_gears.inputs.problem import LISTED, Problem
+from fenics_gears.inputs.problem import LISTED, Broken
 from fenics_gears.inputs.section import names_in
 from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, given_for, shafts_with_sections, table, value_at
-from fenics_gears.inputs.written import as_written
 
 # Bearings of a shaft (mm) that are no further apart, and ends that stand out by as little, are so by round-off.
 ROUND_OFF = 1e-9
@@ -28,7 +27,7 @@ BESIDE_MATRIX = ("radial_stiffness", "axial_stiffness", "tilting_stiffness", "ro
 BESIDE_ROLLING = ("radial_stiffness", "tilting_stiffness")
 
 
-def rules_of_elastic_shafts(tree: Tree) -> Iterator[Problem]:
+def rules_of_elastic_shafts(tree: Tree) -> Broken:
     """A shaft with sections says where gear and torque are, has bearings of its own and, beside [inertia], a
     density."""
     both = table(tree, "shafts") or {}
@@ -37,25 +36,25 @@ def rules_of_elastic_shafts(tree: Tree) -> Iterator[Problem]:
             "stands beside a shaft with sections, so that it is not clear whose it is. Leave it out, or give it to"
             " [shafts.input] or [shafts.output]."
         )
-        yield Problem(("shafts", "torsional_stiffness"), as_written(both["torsional_stiffness"]), message)
+        yield ("shafts", "torsional_stiffness"), message
     for shaft in shafts_with_sections(tree):
         for name in ("gear_at", "torque_at"):
             if name not in (table(both, shaft) or {}):
                 message = 'is missing. Allowed: a length from the left end of the shaft, such as "58 mm".'
-                yield Problem(("shafts", shaft, name), None, message)
+                yield ("shafts", shaft, name), message
         gear = GEARS[SHAFTS.index(shaft)]
         if value_at(tree, "bearings", gear, LISTED) is None:
             message = (
                 f"is missing: nothing holds [shafts.{shaft}], which has sections. Add its bearings, each as a table"
                 f" [[bearings.{gear}]] with at and radial_stiffness."
             )
-            yield Problem(("bearings", gear), None, message)
+            yield ("bearings", gear), message
         if "inertia" in tree and _has_no_density(tree, shaft, gear):
             message = (
                 "is missing: beside [inertia] the shaft's own mass counts, and nothing tells how dense it is. Allowed:"
                 ' such as "7.85 g/cm^3", here or as density of [inertia] or of the gear in it.'
             )
-            yield Problem(("shafts", shaft, "material", "density"), None, message)
+            yield ("shafts", shaft, "material", "density"), message
 
 
 def _has_no_density(tree: Tree, shaft: str, gear: str) -> bool:
@@ -65,7 +64,7 @@ def _has_no_density(tree: Tree, shaft: str, gear: str) -> bool:
     )
 
 
-def rules_of_listed_bearings(tree: Tree, both: Tree, listed: Sequence[str]) -> Iterator[Problem]:
+def rules_of_listed_bearings(tree: Tree, both: Tree, listed: Sequence[str]) -> Broken:
     """Bearings that are listed are those of a shaft with sections, and the only ones of that gear."""
     for gear in listed:
         shaft = SHAFTS[GEARS.index(gear)]
@@ -75,20 +74,19 @@ def rules_of_listed_bearings(tree: Tree, both: Tree, listed: Sequence[str]) -> I
                 f"are bearings of a shaft with sections. Add sections to [shafts.{shaft}], or give [bearings.{gear}] a"
                 " stiffness."
             )
-            yield Problem(("bearings", gear), "", message)
-        beside = [((gear, name), own[name]) for name in names_in(Stiffnesses) if name in own]
-        places = table(both, "places") or {}
-        beside += [(("places", gear), places[gear])] if gear in places else []
-        for path, written in beside:
+            yield ("bearings", gear), message
+        beside = [(gear, name) for name in names_in(Stiffnesses) if name in own]
+        beside += [("places", gear)] if gear in (table(both, "places") or {}) else []
+        for path in beside:
             message = f"stands beside [[bearings.{gear}]], which are all of the {gear}'s bearings. Leave one out."
-            yield Problem(("bearings", *path), as_written(written) or "", message)
+            yield ("bearings", *path), message
     for name in names_in(Stiffnesses) if listed else ():
         if name in both:
             other = next((gear for gear in GEARS if gear not in listed), "")
             message = f"stands beside [[bearings.{listed[0]}]], so that it is not clear whose it is. Leave it out" + (
                 f", or give it to [bearings.{other}]." if other else "."
             )
-            yield Problem(("bearings", name), as_written(both[name]), message)
+            yield ("bearings", name), message
 
 
 def check_shafts(scene: Any, pair: Any) -> None:

@@ -10,11 +10,12 @@ from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 
-from fenics_gears.effects.flank_errors_sections import MeasuredCurve, MeasuredCurves
 from fenics_gears.inputs import units
 from fenics_gears.inputs.problem import did_you_mean, meant
 from fenics_gears.inputs.written import as_written
 from fenics_gears.system import user_file
+
+from .flank_errors_sections import MeasuredCurve, MeasuredCurves
 
 TOOTH, DEVIATION = "tooth", "deviation"
 LENGTH, ANGLE = "a length", "an angle"
@@ -211,7 +212,6 @@ def _number(place: str, name: str, unit: str, cell: str, wanted: str) -> float:
 
 
 def _deviation(place: str, name: str, value: float) -> float:
-    """A deviation in mm."""
     if abs(value) > _LARGEST:
         raise FileProblem(
             f"{place}: {name} = {value:g} mm is no deviation of a tooth. Allowed: from -{_LARGEST:g} mm to"

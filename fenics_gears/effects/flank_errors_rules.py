@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from fenics_gears.effects.flank_errors_sections import CURVES, LISTS
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.tree import GEARS, Tree, quantity_at, quantity_in, table, teeth_in
-from fenics_gears.inputs.written import as_written
+
+from .flank_errors_sections import CURVES, LISTS
 
 # Pitches of a measuring sheet are rounded to 0.1 um: their sum is off by at most half of that for each tooth.
 PITCH_ROUNDING = 0.05e-3
@@ -15,7 +13,7 @@ PITCH_ROUNDING = 0.05e-3
 DIAMETERS, MODULES = (5.0, 15e3), (0.5, 70.0)
 
 
-def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
+def errors_fit_the_gears(tree: Tree) -> Broken:
     """There are errors; lists have a value for each tooth; pitches close over a turn; the tolerance class is for gears
     of this size."""
     errors = table(tree, "flank_errors")
@@ -23,24 +21,24 @@ def errors_fit_the_gears(tree: Tree) -> Iterator[Problem]:
         return
     if "seed" in errors and "tolerance_class" not in errors:
         message = "is missing. Allowed: a class from 1 to 11; without one the seed draws nothing."
-        yield Problem(("flank_errors", "tolerance_class"), None, message)
+        yield ("flank_errors", "tolerance_class"), message
     if "tolerance_class" in errors:
-        yield from _class_is_for_the_gears(tree, errors)
+        yield from _class_is_for_the_gears(tree)
     elif not any(table(errors, gear) for gear in GEARS):
         message = (
             "has no errors. Add a tolerance_class, or [flank_errors.pinion] with a list or a file. For true flanks,"
             " leave the section out."
         )
-        yield Problem(("flank_errors",), "", message)
+        yield ("flank_errors",), message
     for gear in GEARS:
         own = table(errors, gear) or {}
         yield from _lists_fit_the_teeth(own, teeth_in(tree, gear), gear)
         if "anchor" in own and not any(name in own for name in CURVES):
             message = f"has no curves to hold. Allowed: beside {' or '.join(CURVES)}; leave anchor out."
-            yield Problem(("flank_errors", gear, "anchor"), as_written(own["anchor"]), message)
+            yield ("flank_errors", gear, "anchor"), message
 
 
-def _lists_fit_the_teeth(errors: Tree, teeth: int | None, gear: str) -> Iterator[Problem]:
+def _lists_fit_the_teeth(errors: Tree, teeth: int | None, gear: str) -> Broken:
     for name in LISTS:
         values = errors.get(name)
         if not isinstance(values, list) or teeth is None or not values:
@@ -48,19 +46,19 @@ def _lists_fit_the_teeth(errors: Tree, teeth: int | None, gear: str) -> Iterator
         path = ("flank_errors", gear, name)
         if len(values) != teeth:
             message = f"has {len(values)} values, but the {gear} has {teeth} teeth. Allowed: a value for each tooth."
-            yield Problem(path, as_written(values), message)
+            yield path, message
         elif name == "pitch":
             yield from _pitches_close(values, path)
 
 
-def _pitches_close(values: list, path: tuple[str, ...]) -> Iterator[Problem]:
+def _pitches_close(values: list, path: tuple[str, ...]) -> Broken:
     """The single pitch deviations of a whole turn sum to zero; the last tooth would not meet the first otherwise."""
     numbers = [quantity_in(value) for value in values]
     if None in numbers:
         return
     total = sum(numbers)
     if not abs(total) <= PITCH_ROUNDING * len(numbers):
-        yield Problem(path, as_written(values), not_closed(total))
+        yield path, not_closed(total)
 
 
 def not_closed(total: float) -> str:
@@ -70,9 +68,9 @@ def not_closed(total: float) -> str:
     )
 
 
-def _class_is_for_the_gears(tree: Tree, errors: Tree) -> Iterator[Problem]:
+def _class_is_for_the_gears(tree: Tree) -> Broken:
     module = quantity_at(tree, "gears", "module")
-    path, written = ("flank_errors", "tolerance_class"), as_written(errors["tolerance_class"])
+    path = ("flank_errors", "tolerance_class")
     if module is None:
         return
     if not MODULES[0] <= module <= MODULES[1]:
@@ -80,7 +78,7 @@ def _class_is_for_the_gears(tree: Tree, errors: Tree) -> Iterator[Problem]:
             f"is for modules from {MODULES[0]:g} to {MODULES[1]:g} mm (ISO 1328-1), not {module:g} mm. Allowed: lists"
             " of errors instead."
         )
-        yield Problem(path, written, message)
+        yield path, message
     for gear in GEARS:
         diameter = module * (teeth_in(tree, gear) or 100)
         if not DIAMETERS[0] <= diameter <= DIAMETERS[1]:
@@ -88,4 +86,4 @@ def _class_is_for_the_gears(tree: Tree, errors: Tree) -> Iterator[Problem]:
                 f"is for reference diameters from 5 mm to 15 m (ISO 1328-1), not {diameter:g} mm. Allowed: lists of"
                 " errors instead."
             )
-            yield Problem(path, written, message)
+            yield path, message

@@ -7,19 +7,12 @@ from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
-from fenics_gears.effects.flank_errors_rules import PITCH_ROUNDING, not_closed
-from fenics_gears.effects.flank_errors_sections import (
-    CURVES,
-    LISTS,
-    REPLACED,
-    TABLES,
-    FlankErrors,
-    GearErrors,
-    lists_of,
-)
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.tree import GEARS, LARGEST_ERROR, NOT_IN_THE_PLANE
 from fenics_gears.inputs.written import as_written
+
+from .flank_errors_rules import PITCH_ROUNDING, not_closed
+from .flank_errors_sections import CURVES, LISTS, REPLACED, TABLES, FlankErrors, GearErrors, lists_of
 
 # Share of the active profile, or of the face, that a curve must cover.
 LEAST_MEASURED = 0.8
@@ -33,7 +26,7 @@ def located(errors: FlankErrors, directory: Path) -> FlankErrors:
 def _with_table(errors: GearErrors, directory: Path) -> GearErrors:
     if not any(getattr(errors, name) for name in TABLES):
         return errors
-    from fenics_gears.effects import flank_errors_file as files
+    from . import flank_errors_file as files
 
     # `check` reports what is wrong; a scene that is only looked at needs no table.
     name = "file"

@@ -3,16 +3,16 @@ formula."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import OF_NODES, OF_PAIRS, Effect, ResultVariable
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.fields import choice, number, quantity
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section, allowed_in
 from fenics_gears.inputs.tree import Tree, quantity_at, table
 from fenics_gears.inputs.written import as_written
+
+from .effect import OF_NODES, OF_PAIRS, Effect, ResultVariable
 
 OF_A_FORMULA = ("viscosity", "roughness")
 
@@ -57,7 +57,7 @@ class Friction(Section):
     )
 
 
-def coefficient_or_formula(tree: Tree) -> Iterator[Problem]:
+def coefficient_or_formula(tree: Tree) -> Broken:
     """There is one of the two, and a formula has what it needs, a speed among it."""
     friction = table(tree, "friction")
     if friction is None:
@@ -65,31 +65,19 @@ def coefficient_or_formula(tree: Tree) -> Iterator[Problem]:
     formula = friction.get("formula")
     if "coefficient" not in friction and formula is None:
         allowed = allowed_in(Friction, "coefficient").description
-        yield Problem(
-            ("friction", "coefficient"),
-            None,
-            f'is missing. Allowed: {allowed}; or formula = "Schlenk" with viscosity and roughness.',
-        )
+        message = f'is missing. Allowed: {allowed}; or formula = "Schlenk" with viscosity and roughness.'
+        yield ("friction", "coefficient"), message
     for name in OF_A_FORMULA:
         if formula is None and name in friction:
-            yield Problem(
-                ("friction", name), as_written(friction[name]), "is for a formula. Add formula, or leave it out."
-            )
+            yield ("friction", name), "is for a formula. Add formula, or leave it out."
         if formula is not None and name not in friction:
-            yield Problem(("friction", name), None, "is missing; friction.formula needs it.")
+            yield ("friction", name), "is missing; friction.formula needs it."
     if formula is not None and 0.0 in (quantity_at(tree, "load", name) for name in ("wheel_torque", "pinion_torque")):
-        yield Problem(
-            ("friction", "formula"),
-            as_written(formula),
-            "has no meaning without a load. Give a torque, or a coefficient.",
-        )
+        yield ("friction", "formula"), "has no meaning without a load. Give a torque, or a coefficient."
     motion = table(tree, "motion") or {}
     if formula is not None and not {"mesh_frequency", "pinion_speed"} & set(motion):
-        yield Problem(
-            ("friction", "formula"),
-            as_written(formula),
-            'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or motion.mesh_frequency.',
-        )
+        message = 'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or motion.mesh_frequency.'
+        yield ("friction", "formula"), message
 
 
 def coefficient_of(friction: Friction, scene, pair) -> float:

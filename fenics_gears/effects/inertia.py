@@ -3,15 +3,14 @@ dynamic (``dynamics``)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
 from fenics_gears.inputs.fields import quantity
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, given_for, shafts_with_sections, table, value_at, with_gears
-from fenics_gears.inputs.written import as_written
+
+from .effect import Effect, ResultVariable, own_or_shared
 
 LUMPED = ("mass", "moment_of_inertia")
 
@@ -99,7 +98,7 @@ class Inertia(GearInertia):
         return own_or_shared(self.load, self, "moment_of_inertia")
 
 
-def inertia_is_complete(tree: Tree) -> Iterator[Problem]:
+def inertia_is_complete(tree: Tree) -> Broken:
     """Either gear has mass and moment of inertia, in one way; the far end of an output shaft has a moment of
     inertia."""
     both = table(tree, "inertia")
@@ -111,25 +110,21 @@ def inertia_is_complete(tree: Tree) -> Iterator[Problem]:
             " speed is held. Leave it out; what turns with the pinion belongs to [inertia.pinion], and a soft"
             " [shafts.input] lets the pinion's side swing."
         )
-        yield Problem(("inertia", "motor"), "", message)
+        yield ("inertia", "motor"), message
     yield from _density_stands_alone(tree)
     yield from _what_tilts_has_places(tree)
     missing = {name: [gear for gear in GEARS if not given_for(both, gear) & {name, "density"}] for name in LUMPED}
     for name, gears in missing.items():
         if gears:
             path = ("inertia", name) if len(gears) == 2 else ("inertia", *gears, name)
-            yield Problem(
-                path,
-                None,
-                _MISSING[name].format(place="" if len(gears) == 2 else ", here or in [inertia] for both gears"),
-            )
+            yield path, _MISSING[name].format(place="" if len(gears) == 2 else ", here or in [inertia] for both gears")
     twisted = {"torsional_stiffness", "output"} & set(table(tree, "shafts") or {})
     if twisted and not missing["moment_of_inertia"] and not {"moment_of_inertia", "load"} & set(both):
         message = (
             "is missing: the far end of the output shaft turns by itself and needs a moment of inertia of its own,"
             ' which no gear\'s tells. Allowed: such as "24.5e-3 kg m^2", or leave [shafts] out.'
         )
-        yield Problem(("inertia", "load", "moment_of_inertia"), None, message)
+        yield ("inertia", "load", "moment_of_inertia"), message
 
 
 _MISSING = {
@@ -140,8 +135,7 @@ _MISSING = {
 }
 
 
-def _density_stands_alone(tree: Tree) -> Iterator[Problem]:
-    """No section gives a density beside the mass or the moment of inertia that follow from it."""
+def _density_stands_alone(tree: Tree) -> Broken:
     for path, section in with_gears(tree, "inertia").items():
         beside = [name for name in LUMPED if name in section]
         if "density" in section and beside:
@@ -149,11 +143,10 @@ def _density_stands_alone(tree: Tree) -> Iterator[Problem]:
                 f"stands beside {' and '.join(beside)}, which follow from it. Leave density out, or"
                 f" {' and '.join(beside)}."
             )
-            yield Problem((*path, "density"), as_written(section["density"]), message)
+            yield (*path, "density"), message
 
 
-def _what_tilts_has_places(tree: Tree) -> Iterator[Problem]:
-    """A tilting inertia is that of a gear that tilts."""
+def _what_tilts_has_places(tree: Tree) -> Broken:
     tilting = [gear for gear in GEARS if value_at(tree, "bearings", "places", gear) is not None]
     tilting += [GEARS[SHAFTS.index(shaft)] for shaft in shafts_with_sections(tree)]
     for path, section in with_gears(tree, "inertia").items():
@@ -164,9 +157,7 @@ def _what_tilts_has_places(tree: Tree) -> Iterator[Problem]:
                 "has no effect: gears tilt where their bearings have places, or shafts sections, only. Leave it out, or"
                 f" give {names}."
             )
-            yield Problem(
-                (*path, "tilting_moment_of_inertia"), as_written(section["tilting_moment_of_inertia"]), message
-            )
+            yield (*path, "tilting_moment_of_inertia"), message
 
 
 EFFECT = Effect(

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import LINEAR, PARABOLIC, POWERS
 from fenics_gears.inputs.fields import choice, quantity
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import GEARS, Tree, quantity_at, value_at
-from fenics_gears.inputs.written import as_written
+
+from .effect import Effect
+from .relief import LINEAR, PARABOLIC, POWERS
 
 BOTH, LEFT, RIGHT = "both", "left", "right"
 
@@ -95,13 +94,13 @@ class LeadModifications(Section):
     wheel: LeadModification | None = None
 
 
-def end_reliefs_have_room(tree: Tree) -> Iterator[Problem]:
+def end_reliefs_have_room(tree: Tree) -> Broken:
     """End reliefs have room on the face."""
     for gear in GEARS:
         yield from _end_relief_has_room(tree, gear)
 
 
-def _end_relief_has_room(tree: Tree, gear: str) -> Iterator[Problem]:
+def _end_relief_has_room(tree: Tree, gear: str) -> Broken:
     home = ("lead_modifications", gear, "end_relief")
     length, sides = quantity_at(tree, *home, "length"), value_at(tree, *home, "sides")
     width = quantity_at(tree, "gears", gear, "face_width") or quantity_at(tree, "gears", "face_width")
@@ -111,7 +110,7 @@ def _end_relief_has_room(tree: Tree, gear: str) -> Iterator[Problem]:
     if length > room:
         ends = f"the {sides} end" if sides in (LEFT, RIGHT) else "both ends"
         message = f"is too long for {ends} of a face of {width:g} mm. Allowed: up to {room:g} mm."
-        yield Problem((*home, "length"), as_written(value_at(tree, *home, "length")), message)
+        yield (*home, "length"), message
 
 
 EFFECT = Effect(

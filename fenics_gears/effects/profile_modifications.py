@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import Effect
 from fenics_gears.inputs.fields import quantity
 from fenics_gears.inputs.section import Section
+
+from .effect import Effect
 
 
 @dataclass(frozen=True)

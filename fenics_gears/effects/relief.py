@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
-from fenics_gears.effects.effect import ResultVariable
 from fenics_gears.inputs import units
 from fenics_gears.inputs.allowed import Measured
 from fenics_gears.inputs.fields import choice, either, number, quantity
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section, tree_of
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, table, with_gears
-from fenics_gears.inputs.written import as_written
+
+from .effect import ResultVariable
 
 LINEAR, PARABOLIC = "linear", "parabolic"
 POWERS = {LINEAR: 1, PARABOLIC: 2}
@@ -148,7 +147,7 @@ def write(usual: str, reliefs: Any) -> dict[str, Any]:
     return {gear: tree if {*STARTS} & {*tree} else tree | {"start": usual} for gear, tree in own.items()}
 
 
-def rules(section: str, word: str, tree: Tree) -> Iterator[Problem]:
+def rules(section: str, word: str, tree: Tree) -> Broken:
     """A relief has a depth and a start, which means the same for all gears that it is given for."""
     both = table(tree, section)
     if both is None:
@@ -164,26 +163,25 @@ def rules(section: str, word: str, tree: Tree) -> Iterator[Problem]:
             f'"{word}", or length_on_path or length_on_flank instead; a diameter in [{section}.pinion] and'
             f" [{section}.wheel]."
         )
-        yield Problem((section, "start"), as_written(both["start"]), message)
+        yield (section, "start"), message
 
 
-def _incomplete(both: Tree, own: dict[str, Tree], section: str, word: str) -> Iterator[Problem]:
+def _incomplete(both: Tree, own: dict[str, Tree], section: str, word: str) -> Broken:
     given = {(section, gear): given_for(both, gear) for gear in own}
     if "depth" in both or not given:
         given[section,] = set(both)
     for path, names in given.items():
         if "depth" not in names:
-            yield Problem((*path, "depth"), None, 'is missing. Allowed: such as "31 um".')
+            yield (*path, "depth"), 'is missing. Allowed: such as "31 um".'
         if not names.intersection(STARTS):
             message = (
                 f'is missing. Allowed: such as "{word}" or "29.61 deg", or length_on_path or length_on_flank, such as'
                 ' "3 mm", instead.'
             )
-            yield Problem((*path, "start"), None, message)
+            yield (*path, "start"), message
 
 
 def _is_diameter(written: Any) -> bool:
-    """Whether a start is written as a length."""
     try:
         return isinstance(written, str) and units.quantity(written)[1] == "a length"
     except units.QuantityError:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 
-from fenics_gears.effects.effect import Effect
-from fenics_gears.effects.relief import AT_KINK, Reliefs, RootReliefOfGear, read, rules, write
+from .effect import Effect
+from .relief import AT_KINK, Reliefs, RootReliefOfGear, read, rules, write
 
 
 @dataclass(frozen=True)

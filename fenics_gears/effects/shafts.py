@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -12,10 +11,9 @@ from fenics_gears.effects.tooth_elasticity import material_name, poissons_ratio,
 from fenics_gears.geometry.gear_data import MATERIALS, Material
 from fenics_gears.inputs.allowed import Matrix
 from fenics_gears.inputs.fields import choice, declared, file_name, quantity
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import AllowedTables, Section, allowed_in
 from fenics_gears.inputs.tree import SHAFTS, Tree, shafts_with_sections, table
-from fenics_gears.inputs.written import as_written
 
 MOST_SECTIONS = 100
 RIGID_SEAT, INTEGRAL = "rigid over its width", "integral"
@@ -157,7 +155,7 @@ class Shafts(Section):
         return {gear: each for gear, each in both if each is not None and each.sections is not None} or None
 
 
-def shafts_are_complete(tree: Tree) -> Iterator[Problem]:
+def shafts_are_complete(tree: Tree) -> Broken:
     """Either shaft has a stiffness, or one of them sections."""
     both = table(tree, "shafts")
     if both is None:
@@ -173,22 +171,17 @@ def shafts_are_complete(tree: Tree) -> Iterator[Problem]:
         return
     missing, example = [name for name in SHAFTS if name not in both], 'Allowed: such as "0.203e9 N mm/rad"'
     if len(missing) == 2:
-        yield Problem(
-            ("shafts", "torsional_stiffness"),
-            None,
-            f"is missing. {example}, or one each in [shafts.input] and [shafts.output].",
-        )
+        message = f"is missing. {example}, or one each in [shafts.input] and [shafts.output]."
+        yield ("shafts", "torsional_stiffness"), message
     elif missing:
         path = ("shafts", *missing, "torsional_stiffness")
-        yield Problem(
-            path,
-            None,
-            f"is missing: only the other shaft has a stiffness. {example}, or torsional_stiffness of [shafts] for"
-            " both.",
+        message = (
+            f"is missing: only the other shaft has a stiffness. {example}, or torsional_stiffness of [shafts] for both."
         )
+        yield path, message
 
 
-def _each_gives_way(both: Tree) -> Iterator[Problem]:
+def _each_gives_way(both: Tree) -> Broken:
     """A shaft that is named has a stiffness or sections; places, seat and material are those of sections."""
     for shaft in SHAFTS:
         own = table(both, shaft)
@@ -196,13 +189,11 @@ def _each_gives_way(both: Tree) -> Iterator[Problem]:
             continue
         if "torsional_stiffness" not in own:
             allowed = allowed_in(Shaft, "torsional_stiffness").description
-            yield Problem(
-                ("shafts", shaft, "torsional_stiffness"), None, f"is missing. Allowed: {allowed}; or sections."
-            )
+            yield ("shafts", shaft, "torsional_stiffness"), f"is missing. Allowed: {allowed}; or sections."
         for name in ("gear_at", "torque_at", "seat", "material", "housing"):
             if name in own:
                 message = "has no effect: it is of a shaft with sections. Add sections, or leave it out."
-                yield Problem(("shafts", shaft, name), as_written(own[name]) or "", message)
+                yield ("shafts", shaft, name), message
 
 
 def located(shafts: Shafts, directory: Path) -> Shafts:

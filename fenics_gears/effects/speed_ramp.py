@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf
 
-from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.inputs.fields import quantity, whole_number
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import Tree, quantity_in, table
 from fenics_gears.inputs.written import as_written
+
+from .effect import Effect, ResultVariable
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class SpeedRamp(Section):
     )
 
 
-def speed_changes(tree: Tree) -> Iterator[Problem]:
+def speed_changes(tree: Tree) -> Broken:
     """A ramp leads to another frequency, and leaves time for it."""
     ramp, motion = table(tree, "speed_ramp"), table(tree, "motion") or {}
     if ramp is None:
@@ -35,13 +35,13 @@ def speed_changes(tree: Tree) -> Iterator[Problem]:
             "is the frequency at the start, motion.mesh_frequency. For a steady speed, leave the section [speed_ramp]"
             " out. Allowed: any other."
         )
-        yield Problem(("speed_ramp", "end_frequency"), as_written(ramp["end_frequency"]), message)
+        yield ("speed_ramp", "end_frequency"), message
     held, run = ramp.get("hold_cycles"), motion.get("mesh_cycles")
     if type(held) is int and type(run) is int and held >= run > 0:
         message = (
             f"leaves no cycle of motion.mesh_cycles = {as_written(run)} for the ramp. Allowed: fewer than are run."
         )
-        yield Problem(("speed_ramp", "hold_cycles"), as_written(held), message)
+        yield ("speed_ramp", "hold_cycles"), message
 
 
 def clock(ramp: SpeedRamp, model):

@@ -3,15 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import OF_NODES, Effect, ResultVariable
 from fenics_gears.geometry.gear_data import MATERIALS, Material
 from fenics_gears.inputs.fields import choice, number, quantity
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section, allowed_in
 from fenics_gears.inputs.tree import GEARS, Tree, material_sections, table
+
+from .effect import OF_NODES, Effect, ResultVariable
 
 CONSTANTS = ("youngs_modulus", "poissons_ratio")
 
@@ -96,18 +97,17 @@ def _yield_strength_of(texts: Sequence[MaterialText | OwnMaterialText]) -> float
     return None
 
 
-def materials_are_complete(tree: Tree) -> Iterator[Problem]:
+def materials_are_complete(tree: Tree) -> Broken:
     """Where one gear gives way so does the other, and each has both constants."""
     gears = table(tree, "gears") or {}
     shared = table(gears, "material")
     for name in CONSTANTS if shared is not None and "name" not in shared else ():
         if name not in shared:
-            yield Problem(
-                ("gears", "material", name),
-                None,
+            message = (
                 f"is missing. Allowed: {allowed_in(MaterialText, name).description}; or a material by name, such as"
-                ' name = "steel".',
+                ' name = "steel".'
             )
+            yield ("gears", "material", name), message
     if "material" in gears or not material_sections(tree):
         return
     for gear in GEARS:
@@ -117,13 +117,13 @@ def materials_are_complete(tree: Tree) -> Iterator[Problem]:
                 "is missing: the other gear has a material, and both give way or none. Add it, or [gears.material] for"
                 " both gears."
             )
-            yield Problem(("gears", gear, "material"), None, message)
+            yield ("gears", gear, "material"), message
             continue
         written = table(own, "material")
         for name in CONSTANTS if written is not None and "name" not in written else ():
             if name not in written:
                 message = "is missing. Add it, or [gears.material] with what both gears share."
-                yield Problem(("gears", gear, "material", name), None, message)
+                yield ("gears", gear, "material", name), message
 
 
 EFFECT = Effect(

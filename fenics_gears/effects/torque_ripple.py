@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite, lcm, pi
 
-from fenics_gears.effects.effect import Effect, ResultVariable
 from fenics_gears.inputs.fields import declared, number, quantity
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import AllowedTables, Section
 from fenics_gears.inputs.tree import Tree, dotted, load_in, quantity_in, table
-from fenics_gears.inputs.written import as_written
+
+from .effect import Effect, ResultVariable
 
 HIGHEST_ORDER = 1e6
 MOST_HARMONICS = 1000
@@ -47,7 +47,7 @@ class TorqueRipple(Section):
     harmonics: tuple[Harmonic, ...] = declared(_HARMONICS)
 
 
-def torque_keeps_its_sign(tree: Tree) -> Iterator[Problem]:
+def torque_keeps_its_sign(tree: Tree) -> Broken:
     """A torque that changes its sign needs the coast flanks."""
     ripple, mean = table(tree, "torque_ripple"), load_in(tree)
     written = ripple.get("harmonics") if ripple else None
@@ -62,7 +62,7 @@ def torque_keeps_its_sign(tree: Tree) -> Iterator[Problem]:
             f" change its sign and drive the pair from the wheel. Allowed: up to {abs(torque) * 1e-3:.6g} N m, or any"
             " with the section [coast_flanks]."
         )
-        yield Problem(("torque_ripple", "harmonics"), as_written(written), message)
+        yield ("torque_ripple", "harmonics"), message
 
 
 def load(ripple: TorqueRipple, model):

@@ -4,16 +4,10 @@ from __future__ import annotations
 
 from math import atan, degrees
 
-from fenics_gears.geometry.gear_checks import ROUNDING
-from fenics_gears.geometry.pair import GearPair
-from fenics_gears.geometry.sliding import specific_sliding
-from fenics_gears.geometry.tooth_thickness import (
-    ball_diameter,
-    base_tangent_length,
-    dimension_over_balls,
-    normal_thickness,
-    spanned_teeth,
-)
+from .gear_checks import ROUNDING
+from .pair import GearPair
+from .sliding import specific_sliding
+from .tooth_thickness import ball_diameter, base_tangent_length, dimension_over_balls, normal_thickness, spanned_teeth
 
 
 def characteristics(pair: GearPair) -> list[tuple[str, float, str]]:
@@ -22,7 +16,6 @@ def characteristics(pair: GearPair) -> list[tuple[str, float, str]]:
 
 
 def _rounded(length: float) -> float:
-    """A length (mm), zero where it is a rounding error."""
     return 0.0 if abs(length) < ROUNDING else length
 
 

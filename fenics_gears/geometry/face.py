@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.geometry.pair import GearPair
+from .pair import GearPair
 
 if TYPE_CHECKING:
     from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
@@ -25,7 +25,7 @@ def face_opening(
     """Gap (mm, along the line of action) at places z (mm, any shape) on the face.
 
     Removed material makes it positive; misalignment has either sign. `position` (mm from T1, of z's shape): of the
-    contact on the line of action, on which the gap of misaligned helical gears depends; the pitch point unless given.
+    contact, on which the gap of misaligned helical gears depends; the pitch point unless given.
 
     >>> from fenics_gears import gear_pair, load_scene
     >>> scene = load_scene("demos/misaligned_spur/misaligned.toml")
@@ -44,11 +44,10 @@ def face_opening(
 
 def lead_removal(modification: LeadModification, place, face_width: float) -> np.ndarray:
     """Material (mm, along the line of action) that a lead modification removes from a gear at places (mm, any shape)
-    from its mid-width.
+    from its mid-width, over its own face width b (ISO 21771).
 
-    Over the gear's own face width b (ISO 21771): crowning is the parabola C (2 z/b)^2; the helix slope grows in
-    proportion to z, from nothing at the left end (the right end where it is negative); end relief grows with the
-    distance from its start or with the square of it, to its depth at the end.
+    Crowning is the parabola C (2 z/b)^2; the helix slope grows in proportion to z, from nothing at the left end (right,
+    where negative); end relief with the distance from its start or with its square, to its depth at the end.
     """
     share = np.asarray(place, dtype=float) / face_width
     removed = modification.crowning * (2.0 * share) ** 2

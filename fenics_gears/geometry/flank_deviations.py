@@ -2,10 +2,9 @@
 
 A pitch deviation belongs to the reference circle. Slope and form are deviations from the mean of the flank's used part,
 from the start of active profile to the tip, so that they do not displace the flank as a whole: slope rises by its value
-from one end to the other, form is one wave over that length, as wide as its value. Slope and form of the helix are the
-like along the face of the gear, and are only there where flanks have one. A measured curve stands in place of both. It
-is zero at the V point of the profile or at mid-width of the helix: there the measuring machine's own zero has no
-meaning, since the pitch deviation says where the flank stands. Curves may be given zero mean instead.
+from end to end, form is one wave, as wide as its value. Those of the helix are the like along the face. A measured
+curve stands in place of both, and is zero at the V point of the profile or at mid-width of the helix, unless in its
+mean: the pitch deviation says where the flank stands, not the measuring machine's zero.
 """
 
 from __future__ import annotations
@@ -16,10 +15,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.errors import SceneError
-from fenics_gears.geometry.flank_tolerance import FlankTolerance, flank_tolerance, helix_tolerance
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.written import as_written
+
+from .flank_tolerance import FlankTolerance, flank_tolerance, helix_tolerance
+from .gear import Gear
+from .pair import GearPair
 
 if TYPE_CHECKING:
     from fenics_gears.effects.flank_errors_sections import (
@@ -42,9 +42,8 @@ CURVE_POINTS = 201
 class HelixDeviations:
     """Deviations along the face (z,), mm, over its ``width`` (mm) with mid-width at the height ``middle`` (mm).
 
-    ``slope``: excess of material at the right end over that at the left one. ``form``: excess in the middle over that
-    at both ends. ``curves`` (z, CURVE_POINTS): measured excess from the left end to the right one, in place of both;
-    None without measured helices.
+    ``slope``: excess of material at the right end over the left one. ``form``: in the middle over both ends. ``curves``
+    (z, CURVE_POINTS): measured excess from left to right, in place of both; None without.
     """
 
     slope: np.ndarray
@@ -59,10 +58,9 @@ class FlankDeviations:
     """Deviations of a gear with z teeth, counted as they mesh: arrays (z,), mm, and the waviness that all share.
 
     ``index``: cumulative pitch deviation, the arc on the reference circle by which a tooth comes late; zero for the
-    last tooth. ``slope``: excess of material at the tip over that at the start of active profile. ``form``: excess in
-    the middle over that at both ends. ``active_profile``: roll angles (rad) of its start and its end. ``helix``: None
-    in the plane. ``curves`` (z, CURVE_POINTS): measured excess over the active profile, in place of slope and form;
-    None without measured profiles.
+    last tooth. ``slope``: excess of material at the tip over the start of active profile. ``form``: in the middle over
+    both ends. ``active_profile``: roll angles (rad) of its ends. ``helix``: None in the plane. ``curves`` (z,
+    CURVE_POINTS): measured excess over the active profile, in place of slope and form; None without.
     """
 
     index: np.ndarray
@@ -157,10 +155,8 @@ def v_roll_angle(gear: Gear) -> float:
 
 
 def _curves(measured: MeasuredCurves, gear: Gear, ends: tuple[float, float], zero: float | None) -> np.ndarray:
-    """Deviations (z, CURVE_POINTS), mm, at even steps between the ends (rad or mm); a tooth that was not measured has
-    the mean curve.
-
-    `zero`: where each curve is zero, or the end next to it; None: in its mean.
+    """Deviations (z, CURVE_POINTS), mm, at even steps between the ends (rad or mm), the mean curve for a tooth that was
+    not measured. `zero`: where each curve is zero, or the end next to it; None: in its mean.
     """
     at = np.linspace(*ends, CURVE_POINTS)
     found = {
@@ -176,8 +172,7 @@ def _curves(measured: MeasuredCurves, gear: Gear, ends: tuple[float, float], zer
 
 
 def _places(curve: MeasuredCurve, along: str, gear: Gear) -> np.ndarray:
-    """Where the points of a curve lie: roll angles (rad) of a profile, positions on the face (mm) of a helix. A point
-    below the base circle is at roll angle 0."""
+    """Roll angles (rad) of a profile's points, 0 below the base circle; positions on the face (mm) of a helix's."""
     places = np.array(curve.places)
     if along == "roll_length":
         return places / gear.base_radius

@@ -7,7 +7,7 @@ from math import cos, log10, pi, sin
 
 import numpy as np
 
-from fenics_gears.geometry.pair import GearPair
+from .pair import GearPair
 
 # ISO/TR 14179-2: below this line load (N/mm) the coefficient rises no more.
 LEAST_LINE_LOAD = 150.0
@@ -42,17 +42,9 @@ def schlenk(pair: GearPair, normal_force: float, pinion_speed: float, viscosity:
     line_load = max(normal_force / pair.face_width, LEAST_LINE_LOAD)
     first, second = pair.pitch_point, pair.pitch_point_to_wheel_tangent
     radius = first * second / (first + second)
-    return (
-        0.048
-        * (line_load / (_sum_of_speeds(pair, min(speed, fastest)) * radius)) ** 0.2
-        * viscosity**-0.05
-        * roughness**0.25
-    )
-
-
-def _sum_of_speeds(pair: GearPair, pitch_line_speed: float) -> float:
-    """v_sum (m/s) at the pitch point: both flanks' speeds along themselves, 2 v_t sin(alpha_wt)."""
-    return 2.0 * pitch_line_speed * sin(pair.operating_pressure_angle)
+    # Both flanks' speeds along themselves at the pitch point.
+    sum_of_speeds = 2.0 * min(speed, fastest) * sin(pair.operating_pressure_angle)
+    return 0.048 * (line_load / (sum_of_speeds * radius)) ** 0.2 * viscosity**-0.05 * roughness**0.25
 
 
 def benedict_kelley(

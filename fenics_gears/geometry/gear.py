@@ -9,12 +9,12 @@ from math import atan, cos, hypot, pi, sin, tan
 import numpy as np
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.gear_data import GearData, Web
-from fenics_gears.geometry.involute import inverse_involute, involute_function
-from fenics_gears.geometry.outline import crossing, fillet_point, touching_end
 
-# Lengths in modules are rounded to so many decimals: what is left of a unit or a scale factor is in the last two digits
-# of a double.
+from .gear_data import GearData, Web
+from .involute import inverse_involute, involute_function
+from .outline import crossing, fillet_point, touching_end
+
+# Of lengths in modules: what is left of a unit or a scale factor is in the last two digits of a double.
 DECIMALS_IN_MODULES = 12
 
 
@@ -22,13 +22,11 @@ DECIMALS_IN_MODULES = 12
 class Gear:
     """A gear cut by a straight-sided rack with a rounded tip; lengths in mm, angles in rad.
 
-    Module, pressure angle and profile shift are those of the transverse section; `helix_angle` at the reference
-    cylinder, without sign. The rack's rounding has `rack_tip_radius` in its normal section; the transverse section sees
-    it stretched along the pitch line by 1/cos(helix angle), as an ellipse. The rack's addendum, which cuts the gear's
-    dedendum, follows from root radius and profile shift.
-    `tip_chamfer`: radial height of the chamfer between flank and tip circle. `protuberance`: by which the rack's
-    rounding stands out beyond the flank that cuts the finished involute, normal to it, going back at
-    `protuberance_angle`; both in its normal section.
+    Module, pressure angle and profile shift are of the transverse section; `helix_angle` at the reference cylinder,
+    without sign. `rack_tip_radius` is of the normal section; the transverse one sees it stretched along the pitch line
+    by 1/cos(helix angle), as an ellipse. The rack's addendum follows from root radius and profile shift. `tip_chamfer`:
+    radial height. `protuberance`: by which the rack's rounding stands out beyond the flank, normal to it, going back at
+    `protuberance_angle`; both in the normal section.
     """
 
     teeth: int
@@ -57,8 +55,7 @@ class Gear:
 
     @property
     def rack_stretch(self) -> float:
-        """Length along the pitch line in the transverse section over that in the rack's normal section: 1/cos(helix
-        angle)."""
+        """1/cos(helix angle): a length along the pitch line in the transverse over that in the normal section."""
         return 1.0 / cos(self.helix_angle)
 
     @property
@@ -68,7 +65,7 @@ class Gear:
 
     @property
     def body_depth(self) -> float:
-        """Thickness (mm) of the solid body below the teeth, down to the bore, of a gear with a web that of its rim."""
+        """Thickness (mm) of the solid body below the teeth: down to the bore, or of the rim of a web."""
         return self.root_radius - (self.bore_radius if self.web is None else self.web.rim_radius)
 
     @cached_property
@@ -122,8 +119,9 @@ class Gear:
         return self.reference_radius - self.root_radius
 
     def rack_half_thickness(self, depth: float) -> float:
-        """Half the thickness (mm) of the rack's tooth between its straight flanks at a depth (mm) below the rolling
-        pitch line."""
+        """Half the thickness (mm) of the rack's tooth between its straight flanks at a depth (mm) below the pitch
+        line.
+        """
         half_tip_land = 0.25 * pi * self.module - self.dedendum * tan(self.pressure_angle)
         return half_tip_land + (self.rack_depth - depth) * tan(self.pressure_angle)
 
@@ -141,9 +139,8 @@ class Gear:
 
     @property
     def rack_tip_centre(self) -> tuple[float, float]:
-        """Centre of the rack's tip rounding, mm: distance from the rack tooth's centreline, depth below the pitch line.
-
-        A negative distance means that the rounding does not fit on the rack's tip.
+        """Centre of the rack's tip rounding, mm: distance from the rack tooth's centreline, negative where the rounding
+        does not fit, and depth below the pitch line.
         """
         alpha, radius = self.normal_pressure_angle, self.rack_tip_radius
         half_tip_land = self._rack_half_tip_land
@@ -192,8 +189,7 @@ class Gear:
 
     @property
     def tip_form_radius(self) -> float:
-        """Radius (mm) where the involute ends: of the tip circle, or at the foot of the tip's chamfer (d_Fa = d_a - 2
-        h_K of ISO 21771)."""
+        """Radius (mm) where the involute ends: d_Fa/2 = d_a/2 - h_K of ISO 21771, h_K of the tip's chamfer."""
         return self.tip_radius - self.tip_chamfer
 
     @cached_property
@@ -203,7 +199,7 @@ class Gear:
 
     @cached_property
     def chamfered_arc(self) -> float:
-        """Arc (mm) of the tip circle that the chamfer takes off either side: as long as what it takes off the flank."""
+        """Arc (mm) of the tip circle that the chamfer takes off either side, as long as what it takes off the flank."""
         return (
             0.5 * self.base_radius * float(self.roll_angle(self.tip_radius) ** 2 - self.tip_roll_angle**2)
             if self.tip_chamfer
@@ -241,8 +237,7 @@ class Gear:
 
 
 def transverse_gear(gear: GearData, module: float, pressure_angle: float, helix_angle: float) -> Gear:
-    """The gear's transverse section. The tangent of the pressure angle stretches with the pitch line, as the module
-    does (ISO 21771)."""
+    """The gear's transverse section, in which tan(pressure angle) stretches as the module does (ISO 21771)."""
     stretch = 1.0 / cos(helix_angle)
     return Gear(
         teeth=gear.teeth,

@@ -1,6 +1,5 @@
-"""Checks of a single gear: one that no rack can cut is refused.
-
-Every message says what is wrong, on which gear, the value, the limit, and the field of the scene to change.
+"""Checks of a single gear: one that no rack can cut is refused, with what is wrong, the value, the limit, and the field
+to change.
 """
 
 from __future__ import annotations
@@ -11,8 +10,9 @@ from typing import NoReturn
 import numpy as np
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.outline import fillet_point
+
+from .gear import Gear
+from .outline import fillet_point
 
 # Lengths (mm) below which a backlash, clearance or arc counts as exactly zero.
 ROUNDING = 1e-6
@@ -42,8 +42,9 @@ def refuse(name: str, message: str) -> NoReturn:
 
 
 def tip_radius_with_room(gear: Gear) -> float:
-    """Tip radius, in modules, that the rack's tip has room for: the full radius, rounded down so that both roundings
-    fit; 0 where the rack ends in a point."""
+    """Tip radius, in modules, that the rack's tip has room for, rounded down so that both roundings fit; 0 where the
+    rack ends in a point.
+    """
     return max(
         0.0,
         floor((gear.largest_rack_tip_radius / gear.normal_module - 1e-9) * STEPS_OF_TIP_RADIUS) / STEPS_OF_TIP_RADIUS,
@@ -104,15 +105,8 @@ def _check_circles(gear: Gear, name: str) -> None:
 def _check_web(gear: Gear, name: str) -> None:
     if gear.web is None:
         return
-    bore, hub, rim, largest = (
-        2.0 * radius
-        for radius in (
-            gear.bore_radius,
-            gear.web.hub_radius,
-            gear.web.rim_radius,
-            gear.root_radius - LEAST_RIM * gear.normal_module,
-        )
-    )
+    web, largest = gear.web, 2.0 * (gear.root_radius - LEAST_RIM * gear.normal_module)
+    bore, hub, rim = (2.0 * radius for radius in (gear.bore_radius, web.hub_radius, web.rim_radius))
     if not bore <= hub < rim <= largest:
         refuse(
             name,
@@ -120,18 +114,18 @@ def _check_web(gear: Gear, name: str) -> None:
             f" on, {bore:.6g} mm, they must rise, and with a rim of {LEAST_RIM} modules the rim may begin at"
             f" {largest:.6g} mm: change hub_diameter or rim_inner_diameter",
         )
-    if not 0.0 < gear.web.share <= 1.0:
+    if not 0.0 < web.share <= 1.0:
         refuse(
             name,
-            f"gears.{name}.web.width is {gear.web.share:.4g} of the face width; it must be more than none and no more"
-            " than all of it: lower it",
+            f"gears.{name}.web.width is {web.share:.4g} of the face width; it must be more than none and no more than"
+            " all of it: lower it",
         )
-    if abs(gear.web.offset) + 0.5 * gear.web.share > 0.5 + SHARE_ROUNDING:
+    if abs(web.offset) + 0.5 * web.share > 0.5 + SHARE_ROUNDING:
         refuse(
             name,
-            f"gears.{name}.web.axial_offset is {gear.web.offset:.4g} of the face width, and the web is"
-            f" {gear.web.share:.4g} of it wide: it would stand beyond the face. Allowed: up to"
-            f" {0.5 - 0.5 * gear.web.share:.4g} of the face width to either side",
+            f"gears.{name}.web.axial_offset is {web.offset:.4g} of the face width, and the web is {web.share:.4g} of it"
+            f" wide: it would stand beyond the face. Allowed: up to {0.5 - 0.5 * web.share:.4g} of the face width to"
+            " either side",
         )
 
 

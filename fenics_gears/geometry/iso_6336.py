@@ -11,7 +11,7 @@ from math import cos, degrees, sin
 
 import numpy as np
 
-from fenics_gears.geometry.gear_data import GearPairData, mean_youngs_modulus
+from .gear_data import GearPairData, mean_youngs_modulus
 
 STEEL_YOUNGS_MODULUS = 206e3
 # The standard's tooth stiffness falls below this line load (N/mm), as its root of the fourth degree.

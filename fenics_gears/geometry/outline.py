@@ -21,10 +21,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.involute import canonical_point, involute_function
+
+from .involute import canonical_point, involute_function
 
 if TYPE_CHECKING:
-    from fenics_gears.geometry.gear import Gear
+    from .gear import Gear
 
 ARC_LENGTH_SAMPLES = 401
 
@@ -49,7 +50,7 @@ class ToothOutline:
 
     @property
     def tip_corner(self) -> np.ndarray:
-        """Point (2,), mm, of the drive side where the tip circle begins, beyond the chamfer if there is one."""
+        """As `tip_corner`."""
         return tip_corner(self.gear)
 
     def coast(self, points) -> np.ndarray:
@@ -64,8 +65,7 @@ def centreline_angle(gear: Gear) -> float:
 
 
 def tip_corner(gear: Gear) -> np.ndarray:
-    """Point (2,), mm, where the tip circle begins on the drive side: at the end of the involute, or beyond the straight
-    chamfer there."""
+    """Point (2,), mm, where the tip circle begins on the drive side, beyond the chamfer if there is one."""
     if not gear.tip_chamfer:
         return canonical_point(gear.base_radius, gear.tip_roll_angle)
     angle = centreline_angle(gear) + 0.5 * gear.tip_thickness / gear.tip_radius
@@ -73,10 +73,8 @@ def tip_corner(gear: Gear) -> np.ndarray:
 
 
 def tooth_outline(gear: Gear, fillet_points: int = 41) -> ToothOutline:
-    """Outline of one tooth.
-
-    Raises GeometryError when the gear has no involute above its fillet, or when neighbouring fillets would
-    overlap because the rack's tip has no room for its rounding.
+    """Outline of one tooth. Raises GeometryError for a gear without involute above its fillet, or with overlapping
+    fillets.
     """
     if gear.tip_form_radius <= gear.form_radius:
         raise GeometryError(
@@ -143,8 +141,7 @@ def fillet_speed(gear: Gear, parameter) -> np.ndarray:
 
 
 def _on_rack(gear: Gear, parameter) -> tuple[np.ndarray, np.ndarray | float]:
-    """Angle (rad) of the rack's normal at a fillet parameter, and the length (mm) along the straight flank of a
-    protuberance."""
+    """Angle (rad) of the rack's normal at a fillet parameter, and length (mm) along a protuberance's straight flank."""
     angle = np.asarray(parameter, dtype=float)
     if not gear.protuberance:
         return angle, 0.0
@@ -180,7 +177,6 @@ def _body_angle(gear: Gear, angle, along=0.0):
 
 
 def _turned(vectors, angle):
-    """Vectors (..., 2) turned counter-clockwise by angles (...)."""
     sine, cosine = np.sin(angle), np.cos(angle)
     x, y = vectors[..., 0], vectors[..., 1]
     return np.stack([cosine * x - sine * y, sine * x + cosine * y], axis=-1)
@@ -192,11 +188,10 @@ def touching_end(gear: Gear) -> float:
 
 
 def crossing(gear: Gear) -> float:
-    """Fillet parameter (rad) where the fillet of an undercut gear comes out of its involute, by halving to the last
-    digit.
+    """Fillet parameter (rad) where the fillet of an undercut gear comes out of its involute, to the last digit.
 
-    The fillet rises steadily. Where its rack's normal is that of the flank, or at the base circle, it is inside the
-    tooth; it ends outside.
+    The fillet rises steadily: inside the tooth where its rack's normal is that of the flank, or at the base circle,
+    outside at its end.
     """
     touching, last = touching_end(gear), _last(gear)
     inside = touching if gear.protuberance and _radius(gear, touching) > gear.base_radius else _at_base_circle(gear)
@@ -205,7 +200,8 @@ def crossing(gear: Gear) -> float:
 
 def _last(gear: Gear) -> float:
     """Parameter at the end of what cuts the fillet: of the rounding, or where the protuberance has gone back to the
-    flank, if it still rises there."""
+    flank.
+    """
     if not gear.protuberance:
         return touching_end(gear)
     angle, flank = gear.transverse_protuberance_angle, gear.pressure_angle

@@ -10,22 +10,30 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from math import acos, cos, exp, floor, pi, sin, sqrt, tan
-from typing import TYPE_CHECKING
 
-from fenics_gears.geometry.gear import Gear, transverse_gear
-from fenics_gears.geometry.gear_checks import check_gear
-from fenics_gears.geometry.gear_data import GearPairData
-from fenics_gears.geometry.involute import inverse_involute, involute_function
-from fenics_gears.geometry.pair_checks import check_pair
-
-if TYPE_CHECKING:
-    from fenics_gears.geometry.helix import Helix
+from .gear import Gear, transverse_gear
+from .gear_checks import check_gear
+from .gear_data import GearPairData
+from .involute import inverse_involute, involute_function
+from .pair_checks import check_pair
 
 WHOLE_CONTACT_RATIO_ROUNDING = 1e-9
-# Reach, in normal modules, from the load into a face that stands out beyond the mate: of the teeth on a thin rim, what
-# a solid body has more, and the depth of the body over which this grows. Found against three dimensions
-# (docs/third_dimension.md).
+# Reach, in normal modules, into a face that stands out beyond the mate: of teeth on a thin rim, what a solid body has
+# more, and the depth over which this grows; found against three dimensions (docs/third_dimension.md).
 REACH_OF_TEETH, REACH_OF_BODY, DEPTH_OF_BODY = 1.1, 1.6, 7.0
+
+
+@dataclass(frozen=True)
+class Helix:
+    """`angle`, rad, at the reference cylinders, positive; `pinion_hand`: "right" or "left", the wheel has the other."""
+
+    angle: float
+    pinion_hand: str = "right"
+
+    @property
+    def sign(self) -> float:
+        """1 for a right-hand pinion, -1 for a left-hand one."""
+        return 1.0 if self.pinion_hand == "right" else -1.0
 
 
 @dataclass(frozen=True)
@@ -51,8 +59,7 @@ class GearPair:
 
     @property
     def common_face(self) -> tuple[float, float]:
-        """Ends z (mm) of the common face, where both gears are: the left one, negative, and the right one; 0 is its
-        middle."""
+        """Ends z (mm) of the common face, left and right; 0 is its middle."""
         return -0.5 * self.face_width, 0.5 * self.face_width
 
     @property
@@ -76,10 +83,8 @@ class GearPair:
 
     @property
     def effective_face_widths(self) -> tuple[float, float]:
-        """Width (mm) of pinion and wheel that counts in the plane: the common width, and of what stands out of it as
-        much as helps to carry.
-
-        At either end r (1 - exp(-o/r)) of an overhang o, with a reach r that grows with the depth of the gear's body.
+        """Width (mm) of pinion and wheel that counts in the plane: the common one, and of an overhang o at either end
+        as much as helps to carry, r (1 - exp(-o/r)), with a reach r that grows with the depth of the gear's body.
         """
         module, found = self.pinion.normal_module, []
         for gear, overhangs in zip((self.pinion, self.wheel), self.overhangs):
@@ -97,8 +102,7 @@ class GearPair:
 
     @cached_property
     def cosine(self) -> float:
-        """Cosine of the base helix angle: the contact normal is (cosine, 0, -cosine slope) in the line of action,
-        across it and along the axis."""
+        """Cosine of the base helix angle; the contact normal is (cosine, 0, -cosine slope)."""
         return 1.0 / sqrt(1.0 + self.slope**2)
 
     @property
@@ -113,8 +117,7 @@ class GearPair:
 
     @property
     def rotation_ratio(self) -> float:
-        """Teeth of the pinion over teeth of the wheel: rotation of the wheel over that of the pinion, without its
-        sign."""
+        """Teeth of the pinion over teeth of the wheel."""
         return self.pinion.teeth / self.wheel.teeth
 
     @cached_property
@@ -153,15 +156,13 @@ class GearPair:
 
     @cached_property
     def path_start(self) -> float:
-        """Position (mm) where contact begins: at the wheel's tip, or later, at the form circle of an undercut
-        pinion."""
+        """Position (mm) where contact begins: at the wheel's tip, or later, at an undercut pinion's form circle."""
         tip, pinion = self.tip_positions[0], self.pinion
         return max(tip, pinion.base_radius * pinion.form_roll_angle) if pinion.undercut else tip
 
     @cached_property
     def path_end(self) -> float:
-        """Position (mm) where contact ends: at the pinion's tip, or earlier, at the form circle of an undercut
-        wheel."""
+        """Position (mm) where contact ends: at the pinion's tip, or earlier, at an undercut wheel's form circle."""
         tip, wheel = self.tip_positions[1], self.wheel
         return (
             min(tip, self.line_of_action_length - wheel.base_radius * wheel.form_roll_angle) if wheel.undercut else tip
@@ -179,9 +180,8 @@ class GearPair:
 
     @property
     def hpstc(self) -> float:
-        """Position (mm) of the pinion's highest point of single tooth contact, the wheel's lowest.
-
-        With a contact ratio above 2 no tooth pair is ever alone; this is then where contact by the fewest pairs ends.
+        """Position (mm) of the pinion's highest point of single tooth contact, the wheel's lowest. With a contact ratio
+        above 2, where contact by the fewest pairs ends.
         """
         return self.path_start + self.fewest_pairs * self.base_pitch
 
@@ -210,21 +210,18 @@ class GearPair:
 
     @property
     def sap_roll_angles(self) -> tuple[float, float]:
-        """Roll angles (rad) of pinion and wheel at their starts of active profile: the pinion's is in contact first,
-        the wheel's last."""
+        """Roll angles (rad) of pinion and wheel at their starts of active profile."""
         return self.pinion_roll_angle(self.path_start), self.wheel_roll_angle(self.path_end)
 
     @property
     def eap_roll_angles(self) -> tuple[float, float]:
-        """Roll angles (rad) of pinion and wheel at their ends of active profile: the pinion's is in contact last, the
-        wheel's first."""
+        """Roll angles (rad) of pinion and wheel at their ends of active profile."""
         return self.pinion_roll_angle(self.path_end), self.wheel_roll_angle(self.path_start)
 
     @property
     def backlash(self) -> float:
-        """Gap (mm) along the line of action between the coast flanks while the drive flanks touch.
-
-        The base pitch less both base-circle thicknesses at the operating pressure angle; negative when teeth overlap.
+        """Gap (mm) along the line of action between the coast flanks while the drive flanks touch: the base pitch less
+        both base-circle thicknesses at the operating pressure angle; negative when teeth overlap.
         """
         swept = involute_function(tan(self.operating_pressure_angle))
         pinion, wheel = self.pinion, self.wheel
@@ -274,27 +271,18 @@ def gear_pair(data: GearPairData) -> GearPair:
     )
     check_gear(pinion, "pinion")
     check_gear(wheel, "wheel")
-    pair = GearPair(
-        pinion, wheel, data.centre_distance, data.face_width, data.face_widths, _helix(data), data.axial_offsets
-    )
+    helix = Helix(data.helix_angle, data.pinion_hand) if data.helix_angle else None
+    pair = GearPair(pinion, wheel, data.centre_distance, data.face_width, data.face_widths, helix, data.axial_offsets)
     check_pair(pair)
     return _with_web_as_it_counts(pair)
 
 
 def _with_web_as_it_counts(pair: GearPair) -> GearPair:
     """A web is as wide as it is, however much of the face counts."""
-    found = []
-    for gear, own, counts in zip((pair.pinion, pair.wheel), pair.face_widths, pair.effective_face_widths):
-        if gear.web is not None and own != counts:
-            gear = replace(gear, web=replace(gear.web, stiff_share=gear.web.share * own / counts))
-        found.append(gear)
-    return replace(pair, pinion=found[0], wheel=found[1])
-
-
-def _helix(data: GearPairData) -> Helix | None:
-    if not data.helix_angle:
-        return None
-    # Imported here: spur pairs have none.
-    from fenics_gears.geometry.helix import Helix
-
-    return Helix(data.helix_angle, data.pinion_hand)
+    pinion, wheel = (
+        gear
+        if gear.web is None or own == counts
+        else replace(gear, web=replace(gear.web, stiff_share=gear.web.share * own / counts))
+        for gear, own, counts in zip((pair.pinion, pair.wheel), pair.face_widths, pair.effective_face_widths)
+    )
+    return replace(pair, pinion=pinion, wheel=wheel)

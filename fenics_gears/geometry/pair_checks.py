@@ -1,6 +1,5 @@
-"""Checks of a gear pair: one that cannot run is refused.
-
-Every message says what is wrong, on which gear, the value, the limit, and the field of the scene to change.
+"""Checks of a gear pair: one that cannot run is refused, with what is wrong, the value, the limit, and the field to
+change.
 """
 
 from __future__ import annotations
@@ -11,13 +10,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.gear_checks import ROUNDING, in_degrees, refuse
-from fenics_gears.geometry.involute import involute_function
-from fenics_gears.geometry.outline import fillet_point
+from .gear import Gear
+from .gear_checks import ROUNDING, in_degrees, refuse
+from .involute import involute_function
+from .outline import fillet_point
 
 if TYPE_CHECKING:
-    from fenics_gears.geometry.pair import GearPair
+    from .pair import GearPair
 
 
 # Tip thickness in modules below which design practice calls a tooth pointed.
@@ -168,12 +167,9 @@ FILLET_POINTS = 1001
 
 
 def fillet_clearance(gear: Gear, mate: Gear, centre_distance: float) -> float:
-    """Least radial distance (mm) from the path of the mate's tip corner down to the gear's fillet; infinite where it
-    never comes over the fillet, negative where it would cut into it. Of an undercut gear see
-    `_clearance_along_circles`.
-
-    Drive flanks in contact. Along the fillet the radius is a smooth function of the polar angle, so
-    that sampling it costs an error of second order only.
+    """Least radial distance (mm) from the path of the mate's tip corner down to the gear's fillet, drive flanks in
+    contact; infinite where it never comes over the fillet, negative where it would cut into it. Of an undercut gear see
+    `_clearance_along_circles`. Sampling errs in second order only.
     """
     if gear.undercut:
         return min(_clearance_along_circles(gear, mate, centre_distance, corner) for corner in _corners(mate))
@@ -194,8 +190,9 @@ def _clearance_of_corner(gear: Gear, mate: Gear, centre_distance: float, corner:
 
 
 def _corners(gear: Gear) -> list[tuple[float, float]]:
-    """Radius (mm) of each corner of a tip's drive side, and the angle (rad) by which it lies behind the end of the
-    involute: a chamfer has two."""
+    """Radius (mm) of each corner of a tip's drive side, two of a chamfer, and the angle (rad) by which it lies behind
+    the end of the involute.
+    """
     if not gear.tip_chamfer:
         return [(gear.tip_radius, 0.0)]
     behind = (
@@ -208,9 +205,8 @@ def _corners(gear: Gear) -> list[tuple[float, float]]:
 
 def _clearance_along_circles(gear: Gear, mate: Gear, centre_distance: float, corner: tuple[float, float]) -> float:
     """Least arc (mm) about the gear's centre from its fillet and involute to the path of the mate's tip corner, from
-    where this comes below the gear's tip.
-
-    An undercut fillet has up to two points at a polar angle, but one at a radius.
+    where this comes below the gear's tip: an undercut fillet has up to two points at a polar angle, but one at a
+    radius.
     """
     above = acos((centre_distance**2 + corner[0] ** 2 - gear.tip_radius**2) / (2.0 * centre_distance * corner[0]))
     radius, angle = _tip_corner_path(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from fenics_gears.geometry.pair import GearPair
+from .pair import GearPair
 
 if TYPE_CHECKING:
     from fenics_gears.effects.profile_modifications import ProfileModification, ProfileModifications

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.pair import GearPair
+from fenics_gears.inputs.tree import GEARS
+
+from .gear import Gear
+from .pair import GearPair
 
 if TYPE_CHECKING:
     from fenics_gears.effects.relief import Relief, Reliefs
@@ -98,36 +100,24 @@ class _Side:
 
 
 def tip_reliefs(pair: GearPair, reliefs: Reliefs) -> tuple[ReliefCurve | None, ReliefCurve | None]:
-    """Relief of pinion and wheel from HPSTC, unless the scene gives another start, to the tip; None for a gear that has
-    none.
+    """Relief of pinion and wheel from HPSTC, unless the scene gives another start, to the tip; None for a gear without.
 
     Raises GeometryError as ``relief_curve`` does.
     """
-    return _curves(
-        pair, reliefs, "tip_relief", (pair.pinion.tip_roll_angle, pair.wheel.tip_roll_angle), pair.hpstc_roll_angles
-    )
+    ends = pair.pinion.tip_roll_angle, pair.wheel.tip_roll_angle
+    return _curves(pair, reliefs, "tip_relief", ends, pair.hpstc_roll_angles)
 
 
 def root_reliefs(pair: GearPair, reliefs: Reliefs) -> tuple[ReliefCurve | None, ReliefCurve | None]:
-    """Relief of pinion and wheel from LPSTC, unless the scene gives another start, to the form circle; None for a gear
-    that has none.
-
-    Raises GeometryError as ``relief_curve`` does.
-    """
-    return _curves(
-        pair, reliefs, "root_relief", (pair.pinion.form_roll_angle, pair.wheel.form_roll_angle), pair.lpstc_roll_angles
-    )
+    """As `tip_reliefs`, from LPSTC to the form circle."""
+    ends = pair.pinion.form_roll_angle, pair.wheel.form_roll_angle
+    return _curves(pair, reliefs, "root_relief", ends, pair.lpstc_roll_angles)
 
 
 def _curves(pair: GearPair, reliefs: Reliefs, section: str, ends, usual_starts):
-    sides = (
-        _Side(getattr(pair, name), name, section, *angles)
-        for name, *angles in zip(("pinion", "wheel"), ends, usual_starts)
-    )
-    return tuple(
-        None if relief is None else relief_curve(relief, side)
-        for relief, side in zip((reliefs.pinion, reliefs.wheel), sides)
-    )
+    sides = (_Side(getattr(pair, name), name, section, *angles) for name, *angles in zip(GEARS, ends, usual_starts))
+    own = ((getattr(reliefs, side.name), side) for side in sides)
+    return tuple(None if relief is None else relief_curve(relief, side) for relief, side in own)
 
 
 def relief_curve(relief: Relief, side: _Side) -> ReliefCurve:
@@ -182,27 +172,16 @@ def _start(relief: Relief, side: _Side) -> float:
 
 
 def _written_start(relief: Relief, start: float, side: _Side) -> str:
-    """Where a relief starts, in the terms of the scene."""
     end = "tip" if side.section == "tip_relief" else "form circle"
-    for length, measured in (
-        (relief.length_on_path, "on the path of contact"),
-        (relief.length_on_flank, "along the flank"),
-    ):
-        if length is not None:
-            return f"{length:.6g} mm from the {end} {measured}"
-    return (
-        f"roll angle {degrees(start):.4g} deg"
-        if relief.start_diameter is None
-        else f"diameter {relief.start_diameter:.6g} mm"
-    )
+    if relief.length_on_path is not None:
+        return f"{relief.length_on_path:.6g} mm from the {end} on the path of contact"
+    if relief.length_on_flank is not None:
+        return f"{relief.length_on_flank:.6g} mm from the {end} along the flank"
+    if relief.start_diameter is not None:
+        return f"diameter {relief.start_diameter:.6g} mm"
+    return f"roll angle {degrees(start):.4g} deg"
 
 
 def _changed(relief: Relief) -> str:
-    """The field of the scene that gives the start."""
-    return (
-        "length_on_path"
-        if relief.length_on_path is not None
-        else "length_on_flank"
-        if relief.length_on_flank is not None
-        else "start"
-    )
+    lengths = (name for name in ("length_on_path", "length_on_flank") if getattr(relief, name) is not None)
+    return next(lengths, "start")

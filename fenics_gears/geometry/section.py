@@ -12,9 +12,9 @@ from math import atan2, pi
 
 import numpy as np
 
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.involute import canonical_point, involute_function
-from fenics_gears.geometry.outline import centreline_angle, fillet_point, fillet_tangent, tip_corner
+from .gear import Gear
+from .involute import canonical_point, involute_function
+from .outline import centreline_angle, fillet_point, fillet_tangent, tip_corner
 
 # The fillet is smooth: from 20 points on nothing but round-off changes.
 QUADRATURE_POINTS = 40
@@ -63,18 +63,18 @@ def cells_section(points: np.ndarray, cells: np.ndarray) -> CrossSection:
 
 
 def _arc(radius: float, angle: float) -> np.ndarray:
-    """Both integrals over an arc of the circle about the centre."""
+    """Both integrals over an arc about the centre."""
     return np.array([0.5 * radius**2, 0.25 * radius**4]) * angle
 
 
 def _straight(start: np.ndarray, end: np.ndarray) -> np.ndarray:
-    """Both integrals along a straight line: of the triangle with the centre."""
+    """Of the triangle with the centre."""
     area = 0.5 * (start[0] * end[1] - start[1] * end[0])
     return area * np.array([1.0, (start @ start + start @ end + end @ end) / 6.0])
 
 
 def _involute(base_radius: float, roll_angle: float) -> np.ndarray:
-    """Both integrals along the involute from the base circle to a roll angle."""
+    """From the base circle to a roll angle."""
     return np.array(
         [
             0.5 * base_radius**2 * roll_angle**3 / 3.0,
@@ -84,8 +84,7 @@ def _involute(base_radius: float, roll_angle: float) -> np.ndarray:
 
 
 def _fillet(gear: Gear) -> np.ndarray:
-    """Both integrals from the form circle down the fillet and along the root circle to the middle of the tooth
-    space."""
+    """From the form circle down the fillet and along the root circle to the middle of the tooth space."""
     nodes, weights = np.polynomial.legendre.leggauss(QUADRATURE_POINTS)
     half = 0.5 * gear.fillet_end
     points, tangents = fillet_point(gear, half * (1.0 + nodes)), fillet_tangent(gear, half * (1.0 + nodes))

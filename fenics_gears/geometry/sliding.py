@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.geometry.pair import GearPair
+from .pair import GearPair
 
-# Start of contact, LPSTC of the pinion, pitch point, HPSTC of the pinion, end of contact: the letters of ISO 21771
-# where the pinion drives.
+# Start of contact, LPSTC, pitch point, HPSTC (of the pinion), end of contact: ISO 21771 where the pinion drives.
 CONTACT_POINTS = ("A", "B", "C", "D", "E")
 
 

@@ -7,18 +7,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from fenics_gears.errors import GeometryError
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.involute import canonical_normal, canonical_point
-from fenics_gears.geometry.outline import halved, tip_corner
+
+from .gear import Gear
+from .involute import canonical_normal, canonical_point
+from .outline import halved, tip_corner
 
 
 @dataclass(frozen=True)
 class TipEdge:
-    """An arc of `radius` (mm) tangent to the involute and to the tip circle, or its chamfer; radius 0 is the sharp edge
-    where the two meet.
+    """An arc of `radius` (mm) tangent to the involute and to the tip circle, or its chamfer; radius 0 is the sharp
+    edge.
 
-    `centre` (2,), mm, of the arc; `flank_roll` (rad): where the arc leaves the involute; `flank_normal` and
-    `tip_normal` (2,): outward unit normals at its two ends, on the flank and on the tip circle or chamfer.
+    `centre` (2,), mm; `flank_roll` (rad): where the arc leaves the involute; `flank_normal` and `tip_normal` (2,):
+    outward unit normals at its ends.
     """
 
     radius: float
@@ -63,7 +64,6 @@ def tip_edge(gear: Gear, radius: float) -> TipEdge:
 
 
 def _chamfered(gear: Gear, radius: float) -> TipEdge:
-    """The edge between flank and chamfer: the arc's centre is `radius` inside the flank and inside the chamfer."""
     base, foot, end = gear.base_radius, canonical_point(gear.base_radius, gear.tip_roll_angle), tip_corner(gear)
     along = (end - foot) / np.linalg.norm(end - foot)
     outward = np.array([-along[1], along[0]])

@@ -1,18 +1,17 @@
 """Tooth thickness as drawings give it: base tangent length, dimension over balls, normal thickness; each way between
 them and the profile shift.
 
-Angles in rad, lengths in mm; profile shifts in normal modules. All of them measure the half angle psi_b of a tooth at
-the base circle (DIN 3960, ISO 21771):
-W_k = cos(beta_b) [(k - 1) p_bt + d_b psi_b], and for the centre of a ball between two teeth inv(alpha_K) = D_M/(d_b
-cos(beta_b)) + psi_b - pi/z.
+Angles in rad, lengths in mm; profile shifts in normal modules. All measure the half angle psi_b of a tooth at the base
+circle (DIN 3960, ISO 21771): W_k = cos(beta_b) [(k - 1) p_bt + d_b psi_b], and for the centre of a ball between two
+teeth inv(alpha_K) = D_M/(d_b cos(beta_b)) + psi_b - pi/z.
 """
 
 from __future__ import annotations
 
 from math import acos, atan, cos, hypot, pi, sqrt, tan
 
-from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.involute import inverse_involute, involute_function
+from .gear import Gear
+from .involute import inverse_involute, involute_function
 
 
 def base_helix_angle(gear: Gear) -> float:
@@ -81,8 +80,7 @@ def tangent_contact_radius(gear: Gear, length: float) -> float:
 
 
 def ball_centre(gear: Gear, ball_diameter: float) -> float:
-    """Radius of the centre of a ball between two teeth; the base radius where the ball is too small to touch both
-    flanks."""
+    """Radius of the centre of a ball between two teeth; the base radius where it is too small to touch both flanks."""
     swept = (
         ball_diameter / (2.0 * gear.base_radius * cos(base_helix_angle(gear)))
         + gear.tooth_half_angle_at_base
@@ -103,8 +101,7 @@ def dimension_over_balls(gear: Gear, ball_diameter: float) -> float:
 
 
 def shift_of_dimension_over_balls(gear: Gear, dimension: float, ball_diameter: float) -> float | None:
-    """The profile shift with that dimension over balls; None where the balls' centres would lie within the base
-    circle."""
+    """The profile shift with that dimension over balls; None where their centres would lie within the base circle."""
     centre = 0.5 * (dimension - ball_diameter) / _opposite(gear)
     if centre <= gear.base_radius:
         return None
@@ -115,8 +112,7 @@ def shift_of_dimension_over_balls(gear: Gear, dimension: float, ball_diameter: f
 
 
 def ball_diameter(gear: Gear) -> float:
-    """Diameter of a ball that touches the flanks near the shifted reference circle, exactly there for spur gears but
-    for rounding to 0.05 mm."""
+    """Diameter of a ball that touches the flanks near the shifted reference circle, rounded to 0.05 mm."""
     roll = float(gear.roll_angle(max(_middle_radius(gear), gear.base_radius)))
     centre = tan(roll + pi / gear.teeth - gear.tooth_half_angle_at_base)
     return max(1, round(40.0 * gear.base_radius * (centre - roll) * cos(base_helix_angle(gear)))) / 20.0

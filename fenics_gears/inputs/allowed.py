@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from math import inf, isfinite
 from typing import Any
 
-from fenics_gears.inputs import units
-from fenics_gears.inputs.problem import did_you_mean
-from fenics_gears.inputs.written import as_written
+from . import units
+from .problem import did_you_mean
+from .written import as_written
 
 # The longest path that Linux takes.
 LONGEST_FILE_NAME = 4096
@@ -26,10 +26,10 @@ class Refused(ValueError):
 class Allowed:
     """What a field allows, in words (``description``), and how its text becomes a value.
 
-    ``meaning`` says what the field is and ``otherwise`` what is taken where it is left out; for the documentation.
-    ``kind`` is the kind of quantity ("a length"), None for a field without unit, and ``unit`` a usual one. ``lowest``
-    and ``highest`` bound a number and the entries of a list, in N, mm, s, rad. ``over_face``: in three-dimensional
-    scenes alone; ``small``: against the module, as an error of manufacture is.
+    ``meaning`` and ``otherwise`` (what is taken where it is left out) are for the documentation. ``kind``: of quantity
+    ("a length"), None without unit; ``unit``: a usual one. ``lowest``, ``highest``: bounds of a number or of a list's
+    entries, in N, mm, s, rad. ``over_face``: in three-dimensional scenes alone; ``small``: against the module, as an
+    error of manufacture is.
     """
 
     description: str
@@ -55,8 +55,8 @@ class Allowed:
 class AllowedNumber(Allowed):
     """A quantity or a bare number.
 
-    ``words`` are texts that stand for other values; ``below`` is a sentence added where a value is too small;
-    ``above_lowest`` and ``below_highest``: the bound itself is not allowed.
+    ``words``: texts that stand for values; ``below``: a sentence added where a value is too small; ``above_lowest``,
+    ``below_highest``: the bound itself is not allowed.
     """
 
     words: Mapping[str, Any] = field(default_factory=dict)
@@ -66,7 +66,6 @@ class AllowedNumber(Allowed):
     below_highest: bool = False
 
     def convert(self, value: Any) -> Any:
-        """The number in N, mm, s, rad."""
         if isinstance(value, str) and value in self.words:
             return self.words[value]
         if self.kind is None:
@@ -88,13 +87,14 @@ class AllowedNumber(Allowed):
 
 @dataclass(frozen=True, kw_only=True)
 class AllowedList(Allowed):
-    """A list of ``shortest`` to ``longest`` quantities of one kind, or bare numbers, each within the bounds."""
+    """A list of ``shortest`` to ``longest`` quantities of one kind, or bare numbers, each within the bounds; a refusal
+    names the first wrong entry.
+    """
 
     longest: int = 1000
     shortest: int = 1
 
     def convert(self, value: Any) -> tuple[float, ...]:
-        """The numbers in N, mm, s, rad; a refusal names the first entry that is wrong."""
         if not isinstance(value, list):
             raise Refused("is not a list.")
         if not self.shortest <= len(value) <= self.longest:
@@ -117,13 +117,12 @@ class AllowedList(Allowed):
         return converted
 
     def spelled(self, value: Any) -> list[Any]:
-        """Each entry as a scene file has it."""
         return [float(each) if self.kind is None else units.text_of(each, self.kind, self.unit) for each in value]
 
 
 @dataclass(frozen=True)
 class Measured:
-    """A number in N, mm, s, rad with its kind ("a length"), of a field that takes several kinds but for the first."""
+    """A number in N, mm, s, rad with its kind ("a length"), where it is not the field's first."""
 
     number: float
     kind: str
@@ -132,14 +131,14 @@ class Measured:
 @dataclass(frozen=True, kw_only=True)
 class AllowedEither(Allowed):
     """A quantity of one of several kinds, or a word; ``ranges``: bounds of each kind, both included; ``units``: usual
-    ones. A quantity of the first kind becomes a number and one of another a ``Measured``; a word stays."""
+    ones. The first kind becomes a number, another a ``Measured``; a word stays.
+    """
 
     ranges: Mapping[str, tuple[float, float]]
     units: Mapping[str, str]
     words: tuple[str, ...]
 
     def convert(self, value: Any) -> float | Measured | str:
-        """The number, with its kind unless that is the first."""
         if isinstance(value, str) and value in self.words:
             return value
         number, kind = _quantity(value, self.unit, self.words, *self.ranges)
@@ -149,7 +148,6 @@ class AllowedEither(Allowed):
         return number if kind == self.kind else Measured(number, kind)
 
     def spelled(self, value: float | Measured | str) -> str:
-        """The quantity in the usual unit of its kind."""
         if isinstance(value, str):
             return value
         found = value if isinstance(value, Measured) else Measured(value, self.kind)
@@ -163,7 +161,6 @@ class AllowedText(Allowed):
     longest: int
 
     def convert(self, value: Any) -> Any:
-        """The text as it is."""
         if not isinstance(value, str):
             raise Refused("is not a text.")
         if len(value) > self.longest:
@@ -181,7 +178,6 @@ class AllowedFile(AllowedText):
     made: Callable[[str], Any] = str
 
     def convert(self, value: Any) -> Any:
-        """What is made of the name."""
         if isinstance(value, str) and not value.strip():
             raise Refused("is empty.")
         if isinstance(value, str) and (not value.endswith(self.ending) or value == self.ending):
@@ -189,7 +185,6 @@ class AllowedFile(AllowedText):
         return self.made(super().convert(value))
 
     def spelled(self, value: Any) -> str:
-        """The name."""
         return value if isinstance(value, str) else value.path
 
 
@@ -200,7 +195,6 @@ class AllowedChoice(Allowed):
     names: tuple[str, ...]
 
     def convert(self, value: Any) -> str:
-        """The name."""
         if not isinstance(value, str):
             raise Refused("is not known.")
         if value not in self.names:
@@ -212,7 +206,6 @@ class AllowedSwitch(Allowed):
     """True or false."""
 
     def convert(self, value: Any) -> bool:
-        """The value as it is."""
         if not isinstance(value, bool):
             raise Refused("is neither true nor false.")
         return value
@@ -237,7 +230,6 @@ def out_of_range(
 
 
 def _bare(value: Any, whole: bool) -> float:
-    """A bare number, a float unless it is whole."""
     if isinstance(value, str):
         raise Refused("is a text, not a bare number.")
     if isinstance(value, bool):
@@ -254,7 +246,7 @@ def _bare(value: Any, whole: bool) -> float:
 
 
 def _quantity(value: Any, unit: str, words: Any, *kinds: str) -> tuple[float, str]:
-    """The number and the kind of a quantity's text, one of some kinds."""
+    """A quantity's number and its kind, one of some."""
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         raise Refused("is not a text with a number and its unit.")
     if not isinstance(value, str):
@@ -275,7 +267,6 @@ class AllowedMatrix(Allowed):
     round_off: float = ROUND_OFF
 
     def convert(self, value: Any) -> Matrix:
-        """The rows."""
         import numpy as np
 
         rows = value if isinstance(value, list) and all(isinstance(row, list) for row in value) else []
@@ -295,5 +286,4 @@ class AllowedMatrix(Allowed):
         return tuple(tuple(float(each) for each in row) for row in 0.5 * (matrix + matrix.T))
 
     def spelled(self, value: Matrix) -> list[list[float]]:
-        """The rows."""
         return [list(row) for row in value]

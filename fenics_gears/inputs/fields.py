@@ -1,8 +1,8 @@
-"""The kinds of fields that a section of a scene has (``inputs.section``): quantities with units, bare numbers, choices.
+"""The kinds of fields that a section has (``inputs.section``): quantities with units, bare numbers, choices.
 
-``quantity``, ``number``, ``choice`` and the others each declare a field of a frozen dataclass: its range and unit, its
-meaning in one sentence, and what holds where a scene leaves it out (``default``, and ``otherwise`` in words; a field
-with neither is required). Reading, messages, writing and the documentation follow from what a field is ``Allowed``.
+Each function declares a field of a frozen dataclass: its range and unit, its meaning in one sentence, and what holds
+where a scene leaves it out (``default``, and ``otherwise`` in words; a field with neither is required). Reading,
+messages, writing and the documentation follow from what a field is ``Allowed``.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import field
 from typing import Any
 
-from fenics_gears.inputs import units
-from fenics_gears.inputs.allowed import (
+from . import units
+from .allowed import (
     LONGEST_FILE_NAME,
     Allowed,
     AllowedChoice,
@@ -188,7 +188,7 @@ def declared(allowed: Allowed, default: Any = None) -> Any:
 
 
 def _limits(limits: str) -> tuple[str, float, float]:
-    """The kind of quantity, and the lowest and the highest, of "0 mm to 1 m"."""
+    """Kind, lowest and highest of "0 mm to 1 m"."""
     (lowest, kind), (highest, _) = (units.quantity(each) for each in limits.split(" to "))
     return kind, lowest, highest
 

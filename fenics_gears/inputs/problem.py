@@ -1,17 +1,20 @@
-"""One mistake in a scene file: the line where it stands, which ``tomllib`` does not tell, and the known name that a
-misspelt one is nearest to or stands for."""
+"""A mistake in a scene file, the line where it stands, and the known name that a misspelt one is nearest to or stands
+for.
+"""
 
 from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
 Path = tuple[str, ...]
 # By this name a section has the tables that a file may also list in its place.
 LISTED = "each"
+# What a rule finds in a parsed scene: each place where it is broken, and what to do about it.
+Broken = Iterator[tuple[Path, str]]
 
 
 @dataclass(frozen=True)
@@ -31,7 +34,7 @@ class Problem:
         return next((lines[self.path[:n]] for n in range(len(self.path), 0, -1) if self.path[:n] in lines), 0)
 
     def describe(self, source: str, lines: Mapping[Path, int]) -> str:
-        """Two lines for people: file, line, field and value; then what is wrong and what is allowed."""
+        """Two lines for people: file, line, field and value; what is wrong and what is allowed."""
         line = self.line(lines)
         place = f"{source}:{line}" if line else source
         field = ".".join(self.path).removesuffix(f".{LISTED}" if self.written == "a list" else "")
@@ -51,7 +54,7 @@ def listed(problems: Sequence[Problem], lines: Mapping[Path, int], source: str) 
 
 
 def counted(entries: Sequence[str], count: int, source: str) -> str:
-    """The same of mistakes in words, `count` of them in all."""
+    """The first of `count` mistakes in words, and how many there are."""
     more = [f"... and {count - MOST_TOLD} more"] if count > MOST_TOLD else []
     total = f"{count} mistake{'s' if count > 1 else ''} in {source}. Nothing was computed or written."
     return "\n".join([*entries[:MOST_TOLD], *more, total])
@@ -98,7 +101,7 @@ def nearest(word: str, names: Iterable[str], likeness: float = 0.6) -> str | Non
 
 @lru_cache(maxsize=1024)
 def _nearest(word: str, names: tuple[str, ...], likeness: float) -> str | None:
-    """Remembered: scenes of a study have the same names hundreds of times."""
+    """Cached: scenes of a study have the same names hundreds of times."""
     by_lower_case = {name.lower(): name for name in names}
     if word.lower() in by_lower_case:
         return by_lower_case[word.lower()]
@@ -119,7 +122,7 @@ def meant(section: Iterable[str], word: str, known: Iterable[str]) -> str | None
     'depth'
     """
     # A scene without misspelt names does not load it.
-    from fenics_gears.inputs.synonyms import SYNONYMS
+    from .synonyms import SYNONYMS
 
     section, known = tuple(section), tuple(known)
     homes = [section, *([section[:-1], (*section[:-1], "pinion")] if section[-1:] in (("pinion",), ("wheel",)) else [])]

@@ -1,7 +1,7 @@
 """A section of a scene, declared once: a frozen dataclass whose fields say what they allow (``inputs.fields``).
 
 ``read`` makes one of a parsed file and tells what is wrong; its values, in N, mm, s, rad, are the data that physics
-gets. ``tree_of`` is the way back: a section of a file that reads as the same values, bit for bit.
+gets. ``tree_of`` is the way back, bit for bit.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import MISSING, Field, dataclass, fields
 from typing import Any, ClassVar, get_args, get_type_hints
 
-from fenics_gears.inputs.allowed import Allowed, Refused
-from fenics_gears.inputs.problem import Path, Problem, did_you_mean
-from fenics_gears.inputs.written import as_written
+from .allowed import Allowed, Refused
+from .problem import Path, Problem, did_you_mean
+from .written import as_written
 
 
 class Section:
@@ -39,8 +39,9 @@ def section_within(section: type[Section], name: str) -> type[Section] | None:
 
 @functools.cache
 def names_in(section: type[Section]) -> tuple[str, ...]:
-    """Names of all that a section may have in a scene file, in the order of their declaration; a field that declares
-    nothing is of the data alone."""
+    """Names of all that a section may have in a file, in the order of their declaration; a field that declares nothing
+    is of the data alone.
+    """
     return tuple(each.name for each in fields(section) if {each.name} & {*_allowed(section), *_sections(section)})
 
 
@@ -146,7 +147,6 @@ class AllowedTables(Allowed):
     most: int
 
     def convert(self, value: Any) -> tuple[Any, ...]:
-        """The sections; a refusal names the first that is wrong."""
         if not isinstance(value, list):
             raise Refused("is not a list.")
         if not 0 < len(value) <= self.most:
@@ -172,15 +172,13 @@ class AllowedTables(Allowed):
         return found
 
     def spelled(self, value: Any) -> list[dict[str, Any]]:
-        """The tables."""
         return [tree_of(each) for each in value]
 
 
 def tree_of(values: Any, section: type[Section] | None = None, leaving: Collection[str] = ()) -> dict[str, Any]:
     """A section as a scene file has it: that of the values, or another ``section`` with fields of the same names.
 
-    What is None, or what the values have unless told, is left out, and so are the fields ``leaving``; but a
-    section that may not be empty has one of its fields.
+    Left out are None, defaults and the fields ``leaving``; but a section that may not be empty has one of its fields.
     """
     section = section or type(values)
     found: dict[str, Any] = {}
@@ -205,5 +203,5 @@ def field_of(section: type[Section], name: str, value: Any) -> Any:
 
 
 def _default(each: Field) -> Any:
-    """What a field holds unless told; MISSING for a required one."""
+    """MISSING for a required field."""
     return each.default if each.default_factory is MISSING else each.default_factory()

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from math import pi
 from typing import Any
 
-from fenics_gears.inputs import units
-from fenics_gears.inputs.problem import LISTED, Path, nearest
+from . import units
+from .problem import LISTED, Path, nearest
 
 Tree = Mapping[str, Any]
 GEARS = ("pinion", "wheel")
@@ -55,8 +55,9 @@ def shafts_with_sections(tree: Tree) -> list[str]:
 
 
 def written_out(tree: dict[str, Any]) -> dict[str, Any]:
-    """A parsed file without what is written short: a material that is only named, ``material = "steel"``, is a section
-    with that name, and bearings that are listed, ``[[bearings.pinion]]``, are in the gear's section."""
+    """A parsed file with its short forms written out: ``material = "steel"`` is a section with that name, listed
+    bearings, ``[[bearings.pinion]]``, are in the gear's section.
+    """
     gears, shafts, bearings = (table(tree, name) or {} for name in ("gears", "shafts", "bearings"))
     homes = (gears, *(table(gears, gear) for gear in GEARS), *(table(shafts, shaft) for shaft in SHAFTS))
     for home in homes:

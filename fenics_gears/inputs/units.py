@@ -11,7 +11,7 @@ import math
 import re
 from collections import Counter
 
-from fenics_gears.inputs.problem import did_you_mean
+from .problem import did_you_mean
 
 # What the units of the program measure.
 # A ratio is a dimension too, so that a percentage is no bare number.
@@ -234,7 +234,7 @@ def _unit(written: str) -> tuple[float, str]:
 
 
 def _product(tidy: str) -> tuple[float, Counter]:
-    """The factor of a product of known units to N, mm, s, rad, and its powers of length, force, time and angle."""
+    """Factor of a product of known units to N, mm, s, rad, and its powers of length, force, time and angle."""
     factor, powers = 1.0, Counter()
     for item in _ITEMS.finditer(tidy):
         number, own = _product(item["inner"]) if item["inner"] else _in_base_units(item["name"])

@@ -15,7 +15,6 @@ class WrittenFloat(float):
     """A number of a TOML file that remembers how it was written."""
 
     def __new__(cls, text: str) -> WrittenFloat:
-        """The number that ``text`` stands for."""
         number = super().__new__(cls, text)
         number.text = text
         return number

@@ -15,9 +15,10 @@ import numpy as np
 from fenics_gears.contact.places import pairs_in_windows
 from fenics_gears.effects import effects_on
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.model.model import Model
-from fenics_gears.model.resolution import EVERY_STEP
-from fenics_gears.model.storage import fillet_points
+
+from .model import Model
+from .resolution import EVERY_STEP
+from .storage import fillet_points
 
 Number = float | np.ndarray
 
@@ -150,7 +151,7 @@ def expected_cost(model: Model, ranks: int = 1) -> ExpectedCost:
     if model.face.slices == 1:
         return _with_root_stress(model, gears, sections)
     # Imported here: plane scenes have none.
-    from fenics_gears.model.face_cost import face_cost
+    from .face_cost import face_cost
 
     return face_cost(model, sections, ranks)
 
@@ -248,7 +249,6 @@ def _sections(model: Model, gears: list[_Gear]) -> ExpectedCost:
 
 
 def _with_root_stress(model: Model, gears: list[_Gear], sections: ExpectedCost) -> ExpectedCost:
-    """The cost of a plane run with that of its root stress, where the scene asks for it."""
     if not model.scene.output.root_stress:
         return sections
     held, seconds, step = ON_FLANKS * _positions(model) * contact_rows(model), 0.0, 0.0

@@ -17,7 +17,8 @@ from fenics_gears.scene.data import ELASTIC, Scene
 
 if TYPE_CHECKING:
     from fenics_gears.geometry.gear import Gear
-    from fenics_gears.model.model import Model
+
+    from .model import Model
 
 
 def check_geometry(scene: Scene) -> GearPair:

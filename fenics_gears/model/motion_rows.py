@@ -11,7 +11,8 @@ from fenics_gears.dynamics.guidance import resolved_frequency
 from fenics_gears.dynamics.tilting import NUMBERS
 from fenics_gears.effects import common_period
 from fenics_gears.geometry.sliding import sliding_speed
-from fenics_gears.model.model import Model
+
+from .model import Model
 
 Rows = list[tuple[str, object, str]]
 MILLIMETRE = 1e-3  # m
@@ -39,7 +40,7 @@ def speed_rows(model: Model) -> Rows:
 def inertia_rows(model: Model) -> Rows:
     """Mass and moment of inertia of each gear, of the far end of the output shaft, and what both gears are along the
     line of action."""
-    from fenics_gears.model.drivetrain import lumped_gears
+    from .drivetrain import lumped_gears
 
     rows: Rows = []
     along, inertia, shafts = [], model.scene.inertia, model.scene.shafts

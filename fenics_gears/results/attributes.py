@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fenics_gears.results.numbers import CUBICS, SOLVED, STEPS
+from .numbers import CUBICS, SOLVED, STEPS
 
 
 @dataclass(frozen=True)

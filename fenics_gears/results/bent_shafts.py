@@ -11,9 +11,10 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.dynamics.elastic_shaft import MOTIONS, NUMBERS
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import SHAFT_POINTS
-from fenics_gears.results.face_variables import AlongTheFace
-from fenics_gears.results.numbers import mean_where_positive
-from fenics_gears.results.side_by_side import SideBySide
+
+from .face_variables import AlongTheFace
+from .numbers import mean_where_positive
+from .side_by_side import SideBySide
 
 MICROMETRES = 1e3
 # What MOTIONS are called in the result.
@@ -102,7 +103,6 @@ class BentShafts(AlongTheFace):
         return {"natural_frequencies": "\n".join(lines)}
 
     def _rolling_elements(self, counted: xr.Dataset) -> dict[str, float]:
-        """The largest force of a rolling element under the mean load; empty where no bearing has any."""
         if not self.drivetrain.on_rolling_bearings:
             return {}
         from fenics_gears.dynamics.shaft_at_work import largest_force

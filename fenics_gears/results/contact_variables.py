@@ -22,8 +22,9 @@ from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.energy_account import account, mean_load, quadratic
 from fenics_gears.dynamics.stepping import VaryingLoad
 from fenics_gears.dynamics.steps import Steps, forces_at, in_block, operator_at, smallest_openings
-from fenics_gears.results.side_by_side import SideBySide
 from fenics_gears.scene.data import Scene
+
+from .side_by_side import SideBySide
 
 Values = dict[str, np.ndarray]
 
@@ -32,7 +33,7 @@ class Curves(Protocol):
     """Values (steps, ...) of a result by name, as arrays."""
 
     def __getitem__(self, name: str, /) -> np.ndarray:
-        """The values of a name."""
+        pass
 
     def __contains__(self, name: object, /) -> bool: ...
 

@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from fenics_gears.results.files import save
 from fenics_gears.system.output import write_whole
+
+from .files import save
 
 # Significant digits: more than a measurement has, and still readable.
 DIGITS = 12

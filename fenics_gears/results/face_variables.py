@@ -11,10 +11,11 @@ import xarray as xr
 from fenics_gears.contact.face import Face
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.results.face_ends import in_end_zone
-from fenics_gears.results.load_factors import load_factors
-from fenics_gears.results.pairs import carrying_side
-from fenics_gears.results.side_by_side import SideBySide
+
+from .face_ends import in_end_zone
+from .load_factors import load_factors
+from .pairs import carrying_side
+from .side_by_side import SideBySide
 
 # Part of the face that touches, below which there is a warning: end relief takes the load off less than the rest.
 NOTABLE_PART = 0.75

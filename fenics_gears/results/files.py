@@ -89,7 +89,7 @@ def load(path: str | Path) -> xr.Dataset:
     if "transmission_error" not in result or "scene" not in result.attrs:
         raise ComputationError(f"{path}: holds no run of this program (no transmission_error, no scene text)")
     # The contents' layout, imported here: writing a result does not need it.
-    from fenics_gears.results.layout import mistake_in
+    from .layout import mistake_in
 
     if mistake := mistake_in(result):
         raise ComputationError(f"{path}: is no whole result of this program: {mistake}. Run its scene again.")
@@ -181,7 +181,6 @@ def _without_values(layout: Layout) -> bytes:
 
 
 def _made(file: h5py.File, name: str, kind: str, shape: tuple[int, ...], labels: Mapping[str, Any]) -> h5py.Dataset:
-    """The HDF5 dataset of an encoded variable, without values."""
     type_of_values = TEXT if kind == "|O" else np.dtype(kind)
     packed: dict[str, Any] = {}
     if len(shape) > 1 and (size := type_of_values.itemsize * int(np.prod(shape))) > LEAST_COMPRESSED:
@@ -195,7 +194,6 @@ def _made(file: h5py.File, name: str, kind: str, shape: tuple[int, ...], labels:
 
 
 def _fill(file: h5py.File, values: Mapping[str, np.ndarray], attributes: Mapping[str, Any]) -> None:
-    """Write the values of all variables and the attributes of the dataset."""
     _write_attributes(file, attributes)
     for name, each in values.items():
         if each.size:

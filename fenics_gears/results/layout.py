@@ -12,7 +12,8 @@ import xarray as xr
 from fenics_gears.effects import COMMON_VARIABLES, FACE_VARIABLES, every_effect
 from fenics_gears.effects.effect import OF_NODES, OF_SLICES
 from fenics_gears.model.storage import CONTACT_COORDINATES, COORDINATES, ROOT_STRESS, ROOT_STRESS_OVER_FACE
-from fenics_gears.results.attributes import RESULT_ATTRIBUTES
+
+from .attributes import RESULT_ATTRIBUTES
 
 GEARS = ["pinion", "wheel"]
 # Without these nothing can be drawn or said of a result; and what this program writes with them into each.

@@ -11,8 +11,9 @@ import xarray as xr
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.window import coast_roll_angles
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.results.face_ends import end_depth, in_end_zone, slice_widths, windows
-from fenics_gears.results.pairs import carrying_side
+
+from .face_ends import end_depth, in_end_zone, slice_widths, windows
+from .pairs import carrying_side
 
 # Mesh cycles beside a phase at which the lines of contact change.
 BESIDE = 1e-9

@@ -24,7 +24,8 @@ from fenics_gears.contact.mixed_form import Equations, Iterate, product, put_ent
 from fenics_gears.dynamics.steps import Steps, forces_at, in_block, nodes_at, operator_at
 from fenics_gears.model.model import Model
 from fenics_gears.model.modification import kinks
-from fenics_gears.results.side_by_side import SideBySide
+
+from .side_by_side import SideBySide
 
 
 @njit(cache=True)

@@ -12,7 +12,7 @@ import xarray as xr
 from fenics_gears.errors import SceneError
 
 if TYPE_CHECKING:
-    from fenics_gears.results.dataset import RunResult
+    from .dataset import RunResult
 
 
 @dataclass(frozen=True)

@@ -37,7 +37,6 @@ def _sharp_edge(scene: Scene, watched: Mapping[str, np.ndarray]) -> list[str]:
 
 
 def _undercut_edge(watched: Mapping[str, np.ndarray]) -> list[str]:
-    """Contact on the edge between an undercut gear's involute and its fillet, at its form circle."""
     found = []
     for gear in ("pinion", "wheel"):
         at = watched[f"on the {gear}'s form circle"]
@@ -90,13 +89,11 @@ def _kink(scene: Scene, numbers: Mapping) -> list[str]:
 
 
 def _linear(reliefs: Reliefs | None) -> list[str]:
-    """The gears whose relief is linear."""
     own = {gear: getattr(reliefs, gear, None) for gear in ("pinion", "wheel")}
     return [gear for gear, relief in own.items() if relief is not None and relief.power == 1 and relief.depth > 0.0]
 
 
 def _off_the_edge(scene: Scene, gears: list[str]) -> str:
-    """The remedies for contact on sharp tips that the scene does not have yet."""
     reliefs = [getattr(scene.tip_relief, gear) for gear in gears] if scene.tip_relief is not None else []
     if None in reliefs:
         ways = [

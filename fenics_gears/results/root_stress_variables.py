@@ -15,7 +15,8 @@ from fenics_gears.contact.tooth_pair import ToothPair
 from fenics_gears.elasticity.root_stress import RootStressRows
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.results.side_by_side import SideBySide
+
+from .side_by_side import SideBySide
 
 Rows = tuple[RootStressRows, RootStressRows]
 SIDES = ("drive", "coast")

@@ -16,7 +16,8 @@ from fenics_gears.model.model import Model
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
-    from fenics_gears.results.dataset import RunResult
+
+    from .dataset import RunResult
 
 # The start has died down when so much is left of the slowest vibration that it has set off, in parts of what it was;
 # where the run is long enough, less
@@ -97,7 +98,6 @@ def _rate(vibration: Vibration, model: Model) -> float:
 
 
 def _step_at(model: Model, time: float, steps: int) -> float:
-    """The first step at or after a time (s); infinite beyond the last where steps are not all as long."""
     if time <= 0.0 or not steps:
         return 0
     if time <= model.clock.time(steps):

@@ -13,8 +13,9 @@ from math import lcm
 import numpy as np
 import xarray as xr
 
-from fenics_gears.results.contact_variables import largest_normal_force, mesh_force
 from fenics_gears.scene.data import Scene
+
+from .contact_variables import largest_normal_force, mesh_force
 
 MESH, PINION, WHEEL, BOTH, HUNTING = (
     "mesh",

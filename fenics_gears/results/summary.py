@@ -7,10 +7,11 @@ from collections.abc import Iterator, Sequence
 
 from fenics_gears.contact.step_solver import NEWTON, PUBLISHED
 from fenics_gears.model.resolution import EVERY_STEP
-from fenics_gears.results.key_numbers import HARMONIC_NAMES
-from fenics_gears.results.numbers import ESTIMATED, RUNG
-from fenics_gears.results.validity import FEWER_THAN_THE_PERIOD, NO_MEANING
 from fenics_gears.system.progress import seconds_in_words
+
+from .key_numbers import HARMONIC_NAMES
+from .numbers import ESTIMATED, RUNG
+from .validity import FEWER_THAN_THE_PERIOD, NO_MEANING
 
 MICROMETRES = 1e3
 KILO = 1e3
@@ -110,7 +111,6 @@ def _pair_force(found) -> Said:
 
 
 def _face(found) -> Said:
-    """Load factors and overlap of flanks that are resolved over the face."""
     if "overlap_ratio" in found:
         overlap = f"overlap ratio {found['overlap_ratio']:.4g}"
         yield "contact ratio", f"{found['total_contact_ratio']:.4g} in all, {overlap}"
@@ -125,7 +125,6 @@ def _face(found) -> Said:
 
 
 def _shafts(found) -> Said:
-    """What shafts that bend do to the axes, and the largest force on a bearing."""
     if "largest_bearing_force" in found:
         for kind, over in (("inclination", ", over the common face"), ("offset", "")):
             inside, outside = (found[f"mean_axis_{kind}_{plane}"] for plane in ("in_plane", "out_of_plane"))
@@ -141,7 +140,6 @@ def _shafts(found) -> Said:
 
 
 def _proposed(found) -> Said:
-    """Lead modifications of the pinion for an even line load, as a scene has them."""
     if "proposed_face_load_factor" in found:
         amounts = (f'{name} = "{found[f"proposed_{name}"]:.1f} um"' for name in ("helix_slope", "crowning"))
         yield "for an even line load, in [lead_modifications]", f"pinion = {{ {', '.join(amounts)} }}"
@@ -149,7 +147,6 @@ def _proposed(found) -> Said:
 
 
 def _frequencies(lines: list[str]) -> str:
-    """The lowest natural frequencies, and what moves."""
     each = (line.partition(" ") for line in lines[:LOWEST])
     said = ", ".join(f"{float(hertz):.4g} Hz" + (f" ({motion})" if motion else "") for hertz, _, motion in each)
     return f"{said}; {len(lines)} in all" if len(lines) > LOWEST else said
@@ -172,7 +169,6 @@ def _pressure(found) -> Said:
 
 
 def _root_stress(found) -> Said:
-    """Largest root stress of either gear with its place, where the scene asks for it."""
     for gear in ("pinion", "wheel"):
         name = f"largest_root_stress_{gear}"
         if name in found:
@@ -192,8 +188,6 @@ def _power(found) -> Said:
 
 
 def _sliding(dataset) -> Said:
-    """The fastest sliding, and specific sliding where it is largest in size, at the start of either gear's active
-    profile."""
     if "specific_sliding" in dataset:
         speed = ""
         if "sliding_speed" in dataset:
@@ -215,7 +209,6 @@ def _contact_loss(dataset) -> Said:
 
 
 def _estimated_error(found) -> Said:
-    """The target, the estimated error, the setting that limits it and the chosen settings; nothing without a target."""
     if "target" not in found:
         return
     parts = {name.removeprefix(ESTIMATED): error for name, error in found.items() if name.startswith(ESTIMATED)}

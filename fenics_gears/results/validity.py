@@ -12,14 +12,15 @@ from fenics_gears.dynamics.clock import Clock
 from fenics_gears.dynamics.drivetrain import Drivetrain
 from fenics_gears.dynamics.march import March
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.results.key_numbers import wedged
-from fenics_gears.results.numbers import contact_losses
-from fenics_gears.results.pressure_limits import warnings_of_pressure
 from fenics_gears.scene.data import Scene
 
+from .key_numbers import wedged
+from .numbers import contact_losses
+from .pressure_limits import warnings_of_pressure
+
 if TYPE_CHECKING:
-    from fenics_gears.results.dataset import RunResult
-    from fenics_gears.results.recorder import Recorder
+    from .dataset import RunResult
+    from .recorder import Recorder
 
 Watched = Mapping[str, np.ndarray]
 # cos(phi) is 1 within 0.1 % up to here: rotations are taken as small (paper, section 2).
@@ -81,7 +82,6 @@ def warnings_of(recorder: Recorder, march: March, result: RunResult) -> list[str
 
 
 def _window(cycle: Cycle, watched: Watched) -> list[str]:
-    """Contact at an end of the window that is no edge of the flank: the window cuts pressure off."""
     reached = int(watched["window reached"].sum())
     if not reached:
         return []
@@ -107,7 +107,6 @@ def _rank(watched: Watched) -> list[str]:
 
 
 def _passed_through(cycle: Cycle, result: RunResult) -> list[str]:
-    """A transmission error of more than a pitch: the teeth of both gears would stand in the same place."""
     pitch = cycle.pair.wheel.angular_pitch
     largest = np.abs(result["transmission_error"]).max(initial=0.0)
     if largest <= pitch:
@@ -138,8 +137,6 @@ def _rotation(result: RunResult) -> list[str]:
 
 
 def _wedged(cycle: Cycle, result: RunResult) -> list[str]:
-    """Teeth pressed on both sides at once, since run-out, errors or deflection need more than the backlash; the load
-    does not explain these forces."""
     if not cycle.coast_flanks:
         return []
     coast, both = result["coast_normal_force"], wedged(result)
@@ -189,8 +186,6 @@ def _when(step: int, cycle: Cycle, clock: Clock) -> str:
 
 
 def _locking(cycle: Cycle, march: March) -> list[str]:
-    """Friction that turns the wheel back by more than the normal force drives it, so that forces grow beyond what the
-    load needs."""
     if not march.locked:
         return []
     return [
@@ -202,7 +197,6 @@ def _locking(cycle: Cycle, march: March) -> list[str]:
 
 
 def _uniqueness(march: March) -> list[str]:
-    """Steps at which the solution cannot be proved to be the only one."""
     if not march.uncertified:
         return []
     return [

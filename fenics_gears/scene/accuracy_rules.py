@@ -2,43 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import allowed_in, names_in
 from fenics_gears.inputs.tree import Tree, load_in, material_sections, quantity_at, quantity_in, table, value_at
 from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.accuracy import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy
-from fenics_gears.scene.gear_schema import Gears
 
-# In modules: the dense compliance of a flank of such elements has gigabytes.
+from .accuracy import ELASTIC, ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Accuracy
+from .gear_schema import Gears
+
+# Smallest and largest sizes in modules: the dense compliance of a flank of finer elements has gigabytes.
 FINEST_ELEMENT, FINEST_BODY = 1e-3, 1e-2
+_SIZES = (
+    ("flank_element_size", FINEST_ELEMENT, 1.0),
+    ("body_element_size", FINEST_BODY, 10.0),
+    ("contact_length", 0.0, 3.0),
+)
 EVERY_STEP = "every step"
 
 
-def _resolution_fits_the_teeth(tree: Tree) -> Iterator[Problem]:
+def _resolution_fits_the_teeth(tree: Tree) -> Broken:
     module = _module(tree)
     if module is None:
         return
     accuracy = table(tree, "accuracy") or {}
-    for name, modules in (("flank_element_size", 1.0), ("body_element_size", 10.0), ("contact_length", 3.0)):
-        size = quantity_in(accuracy.get(name))
-        if size is not None and size > modules * module:
-            yield Problem(
-                ("accuracy", name),
-                as_written(accuracy[name]),
-                f"is too large for a module of {module:g} mm. Allowed: up to {modules * module:g} mm.",
-            )
-    for name, modules in (("flank_element_size", FINEST_ELEMENT), ("body_element_size", FINEST_BODY)):
-        size, finest = quantity_in(accuracy.get(name)), modules * module
-        if size is not None and 0 < size < finest:
+    for name, finest, coarsest in _SIZES:
+        size, smallest, largest = quantity_in(accuracy.get(name)), finest * module, coarsest * module
+        if size is None:
+            continue
+        if size > largest:
+            yield ("accuracy", name), f"is too large for a module of {module:g} mm. Allowed: up to {largest:g} mm."
+        elif 0 < size < smallest:
             message = (
-                f"is too small for a module of {module:g} mm: no memory holds such a mesh. Allowed: from {finest:g} mm."
+                f"is too small for a module of {module:g} mm: no memory holds such a mesh. Allowed: from"
+                f" {smallest:g} mm."
             )
-            yield Problem(("accuracy", name), as_written(accuracy[name]), message)
+            yield ("accuracy", name), message
 
 
-def _body_is_no_finer_than_the_flank(tree: Tree) -> Iterator[Problem]:
+def _body_is_no_finer_than_the_flank(tree: Tree) -> Broken:
     accuracy = table(tree, "accuracy") or {}
     body, flank = (quantity_in(accuracy.get(name)) for name in ("body_element_size", "flank_element_size"))
     if body is not None and flank is not None and 0 < body < flank:
@@ -46,10 +47,10 @@ def _body_is_no_finer_than_the_flank(tree: Tree) -> Iterator[Problem]:
             f"is smaller than flank_element_size = {as_written(accuracy['flank_element_size'])}. Allowed: from that"
             " size on."
         )
-        yield Problem(("accuracy", "body_element_size"), as_written(accuracy["body_element_size"]), message)
+        yield ("accuracy", "body_element_size"), message
 
 
-def _remeshing_has_its_own_nodes(tree: Tree) -> Iterator[Problem]:
+def _remeshing_has_its_own_nodes(tree: Tree) -> Broken:
     accuracy = table(tree, "accuracy") or {}
     if accuracy.get("condensation") != EVERY_STEP:
         return
@@ -59,28 +60,22 @@ def _remeshing_has_its_own_nodes(tree: Tree) -> Iterator[Problem]:
                 f'has no meaning beside condensation = "{EVERY_STEP}", where flank nodes meet and the whole gear is'
                 " meshed. Leave one of the two out."
             )
-            yield Problem(("accuracy", name), as_written(accuracy[name]), message)
+            yield ("accuracy", name), message
 
 
-def _cheaper_models_have_what_they_need(tree: Tree) -> Iterator[Problem]:
+def _cheaper_models_have_what_they_need(tree: Tree) -> Broken:
     accuracy = table(tree, "accuracy") or {}
-    chosen = accuracy.get("model")
+    place, chosen = ("accuracy", "model"), accuracy.get("model")
     if chosen not in (RIGID_TEETH, STIFFNESS_TABLE, ISO_6336):
         return
-
-    def problem(message: str) -> Problem:
-        return Problem(("accuracy", "model"), as_written(chosen), message)
-
     if chosen != RIGID_TEETH and not material_sections(tree):
-        yield problem("needs the section [gears.material], which is missing. Add it, or leave accuracy.model out.")
+        yield place, "needs the section [gears.material], which is missing. Add it, or leave accuracy.model out."
     if accuracy.get("condensation") == EVERY_STEP:
-        yield problem(f'cannot stand beside condensation = "{EVERY_STEP}". Leave one of the two out.')
+        yield place, f'cannot stand beside condensation = "{EVERY_STEP}". Leave one of the two out.'
     if value_at(tree, "output", "root_stress") is True:
-        yield problem('has no stresses for output.root_stress. Allowed beside it: "elastic". Leave one of the two out.')
-    lacking = {RIGID_TEETH: ("corner_contact",), ISO_6336: ("corner_contact",), STIFFNESS_TABLE: ()}[chosen]
-    for section in lacking:
-        if section in tree:
-            yield problem(f"cannot stand beside [{section}], which it knows nothing of. Leave one of the two out.")
+        yield place, 'has no stresses for output.root_stress. Allowed beside it: "elastic". Leave one of the two out.'
+    if chosen != STIFFNESS_TABLE and "corner_contact" in tree:
+        yield place, "cannot stand beside [corner_contact], which it knows nothing of. Leave one of the two out."
 
 
 _NOT_BESIDE_A_TARGET = {
@@ -91,51 +86,35 @@ _NOT_BESIDE_A_TARGET = {
 }
 
 
-def _a_target_chooses_alone(tree: Tree) -> Iterator[Problem]:
+def _a_target_chooses_alone(tree: Tree) -> Broken:
     accuracy, gears = table(tree, "accuracy") or {}, table(tree, "gears") or {}
+    place = ("accuracy", "target")
     if "target" not in accuracy:
         return
     for name in accuracy:
         if name in names_in(Accuracy) and name != "target":
             message = f"{_NOT_BESIDE_A_TARGET.get(name, 'is chosen by accuracy.target')}. Leave one of the two out."
-            yield Problem(("accuracy", name), as_written(accuracy[name]), message)
-
-    def problem(message: str) -> Problem:
-        return Problem(("accuracy", "target"), as_written(accuracy["target"]), message)
-
+            yield ("accuracy", name), message
     if gears and not material_sections(tree):
-        yield problem("needs teeth that give way. Add [gears.material], or leave the target out.")
+        yield place, "needs teeth that give way. Add [gears.material], or leave the target out."
     load = load_in(tree)
     if load is not None and load[1] == 0.0:
-        yield problem(
-            f"has no meaning without a load: nothing gives way then. Give {'.'.join(load[0])}, or leave the target out."
-        )
+        home = ".".join(load[0])
+        yield place, f"has no meaning without a load: nothing gives way then. Give {home}, or leave the target out."
     if "body_meshes" in tree:
-        yield problem("cannot refine the meshes of [body_meshes]. Leave one of the two out.")
+        yield place, "cannot refine the meshes of [body_meshes]. Leave one of the two out."
 
 
-def _root_stress_has_its_teeth(tree: Tree) -> Iterator[Problem]:
-    if value_at(tree, "output", "root_stress") is not True:
+def _root_stress_has_its_teeth(tree: Tree) -> Broken:
+    place, accuracy = ("output", "root_stress"), table(tree, "accuracy") or {}
+    if value_at(tree, *place) is not True:
         return
     if table(tree, "gears") is not None and not material_sections(tree):
-        yield Problem(
-            ("output", "root_stress"),
-            "true",
-            "needs teeth that give way. Add [gears.material], or leave root_stress out.",
-        )
-    accuracy = table(tree, "accuracy") or {}
+        yield place, "needs teeth that give way. Add [gears.material], or leave root_stress out."
     if accuracy.get("model", ELASTIC) != ELASTIC:
-        yield Problem(
-            ("output", "root_stress"),
-            "true",
-            f'needs teeth of finite elements. Take accuracy.model = "{ELASTIC}", or leave root_stress out.',
-        )
+        yield place, f'needs teeth of finite elements. Take accuracy.model = "{ELASTIC}", or leave root_stress out.'
     if accuracy.get("condensation") == EVERY_STEP:
-        yield Problem(
-            ("output", "root_stress"),
-            "true",
-            f'cannot stand beside condensation = "{EVERY_STEP}". Take "once", or leave root_stress out.',
-        )
+        yield place, f'cannot stand beside condensation = "{EVERY_STEP}". Take "once", or leave root_stress out.'
 
 
 def _module(tree: Tree) -> float | None:

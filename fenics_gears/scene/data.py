@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING
 from fenics_gears.geometry.gear_data import GearData as GearData
 from fenics_gears.geometry.gear_data import GearPairData, Material
 from fenics_gears.inputs.tree import wheel_torque
-from fenics_gears.scene.accuracy import ELASTIC as ELASTIC
-from fenics_gears.scene.accuracy import IN_THE_PLANE, OVER_THE_FACE, Fineness
-from fenics_gears.scene.accuracy import ISO_6336 as ISO_6336
-from fenics_gears.scene.accuracy import RIGID_TEETH as RIGID_TEETH
-from fenics_gears.scene.accuracy import STIFFNESS_TABLE as STIFFNESS_TABLE
-from fenics_gears.scene.accuracy import Accuracy as Accuracy
-from fenics_gears.scene.accuracy import Output as Output
+
+from .accuracy import ELASTIC as ELASTIC
+from .accuracy import IN_THE_PLANE, OVER_THE_FACE, Fineness
+from .accuracy import ISO_6336 as ISO_6336
+from .accuracy import RIGID_TEETH as RIGID_TEETH
+from .accuracy import STIFFNESS_TABLE as STIFFNESS_TABLE
+from .accuracy import Accuracy as Accuracy
+from .accuracy import Output as Output
 
 if TYPE_CHECKING:
     from fenics_gears.effects.bearings import Bearings
@@ -43,7 +44,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Load:
     """Torque on the wheel's shaft, N mm; positive when it resists the drive. `given`: the field by which the scene has
-    it, in whose words a run is titled."""
+    it.
+    """
 
     wheel_torque: float
     given: str = field(default="wheel_torque", compare=False)
@@ -59,8 +61,7 @@ LOAD_WORDS = {
 
 @dataclass(frozen=True)
 class Derived:
-    """A figure that a scene leaves out: what `gears check` calls it, its value and unit, the formula that it comes
-    from, and a remark if it is `unusual`."""
+    """A figure that a scene leaves out: its name, value, unit and formula, and a remark if it is `unusual`."""
 
     name: str
     value: float
@@ -80,12 +81,10 @@ NOMINAL_FREQUENCY = 1.0
 @dataclass(frozen=True)
 class Motion:
     """Mesh frequency, Hz, mesh cycles that are run, and how many of the last of them have their contact fields stored
-    and are shown in pictures.
+    and are shown.
 
-    ``fewer_where_too_large``: the scene does not give that number, so fewer are stored where the result would be too
-    large.
-    ``speed_given``: whether the scene has a speed; if not, no result depends on one, and the frequency is
-    ``NOMINAL_FREQUENCY``.
+    ``fewer_where_too_large``: the scene does not give that number, so a large result stores fewer. ``speed_given``: if
+    not, no result depends on a speed, and the frequency is ``NOMINAL_FREQUENCY``.
     """
 
     mesh_frequency: float
@@ -100,11 +99,9 @@ class Scene:
     """All input of a run. Its `text` always says what its data are, also of a scene that ``dataclasses.replace``
     changed.
 
-    One field for each effect of `effects.AT_THE_TOP`, in the same order; an
-    effect that the scene does not name is None; `derived`: what the scene leaves out of gears and load; `written`: the
-    text that it was read from, before any change; `folder`:
-    from which files are looked for that it names. (Elastic teeth are an effect too: they are there where `gears` have a
-    material.)
+    One field for each effect of `effects.AT_THE_TOP`, in the same order, None where the scene does not name it;
+    `derived`: what the scene leaves out of gears and load; `written`: the text that it was read from; `folder`: from
+    which its files are looked for. (Elastic teeth are an effect too: they are there where `gears` have a material.)
     """
 
     title: str
@@ -137,9 +134,8 @@ class Scene:
 
     @cached_property
     def text(self) -> str:
-        """The scene file that gives these data: as it was read where nothing was changed since, else written anew
-        (``scene.write``)."""
-        from fenics_gears.scene.write import text_of
+        """The scene file that gives these data: as it was read where nothing was changed since, else written anew."""
+        from .write import text_of
 
         return text_of(self)
 
@@ -148,7 +144,7 @@ class Scene:
 
     def _repr_html_(self) -> str:
         """The table that notebooks show."""
-        from fenics_gears.scene.write import html
+        from .write import html
 
         return html(self)
 

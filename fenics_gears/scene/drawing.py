@@ -20,10 +20,11 @@ from fenics_gears.geometry.gear_checks import ROUNDING, refuse, tip_radius_with_
 from fenics_gears.geometry.gear_data import MATERIALS, RACKS, GearData, GearPairData, Web
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.inputs.tree import GEARS, LOADS, wheel_torque
-from fenics_gears.scene.data import Derived, Load, Motion
-from fenics_gears.scene.gear_schema import Gear as GearText
-from fenics_gears.scene.gear_schema import Gears
-from fenics_gears.scene.schema import LoadText
+
+from .data import Derived, Load, Motion
+from .gear_schema import Gear as GearText
+from .gear_schema import Gears
+from .schema import LoadText
 
 # Overlap of teeth, in modules, that a rounded centre distance hardly leaves.
 NOTABLE_OVERLAP = 0.01
@@ -123,11 +124,11 @@ def completed(pair: Gears) -> tuple[float, tuple[GearData, GearData], list[Deriv
 
 
 def _shift(pair: Gears, drawn: GearText, name: str) -> tuple[float, list[Derived]]:
-    """The profile shift of the gear's thickness, and what was derived."""
+    """The profile shift of the tooth's thickness."""
     if drawn.measure is None:
         return drawn.profile_shift, []
     # Imported here as below: most drawings give profile shifts.
-    from fenics_gears.scene.thickness import shift_of_thickness
+    from .thickness import shift_of_thickness
 
     return shift_of_thickness(pair, drawn, name)
 
@@ -135,7 +136,7 @@ def _shift(pair: Gears, drawn: GearText, name: str) -> tuple[float, list[Derived
 def _asked_measures(pair: Gears, drawn: GearText, name: str, cut: float) -> Iterable[Derived]:
     if drawn.spanned_teeth is None and drawn.ball_diameter is None:
         return ()
-    from fenics_gears.scene.thickness import asked_measures
+    from .thickness import asked_measures
 
     return asked_measures(pair, drawn, name, cut)
 
@@ -201,7 +202,7 @@ def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequen
             f"half by each gear of the backlash and of {overlap:.4g} mm by which teeth with the given profile shifts"
             " would overlap at this centre distance"
         )
-    from fenics_gears.scene import unusual
+    from . import unusual
 
     odd = (unusual.of_thinning(pair, overlap, distance, nominal, thinner), "")
     return lowered, [
@@ -218,7 +219,7 @@ def _tip_shortening(
         return pair.tip_shortening, []
     if all(gear.tip_diameter is not None for gear in drawn):
         return 0.0, []
-    from fenics_gears.scene import unusual
+    from . import unusual
 
     reference = 0.5 * pair.module * sum(gear.teeth for gear in drawn) / cos(pair.helix_angle or 0.0)
     shortening = max(0.0, round(sum(shifts) - (distance - reference) / pair.module, DECIMALS_IN_MODULES))
@@ -274,15 +275,14 @@ def _gear_data(
         nominal_profile_shift=None if shift == cut else float(shift),
     )  # fmt: skip
     if drawn.measure is not None:
-        from fenics_gears.scene.thickness import check_measure
+        from .thickness import check_measure
 
         check_measure(drawn, name, pair.in_rotation(data))
     return data, found
 
 
 def _of_rack(pair: Gears, drawn: GearText, figure: str) -> float | None:
-    """A figure of the gear's own rack, else of that of both; None where the profile of one of them stands before it, or
-    nothing."""
+    """A figure of the gear's own rack, else of both; None where a profile stands before it, or nothing."""
     for section in (drawn.rack, pair.rack):
         if section is not None and (getattr(section, figure) is not None or section.profile is not None):
             return getattr(section, figure)

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
-from fenics_gears.inputs.problem import Problem
+from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import allowed_in
-from fenics_gears.inputs.tree import GEARS, LOADS, Tree, quantity_at, table, value_at
-from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.gear_schema import MEASURES, Gear
-from fenics_gears.scene.schema import LoadText
+from fenics_gears.inputs.tree import GEARS, LOADS, Tree, quantity_at, table
+
+from .gear_schema import MEASURES, Gear
+from .schema import LoadText
 
 
-def _thickness_is_given_once(tree: Tree) -> Iterator[Problem]:
-    """Each gear has a profile shift or a measure of its thickness, and what is measured with it."""
+def _thickness_is_given_once(tree: Tree) -> Broken:
     gears = table(tree, "gears") or {}
     for gear in GEARS:
         own = table(gears, gear)
@@ -22,22 +21,17 @@ def _thickness_is_given_once(tree: Tree) -> Iterator[Problem]:
         measures = [name for name in MEASURES if name in own]
         if not measures and "profile_shift" not in own:
             allowed = allowed_in(Gear, "profile_shift").description
-            yield Problem(
-                ("gears", gear, "profile_shift"),
-                None,
-                f"is missing. Allowed: {allowed}; or one of {', '.join(MEASURES)}.",
-            )
+            yield ("gears", gear, "profile_shift"), f"is missing. Allowed: {allowed}; or one of {', '.join(MEASURES)}."
         for name in measures:
             beside = MEASURES[name]
             if beside is not None and beside not in own:
-                yield Problem(
-                    ("gears", gear, beside),
-                    None,
-                    f"is missing. Allowed: {allowed_in(Gear, beside).description}; {name} has no meaning without it.",
+                message = (
+                    f"is missing. Allowed: {allowed_in(Gear, beside).description}; {name} has no meaning without it."
                 )
+                yield ("gears", gear, beside), message
 
 
-def _backlash_has_its_place(tree: Tree) -> Iterator[Problem]:
+def _backlash_has_its_place(tree: Tree) -> Broken:
     """A backlash is made by thinner teeth of both gears, or by the centre distance of measured ones."""
     gears = table(tree, "gears") or {}
     if "backlash" not in gears:
@@ -49,15 +43,14 @@ def _backlash_has_its_place(tree: Tree) -> Iterator[Problem]:
             f"stands beside {beside}, of which it follows. Allowed: profile shifts of both gears alone, or measured"
             " tooth thicknesses of both without centre_distance. Leave one out."
         )
-        yield Problem(("gears", "backlash"), as_written(gears["backlash"]), message)
+        yield ("gears", "backlash"), message
 
 
-def _no_figure_is_given_twice(tree: Tree) -> Iterator[Problem]:
-    """What follows from a figure of the rack is not given beside it."""
+def _no_figure_is_given_twice(tree: Tree) -> Broken:
     gears = table(tree, "gears") or {}
     if "tip_shortening" in gears and all("tip_diameter" in (table(gears, gear) or {}) for gear in GEARS):
         message = "stands beside the tip diameters of both gears, which say the same. Leave it out, or a tip diameter."
-        yield Problem(("gears", "tip_shortening"), as_written(gears["tip_shortening"]), message)
+        yield ("gears", "tip_shortening"), message
     for gear in GEARS:
         own = table(gears, gear) or {}
         rack = table(own, "rack") or {}
@@ -67,14 +60,11 @@ def _no_figure_is_given_twice(tree: Tree) -> Iterator[Problem]:
             ("tip_radius", "rack_tip_radius"),
         ):
             if name in rack and diameter in own:
-                yield Problem(
-                    ("gears", gear, "rack", name),
-                    as_written(rack[name]),
-                    f"stands beside gears.{gear}.{diameter}, which says the same. Leave one of the two out.",
-                )
+                message = f"stands beside gears.{gear}.{diameter}, which says the same. Leave one of the two out."
+                yield ("gears", gear, "rack", name), message
 
 
-def _protuberance_is_more_than_the_stock(tree: Tree) -> Iterator[Problem]:
+def _protuberance_is_more_than_the_stock(tree: Tree) -> Broken:
     """Finishing takes no more than the protuberance has cut free, or it leaves a step in the root; the angle belongs to
     a protuberance."""
     gears = table(tree, "gears") or {}
@@ -95,12 +85,11 @@ def _protuberance_is_more_than_the_stock(tree: Tree) -> Iterator[Problem]:
         elif angle and pressure_angle and angle[1] >= pressure_angle:
             found[angle[0]] = f"must be less than gears.pressure_angle = {gears['pressure_angle']}. Lower it."
     for path, message in found.items():
-        yield Problem(path, as_written(value_at(tree, *path)), message)
+        yield path, message
 
 
 def _of_rack(gears: Tree, gear: str, figure: str) -> tuple[tuple[str, ...], float] | None:
-    """Where a quantity of a gear's rack is written, in the gear's own section first, and its number; None where it is
-    not."""
+    """Where a quantity of a gear's rack is written, its own section first, and its number."""
     for path in ((gear, "rack", figure), ("rack", figure)):
         number = quantity_at(gears, *path)
         if number is not None:
@@ -108,31 +97,21 @@ def _of_rack(gears: Tree, gear: str, figure: str) -> tuple[tuple[str, ...], floa
     return None
 
 
-def _load_is_given_once(tree: Tree) -> Iterator[Problem]:
-    """There is a torque or a power, and a power has a steady speed."""
+def _load_is_given_once(tree: Tree) -> Broken:
     load, motion = table(tree, "load"), tree.get("motion", {})
     if load is None:
         return
     given = [name for name in LOADS if name in load]
     if not given:
-        yield Problem(
-            ("load", "wheel_torque"),
-            None,
-            f"is missing. Allowed: {allowed_in(LoadText, 'wheel_torque').description}; or pinion_torque or power.",
-        )
+        message = f"is missing. Allowed: {allowed_in(LoadText, 'wheel_torque').description}; or pinion_torque or power."
+        yield ("load", "wheel_torque"), message
     if "power" not in given:
         return
-    written = as_written(value_at(tree, "load", "power"))
     if isinstance(motion, Mapping) and not {"mesh_frequency", "pinion_speed"} & set(motion):
-        yield Problem(
-            ("load", "power"),
-            written,
-            'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or mesh_frequency, or give a torque.',
-        )
+        message = 'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or mesh_frequency, or give a torque.'
+        yield ("load", "power"), message
     if "speed_ramp" in tree:
-        yield Problem(
-            ("load", "power"), written, "has no one torque beside [speed_ramp]. Give wheel_torque or pinion_torque."
-        )
+        yield ("load", "power"), "has no one torque beside [speed_ramp]. Give wheel_torque or pinion_torque."
 
 
 DRAWING_RULES = (

@@ -1,14 +1,13 @@
-"""Rules of three-dimensional scenes: what stands beside a helix angle, lead modifications, misalignment and places of
-bearings. Plane scenes do not load them."""
+"""Rules of three-dimensional scenes, which plane scenes do not load."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
-from fenics_gears.inputs.problem import Path, Problem
+from fenics_gears.inputs.problem import Broken, Path
 from fenics_gears.inputs.tree import GEARS, Tree, dotted, material_sections, quantity_at, quantity_in, table, value_at
-from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.accuracy_rules import EVERY_STEP
+
+from .accuracy_rules import EVERY_STEP
 
 # Effects say themselves what they need.
 NOT_EFFECTS = (("gears", "helix_angle"), ("bearings", "places"))
@@ -26,7 +25,7 @@ PLANE_ONLY = {
 INSTEAD = {"element": "P2", "condensation": "once", "model": "elastic"}
 
 
-def rules_over_the_face(tree: Tree, reasons: Sequence[Path]) -> Iterator[Problem]:
+def rules_over_the_face(tree: Tree, reasons: Sequence[Path]) -> Broken:
     """All of a scene that `reasons` make three-dimensional: elastic teeth in full contact, of equal sectors, condensed
     once, layers that have a thickness, errors of a class that is for such a face."""
     yield from _faces_are_resolved_by_elastic_contact(tree, reasons)
@@ -34,35 +33,26 @@ def rules_over_the_face(tree: Tree, reasons: Sequence[Path]) -> Iterator[Problem
     yield from _class_is_for_the_faces(tree)
 
 
-def _faces_are_resolved_by_elastic_contact(tree: Tree, reasons: Sequence[Path]) -> Iterator[Problem]:
+def _faces_are_resolved_by_elastic_contact(tree: Tree, reasons: Sequence[Path]) -> Broken:
     why = f"cannot stand beside {dotted(reasons[0])}: flanks are then resolved over the face"
     accuracy = table(tree, "accuracy") or {}
     for name, refused in PLANE_ONLY.items():
         if accuracy.get(name) in refused:
-            yield Problem(
-                ("accuracy", name),
-                as_written(accuracy[name]),
-                f'{why}. Take "{INSTEAD[name]}", or leave one of the two out.',
-            )
+            yield ("accuracy", name), f'{why}. Take "{INSTEAD[name]}", or leave one of the two out.'
     of_scene = next((path for path in reasons if path in NOT_EFFECTS), None)
     if of_scene is None:
         return
     if "body_meshes" in tree:
-        yield Problem(
-            ("body_meshes",),
-            "",
+        message = (
             f"{why.replace(dotted(reasons[0]), dotted(of_scene))}, and the mesh of a plane section is not. Leave one of"
-            " the two out.",
+            " the two out."
         )
+        yield ("body_meshes",), message
     if not material_sections(tree):
-        yield Problem(
-            of_scene,
-            as_written(value_at(tree, *of_scene)) or "",
-            "needs teeth that give way. Add [gears.material], or leave it out.",
-        )
+        yield of_scene, "needs teeth that give way. Add [gears.material], or leave it out."
 
 
-def _class_is_for_the_faces(tree: Tree) -> Iterator[Problem]:
+def _class_is_for_the_faces(tree: Tree) -> Broken:
     drawn = value_at(tree, "flank_errors", "tolerance_class")
     for gear in GEARS if drawn is not None else ():
         width = quantity_at(tree, "gears", gear, "face_width") or quantity_at(tree, "gears", "face_width")
@@ -71,10 +61,10 @@ def _class_is_for_the_faces(tree: Tree) -> Iterator[Problem]:
                 f"is for face widths from {WIDTHS[0]:g} mm to {WIDTHS[1]:g} mm (ISO 1328-1), not {width:g} mm. Allowed:"
                 " lists of errors instead."
             )
-            yield Problem(("flank_errors", "tolerance_class"), as_written(drawn), message)
+            yield ("flank_errors", "tolerance_class"), message
 
 
-def _layers_are_no_needles(tree: Tree) -> Iterator[Problem]:
+def _layers_are_no_needles(tree: Tree) -> Broken:
     module, layers = quantity_at(tree, "gears", "module"), value_at(tree, "accuracy", "layers")
     homes = [("gears", "face_width"), *(("gears", gear, "face_width") for gear in GEARS)]
     widths = {
@@ -89,10 +79,10 @@ def _layers_are_no_needles(tree: Tree) -> Iterator[Problem]:
             "is less than a layer of elements. Allowed in three-dimensional scenes of this module: from"
             f" {thinnest:g} mm."
         )
-        yield Problem(path, as_written(value_at(tree, *path)), message)
+        yield path, message
     elif type(layers) is int and (count := min(layers, MOST_LAYERS)) * thinnest > width:
         message = (
             f"is too many for a face of {width:g} mm: layers would be {width / count:.3g} mm thin. Allowed: up to"
             f" {int(width / thinnest)}."
         )
-        yield Problem(("accuracy", "layers"), as_written(layers), message)
+        yield ("accuracy", "layers"), message

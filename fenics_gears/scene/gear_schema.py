@@ -1,5 +1,4 @@
-"""``[gears]`` and the sections below it: what a drawing of the pair says. What it leaves out is derived
-(``scene.drawing``)."""
+"""``[gears]`` and the sections below it: what a drawing of the pair says; ``scene.drawing`` derives the rest."""
 
 from __future__ import annotations
 

@@ -15,12 +15,13 @@ from fenics_gears.errors import GeometryError, SceneError
 from fenics_gears.inputs.problem import Problem, did_you_mean, line_numbers, listed
 from fenics_gears.inputs.tree import written_out
 from fenics_gears.inputs.written import WrittenFloat, as_toml, as_written
-from fenics_gears.scene import data
-from fenics_gears.scene.drawing import gear_pair_data, load_data
-from fenics_gears.scene.rules import broken_rules
-from fenics_gears.scene.schema import checked_sections, without_echoes
 from fenics_gears.system import user_file
 from fenics_gears.system.console import control_character, printable
+
+from . import data
+from .drawing import gear_pair_data, load_data
+from .rules import broken_rules
+from .schema import checked_sections, without_echoes
 
 # The text of a scene that no file gives (`scene.write`).
 NO_FILE = "# No scene file gives this scene, which was made or changed in Python"
@@ -83,15 +84,11 @@ def _unprintable(path: tuple[str, ...], value: Any) -> Iterator[Problem]:
 
 
 def build_scene(sections: Mapping[str, Any], name: str = "scene", *, directory: str | os.PathLike = ".") -> data.Scene:
-    """The scene that plain dictionaries describe, with the sections, keys and quantities of a scene file, and validated
-    like one.
+    """The scene that plain dictionaries describe, with the sections, keys and quantities of a scene file, validated
+    like one. An entry that is None is left out.
 
-    An entry that is None is left out. ``Scene.text`` is the scene file that says the same, so that a result carries it.
-
-    name: what messages and, without ``title``, pictures call the scene.
-    directory: the folder from which files are looked for that the sections name.
-
-    Raises SceneError, naming every mistake at once.
+    name: what messages and, without ``title``, pictures call the scene. directory: from which files are looked for that
+    the sections name. Raises SceneError, naming every mistake at once.
 
     >>> from fenics_gears import build_scene
     >>> gear = {"profile_shift": 0, "bore_diameter": "20 mm"}
@@ -183,11 +180,10 @@ def scene_of(tree: Mapping[str, Any], text: str, name: str, directory: Path) -> 
 
 
 def _motion(checked) -> data.Motion:
-    """The motion by its mesh frequency: a turn of the pinion has as many mesh cycles as it has teeth.
+    """A turn of the pinion has as many mesh cycles as it has teeth.
 
-    Cycles that are run, unless given (with inertia they must be, or the settling time, whose cycles come first): one,
-    or a whole hunting tooth period where cycles differ.
-    Cycles that are recorded, unless given: the last two; of a speed ramp or a whole hunting tooth period all that fit.
+    Cycles that are run, unless given: one, or a whole hunting tooth period where cycles differ, after those of a
+    settling time. Cycles that are recorded, unless given: the last two; of a speed ramp or a whole period all that fit.
     """
     motion, gears = checked.motion, checked.gears
     frequency, speed_given = motion.mesh_frequency, True

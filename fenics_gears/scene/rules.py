@@ -1,18 +1,18 @@
-"""Rules between the fields of a scene, beyond what each field allows by itself. Rules of one effect are in its own
-module.
+"""Rules between the fields of a scene; those of one effect are in its own module.
 
-The rules read the parsed TOML file, so that they apply even where some field is wrong; a value that they cannot read is
+They read the parsed TOML file, so that they apply even where some field is wrong; a value that they cannot read is
 reported elsewhere.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
+from itertools import chain
 from math import lcm
 
 from fenics_gears import effects
-from fenics_gears.inputs.problem import Problem, meant, nearest
+from fenics_gears.inputs.problem import Broken, Problem, meant, nearest
 from fenics_gears.inputs.section import allowed_in, given, names_in
 from fenics_gears.inputs.tree import (
     GEARS,
@@ -30,20 +30,21 @@ from fenics_gears.inputs.tree import (
     value_at,
 )
 from fenics_gears.inputs.written import as_written
-from fenics_gears.scene.accuracy_rules import ACCURACY_RULES, EVERY_STEP
-from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
-from fenics_gears.scene.drawing_rules import DRAWING_RULES
-from fenics_gears.scene.gear_schema import Gears
-from fenics_gears.scene.schema import MotionText, scene_text
+
+from .accuracy_rules import ACCURACY_RULES, EVERY_STEP
+from .data import HUNTING_TOOTH_PERIOD
+from .drawing_rules import DRAWING_RULES
+from .gear_schema import Gears
+from .schema import MotionText, scene_text
 
 TEETH = "tooth_elasticity"
 
 
 def broken_rules(tree: Tree) -> list[Problem]:
-    """All rules that the parsed file breaks."""
+    """All rules that the parsed file breaks, with what is written there."""
     named = (effects.effect_named(each) for each in effects.SECTIONS if each in (TEETH, *tree))
     rules = (*_RULES, *(effect.rules for effect in named if effect.rules is not None))
-    return [problem for rule in rules for problem in rule(tree)]
+    return _problems(tree, chain.from_iterable(rule(tree) for rule in rules))
 
 
 def broken_by_numbers(tree: Tree, sections: Iterable[str]) -> list[Problem]:
@@ -51,46 +52,44 @@ def broken_by_numbers(tree: Tree, sections: Iterable[str]) -> list[Problem]:
     effects acts by itself."""
     named = [name for name in sections if name in tree]
     module = {"module": value_at(tree, "gears", "module")}
-    problems = [*_errors_are_small({"gears": module} | {name: tree[name] for name in named})]
-    for rules in (effects.effect_named(name).rules for name in named):
-        problems += [] if rules is None else rules(tree)
-    return problems
+    small = _errors_are_small({"gears": module} | {name: tree[name] for name in named})
+    rules = (rules for name in named if (rules := effects.effect_named(name).rules) is not None)
+    return _problems(tree, chain(small, *(rule(tree) for rule in rules)))
 
 
-def _effects_fit_together(tree: Tree) -> Iterator[Problem]:
+def _problems(tree: Tree, broken: Broken) -> list[Problem]:
+    found = ((path, value_at(tree, *path), message) for path, message in broken)
+    return [Problem(path, None if value is None else as_written(value), message) for path, value, message in found]
+
+
+def _effects_fit_together(tree: Tree) -> Broken:
     known, always = effects.AT_THE_TOP, names_in(scene_text(()))
-    sections = {
-        name if name in always else nearest(name, known) or meant((), name, known) or name for name in tree
-    }  # a misspelt section is another problem
+    # A misspelt section is another problem.
+    sections = {name if name in always else nearest(name, known) or meant((), name, known) or name for name in tree}
     # Without [gears] the teeth are unknown.
     if table(tree, "gears") is None or material_sections(tree):
         sections.add(TEETH)
     for effect, need in effects.missing_needs(sections):
-        if effect.section not in tree:
-            continue
-        missing = effects.effect_named(need).written
-        yield Problem(
-            (effect.section,),
-            "",
-            f"needs the section [{missing}], which is missing. Add [{missing}], or leave [{effect.section}] out.",
-        )
+        if effect.section in tree:
+            missing = effects.effect_named(need).written
+            message = (
+                f"needs the section [{missing}], which is missing. Add [{missing}], or leave [{effect.section}] out."
+            )
+            yield (effect.section,), message
     for effect, other in effects.conflicts(sections):
-        yield Problem((effect.section,), "", f"cannot stand beside [{other}]. Leave one of the two out.")
+        yield (effect.section,), f"cannot stand beside [{other}]. Leave one of the two out."
 
 
-def _both_gears_have_a_width(tree: Tree) -> Iterator[Problem]:
+def _both_gears_have_a_width(tree: Tree) -> Broken:
     gears = table(tree, "gears")
     if gears is None or "face_width" in gears or all("face_width" in given_for(gears, gear) for gear in GEARS):
         return
     allowed = allowed_in(Gears, "face_width").description
-    yield Problem(
-        ("gears", "face_width"),
-        None,
-        f"is missing. Allowed: {allowed}; or face_width of [gears.pinion] and of [gears.wheel].",
-    )
+    message = f"is missing. Allowed: {allowed}; or face_width of [gears.pinion] and of [gears.wheel]."
+    yield ("gears", "face_width"), message
 
 
-def _a_speed_where_time_matters(tree: Tree) -> Iterator[Problem]:
+def _a_speed_where_time_matters(tree: Tree) -> Broken:
     motion = table(tree, "motion") or {}
     # Without these a scene is a sequence of positions, each in equilibrium.
     named = (each for each in effects.AT_THE_TOP if each in tree)
@@ -102,7 +101,7 @@ def _a_speed_where_time_matters(tree: Tree) -> Iterator[Problem]:
             f"is missing. Add the section [motion] with its fields: {', '.join(names_in(MotionText))};"
             f" [{needing}] needs a speed."
         )
-        yield Problem(("motion",), None, message)
+        yield ("motion",), message
         return
     names = ("mesh_frequency", "pinion_speed")
     if not any(name in motion for name in names) and not any(
@@ -112,16 +111,16 @@ def _a_speed_where_time_matters(tree: Tree) -> Iterator[Problem]:
             f'is missing. Allowed: mesh_frequency, such as "200 Hz", or pinion_speed, such as "750 rpm"; [{needing}]'
             " needs one."
         )
-        yield Problem(("motion", "mesh_frequency"), None, message)
+        yield ("motion", "mesh_frequency"), message
     if "mesh_cycles" not in motion and "settling_time" not in motion:
         message = (
             f"is missing. Allowed: {allowed_in(MotionText, 'mesh_cycles').description}; [{needing}] needs it, or"
             ' settling_time, such as "25 ms".'
         )
-        yield Problem(("motion", "mesh_cycles"), None, message)
+        yield ("motion", "mesh_cycles"), message
 
 
-def _a_wheel_that_drives_has_coast_flanks(tree: Tree) -> Iterator[Problem]:
+def _a_wheel_that_drives_has_coast_flanks(tree: Tree) -> Broken:
     load = load_in(tree)
     if load is not None and load[1] < 0.0 and "coast_flanks" not in tree:
         unit = "kW" if load[0][-1] == "power" else "N m"
@@ -129,29 +128,21 @@ def _a_wheel_that_drives_has_coast_flanks(tree: Tree) -> Iterator[Problem]:
             "is negative: it drives the pair from the wheel, on its coast flanks. Allowed: with the section"
             f" [coast_flanks] any sign, without it 0 {unit} and above."
         )
-        yield Problem(load[0], as_written(value_at(tree, *load[0])), message)
+        yield load[0], message
 
 
-def _settling_is_of_vibrations(tree: Tree) -> Iterator[Problem]:
+def _settling_is_of_vibrations(tree: Tree) -> Broken:
     motion = table(tree, "motion") or {}
     if "settling_time" not in motion:
         return
-    place, written = ("motion", "settling_time"), as_written(motion["settling_time"])
+    place = ("motion", "settling_time")
     if "inertia" not in tree:
-        yield Problem(
-            place,
-            written,
-            "is for scenes with [inertia]: without it there is no vibration that dies down. Leave it out.",
-        )
+        yield place, "is for scenes with [inertia]: without it there is no vibration that dies down. Leave it out."
     if "speed_ramp" in tree:
-        yield Problem(
-            place,
-            written,
-            "is for a steady speed. Allowed with [speed_ramp]: mesh_cycles, the length of the whole ramp.",
-        )
+        yield place, "is for a steady speed. Allowed with [speed_ramp]: mesh_cycles, the length of the whole ramp."
 
 
-def _recorded_cycles_are_run(tree: Tree) -> Iterator[Problem]:
+def _recorded_cycles_are_run(tree: Tree) -> Broken:
     motion = table(tree, "motion") or {}
     recorded, run = (_cycles(tree, motion.get(name)) for name in ("recorded_cycles", "mesh_cycles"))
     if type(recorded) is int and type(run) is int and recorded > run > 0:
@@ -160,38 +151,31 @@ def _recorded_cycles_are_run(tree: Tree) -> Iterator[Problem]:
             f"{count}is more than mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most as many cycles as"
             " are run."
         )
-        yield Problem(("motion", "recorded_cycles"), as_written(motion["recorded_cycles"]), message)
+        yield ("motion", "recorded_cycles"), message
 
 
-def _contact_fields_are_of_cycles_that_run(tree: Tree) -> Iterator[Problem]:
+def _contact_fields_are_of_cycles_that_run(tree: Tree) -> Broken:
     written, motion = value_at(tree, "output", "contact_fields"), table(tree, "motion") or {}
     place = ("output", "contact_fields")
     if written is not None and "recorded_cycles" in motion:
-        yield Problem(
-            place,
-            as_written(written),
-            "stands beside motion.recorded_cycles, which says the same in another way. Leave one of the two out.",
-        )
-    asked, run = (
-        re.fullmatch(r"last (\d{1,7}) cycles?", written) if isinstance(written, str) else None,
-        _cycles(tree, motion.get("mesh_cycles")),
-    )
+        yield place, "stands beside motion.recorded_cycles, which says the same. Leave one of the two out."
+    asked = re.fullmatch(r"last (\d{1,7}) cycles?", written) if isinstance(written, str) else None
+    run = _cycles(tree, motion.get("mesh_cycles"))
     if asked and type(run) is int and int(asked[1]) > run > 0:
         message = (
             f"is more than motion.mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most as many cycles as"
             " are run, or true."
         )
-        yield Problem(place, as_written(written), message)
+        yield place, message
 
 
 def _cycles(tree: Tree, written) -> object:
-    """Mesh cycles as a number, also of a whole hunting tooth period; what is written where that is no number of
-    cycles."""
+    """Mesh cycles as a number, also of a whole hunting tooth period; else what is written."""
     teeth = [teeth_in(tree, gear) for gear in GEARS]
     return lcm(*teeth) if written == HUNTING_TOOTH_PERIOD and None not in teeth else written
 
 
-def _errors_are_small(tree: Tree) -> Iterator[Problem]:
+def _errors_are_small(tree: Tree) -> Broken:
     """Errors of manufacture and modifications are small against the tooth, whose place and shape stay what they are."""
     module = quantity_at(tree, "gears", "module")
     largest = LARGEST_ERROR * (module or 0.0)
@@ -200,20 +184,20 @@ def _errors_are_small(tree: Tree) -> Iterator[Problem]:
         size = max((abs(quantity_in(value) or 0.0) for value in values), default=0.0)
         if size > largest > 0.0:
             message = f"is too large an error of manufacture for a module of {module:g} mm: up to {size:.4g} mm."
-            yield Problem(path, as_written(written), f"{message} Allowed: up to {largest:g} mm.")
+            yield path, f"{message} Allowed: up to {largest:g} mm."
 
 
-def _flanks_are_resolved_over_the_face(tree: Tree) -> Iterator[Problem]:
+def _flanks_are_resolved_over_the_face(tree: Tree) -> Broken:
     """Fields of faces belong to three-dimensional scenes, which have rules of their own, and a hand to a helix."""
     if reasons := over_the_face(tree):
         # Imported here: plane scenes have none.
-        from fenics_gears.scene.face_rules import rules_over_the_face
+        from .face_rules import rules_over_the_face
 
         yield from rules_over_the_face(tree, reasons)
     else:
-        for path, allowed, written in given(scene_text(tree), tree):
+        for path, allowed, _ in given(scene_text(tree), tree):
             if allowed.over_face:
-                yield Problem(path, as_written(written), NOT_IN_THE_PLANE)
+                yield path, NOT_IN_THE_PLANE
         yield from _remeshed_gears_have_one_width(tree)
     gears = table(tree, "gears") or {}
     if "pinion_hand" in gears and "helix_angle" not in gears:
@@ -221,10 +205,10 @@ def _flanks_are_resolved_over_the_face(tree: Tree) -> Iterator[Problem]:
             'is missing. Allowed: such as "15 deg"; pinion_hand has no meaning without it. Add it, or leave pinion_hand'
             " out."
         )
-        yield Problem(("gears", "helix_angle"), None, message)
+        yield ("gears", "helix_angle"), message
 
 
-def _remeshed_gears_have_one_width(tree: Tree) -> Iterator[Problem]:
+def _remeshed_gears_have_one_width(tree: Tree) -> Broken:
     """What stands out beyond the mate helps to carry, by a law for flanks that are condensed once."""
     asked = value_at(tree, "accuracy", "condensation")
     common = quantity_at(tree, "gears", "face_width")
@@ -233,7 +217,7 @@ def _remeshed_gears_have_one_width(tree: Tree) -> Iterator[Problem]:
     if asked == EVERY_STEP and (len(widths) > 1 or len(offsets) > 1):
         remedy = 'Give both gears the width that they have in common, or take condensation = "once".'
         message = f"is for gears of one face width without axial_offset. {remedy}"
-        yield Problem(("accuracy", "condensation"), as_written(asked), message)
+        yield ("accuracy", "condensation"), message
 
 
 _RULES = (

@@ -1,8 +1,7 @@
-"""The sections and fields of a scene file that every scene has, with what each allows, as they are written; those of an
-effect are in its own module. Mistakes against them in sentences that say what to do.
+"""The sections that every scene has, with what each field allows, as they are written; those of an effect are in its
+own module. Mistakes against them in sentences that say what to do.
 
-Ranges are generous: what is physically possible is allowed. ``geometry`` checks whether teeth and diameters make a
-gear.
+Ranges are generous: ``geometry`` checks whether teeth and diameters make a gear.
 """
 
 from __future__ import annotations
@@ -17,9 +16,10 @@ from fenics_gears.inputs.fields import quantity, text, whole_number
 from fenics_gears.inputs.problem import MOST_TOLD, Path, Problem, did_you_mean, meant, nearest
 from fenics_gears.inputs.section import Section, names_in, read, section_within
 from fenics_gears.inputs.tree import LOADS
-from fenics_gears.scene.accuracy import Accuracy, Output
-from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD
-from fenics_gears.scene.gear_schema import Gears
+
+from .accuracy import Accuracy, Output
+from .data import HUNTING_TOOTH_PERIOD
+from .gear_schema import Gears
 
 
 @dataclass(frozen=True)
@@ -123,8 +123,7 @@ class _AlwaysThere(Section):
 
 
 def scene_text(named: Iterable[str] = AT_THE_TOP) -> type[Section]:
-    """A whole scene file: the sections that are always there, and an optional one for each effect, or for those that
-    are named; the others are None."""
+    """A whole scene file: the sections that are always there, and an optional one for each effect that is named."""
     return _scene_text(tuple(each for each in AT_THE_TOP if each in named))
 
 
@@ -161,7 +160,7 @@ def checked_sections(tree: Mapping[str, Any]) -> tuple[Any, list[Problem]]:
 
 
 def _explained(problems: Iterable[Problem]) -> Iterator[Problem]:
-    """Unknown names with what they may mean, which takes time to search: the first of them alone."""
+    """Unknown names with what they may mean: the first of them alone, since to search takes time."""
     unknown = 0
     for problem in problems:
         unknown += problem.unknown
@@ -172,10 +171,8 @@ def _explained(problems: Iterable[Problem]) -> Iterator[Problem]:
 
 
 def without_echoes(problems: Iterable[Problem]) -> list[Problem]:
-    """The problems without those that follow from another: a second one of the same field, or a field that is missing
-    because it is misspelt.
-
-    Where a rule and the schema both complain of a name, the rule's message stays.
+    """The problems without those that follow from another: a second one of the same field, where a rule's message
+    stays, or a field that is missing because it is misspelt.
     """
     by_path: dict[Path, list[Problem]] = {}
     for problem in problems:

@@ -8,10 +8,11 @@ from collections.abc import Iterator
 from fenics_gears.geometry import tooth_thickness
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_checks import ROUNDING, refuse
-from fenics_gears.scene import unusual
-from fenics_gears.scene.data import Derived
-from fenics_gears.scene.gear_schema import MEASURES, Gears
-from fenics_gears.scene.gear_schema import Gear as GearText
+
+from . import unusual
+from .data import Derived
+from .gear_schema import MEASURES, Gears
+from .gear_schema import Gear as GearText
 
 # Largest difference, in modules, of the profile shift of a thickness from that of the drawing: more is another number
 # of spanned teeth or another gear.

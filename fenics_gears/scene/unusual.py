@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from math import tan
 
-from fenics_gears.scene.gear_schema import Gears
+from .gear_schema import Gears
 
 # Modules. Charts for the choice of profile shifts, such as those of DIN 3992 and ISO/TR 4467, stay within about these.
 USUAL_SHIFTS = (-0.5, 1.0)

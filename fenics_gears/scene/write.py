@@ -1,5 +1,6 @@
-"""From the frozen dataclasses of ``scene.data`` to a scene file that gives the same data, bit for bit: the way back of
-``scene.read``; and to a table for notebooks: sections, fields and values with their units."""
+"""From a scene's data to a scene file that gives the same data, bit for bit, the way back of ``scene.read``; and to a
+table for notebooks.
+"""
 
 from __future__ import annotations
 
@@ -16,21 +17,20 @@ from fenics_gears.geometry.gear_data import GearData, GearPairData, Web
 from fenics_gears.inputs.section import allowed_in, field_of, section_within, tree_of
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.inputs.written import as_toml, toml_value
-from fenics_gears.scene import data, gear_schema, schema
-from fenics_gears.scene.data import Scene
-from fenics_gears.scene.read import NO_FILE, parsed, scene_from_text
-from fenics_gears.scene.schema import scene_text
+
+from . import data, gear_schema, schema
+from .read import NO_FILE, parsed, scene_from_text
+from .schema import scene_text
 
 # What a scene is called, and where it was read; it has these data whatever they are.
 WORDS = ("title", "name", "derived", "written", "folder")
 
 
 def text_of(scene: data.Scene) -> str:
-    """The text of a scene file that gives a scene's data: sections stand as they were read where they give them, others
-    are written from the data.
+    """The text of a scene file that gives a scene's data: sections as they were read where they give them, else written
+    from the data.
 
-    What no file gives, as where a mesh file that it names was overwritten since, has a text that says so, and that is
-    no scene.
+    What no file gives, as where a mesh file was overwritten since, has a text that says so and is no scene.
     """
     sections = section_trees(scene)
     # As read, a section may follow from another one, as a load by its power does from the speed: then all are written.
@@ -49,17 +49,12 @@ def why_another(scene: data.Scene, text: str) -> str:
         found = scene_from_text(text, scene.name, directory=Path(scene.folder), with_lines=False)
     except GearsError as error:
         return " ".join(str(error).removesuffix("Nothing was computed or written.").split())
-    differing = [
-        each.name
-        for each in fields(scene)
-        if each.name not in WORDS and getattr(found, each.name) != getattr(scene, each.name)
-    ]
-    return (
-        f"{', '.join(differing)} {'is' if len(differing) == 1 else 'are'} not what a file, and the files that it names,"
-        " can say"
-        if differing
-        else ""
-    )
+    names = (each.name for each in fields(scene) if each.name not in WORDS)
+    differing = [name for name in names if getattr(found, name) != getattr(scene, name)]
+    if not differing:
+        return ""
+    verb = "is" if len(differing) == 1 else "are"
+    return f"{', '.join(differing)} {verb} not what a file, and the files that it names, can say"
 
 
 def section_trees(scene: data.Scene) -> dict[str, Any]:
@@ -81,7 +76,6 @@ def section_trees(scene: data.Scene) -> dict[str, Any]:
 
 
 def _as_read_where_the_same(scene: data.Scene, sections: dict[str, Any]) -> dict[str, Any]:
-    """The sections, but as they were read where they gave the same data then."""
     read = scene_from_text(scene.written, scene.name, directory=Path(scene.folder))
     kept = {
         name: tree
@@ -97,7 +91,6 @@ def _as_read_where_the_same(scene: data.Scene, sections: dict[str, Any]) -> dict
 
 
 def _gears(pair: GearPairData) -> dict[str, Any]:
-    """``[gears]``, with every figure of the drawing."""
     section, own_width = gear_schema.Gears, any(getattr(pair, name).face_width is not None for name in GEARS)
     found = tree_of(pair, section, ("pinion", "wheel", "pinion_hand", *(("face_width",) if own_width else ())))
     if pair.helix_angle:
@@ -137,11 +130,9 @@ def _length_of(share: float, whole: float) -> float:
 
 def _motion(scene: data.Scene) -> dict[str, Any]:
     motion, period = scene.motion, math.lcm(scene.gears.pinion.teeth, scene.gears.wheel.teeth)
-    found: dict[str, Any] = (
-        {"mesh_frequency": field_of(schema.MotionText, "mesh_frequency", motion.mesh_frequency)}
-        if motion.speed_given
-        else {}
-    )
+    found: dict[str, Any] = {}
+    if motion.speed_given:
+        found["mesh_frequency"] = field_of(schema.MotionText, "mesh_frequency", motion.mesh_frequency)
     if not motion.fewer_where_too_large:
         return found | {"mesh_cycles": motion.mesh_cycles, "recorded_cycles": motion.recorded_cycles}
     # As many as fit are recorded of a ramp, of a whole hunting tooth period, and of one after a settling time.
@@ -157,7 +148,7 @@ MOST_LETTERS = 80
 CELL = '<td style="text-align: left">{}</td>'
 
 
-def html(scene: Scene) -> str:
+def html(scene: data.Scene) -> str:
     """The fields that are not at their defaults, as a scene file has them, and what each of them is."""
     rows = "".join(
         f"<tr>{''.join(CELL.format(escape(cell)) for cell in row)}</tr>"

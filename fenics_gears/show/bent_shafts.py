@@ -9,9 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from fenics_gears.inputs.tree import GEARS
-from fenics_gears.show.chart import MARKERS, Chart, Curve
-from fenics_gears.show.panels import DARK, PALETTE
-from fenics_gears.show.run import Run
+
+from .chart import MARKERS, Chart, Curve
+from .panels import DARK, PALETTE
+from .run import Run
 
 ACROSS = "Place along the axes, from the middle of the common face (mm)"
 # Not divided as the lines are, which have no scale to keep.

@@ -15,7 +15,8 @@ from fenics_gears import results
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.files import read
 from fenics_gears.results.validity import NO_MEANING
-from fenics_gears.show.panels import factor
+
+from .panels import factor
 
 PRESENT, ABSENT = "present", "absent"
 # Sections whose name says nothing that their fields' names do not.
@@ -179,7 +180,6 @@ class Cases:
         return factor("rad", "µrad"), "µrad"
 
     def _base_radius(self, case: int) -> float | None:
-        """Of the wheel of a case, mm; None where its file is not there, damaged or without it."""
         try:
             radius = read(self.file.parent / self.texts("case_file")[case], ()).attrs.get("base_radius_wheel")
         except ComputationError:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.show.panels import DARK, PALETTE, limits
+from .panels import DARK, PALETTE, limits
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -11,10 +11,11 @@ from fenics_gears.geometry.pair import GearPair
 from fenics_gears.results.face_ends import slice_ends
 from fenics_gears.results.mesh_curves import read_off
 from fenics_gears.results.pairs import carrying_side
-from fenics_gears.show.chart import Chart, Curve, Field
-from fenics_gears.show.panels import DARK, GREY
-from fenics_gears.show.pressure import COLOURS, colour_limit, has_pressure, node_edges
-from fenics_gears.show.run import Run
+
+from .chart import Chart, Curve, Field
+from .panels import DARK, GREY
+from .pressure import COLOURS, colour_limit, has_pressure, node_edges
+from .run import Run
 
 ACROSS = "Distance along the axes from the middle of the common face (mm)"
 ROWS = 200

@@ -18,7 +18,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
-from fenics_gears.show.chart import (
+from .chart import (
     APART_LEVEL,
     APART_UPRIGHT,
     BAND,
@@ -44,7 +44,7 @@ from fenics_gears.show.chart import (
     Panel,
     Scale,
 )
-from fenics_gears.show.panels import DARK, GRID, styled, thinned, tick_labels, ticks
+from .panels import DARK, GRID, styled, thinned, tick_labels, ticks
 
 DASHES = {"solid": "-", "dash": (0, (5, 2.5)), "dot": (0, (1, 1.6))}
 STILL_POINTS = 1000  # of a curve; a still image is 900 points wide
@@ -87,7 +87,6 @@ def still(chart: Chart) -> bytes:
 
 
 def _figure(panels: Sequence[Panel], heading: float = 0.0) -> Figure:
-    """Panels below each other, their axes' ends in line, below the heading's height."""
     height = heading + sum(panel.height for panel in panels)
     figure, bottom, every = Figure(figsize=(WIDTH, height)), height - heading, []
     with matplotlib.rc_context({"axes.grid": False}):
@@ -169,7 +168,6 @@ def _set_ends(axes: Axes, chart: Chart) -> None:
 
 
 def _draw_level(axes: Axes, panel: Panel, width: float) -> None:
-    """Grid and ticks of the first axis; its labels where it is named."""
     chart = panel.chart
     labels = list(
         dict.fromkeys(
@@ -255,7 +253,6 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
 
 
 def _draw_field(axes: Axes, panel: Panel) -> Scale:
-    """Cells in colour; the scale of their colour bar."""
     field = panel.chart.field
     colours = LinearSegmentedColormap.from_list("field", list(field.colours))
     beyond = np.nanmax(field.values, initial=0.0) > field.limit * (1 + 1e-9)

@@ -8,8 +8,9 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import depth_first_order
 from scipy.spatial import cKDTree
 
-from fenics_gears.show.stress_grid import in_plane, largest_movement, shown_points
 from fenics_gears.simulation.run_stresses import GearsInMesh
+
+from .stress_grid import in_plane, largest_movement, shown_points
 
 # In modules: how far the largest displacement may be drawn, and how deep one tooth into another. Gaps are drawn as
 # large as they are, so that a pair about to touch overlaps as soon as what closes it is enlarged enough.

@@ -9,12 +9,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fenics_gears.scene.data import Scene
-from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
-from fenics_gears.show.run import conditions
 from fenics_gears.studies.effect_costs.measured import EffectReport, Row
 from fenics_gears.studies.effect_costs.subsets import ALL, ALONE, BARE, LEFT_OUT
 from fenics_gears.studies.effect_costs.table import MICRO, MILLI, change, in_percent, own_remarks
 from fenics_gears.studies.machine import in_words
+
+from .panels import DARK, GREY, PALETTE, styled
+from .run import conditions
 
 COLOURS = {BARE: DARK, ALONE: PALETTE[2], LEFT_OUT: PALETTE[1], ALL: DARK}
 WORDS = {ALONE: "bare scene and one effect (change from bare)", LEFT_OUT: "all effects but one (change from all)"}
@@ -63,7 +64,6 @@ def effect_costs(report: EffectReport) -> Figure:
 
 
 def _places(rows: tuple[Row, ...]) -> np.ndarray:
-    """Where each row stands, with room between the kinds."""
     steps = [0.0] + [1.0 if before.subset.kind == row.subset.kind else 1.5 for before, row in zip(rows, rows[1:])]
     return np.cumsum(steps)
 

@@ -13,15 +13,16 @@ from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.show.chart import MARKED_LINES, Chart, Curve
-from fenics_gears.show.contact_pattern import ACROSS
-from fenics_gears.show.flank_pressure import PressedTiles, pressed_tiles
-from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
-from fenics_gears.show.pressure import COLOURS as PRESSURE_COLOURS
-from fenics_gears.show.stress_grid import surface
-from fenics_gears.show.stress_picture import COLOURS, colour_bar, heading, rounded_up
 from fenics_gears.simulation.run_stresses import GearInSpace, GearsInMesh
 from fenics_gears.system.virtual_display import ensure_display
+
+from .chart import MARKED_LINES, Chart, Curve
+from .contact_pattern import ACROSS
+from .flank_pressure import PressedTiles, pressed_tiles
+from .panels import DARK, GREY, PALETTE, styled
+from .pressure import COLOURS as PRESSURE_COLOURS
+from .stress_grid import surface
+from .stress_picture import COLOURS, colour_bar, heading, rounded_up
 
 UNLOADED, EDGES = "#E4E7EA", "#5A6068"
 PIXELS = 150  # an inch
@@ -133,7 +134,6 @@ def _upright(pair) -> tuple[np.ndarray, np.ndarray]:
 def _rendered(
     mesh: GearsInMesh, sight: Sight, scale: float, limit: float, tiles: Sequence[PressedTiles], highest: float
 ) -> np.ndarray:
-    """The image of a panel."""
     try:
         import pyvista
     except ImportError as error:

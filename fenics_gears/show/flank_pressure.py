@@ -13,10 +13,11 @@ from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.results.face_ends import slice_ends
 from fenics_gears.results.mesh_curves import read_off
-from fenics_gears.show.contact_pattern import rolls_on_wheel
-from fenics_gears.show.loaded_contact import stored_place
-from fenics_gears.show.pressure import node_edges
 from fenics_gears.simulation.run_stresses import GearsInMesh
+
+from .contact_pattern import rolls_on_wheel
+from .loaded_contact import stored_place
+from .pressure import node_edges
 
 # Tiles stand off the flank by this part of a module, so that the facets of the bodies' mesh do not cover them.
 STAND_OFF = 0.02

@@ -11,9 +11,10 @@ import numpy as np
 import xarray as xr
 
 from fenics_gears.errors import ComputationError
-from fenics_gears.show.chart import WORDS, Chart, Curve
-from fenics_gears.show.motion import LEAST_LENGTH
-from fenics_gears.show.panels import DARK, digits, factor, in_unit, shades
+
+from .chart import WORDS, Chart, Curve
+from .motion import LEAST_LENGTH
+from .panels import DARK, digits, factor, in_unit, shades
 
 CYCLES, MOST_NAMED = 2.0, 20
 # Room for the loads' words right of the curves, in mesh cycles, and the least distance of two of them, in parts of the
@@ -58,7 +59,6 @@ def harris_map(result: xr.Dataset | xr.DataArray, caption: str = "") -> Chart:
 
 
 def _unit_of(loads: xr.DataArray) -> str:
-    """Powers stay in their unit; torques are in N m."""
     return "kW" if loads.attrs.get("units") == "kW" else "N m"
 
 
@@ -83,7 +83,6 @@ def _two_cycles(phase: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.n
 
 
 def _names(curves: list[Curve]) -> list[Curve]:
-    """Each curve's load right of its end; of very many curves only some have it."""
     named = (
         [
             curves[place]

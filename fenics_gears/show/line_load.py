@@ -7,11 +7,12 @@ import numpy as np
 from fenics_gears.results.face_ends import inner_face, slice_ends
 from fenics_gears.results.load_factors import at_edges, mean_line_load, passing
 from fenics_gears.results.pairs import carrying_side
-from fenics_gears.show.chart import MESH_CYCLES, TIME, Chart, Curve, Field
-from fenics_gears.show.contact_pattern import ACROSS
-from fenics_gears.show.panels import DARK, PALETTE, in_unit
-from fenics_gears.show.pressure import COLOURS
-from fenics_gears.show.run import Run
+
+from .chart import MESH_CYCLES, TIME, Chart, Curve, Field
+from .contact_pattern import ACROSS
+from .panels import DARK, PALETTE, in_unit
+from .pressure import COLOURS
+from .run import Run
 
 TITLE = "Line load (N/mm)"
 
@@ -97,7 +98,6 @@ def _of_pair(run: Run, side: str, loads: np.ndarray, phase: np.ndarray, slices: 
 
 
 def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
-    """What the three load factors are read off."""
     part, total = run.last_fields, loads.sum(axis=1)
     mean = mean_line_load(part, side)
     away = np.where(at_edges(part, run.pair, side), 0.0, loads).max(axis=(0, 1))
@@ -128,7 +128,6 @@ def _over_face(run: Run, side: str, loads: np.ndarray, z: np.ndarray) -> Chart:
 
 
 def _correction(found) -> str:
-    """The correction that is proposed, and the face load factor with it."""
     amounts = " and ".join(
         f"{words} {found[f'proposed_{name}']:.1f} µm"
         for words, name in (("helix slope", "helix_slope"), ("crowning", "crowning"))
@@ -137,7 +136,6 @@ def _correction(found) -> str:
 
 
 def _factors(run: Run) -> str:
-    """The load factors of the settled run."""
     names = {
         "face_load_factor": "face load factor",
         "largest_line_load_factor": "largest line load over even one",

@@ -10,8 +10,9 @@ import xarray as xr
 from fenics_gears.contact.window import coast_roll_angles
 from fenics_gears.geometry.involute import flank_point
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.show.stress_grid import upright
 from fenics_gears.simulation.run_stresses import GearsInMesh
+
+from .stress_grid import upright
 
 FEWEST_NODES = 4
 

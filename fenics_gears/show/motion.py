@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fenics_gears.show.chart import BAND, LEAST_SHARE, Chart, Curve, Second, of_variables, over_time, span
-from fenics_gears.show.panels import DARK, PALETTE, factor
-from fenics_gears.show.run import Run
+from .chart import BAND, LEAST_SHARE, Chart, Curve, Second, of_variables, over_time, span
+from .panels import DARK, PALETTE, factor
+from .run import Run
 
 # Smallest spans shown. Contact is solved to 1e-4 um and to 1e-6 of the transmitted force; what is smaller is no curve.
 LEAST_LENGTH, LEAST_ANGLE = 0.1, 1e-3  # um, urad
@@ -94,7 +94,6 @@ def wheels_shaft(run: Run) -> list[Chart]:
 
 
 def _shafts(run: Run) -> list[Chart]:
-    """Either gear, the output shaft's end; load and speed, where they vary."""
     caption, sides = "Displacement of the gears' centres", {"centre_x": "along", "centre_y": "off"}
     # Without friction gears that do not tilt stay on the line of action.
     if not {"friction_force", "tilt_x"} & set(run.dataset):

@@ -22,10 +22,11 @@ from fenics_gears.results.spectrum import (
     origin,
     varying_mesh_force,
 )
-from fenics_gears.show.chart import BARS, Chart, Curve, Flag
-from fenics_gears.show.motion import error_values
-from fenics_gears.show.panels import GREY, PALETTE
-from fenics_gears.show.run import Run
+
+from .chart import BARS, Chart, Curve, Flag
+from .motion import error_values
+from .panels import GREY, PALETTE
+from .run import Run
 
 MESH_ORDERS, FOLLOWED_ORDERS, CYCLES_TO_FOLLOW = 10.5, 4, 8
 # Of the picture by orders of the pinion: mesh orders and decades that it shows. Contact is solved to 1e-4 um.
@@ -113,7 +114,6 @@ def _flags(lines: OrderLines, teeth: int, known: list[tuple[float, str]], bottom
 
 
 def _by_origin(lines: OrderLines, kinds: np.ndarray, seen: np.ndarray, wide: float, narrow: float) -> list[Curve]:
-    """Bars in the colour of their source."""
     colours = {**COLOURS, BETWEEN: GREY}
     return [
         Curve(
@@ -179,7 +179,6 @@ def spectrum(run: Run, values: np.ndarray) -> Spectrum:
 
 
 def _beyond(lines: OrderLines) -> str:
-    """A sentence where the largest line is not in the chart."""
     if not len(lines.orders):
         return ""
     order = lines.orders[np.argmax(lines.amplitudes)]

@@ -9,9 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Arc, FancyArrowPatch, Rectangle
 from matplotlib.patheffects import withStroke
 
-from fenics_gears.show.panels import DARK
-from fenics_gears.show.stress_grid import upright
 from fenics_gears.simulation.run_stresses import GearsInMesh
+
+from .panels import DARK
+from .stress_grid import upright
 
 # Radii, points: of a bore that a gear's name fits into with its arrow, and of that arrow.
 LEAST_BORE, LEAST_ARROW = 28.0, 12.0

@@ -16,10 +16,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError
-from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES
-from fenics_gears.show.chart import LETTERS, Chart
-from fenics_gears.show.drawing import picture
-from fenics_gears.show.motion import (
+from fenics_gears.system.output import written_aside
+
+from . import FACE_PICTURE_FILES, PICTURE_FILES
+from .chart import LETTERS, Chart
+from .drawing import picture
+from .motion import (
     error_by_cycle,
     error_values,
     mesh_forces,
@@ -28,11 +30,10 @@ from fenics_gears.show.motion import (
     transmission_error,
     wheels_shaft,
 )
-from fenics_gears.show.orders import OF_ERROR, order_spectrum
-from fenics_gears.show.panels import DARK, DOTS_PER_INCH, WARNING, styled
-from fenics_gears.show.pressure import pressure_maps
-from fenics_gears.show.run import Run, conditions
-from fenics_gears.system.output import written_aside
+from .orders import OF_ERROR, order_spectrum
+from .panels import DARK, DOTS_PER_INCH, WARNING, styled
+from .pressure import pressure_maps
+from .run import Run, conditions
 
 
 def _errors(run: Run) -> list[Chart]:
@@ -87,7 +88,6 @@ def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
 
 
 def _heading(run: Run, subject: str) -> str:
-    """Subject and scene, the operating conditions, and, where it applies, that the run is incomplete."""
     more = [] if run.scene is None else [conditions(run.scene)]
     if not run.complete:
         more.append(f"INCOMPLETE RUN: stopped at mesh cycle {run.phase[-1]:.2f}")
@@ -117,9 +117,10 @@ def _check_steps(run: Run) -> None:
 def draw_study(file: Path) -> list[Path]:
     """Draw what a study's cases are compared by over its parameters, as PNG beside its file, and return the files; none
     where no case has a result."""
-    from fenics_gears.show.cases import Cases
-    from fenics_gears.show.study_charts import result_charts
     from fenics_gears.studies.combine import load_combined
+
+    from .cases import Cases
+    from .study_charts import result_charts
 
     cases = Cases(load_combined(file), file)
     title = str(cases.dataset.attrs.get("title", "")) or file.parent.name

@@ -6,9 +6,10 @@ from __future__ import annotations
 import numpy as np
 
 from fenics_gears.results.pairs import words_of_slice
-from fenics_gears.show.chart import MESH_CYCLES, TIME, WORDS, Chart, Curve, Field, Second, of_variables
-from fenics_gears.show.panels import DARK, digits, factor
-from fenics_gears.show.run import Run
+
+from .chart import MESH_CYCLES, TIME, WORDS, Chart, Curve, Field, Second, of_variables
+from .panels import DARK, digits, factor
+from .run import Run
 
 # Which side of the teeth: how the result's variables of that side begin, and what it is called.
 APART_NOTE = " The pressure at edges and kinks does not converge with the mesh."

@@ -22,10 +22,11 @@ from fenics_gears.results.carried_scene import carried_scene
 from fenics_gears.results.pairs import carrying_side, in_middle_slice, lives
 from fenics_gears.results.settled import of_settled
 from fenics_gears.scene.data import LOAD_WORDS, Scene
-from fenics_gears.show.panels import digits, factor, in_unit
+
+from .panels import digits, factor, in_unit
 
 if TYPE_CHECKING:
-    from fenics_gears.show.chart import Chart
+    from .chart import Chart
 
 NO_SCENE = (
     "The scene in this file is none of this version of the program, so that this section cannot be made; run the scene"
@@ -176,13 +177,13 @@ class Run:
         if "face_position" not in self.dataset.dims:
             return {}
         # Imported here: plane runs have none.
-        from fenics_gears.show.contact_pattern import contact_patterns
-        from fenics_gears.show.line_load import line_loads
+        from .contact_pattern import contact_patterns
+        from .line_load import line_loads
 
         found = {"Contact pattern": contact_patterns, "Line load along the face": line_loads}
         if "bearing" not in self.dataset.dims:
             return found
-        from fenics_gears.show.bent_shafts import bent_shafts
+        from .bent_shafts import bent_shafts
 
         return found | {"Shafts under load": bent_shafts}
 

@@ -16,9 +16,10 @@ from matplotlib.figure import Figure
 
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.show.stress_grid import save_vtu
-from fenics_gears.show.stress_picture import COLOURS, frames
 from fenics_gears.simulation.run_stresses import RunStresses
+
+from .stress_grid import save_vtu
+from .stress_picture import COLOURS, frames
 
 FRAMES_PER_CYCLE, MOST_FRAMES = 24, 120
 FRAMES_PER_SECOND = 12

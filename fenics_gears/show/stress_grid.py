@@ -168,7 +168,6 @@ def save_vtu(mesh: GearsInMesh, path: Path, *, precision: type = np.float64) -> 
 
 
 def _fields(body: GearInSpace, number: int, over_face: bool) -> dict[str, np.ndarray]:
-    """What is written of each node of a gear, by name."""
     if over_face:
         fields, components = {"displacement": body.elastic}, STRESSES
         fields["largest_principal_stress"] = body.principal

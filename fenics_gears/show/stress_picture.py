@@ -18,14 +18,15 @@ from matplotlib.figure import Figure
 from matplotlib.tri import Triangulation
 
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.show.chart import Chart
-from fenics_gears.show.drawn_scale import automatic_scale
-from fenics_gears.show.loaded_contact import LoadedContact, loaded_contact, stored_place
-from fenics_gears.show.panels import DARK, WARNING, styled
-from fenics_gears.show.picture_marks import frame_in, length_bar, line_of_action, name_gears
-from fenics_gears.show.run import conditions, scene_of
-from fenics_gears.show.stress_grid import View, fitted, shown_points, teeth_view, whole_view
 from fenics_gears.simulation.run_stresses import GearsInMesh
+
+from .chart import Chart
+from .drawn_scale import automatic_scale
+from .loaded_contact import LoadedContact, loaded_contact, stored_place
+from .panels import DARK, WARNING, styled
+from .picture_marks import frame_in, length_bar, line_of_action, name_gears
+from .run import conditions, scene_of
+from .stress_grid import View, fitted, shown_points, teeth_view, whole_view
 
 # Pale where nothing happens, so that the bodies stay in the background; steps closer at the lower end, where the roots
 # are.
@@ -83,7 +84,7 @@ def charts_of(mesh: GearsInMesh) -> tuple[str, list[Chart]]:
     it."""
     if not mesh.over_face:
         return "Von Mises stress", []
-    from fenics_gears.show.face_picture import root_tension
+    from .face_picture import root_tension
 
     return "Contact pressure and von Mises stress", [root_tension(mesh)]
 
@@ -97,7 +98,7 @@ def frames(
     beyond = any(exceeds(mesh, limit) for mesh in sampled)
     if sampled[0].over_face:
         # Imported here: plane runs have no picture in three dimensions.
-        from fenics_gears.show.face_picture import DPI, DPI_OF_FRAMES, face_picture
+        from .face_picture import DPI, DPI_OF_FRAMES, face_picture
 
         dots, scale = DPI_OF_FRAMES if moving else DPI, 1.0 if scale is None else scale
         return lambda mesh: face_picture(mesh, dataset, scale, limit, beyond, dots)
@@ -203,7 +204,6 @@ def _triangles(points: np.ndarray, cells: np.ndarray, values: np.ndarray) -> np.
 
 
 def _in_view(points: np.ndarray, parts: np.ndarray, view: View) -> np.ndarray:
-    """Cells or sides (k, j) that reach into a view."""
     left, right, bottom, top = view.extent
     x, y = points[parts, 0], points[parts, 1]
     return parts[(x.max(axis=1) > left) & (x.min(axis=1) < right) & (y.max(axis=1) > bottom) & (y.min(axis=1) < top)]

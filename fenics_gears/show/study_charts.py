@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.show.cases import Cases, SweptField
-from fenics_gears.show.chart import LINES, MARKED_LINES, Chart, Curve, Field
-from fenics_gears.show.panels import LOW_TO_HIGH, PALETTE
+from .cases import Cases, SweptField
+from .chart import LINES, MARKED_LINES, Chart, Curve, Field
+from .panels import LOW_TO_HIGH, PALETTE
 
 # What one plot's legend holds; dashes tell apart what has the same colour.
 MOST_LINES = 2 * len(PALETTE)
@@ -27,7 +27,6 @@ def result_charts(cases: Cases) -> dict[str, Chart]:
 
 
 def _result_chart(cases: Cases, values: np.ndarray, unit: str, name: str) -> Chart:
-    """A chart of all cases but those without meaning whose values would flatten all others."""
     far_off = cases.far_off(values)
     return over_parameter(cases, np.where(far_off, np.nan, values), unit, name, cases.far_off_in_words(far_off))
 
@@ -105,7 +104,6 @@ def _zipped(cases: Cases) -> bool:
 
 
 def _lines(cases: Cases, axis: SweptField, others: list[SweptField]) -> list[tuple[str, np.ndarray]]:
-    """The places of the cases that lie on one line, with the words for it; along the axis in order."""
     groups: dict[str, list[int]] = {}
     for case in range(cases.count):
         if not axis.numeric or np.isfinite(axis.values[case]):
@@ -118,7 +116,6 @@ def _lines(cases: Cases, axis: SweptField, others: list[SweptField]) -> list[tup
 
 
 def _map(axis: SweptField, other: SweptField, values: np.ndarray, title: str, name: str, note: str) -> Chart:
-    """The values in colour over two fields."""
     (x, column), (y, row) = (np.unique(field.values, return_inverse=True) for field in (axis, other))
     grid = np.full((len(y), len(x)), np.nan)
     grid[row, column] = values

@@ -11,13 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator
 
-from fenics_gears.show.effect_costs import measured_heading
-from fenics_gears.show.panels import DARK, GREY, PALETTE, styled
 from fenics_gears.studies.accuracy.measures import FACE_LOAD, MEAN, SPAN, judged
 from fenics_gears.studies.accuracy.refinement import CONDENSATION, plan_of
 from fenics_gears.studies.accuracy.report import DEFAULTS, OWN, AccuracyReport, WholeResult
 from fenics_gears.studies.accuracy.table import in_one_sentence, judged_by, limits_it
 from fenics_gears.studies.machine import in_words
+
+from .effect_costs import measured_heading
+from .panels import DARK, GREY, PALETTE, styled
 
 # Measures of single numbers over the face.
 NUMBERS = {SPAN: "peak-to-peak transmission error", MEAN: "mean transmission error", FACE_LOAD: "face load factor"}
@@ -75,7 +76,6 @@ def _whole(axes: Axes, report: AccuracyReport) -> None:
 
 
 def _labels(axes: Axes, front: tuple[WholeResult, ...]) -> None:
-    """Numbers at the points, and what they are in the corner that a falling front leaves free."""
     lines = []
     for number, each in enumerate(front, 1):
         axes.annotate(
@@ -95,7 +95,6 @@ def _labels(axes: Axes, front: tuple[WholeResult, ...]) -> None:
 
 
 def _numbers(axes: Axes, report: AccuracyReport) -> None:
-    """Errors of single numbers of the whole settings, the quickest first; the scene's own and targets' are marks."""
     front = report.front
     for place, name in enumerate(name for name in NUMBERS if name in report.uncertainty):
         look = {"color": PALETTE[place], "markersize": 5.5}
@@ -113,7 +112,6 @@ def _numbers(axes: Axes, report: AccuracyReport) -> None:
 
 
 def _over_time(results: Iterable[WholeResult], name: str) -> tuple[list[float], list[float]]:
-    """Times and errors in a measure."""
     return [each.times.total for each in results], [max(each.errors[name], LEAST_SHOWN) for each in results]
 
 
@@ -148,7 +146,6 @@ def _alone(axes: Axes, report: AccuracyReport) -> None:
 
 
 def _columns(report: AccuracyReport) -> int:
-    """Of either legend."""
     return plan_of(report.scene).columns
 
 

@@ -13,7 +13,8 @@ import numpy as np
 from fenics_gears.inputs import units
 from fenics_gears.inputs.problem import did_you_mean
 from fenics_gears.inputs.written import as_written, toml_value
-from fenics_gears.studies.fields import ABSENT, PRESENT, Path, is_section
+
+from .fields import ABSENT, PRESENT, Path, is_section
 
 RANGE_KEYS = ("start", "stop", "count", "step", "spacing")
 SPACINGS = ("linear", "logarithmic")

@@ -16,9 +16,10 @@ from fenics_gears.results.files import read, save
 from fenics_gears.results.key_numbers import STUDIED
 from fenics_gears.results.validity import NO_MEANING
 from fenics_gears.runs.record import CURVES, NUMBERS, Record
-from fenics_gears.studies.axis import Axis
-from fenics_gears.studies.study import Study
 from fenics_gears.system.output import write_whole
+
+from .axis import Axis
+from .study import Study
 
 STUDY_FILE = "study.nc"
 # 800 MB; beyond, the curves stay in the files of the cases.

@@ -96,7 +96,6 @@ def _changed(home: Any, path: Path, value: Any, whole: Path) -> Any:
 
 
 def _place_in(listed: list, number: str, whole: Path) -> int:
-    """Index of the table with a number from 1."""
     if not 1 <= int(number) <= len(listed):
         raise SceneError(f"{'.'.join(whole)}: the scene has {len(listed)} of these tables, counted from 1")
     return int(number) - 1

@@ -16,11 +16,12 @@ from fenics_gears.runs.run import Run
 from fenics_gears.runs.runs import Failure, Runs
 from fenics_gears.runs.spent import Spent
 from fenics_gears.runs.team import Alone, Meanwhile, Together, ranks
-from fenics_gears.studies.combine import STUDY_FILE, combined, save_study
-from fenics_gears.studies.study import Study
-from fenics_gears.studies.study_file import load_study
 from fenics_gears.system.output import check_writable, write_whole
 from fenics_gears.system.progress import Interruption, Progress
+
+from .combine import STUDY_FILE, combined, save_study
+from .study import Study
+from .study_file import load_study
 
 LOGGER = logging.getLogger(__name__)
 
@@ -97,7 +98,6 @@ def _opening(study: Study, kept: int, missing: int, changed: str, size: int) -> 
 
 
 def _compute(runs: Runs, missing: list[Run], progress: Interruption) -> None:
-    """Run every missing case."""
     if not missing:
         return
     progress.stage("cases")

@@ -17,8 +17,9 @@ from fenics_gears.inputs.written import as_toml
 from fenics_gears.model.model import RELIEFS, Model, model_of, with_reliefs
 from fenics_gears.scene.read import scene_of
 from fenics_gears.scene.rules import broken_by_numbers
-from fenics_gears.studies import fields
-from fenics_gears.studies.axis import Axis, label
+
+from . import fields
+from .axis import Axis, label
 
 # Cases whose scenes and models are held, of 8 kB each.
 MOST_HELD = 1000

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from fenics_gears.runs.run import Run
-from fenics_gears.studies.axis import Axis
+
+from .axis import Axis
 
 
 @dataclass(frozen=True)

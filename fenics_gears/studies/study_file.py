@@ -13,10 +13,11 @@ from fenics_gears.inputs.problem import Problem, counted, did_you_mean, line_num
 from fenics_gears.inputs.written import as_written
 from fenics_gears.runs.run import Run, run_of, scene_key
 from fenics_gears.scene.read import load_scene, name_of, parsed, text_of
-from fenics_gears.studies import fields
-from fenics_gears.studies.axis import Axis, AxisError, label, unit_of, values_of
-from fenics_gears.studies.scenes import Changes, NoScene, Scenes
-from fenics_gears.studies.study import Study
+
+from . import fields
+from .axis import Axis, AxisError, label, unit_of, values_of
+from .scenes import Changes, NoScene, Scenes
+from .study import Study
 
 KEYS = ("title", "scene", "combine", "without", "set", "sweep")
 COMBINATIONS = ("product", "zip")
@@ -90,7 +91,6 @@ def study_of(
 
 
 def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:
-    """The study file's own keys."""
     for key, value in tree.items():
         if key not in KEYS:
             hint = did_you_mean(key, KEYS)
@@ -194,7 +194,6 @@ def _shown(value: Any) -> str:
 
 
 def _axes(swept: list[tuple[fields.Path, tuple[Any, ...]]]) -> tuple[Axis, ...]:
-    """The axes, each named by the last part of its path where that is unique."""
     last = [path[-1] for path, _ in swept]
     return tuple(
         Axis(
@@ -256,7 +255,6 @@ def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: 
 
 
 def _cases(scenes: Scenes, changes: Changes, mistakes: Mistakes) -> tuple[Run, ...]:
-    """All cases, validated; a mistake that many cases share is reported once."""
     cases: list[Run] = []
     by_key: dict[str, Run] = {}
     wrong: dict[tuple, list[str]] = {}

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from fenics_gears.results.summary import MICROMETRES
 from fenics_gears.results.validity import NO_MEANING
-from fenics_gears.studies.run_study import Outcome
+
+from .run_study import Outcome
 
 MOST_FAILURES = 5
 

@@ -174,7 +174,6 @@ def _instructions() -> set[str]:
 
 
 def _key() -> list:
-    """What the choice depends on: the processor, and the files of the libraries."""
     with open(PROCESSORS, encoding="utf-8", errors="replace") as lines:
         names = ("vendor_id", "cpu family", "model", "flags")
         processor = [line.strip() for line in (lines.readline() for _ in range(30)) if line.startswith(names)]

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Sequence
 from typing import Any, TextIO
 
-from fenics_gears.system.environment import on_terminal_of_its_own
+from .environment import on_terminal_of_its_own
 
 # A terminal obeys control characters, NUL ends a text of HDF5. All but tab and new line.
 _CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f]")

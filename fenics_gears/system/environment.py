@@ -20,7 +20,8 @@ from collections.abc import Callable, MutableMapping
 from pathlib import Path
 
 from fenics_gears.errors import SceneError
-from fenics_gears.system import blas
+
+from . import blas
 
 RANK_COUNTS = ("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS")
 """Where Open MPI, MPICH and Slurm say how many processes run together."""

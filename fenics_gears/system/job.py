@@ -19,7 +19,8 @@ from collections.abc import Callable, Iterator
 from typing import Any, NoReturn
 
 from fenics_gears.errors import ComputationError, GearsError, SceneError
-from fenics_gears.system import environment
+
+from . import environment
 
 LOGGER = logging.getLogger(__name__)
 

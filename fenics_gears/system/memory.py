@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fenics_gears.errors import SceneError
-from fenics_gears.system.job import ranks_on_machine
+
+from .job import ranks_on_machine
 
 if TYPE_CHECKING:
     import numpy as np

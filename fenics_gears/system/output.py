@@ -22,7 +22,8 @@ from pathlib import Path
 from typing import BinaryIO
 
 from fenics_gears.errors import ComputationError, SceneError
-from fenics_gears.system.user_file import check_file
+
+from .user_file import check_file
 
 # The beginning of names of files, and of directories of files, while they are written; machine and process follow.
 UNFINISHED = ".unfinished-"

@@ -45,13 +45,13 @@ class SilentProgress:
     finished: Finished = []
 
     def stage(self, name: str) -> None:
-        """Ignore the stage."""
+        pass
 
     def update(self, done: int, total: int, note: str = "") -> None:
-        """Ignore the count."""
+        pass
 
     def close(self) -> None:
-        """Nothing to end."""
+        pass
 
 
 class LineProgress:
@@ -144,7 +144,6 @@ class BarProgress:
         self.finished: Finished = []
 
     def stage(self, name: str) -> None:
-        """Fill the bar before, begin a new one below it."""
         self._finish_stage()
         self._bars.start()
         self._name = name
@@ -152,7 +151,6 @@ class BarProgress:
         self._counted = False
 
     def update(self, done: int, total: int, note: str = "") -> None:
-        """Move the bar."""
         if self._task is None:
             self.stage("work")
         self._counted = True
@@ -160,7 +158,6 @@ class BarProgress:
         self._bars.update(self._task, completed=done, total=total, **said)
 
     def close(self) -> None:
-        """Leave the bars as they stand and give the terminal back."""
         self._finish_stage()
         self._bars.stop()
 
@@ -232,7 +229,6 @@ class Interruption:
             raise KeyboardInterrupt
 
     def close(self) -> None:
-        """End the progress."""
         self._progress.close()
 
     def ignore(self) -> None:

@@ -17,7 +17,8 @@ from pathlib import Path
 from typing import Any
 
 from fenics_gears.errors import ComputationError, GearsError
-from fenics_gears.system.environment import RANK_COUNTS
+
+from .environment import RANK_COUNTS
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")
 PROGRAM = "from fenics_gears.system.second_process import serve; serve()"

@@ -17,7 +17,7 @@ from fenics_gears.contact.window import ContactGrid
 from fenics_gears.contact.wobble import WobblingRunOut
 from fenics_gears.effects.eccentricity import Eccentricity, Offset
 from fenics_gears.effects.flank_errors_sections import FlankErrors, GearErrors, Waviness
-from fenics_gears.geometry.helix import Helix
+from fenics_gears.geometry.pair import Helix
 
 SLICES, STEPS = 4, 10
 WOBBLE, PHASE = 0.02, 0.6

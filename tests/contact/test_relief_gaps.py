@@ -14,7 +14,7 @@ from fenics_gears.contact.mesh_cycle import Cycle, Gaps
 from fenics_gears.contact.relief_gaps import profile_of
 from fenics_gears.contact.tooth_pair import Flanks
 from fenics_gears.contact.window import ContactGrid
-from fenics_gears.geometry.helix import Helix
+from fenics_gears.geometry.pair import Helix
 
 
 @pytest.mark.parametrize("coast", [False, True])

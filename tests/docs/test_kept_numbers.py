@@ -4,7 +4,7 @@ import pytest
 from tests.benchmarks.marked_section import markers
 from tests.docs.kept_numbers import EVIDENCE, SECTIONS, rows
 
-from fenics_gears.model.plane_strain import SOFTER
+from fenics_gears.model.description import SOFTER
 
 
 @pytest.mark.parametrize("page, name", SECTIONS)

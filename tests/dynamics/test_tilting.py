@@ -12,7 +12,7 @@ from fenics_gears.dynamics.frequencies import Vibration, natural_frequencies, vi
 from fenics_gears.dynamics.tilting import gyroscopic_warnings, moved
 from fenics_gears.effects.bearings import BearingPlaces, Bearings, Support
 from fenics_gears.effects.inertia import GearInertia, Inertia, LoadInertia
-from fenics_gears.geometry.helix import Helix
+from fenics_gears.geometry.pair import Helix
 from fenics_gears.model.drivetrain import drivetrain
 
 # Places and stiffnesses that no mistake of sign, axis or gear leaves alone.

@@ -153,7 +153,7 @@ def test_the_guides_effect_is_named_by_check_on_and_off(printed):
 
 @pytest.mark.nightly
 def test_the_guides_rule_refuses_with_place_value_and_remedy(printed):
-    """The guide; a rule's Problem is a message with all that a user needs."""
+    """The guide; a rule's message has all that a user needs."""
     code, _, said = printed[1][2]
     assert code == 2
     assert "load.wheel_torque" in said and "-437 N m" in said and "cannot stand beside a brake" in said

@@ -7,8 +7,7 @@ from tests.benchmarks.third_dimension import plane_limits
 from tests.benchmarks.third_dimension.table import read_rows
 
 from fenics_gears import Material
-from fenics_gears.model.description import describe
-from fenics_gears.model.plane_strain import SOFTER, too_stiff
+from fenics_gears.model.description import SOFTER, describe, too_stiff
 
 STEEL = Material(206e3, 0.3)
 

@@ -10,7 +10,7 @@ from tests.coarse import coarse_scene
 from fenics_gears import gear_pair, model_of, scene_from_text, simulate
 from fenics_gears.elasticity.compliance import Body
 from fenics_gears.elasticity.overhang import near_field
-from fenics_gears.model.plane_strain import too_stiff
+from fenics_gears.model.description import too_stiff
 from fenics_gears.scene.data import Material
 from fenics_gears.simulation.elastic_route import flanks_of
 

@@ -130,7 +130,6 @@ def _curves(
 
 
 def _speed(found: xr.Dataset) -> str:
-    """The axis of the speed, with what it is of the pinion."""
     return (
         f"{SPEED}; 100 Hz are {100.0 * float(found['pinion_speed'][0] / found['mesh_frequency'][0]):.4g} rpm of the"
         " pinion"

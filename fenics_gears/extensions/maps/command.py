@@ -72,7 +72,6 @@ def draw_map(options: argparse.Namespace) -> int:
 
 
 def _run(options: argparse.Namespace, team) -> int:
-    """The stages of a map, on rank 0."""
     from fenics_gears.studies.run_study import run_with
     from fenics_gears.studies.summary import last_words, summary_rows
 
@@ -106,7 +105,6 @@ def _run(options: argparse.Namespace, team) -> int:
 
 
 def _written(found, directory: Path, scene) -> list[Path]:
-    """The files of a map: dataset, tables and pictures."""
     from fenics_gears import save_tables
     from fenics_gears.charts import design, draw_charts
 

@@ -116,7 +116,6 @@ def plot(core: Callable[[argparse.Namespace], int], options: argparse.Namespace)
 
 
 def _noise(dataset, directory: Path, window: str) -> list[Path]:
-    """The files of a run's noise figures."""
     from fenics_gears import save_tables
     from fenics_gears.charts import draw_charts
 

@@ -117,7 +117,6 @@ def _relief(part: GearParts, kind: str, base: float, tip: Value) -> Relief | Non
 
 
 def _same(one: Relief | None, other: Relief | None) -> bool:
-    """Whether both remove the same."""
     if one is None or other is None:
         return one is other
     return one.keys() == other.keys() and all(

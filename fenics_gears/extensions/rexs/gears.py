@@ -105,7 +105,6 @@ def _pressure_angle(stage: Stage) -> Value:
 
 
 def _face_widths(stage: Stage) -> list[Value]:
-    """The width of both gears, or of each where they differ."""
     common = first(stage, "common_face_width")
     if common is not None:
         return [common]
@@ -184,7 +183,6 @@ def _gear_section(
 
 
 def _tip_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shift: Value) -> Value:
-    """What the addendum of the flanks gives, or the standard's."""
     addendum = first(part, "addendum")
     modules = ADDENDUM if addendum is None else addendum.number
     source = (
@@ -215,7 +213,6 @@ def _root_diameter(part: GearParts, beta: float, module: Value, teeth: Value, sh
 
 
 def _of_tool(part: GearParts, module: Value, asked: str) -> Value | None:
-    """A measure of the tool that made the root, in modules."""
     agreed([module, *every(part, "tool_module")], "The tool has another module than the gear")
     return agreed(every(part, asked, module), f"{part.tool[0]} contradicts itself") if part.tool else None
 
@@ -231,7 +228,6 @@ def _bore_diameter(part: GearParts, root: Value) -> Value:
 
 
 def _materials(stage: Stage) -> Sections:
-    """The material of both gears, or of each where they differ."""
     found = {
         name: {asked: needed(part, asked) for asked in MATERIAL}
         for name, part in zip(("pinion", "wheel"), stage.gears)
@@ -247,7 +243,6 @@ def _materials(stage: Stage) -> Sections:
 
 
 def _check_reference_diameter(part: GearParts, beta: float, module: Value, teeth: Value) -> None:
-    """A reference diameter, where the file repeats it, is that of module and teeth."""
     diameter = module.number * teeth.number / cos(beta)
     for stated, where in zip(every(part, "reference_diameter"), given(part, "reference_diameter")):
         if abs(stated.number - diameter) > ROUNDED * module.number:

@@ -150,7 +150,6 @@ def _slope(component: Component, width: float, sign: float) -> Value:
 
 
 def _end_relief(component: Component, width: float) -> tuple[Value, Value, str]:
-    """Depth at the end of the face, length and shape."""
     face = component.type.removeprefix("end_relief_")
     depth, length = (
         _needed(component, f"end_relief_depth_{face}", "um"),

@@ -97,7 +97,6 @@ def _is_torque(load: Component) -> bool:
 
 
 def _is_alone(model: Model, part: GearParts) -> bool:
-    """Whether the gear meshes once, and its shaft bears no other gear."""
     meshes = sum(
         part.gear.id in (each.roles.get("gear_1"), each.roles.get("gear_2")) for each in model.related("stage")
     )

@@ -130,12 +130,10 @@ class _NoDocumentType(ElementTree.TreeBuilder):
 
 
 def _name(element: ElementTree.Element) -> str:
-    """An element's name without its namespace."""
     return element.tag.rpartition("}")[2]
 
 
 def _within(element: ElementTree.Element, *names: str) -> Iterator[ElementTree.Element]:
-    """All elements below, by the names on the way."""
     for child in element:
         if _name(child) == names[0]:
             yield from _within(child, *names[1:]) if len(names) > 1 else (child,)

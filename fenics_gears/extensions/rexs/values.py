@@ -117,7 +117,6 @@ def in_words(component: Component, name: str) -> str:
 
 
 def _entries(component: Component, name: str) -> list[str]:
-    """All values of an attribute as texts."""
     value = component.attributes[name].value
     if isinstance(value, dict):
         return _decoded(component, component.attributes[name])

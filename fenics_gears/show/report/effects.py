@@ -7,10 +7,11 @@ import math
 
 from fenics_gears.effects import effects_on
 from fenics_gears.model.description import effect_states
-from fenics_gears.show.report.page import Block, Fold, Picture, Section, Table, Words
 from fenics_gears.show.run import NO_SCENE, Run
 from fenics_gears.studies.effect_costs.subsets import ALL
 from fenics_gears.studies.effect_costs.table import MILLI
+
+from .page import Block, Fold, Picture, Section, Table, Words
 
 MEASURED_TABLE, MEASURED_PICTURE = "effects.csv", "effects.png"
 # Relative; the same scene gives the same transmission error, on another processor to round-off.
@@ -62,7 +63,6 @@ def _measured(run: Run) -> list[Block]:
 
 
 def _same_scene(run: Run, whole: dict[str, str]) -> bool:
-    """Whether the line of all effects is of this run's, with its transmission error."""
     answer = run.dataset.attrs.get("peak_to_peak_transmission_error", math.nan) * run.micrometres
     measured = float(whole["transmission_error_peak_to_peak_mm"]) * MILLI
     same = not run.complete or math.isclose(measured, answer, rel_tol=SAME_ANSWER, abs_tol=1e-4)

@@ -7,8 +7,9 @@ import numpy as np
 from fenics_gears.results.contact_variables import transmitted
 from fenics_gears.show.chart import over_time, span
 from fenics_gears.show.panels import DARK, PALETTE, digits, factor, in_unit
-from fenics_gears.show.report.page import Facts, Section, sentence
 from fenics_gears.show.run import TOO_FEW, Run
+
+from .page import Facts, Section, sentence
 
 PARTS = {
     "energy_teeth": "teeth",

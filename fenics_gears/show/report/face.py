@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from fenics_gears.show.report.page import Section, Words
 from fenics_gears.show.run import TOO_FEW, Run
+
+from .page import Section, Words
 
 HEADING = "Contact over the face"
 # The load factors along the face, by their attributes.

@@ -6,9 +6,10 @@ from math import degrees
 
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.gear_data import GearPairData
-from fenics_gears.show.report.page import Beside, Facts, Section, Table, Words
-from fenics_gears.show.report.pair_drawing import drawings
 from fenics_gears.show.run import NO_SCENE, Run
+
+from .page import Beside, Facts, Section, Table, Words
+from .pair_drawing import drawings
 
 GEARS = ("pinion", "wheel")
 # How labels of what a caliper reads end.
@@ -37,7 +38,6 @@ def geometry(run: Run) -> Section:
 
 
 def _both(run: Run, rows: list[tuple[str, float, str]]) -> Table:
-    """A row for each number that either gear has, one column a gear."""
     given = run.scene.gears
     names = {
         "teeth": "",

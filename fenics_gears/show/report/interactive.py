@@ -119,7 +119,6 @@ def _layout(chart: Chart) -> dict:
 
 
 def _scales(chart: Chart) -> dict:
-    """Buttons for a linear and a logarithmic scale."""
     choices = {"linear": "linear", "logarithmic": "log"}
     buttons = [
         {"label": label, "method": "relayout", "args": [{"yaxis.type": kind, "yaxis.autorange": True}]}
@@ -134,8 +133,6 @@ def _scales(chart: Chart) -> dict:
 
 
 def _flag(layout: dict, chart: Chart) -> None:
-    """Words in rows above the curves, each right of the line that leads down to its place; the curves end below
-    them."""
     rows = chart.flag_rows
     inside = height(chart) - layout["margin"]["t"] - layout["margin"]["b"]
     end = 1.0 - FLAG_ROW * (max(rows) + 1) / inside

@@ -6,8 +6,9 @@ import math
 
 from fenics_gears.results.summary import result_rows
 from fenics_gears.show.panels import digits
-from fenics_gears.show.report.page import Beside, Facts, Section, Table, Words
 from fenics_gears.show.run import Run
+
+from .page import Beside, Facts, Section, Table, Words
 
 # What the summary that `gears run` prints leaves out.
 MORE = {
@@ -35,7 +36,6 @@ def numbers(run: Run) -> Section:
 
 
 def _round_off(name: str, attributes) -> bool:
-    """Whether a force that varies by nothing is all that a number says."""
     return name == "rms_normal_force" and attributes[name] < 1e-9 * attributes.get("largest_pair_force", 0.0)
 
 

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import fenics_gears
-from fenics_gears.show.report.page import Facts, Listing, Section, Words
 from fenics_gears.studies.machine import versions
+
+from .page import Facts, Listing, Section, Words
 
 # Packages that compute and that draw and write a report.
 PAGE_PACKAGES = ("numpy", "fenics-dolfinx", "petsc4py", "plotly", "matplotlib", "pyvista", "jinja2")

@@ -7,8 +7,9 @@ from collections.abc import Iterator
 
 from fenics_gears.results.contact_variables import largest_normal_force
 from fenics_gears.show.panels import digits, factor
-from fenics_gears.show.report.page import Section, Tile, Tiles, Words, sentence
 from fenics_gears.show.run import Run, load_in_words
+
+from .page import Section, Tile, Tiles, Words, sentence
 
 GEARS = ("pinion", "wheel")
 
@@ -90,13 +91,11 @@ def _tiles(run: Run) -> Iterator[Tile]:
 
 
 def _longest(run: Run) -> str:
-    """The longest loss of contact, where the scene has a time."""
     timed = run.scene is not None and run.scene.motion.speed_given and "contact_loss_longest" in run.dataset.attrs
     return f", for up to {run.dataset.attrs['contact_loss_longest']:.3g} s" if timed else ""
 
 
 def _conditions(run: Run) -> Iterator[Tile]:
-    """Torques, and speeds where the scene has one."""
     if run.scene is None:
         return
     teeth, motion, ramp = (

@@ -36,7 +36,6 @@ def drawings(pair: GearPair, coast: bool = False) -> list[Chart]:
 
 
 def _drawing(caption: str, note: str, height: int, curves: list[Curve], middle: np.ndarray, half: float) -> Chart:
-    """A square view around a point (mm), or more of it to the sides."""
     (left, bottom), (right, top) = middle - half, middle + half
     return Chart(
         caption, curves, "x (mm)", "y (mm)", note, height, x_range=(left, right), y_range=(bottom, top), equal=True
@@ -153,7 +152,6 @@ def _points_in_words(pair: GearPair, coast: bool) -> str:
 
 
 def _whole(pair: GearPair) -> tuple[np.ndarray, float]:
-    """Middle and half height of a view of both gears."""
     low, high = -pair.centre_distance - pair.wheel.tip_radius, pair.pinion.tip_radius
     return np.array([0.0, 0.5 * (low + high)]), 0.53 * (high - low)
 

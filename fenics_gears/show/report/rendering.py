@@ -13,8 +13,9 @@ from typing import Any
 from fenics_gears.show.chart import Chart
 from fenics_gears.show.drawing import still
 from fenics_gears.show.panels import digits
-from fenics_gears.show.report.interactive import figure, height
-from fenics_gears.show.report.page import Beside, Block, Fold, Page
+
+from .interactive import figure, height
+from .page import Beside, Block, Fold, Page
 
 TEMPLATE, STYLE, SCRIPT = "page.html", "page.css", "page.js"
 
@@ -63,7 +64,6 @@ def _own_file(name: str) -> str:
 
 
 def _figure(chart: Chart):
-    """A chart as JSON of a plotly figure that may stand in a script element."""
     from jinja2.utils import htmlsafe_json_dumps
 
     return htmlsafe_json_dumps(figure(chart), separators=(",", ":"))
@@ -83,7 +83,6 @@ def _with_code(text: str):
 
 
 def _number(value: Any) -> str:
-    """A value for people."""
     return _micro(str(value)) if isinstance(value, (str, int)) else digits(float(value))
 
 

@@ -7,8 +7,9 @@ import numpy as np
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.chart import MARKED_LINES, Chart, Curve, over_time, span
 from fenics_gears.show.panels import PALETTE, factor, in_unit
-from fenics_gears.show.report.page import Section, sentence
 from fenics_gears.show.run import TOO_FEW, Run
+
+from .page import Section, sentence
 
 HEADING = "Root stress"
 

@@ -6,20 +6,21 @@ from collections.abc import Callable
 
 from fenics_gears.results.carried_scene import changed_files
 from fenics_gears.results.validity import NO_MEANING
-from fenics_gears.show.report.curves import forces, motion, pressure, spectra
-from fenics_gears.show.report.effects import effects
-from fenics_gears.show.report.energy import energy
-from fenics_gears.show.report.face import face
-from fenics_gears.show.report.geometry import geometry
-from fenics_gears.show.report.numbers import numbers
-from fenics_gears.show.report.origin import made_by, scene_section, version_section
-from fenics_gears.show.report.overview import summary, warnings
-from fenics_gears.show.report.page import Page, Section
-from fenics_gears.show.report.root_stress import root_stress
-from fenics_gears.show.report.solver import solver
-from fenics_gears.show.report.stress import stress
 from fenics_gears.show.run import Run, conditions
 from fenics_gears.system.progress import Progress, SilentProgress
+
+from .curves import forces, motion, pressure, spectra
+from .effects import effects
+from .energy import energy
+from .face import face
+from .geometry import geometry
+from .numbers import numbers
+from .origin import made_by, scene_section, version_section
+from .overview import summary, warnings
+from .page import Page, Section
+from .root_stress import root_stress
+from .solver import solver
+from .stress import stress
 
 # Pictures before tables: who reads the page looks first.
 SECTIONS: tuple[Callable[[Run], Section | None], ...] = (

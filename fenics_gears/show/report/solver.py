@@ -8,8 +8,9 @@ from fenics_gears.results.numbers import RUNG
 from fenics_gears.results.summary import solver_rows, stage_rows
 from fenics_gears.show.chart import over_time
 from fenics_gears.show.panels import PALETTE
-from fenics_gears.show.report.page import Beside, Block, Facts, Section, Table, Words
 from fenics_gears.show.run import Run
+
+from .page import Beside, Block, Facts, Section, Table, Words
 
 # What `gears check` says of a scene that is not said elsewhere on the page.
 DESCRIBED = ("Model", "Accuracy", "Natural frequencies")
@@ -52,7 +53,6 @@ def solver(run: Run) -> Section:
 
 
 def _extent(run: Run) -> list[tuple[str, str, str]]:
-    """The steps that are stored; seconds where the scene has a speed."""
     if not run.steps:
         return []
     timed = run.scene is None or run.scene.motion.speed_given

@@ -10,9 +10,10 @@ import xarray as xr
 from fenics_gears.errors import GearsError
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.show.chart import Chart
-from fenics_gears.show.report.page import Picture, Section, sentence
 from fenics_gears.show.run import NO_SCENE, Run
 from fenics_gears.simulation.stored_forces import stored_index
+
+from .page import Picture, Section, sentence
 
 HEADING = "Stress in the gears"
 
@@ -35,7 +36,6 @@ def stress(run: Run) -> Section:
 
 
 def _why_not(run: Run) -> tuple[str, bool] | None:
-    """Why there is no picture, and whether that is a warning; None where there is one."""
     if not run.stress:
         return "Left out by the option `--no-stress`.", False
     if run.scene is None or not run.steps:
@@ -56,7 +56,6 @@ def _most_loaded(dataset: xr.Dataset) -> int:
 
 
 def _drawn(run: Run, index: int) -> tuple[bytes, str, list[Chart]]:
-    """The picture, what it shows, and the charts that go with it."""
     from fenics_gears.show.stress_picture import charts_of, save_picture, still
     from fenics_gears.simulation.run_stresses import RunStresses
 

@@ -11,11 +11,12 @@ import xarray as xr
 from fenics_gears.show.cases import LISTED_CASES, STATES, Cases
 from fenics_gears.show.chart import Chart, Curve
 from fenics_gears.show.panels import PALETTE, digits
-from fenics_gears.show.report.origin import made_by, scene_section, version_section
-from fenics_gears.show.report.overview import counted
-from fenics_gears.show.report.page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words
 from fenics_gears.show.study_charts import effort_charts, result_charts
 from fenics_gears.system.progress import Progress, SilentProgress
+
+from .origin import made_by, scene_section, version_section
+from .overview import counted
+from .page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words
 
 # A browser sorts and lays out this many rows at once.
 MOST_ROWS = 2000
@@ -132,7 +133,6 @@ def _results(cases: Cases) -> Section:
 
 
 def _standing_out(cases: Cases) -> Section:
-    """Transmission error of the cases with the least, the middle and the largest values, and their files."""
     heading, scale, unit = "Cases that stand out", *cases.error_scale
     chosen = [
         (case, why, run)

@@ -19,9 +19,10 @@ from fenics_gears.runs.runs import completed
 from fenics_gears.runs.timed import shared_gears
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.warm_up import compile_kernels
-from fenics_gears.studies.effect_costs.subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, subsets_of
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
+
+from .subsets import ALL, ALONE, BARE, LEFT_OUT, Skipped, Subset, subsets_of
 
 ROUNDS = 5
 TIMED_STEPS = 1000

@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import functools
 import tomllib
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 from fenics_gears.effects import SECTIONS, effect_named, effects_on, every_effect, without
-from fenics_gears.inputs.tree import over_the_face, written_out
+from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
+from fenics_gears.inputs.tree import GEARS, over_the_face, written_out
 from fenics_gears.inputs.written import WrittenFloat
 from fenics_gears.scene.data import Scene
 from fenics_gears.scene.rules import broken_rules
@@ -18,6 +19,9 @@ from fenics_gears.scene.rules import broken_rules
 NOTHING, BARE, ALONE, LEFT_OUT, ALL = "nothing", "bare", "alone", "left out", "all"
 # The other effects act on elastic teeth: a scene that has them is called bare with them and nothing else.
 BASE = "tooth_elasticity"
+UNMODIFIED = LeadModification()
+OF_LEAD = tuple(vars(UNMODIFIED))
+TILTING, AXIAL = "tilting and axial motion", "axial motion"
 # Most further effects that are added or left out to make a subset valid.
 MOST_FURTHER = 2
 
@@ -98,15 +102,10 @@ def subsets_of(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
 
 
 def _parts(whole: Subset) -> list[Subset]:
-    """The whole scene without a part of an effect over the face."""
-    # Imported here: few scenes have any.
-    from fenics_gears.studies.effect_costs.parts import without_parts
-
-    return [Subset(LEFT_OUT, name, whole.sections, scene) for name, scene in without_parts(whole.scene)]
+    return [Subset(LEFT_OUT, name, whole.sections, scene) for name, scene in _without_parts(whole.scene)]
 
 
 def _beside(kind: str, name: str, sections: Sections, left: Sections) -> tuple[str, ...]:
-    """The effects that were added or left out with an effect."""
     return tuple(in_order({ALONE: sections - {BASE, name}, LEFT_OUT: left - {name}}.get(kind, ())))
 
 
@@ -145,3 +144,38 @@ def _problem(scene: Scene, sections: Sections) -> str:
 def in_order(sections: Iterable[str]) -> list[str]:
     """Sections in the order of the list of effects."""
     return [each for each in SECTIONS if each in sections]
+
+
+def _without_parts(scene: Scene) -> Iterator[tuple[str, Scene]]:
+    """Each part of an effect over the face, in words, and the scene without it, but for an effect that has that part
+    alone. The helix is none: without it a pair has another transverse section and another centre distance."""
+    lead = scene.lead_modifications
+    if lead is not None:
+        named = [
+            name
+            for name in OF_LEAD
+            if any(getattr(gear, name) for gear in (lead.pinion, lead.wheel) if gear is not None)
+        ]
+        for name in named if len(named) > 1 else ():
+            yield name, replace(scene, lead_modifications=_without(lead, name))
+    bearings = scene.bearings
+    if bearings is None or bearings.places is None:
+        return
+    own = {
+        gear: replace(getattr(bearings, gear), axial_stiffness=None)
+        for gear in GEARS
+        if getattr(bearings, gear) is not None
+    }
+    held = replace(bearings, axial_stiffness=None, **own)
+    yield TILTING, replace(scene, bearings=replace(held, places=None))
+    if any(bearings.axial(gear) is not None for gear in GEARS):
+        yield AXIAL, replace(scene, bearings=held)
+
+
+def _without(lead: LeadModifications, name: str) -> LeadModifications:
+    return LeadModifications(
+        *(
+            None if gear is None else replace(gear, **{name: getattr(UNMODIFIED, name)})
+            for gear in (lead.pinion, lead.wheel)
+        )
+    )

@@ -7,9 +7,10 @@ import statistics
 from math import isnan, nan
 from pathlib import Path
 
-from fenics_gears.studies.effect_costs.measured import EffectReport, Row
-from fenics_gears.studies.effect_costs.subsets import ALL, BARE
 from fenics_gears.studies.machine import write_lines
+
+from .measured import EffectReport, Row
+from .subsets import ALL, BARE
 
 MICRO, MILLI = 1e6, 1e3
 NUMBERS_OF_ONE = " (numbers of the first row that says so)"
