@@ -99,10 +99,10 @@ def _facing_points(cycle: Cycle) -> PerPosition[Facing]:
 
 
 def _gaps(cycle: Cycle, at: Facing, removal: tuple[Removal | None, Removal | None]) -> np.ndarray:
-    gap = at.gap
+    gap, everywhere = at.gap, at.drive.all()
     for removed, rolls in zip(removal, at.rolls):
         if removed is not None:
-            gap = gap + np.where(at.drive, removed(rolls), 0.0)
+            gap = gap + (removed(rolls) if everywhere else np.where(at.drive, removed(rolls), 0.0))
     return seen_gap(INTERPOLATIONS[cycle.grid.interpolation], at.offsets, at.node_ends, gap)
 
 

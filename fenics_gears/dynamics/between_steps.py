@@ -22,7 +22,7 @@ from fenics_gears.dynamics.steps import Record, Steps
 FIRST_REACH = 0.1
 
 
-class StepBefore(NamedTuple):
+class _StepBefore(NamedTuple):
     """In place of the position of a step that is solved: compiled code reads nothing of it but how many nodes it
     has."""
 
@@ -97,7 +97,7 @@ class BetweenSteps(Stepper):
         for place, position, last in asked:
             nodes = position.node_before.max(initial=-1) + 1 if last is None else len(last.solution.status)
             numbers += [ceil(place) - 1, place]
-            positions += [StepBefore.of(nodes), position]
+            positions += [_StepBefore.of(nodes), position]
             sets += [np.zeros(nodes, dtype=np.int8), self.sets_near(place, position)] if last is None else []
         steps = Steps.to_solve(numbers, positions, len(self.drivetrain.coordinates), NEWTON)
         for number, (_, _, last) in enumerate(asked):

@@ -15,7 +15,6 @@ from fenics_gears.contact.addresses import GAP, NODES, ROW
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.contact.step_solver import NEWTON
-from fenics_gears.dynamics.between_steps import StepBefore
 from fenics_gears.dynamics.compiled_march import NO_SETS, STATIC, Course, Motion, solve_steps
 from fenics_gears.dynamics.stepping import STEPS_SLID_BEFORE_START, EquationsOfMotion, Stepper
 from fenics_gears.dynamics.steps import Record, Steps, table_of
@@ -180,22 +179,19 @@ class Marches:
         positions = [self.cycle.between(place, ceil(place) - 1) for _, place in asked]
         gaps = self._opened.at([(run, position) for (run, _), position in zip(asked, positions)])
         table = table_of(positions)
-        ends = np.cumsum(table[:, NODES])
-        starts = ends - table[:, NODES]
-        table[:, GAP] = gaps.ctypes.data + gaps.itemsize * starts
-        numbers, both, sets = [], [], []
-        for (_, place), position in zip(asked, positions):
-            before = self.cycle.position(ceil(place) - 1).operator.nodes
-            numbers += [ceil(place) - 1, place]
-            both += [StepBefore.of(before), position]
-        rows = np.concatenate((table_of(both[::2]), table), axis=1).reshape(-1, table.shape[1])
+        table[:, GAP] = gaps.ctypes.data + gaps.itemsize * (np.cumsum(table[:, NODES]) - table[:, NODES])
+        # In place of the step before: compiled code reads nothing of it but how many nodes it has.
+        before, sets = np.zeros_like(table), []
+        before[:, NODES] = np.diff(self._starts)[[(ceil(place) - 1) % self.cycle.steps for _, place in asked]]
+        rows = np.concatenate((before, table), axis=1).reshape(-1, table.shape[1])
+        numbers = [number for _, place in asked for number in (ceil(place) - 1, place)]
+        both = [position for position in positions for _ in range(2)]
         steps = Steps.to_solve(numbers, both, len(stepper.drivetrain.coordinates), NEWTON, rows)
-        for at, ((run, place), position, first, end) in enumerate(zip(asked, positions, starts, ends)):
+        for at, ((run, place), position) in enumerate(zip(asked, positions)):
             if self.friction:
                 self._copy(run, ceil(place) - 1 + self.first, steps, 2 * at)
             else:
-                near = stepper.sets_near(place, position.with_gap(gaps[first:end]))
-                sets += [np.zeros(rows[2 * at, NODES], dtype=np.int8), near]
+                sets += [np.zeros(before[at, NODES], dtype=np.int8), stepper.sets_near(place, position)]
         loads = np.repeat([self._loads[run] for run, _ in asked], 2, axis=0)
         course = Course(np.zeros(len(steps)), loads, np.concatenate(sets) if sets else NO_SETS, at_rest=True)
         for at, (run, place) in enumerate(asked):

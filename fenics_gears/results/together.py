@@ -38,8 +38,9 @@ from fenics_gears.results.side_by_side import KnownLayouts, SideBySide
 ERROR, FORCE, PRESSURE, LOSS = (
     "peak_to_peak_transmission_error", "largest_pair_force", "peak_contact_pressure", "friction_loss",
 )  # fmt: skip
-# What can be asked for.
-OFFERED = frozenset((ERROR, FORCE, PRESSURE, LOSS, "max_normal_force", *HARMONIC_NAMES))
+# What can be asked for, and what of it takes no other key numbers.
+OF_THEMSELVES = frozenset((ERROR, LOSS, "max_normal_force"))
+OFFERED = OF_THEMSELVES | {FORCE, PRESSURE, *HARMONIC_NAMES}
 
 
 class NumbersOfRun:
@@ -88,9 +89,8 @@ def numbers_together(
     curves, first = _curves(models, marches, errors, runs, asked), settled(model, model.steps).first
     counted = [{name: values[first:] for name, values in of_run.items()} for of_run in curves]
     loss = [_loss(*each) if LOSS in asked else {} for each in zip(curves, counted)]
-    others = [
-        key_numbers(each, model.pair, of.get(LOSS), model.scene.motion.speed_given) for each, of in zip(counted, loss)
-    ]
+    timed, key = model.scene.motion.speed_given, not OF_THEMSELVES.issuperset(asked)
+    others = [key_numbers(each, model.pair, of.get(LOSS), timed) if key else {} for each, of in zip(counted, loss)]
     extrema = _Extrema(model, cycle, counted[0]["mesh_phase"], counted[0]["transmission_error"])
     extrema.marches, marches.first = marches, extrema.first
     located = extremes(extrema, [(run, each, FORCE in of) for run, each, of in zip(runs, counted, others)])
@@ -113,13 +113,14 @@ def numbers_together(
 
 
 def _equations(models: Sequence[Model]) -> list:
-    """What each run solves for, made once for runs with the same drivetrain and friction."""
-    known: dict[tuple[int, float], Any] = {}
+    """What each run solves for, made once for runs with the same load: they are alike in all else."""
+    found, known = [], {}
     for model in models:
-        key = id(model.drivetrain), model.friction_coefficient
-        if key not in known:
-            known[key] = model.equations_of_motion
-    return [known[id(model.drivetrain), model.friction_coefficient] for model in models]
+        load = model.drivetrain.load.tobytes()
+        if load not in known:
+            known[load] = model.equations_of_motion
+        found.append(known[load])
+    return found
 
 
 Curves = dict[str, np.ndarray]

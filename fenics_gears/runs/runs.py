@@ -25,7 +25,7 @@ from fenics_gears.system.progress import Progress, SilentProgress
 
 LOGGER = logging.getLogger(__name__)
 # Runs that are computed together at most, and tasks that each process gets at least.
-MOST_TOGETHER, TASKS = 16, 2
+MOST_TOGETHER, TASKS = 32, 2
 Tick = Callable[[], None]
 Finished = Callable[[Run, Any], None]
 
