@@ -120,8 +120,8 @@ class Shaft(Section):
         PRESS_FIT,
         INTEGRAL,
         meaning="how the gear sits: the shaft does not give way within the gear's face width; or shaft and hub hold"
-        " each other without slip, as one piece, and give way together; or the teeth are cut into the shaft, which bends"
-        " and twists there as a cylinder of the root diameter",
+        " each other without slip, as one piece, and give way together; or the teeth are cut into the shaft, which"
+        " bends and twists there as a cylinder of the root diameter",
         default=RIGID_SEAT,
     )
     material: ShaftMaterial = ShaftMaterial()
