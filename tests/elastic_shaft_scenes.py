@@ -41,6 +41,8 @@ CUT = (
     .replace(f"stiffness_matrix = {ROWS}", 'radial_stiffness = "0.3e6 N/mm"\naxial_stiffness = "0.2e6 N/mm"')
     .replace('material = "ductile cast iron"\n', "")
 )
+# The same on shafts that are as thick as the bores of helical pairs.
+PRESSED = CUT.replace("integral", "press fit").replace('"35 mm"', '"22.36 mm"').replace('"40 mm" }]', '"43.48 mm" }]')
 INERTIA = '[inertia]\nmass = "2 kg"\nmoment_of_inertia = "0.002 kg m^2"\n'
 # The same shafts with a density, and what vibrates.
 VIBRATING = (

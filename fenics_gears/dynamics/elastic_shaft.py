@@ -22,6 +22,7 @@ import numpy as np
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.drivetrain import Drivetrain
+    from fenics_gears.dynamics.elastic_shaft_hub import Hub
     from fenics_gears.effects.bearings import Bearing
     from fenics_gears.effects.shafts import ShaftSection
     from fenics_gears.inputs.allowed import Matrix
@@ -106,10 +107,10 @@ class ElasticShaft:
     """The shaft of the "pinion" or the "wheel": its `sections` of one `material` (Young's modulus, N/mm^2, Poisson's
     ratio), the middle of the gear's seat, mm from the left end, the `seat`'s width, mm, where the torque is coupled,
     and the bearings; `integral`: whether the gear is cut into the shaft, of which `sections` then have its root
-    diameter within the face, where it gives way as `elastic_shaft_seat` says; `housing`: stiffness between the
-    bearings' seats (5 b, 5 b), N, mm and rad, None where it is rigid. Of a shaft that vibrates: the sections by which
-    it is `heavy`, where not those by which it bends, its `density`, N s^2/mm^4, and the frequency `up_to` which it has
-    modes of its own, Hz.
+    diameter within the face, where it gives way as `elastic_shaft_seat` says; `hub`: with what it does so otherwise;
+    `housing`: stiffness between the bearings' seats (5 b, 5 b), N, mm and rad, None where it is rigid. Of a shaft that
+    vibrates: the sections by which it is `heavy`, where not those by which it bends, its `density`, N s^2/mm^4, and the
+    frequency `up_to` which it has modes of its own, Hz.
     """
 
     gear: str
@@ -124,6 +125,12 @@ class ElasticShaft:
     heavy: tuple[ShaftSection, ...] | None = None
     density: float = 0.0
     up_to: float = inf
+    hub: Hub | None = None
+
+    @property
+    def yields_within(self) -> bool:
+        """Whether flanks give way by what does so under the face."""
+        return self.integral or self.hub is not None
 
     @property
     def length(self) -> float:
@@ -208,9 +215,8 @@ class ElasticShaft:
 
     def deflection(self, places: Sequence[float]) -> np.ndarray:
         """Motions (p, 5, 5) of places on the axis (mm from the left end) per motion of the gear."""
-        loaded = [each.at for each in self.bearings]
-        size = len(MOTIONS) * len(places)
-        yielding = self.flexibility(places, loaded).reshape(size, -1) @ self._loads_at_rest
+        flexible = self.flexibility(places, [each.at for each in self.bearings])
+        yielding = flexible.reshape(len(MOTIONS) * len(places), -1) @ self._loads_at_rest
         return (self._rigid(places) - yielding).reshape(len(places), len(MOTIONS), len(MOTIONS))
 
     def motions(self, drivetrain: Drivetrain, states: np.ndarray) -> np.ndarray:
@@ -236,10 +242,9 @@ class ElasticShaft:
     @cached_property
     def springs(self) -> np.ndarray:
         """Stiffness (5 b, 5 b) of all bearings in their housing."""
-        size = len(MOTIONS)
-        found = np.zeros((size * len(self.bearings),) * 2)
+        found = np.zeros((len(MOTIONS) * len(self.bearings),) * 2)
         for number, bearing in enumerate(self.bearings):
-            own = slice(size * number, size * (number + 1))
+            own = slice(len(MOTIONS) * number, len(MOTIONS) * (number + 1))
             found[own, own] = bearing.matrix
         return found if self.housing is None else in_series(found, np.array(self.housing))
 

@@ -43,6 +43,6 @@ def face_compliance_of_shafts(shafts: Iterable[ElasticShaft], pair: GearPair, z:
         row, heights = np.array([1.0, 0.0, lean, y * lean, -x * lean, -y]), z - pair.gear_middles[gear]
         moved = np.einsum("i,sij->sj", row, [carried_with_twist(each) for each in heights])[:, :-1]
         found += moved @ np.linalg.solve(shaft.stiffness, moved.T)
-        if shaft.integral:
+        if shaft.yields_within:
             found += np.einsum("i,sitj,j->st", row, seat_compliance(shaft, heights), row)
     return found

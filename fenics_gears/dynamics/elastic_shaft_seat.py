@@ -1,4 +1,4 @@
-"""A gear that is cut into its elastic shaft: how the toothed part gives way within the face.
+"""A gear that is cut into its elastic shaft, or whose hub gives way with it: what does so within the face.
 
 All of shaft and bearings is C, motions of places within the face per load there. With R, the motions of these places as
 parts of a rigid gear, C = R K^-1 R^T + D: K = (R^T C^-1 R)^-1 is the stiffness of a seat that is rigid over its width,
@@ -22,12 +22,7 @@ def seat_compliance(shaft: ElasticShaft, heights: np.ndarray) -> np.ndarray:
     gear's middle: K_L w + K_R v = 0 is the condition on which D moves.
     """
     left, right = (_six(shaft.stiffness_beside(side), side, shaft) for side in (-1.0, 1.0))
-    places = shaft.gear_at + heights
-    begin, end = shaft.seat_ends
-    along = properties(shaft.sections, shaft.material, {*places, begin, end})
-    within = along._replace(weights=np.where((along.places > begin) & (along.places < end), along.weights, 0.0))
-    every = np.append(places, end)
-    free = beam_flexibility(within, every, every, (begin, begin)).reshape(SIX * len(every), -1)
+    free = _within_the_face(shaft, heights).reshape(SIX * (len(heights) + 1), -1)
     to_middle = carried_with_twist(-0.5 * shaft.seat)
     both = left + right
     held = left @ np.linalg.solve(both, right)
@@ -38,6 +33,21 @@ def seat_compliance(shaft: ElasticShaft, heights: np.ndarray) -> np.ndarray:
     motion = np.concatenate([np.eye(SIX * len(heights)), -follows], axis=1)
     found = motion @ cantilever @ motion.T
     return (0.5 * (found + found.T)).reshape(len(heights), SIX, len(heights), SIX)
+
+
+def _within_the_face(shaft: ElasticShaft, heights: np.ndarray) -> np.ndarray:
+    """Motions (h + 1, 6, h + 1, 6) of places within the face, and of its right end, per load there, with its left end
+    held."""
+    if shaft.hub is not None:
+        # Imported here: few gears have a hub that gives way.
+        from fenics_gears.dynamics.elastic_shaft_hub import hub_flexibility
+
+        return hub_flexibility(shaft.hub, heights)
+    begin, end = shaft.seat_ends
+    places = np.append(shaft.gear_at + heights, end)
+    along = properties(shaft.sections, shaft.material, {*places, begin})
+    within = along._replace(weights=np.where((along.places > begin) & (along.places < end), along.weights, 0.0))
+    return beam_flexibility(within, places, places, (begin, begin))
 
 
 def _six(stiffness: np.ndarray, side: float, shaft: ElasticShaft) -> np.ndarray:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -12,17 +11,14 @@ import numpy as np
 from fenics_gears.dynamics.elastic_shaft import STEEPEST_CONE, ElasticShaft, free_motions
 from fenics_gears.effects.bearings import Bearing, Stiffnesses
 from fenics_gears.effects.elastic_shaft_housing import check_housing, stiffness_of_seats
+from fenics_gears.effects.elastic_shaft_seats import OFF_THE_BORE, ROUND_OFF, seated, under_the_face, wrong_with_seat
 from fenics_gears.effects.rolling_bearings import wrong_with
-from fenics_gears.effects.shafts import INTEGRAL, RIGID_SEAT, ShaftSection
+from fenics_gears.effects.shafts import INTEGRAL, RIGID_SEAT
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import LISTED, Broken
 from fenics_gears.inputs.section import names_in
 from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, given_for, shafts_with_sections, table, value_at
 
-# Bearings of a shaft (mm) that are no further apart, and ends that stand out by as little, are so by round-off.
-ROUND_OFF = 1e-9
-# Part of a bore by which the shaft in it may be thinner or thicker without a word: a press fit's.
-OFF_THE_BORE = 0.01
 BESIDE_MATRIX = ("radial_stiffness", "axial_stiffness", "tilting_stiffness", "rolling")
 BESIDE_ROLLING = ("radial_stiffness", "tilting_stiffness")
 
@@ -99,7 +95,7 @@ def check_shafts(scene: Any, pair: Any) -> None:
             wrong += [*_sections_are_solid(found, shaft), *_places_are_on_the_shaft(found, shaft)]
             wrong += _rolling_stands_for_itself(scene, found)
             wrong += [*_bearings_hold(found), *_bearings_brace(found)] if not wrong else []
-            wrong += _teeth_are_outside(scene, pair, found, shaft)
+            wrong += wrong_with_seat(scene, pair, found, shaft)
     if wrong:
         raise SceneError("; ".join(wrong))
 
@@ -119,38 +115,14 @@ def shaft_at_work(scene: Any, pair: Any, gear: str, load: np.ndarray | None = No
 def elastic_shaft(scene: Any, pair: Any, gear: str) -> ElasticShaft:
     """The shaft with sections on which the "pinion" or the "wheel" of a scene sits, without load."""
     shaft, number = scene.shafts.sections[gear], GEARS.index(gear)
-    constants = shaft.material.constants(scene.gears.materials[number])
+    material = scene.gears.materials[number]
+    constants = shaft.material.constants(material)
     width, bearings = pair.face_widths[number], scene.bearings.each_of(gear)
-    sections, integral, heavy = shaft.sections, shaft.seat == INTEGRAL, None
-    if integral:
-        face = shaft.gear_at - 0.5 * width, shaft.gear_at + 0.5 * width
-        sections = _toothed(sections, face, 2.0 * getattr(pair, gear).root_radius)
-        # The gear's own mass is counted down to its bore.
-        heavy = _toothed(shaft.sections, face, 2.0 * getattr(pair, gear).bore_radius)
-    housing = stiffness_of_seats(shaft.housing)
-    places = shaft.gear_at, width, shaft.torque_at
-    return ElasticShaft(gear, sections, constants, *places, bearings, integral, housing, heavy)
-
-
-def _toothed(sections: Sequence[ShaftSection], face: tuple[float, float], diameter: float) -> tuple[ShaftSection, ...]:
-    """The sections of a shaft, which between both ends of a gear's `face` (mm from the left end) is a cylinder of a
-    diameter (mm), bored as it is."""
-    return tuple(
-        replace(part, diameter=diameter, end_diameter=diameter) if under else part
-        for part, under in _cut_at(sections, face)
-    )
-
-
-def _cut_at(sections: Sequence[ShaftSection], face: tuple[float, float]) -> Iterator[tuple[ShaftSection, bool]]:
-    """The sections of a shaft, cut at both ends of a gear's `face`, and whether each part is under it."""
-    begin = 0.0
-    for section in sections:
-        end, slope = begin + section.length, (section.right_diameter - section.diameter) / section.length
-        stops = [begin, *(each for each in face if begin + ROUND_OFF < each < end - ROUND_OFF), end]
-        for left, right in pairwise(stops):
-            thick, end_thick = (section.diameter + slope * (each - begin) for each in (left, right))
-            yield ShaftSection(right - left, thick, end_thick, section.bore), face[0] < 0.5 * (left + right) < face[1]
-        begin = end
+    found = ElasticShaft(
+        gear, shaft.sections, constants, shaft.gear_at, width, shaft.torque_at, bearings,
+        housing=stiffness_of_seats(shaft.housing),
+    )  # fmt: skip
+    return found if shaft.seat == RIGID_SEAT else seated(found, shaft.seat, getattr(pair, gear), material)
 
 
 def shaft_warnings(scene: Any, pair: Any) -> list[str]:
@@ -158,9 +130,9 @@ def shaft_warnings(scene: Any, pair: Any) -> list[str]:
     found = []
     for gear, shaft in scene.shafts.sections.items():
         bore, name = 2.0 * getattr(pair, gear).bore_radius, SHAFTS[GEARS.index(gear)]
-        if shaft.seat == INTEGRAL:
+        if shaft.seat != RIGID_SEAT:
             continue
-        under = _under_the_face(shaft.sections, elastic_shaft(scene, pair, gear).seat_ends)
+        under = under_the_face(shaft.sections, elastic_shaft(scene, pair, gear).seat_ends)
         off = [each for each in under if abs(each - bore) > OFF_THE_BORE * bore]
         if off:
             found.append(
@@ -170,12 +142,6 @@ def shaft_warnings(scene: Any, pair: Any) -> list[str]:
                 f' "{INTEGRAL}" where the teeth are cut into the shaft'
             )
     return found
-
-
-def _under_the_face(sections: Sequence[ShaftSection], face: tuple[float, float]) -> list[float]:
-    """Diameters (mm) of a shaft at both ends of each section, as far as a gear's face reaches over it."""
-    parts = (part for part, under in _cut_at(sections, face) if under)
-    return [diameter for part in parts for diameter in (part.diameter, part.right_diameter)]
 
 
 def _sections_are_solid(found: ElasticShaft, shaft: str) -> Iterator[str]:
@@ -229,33 +195,6 @@ def _stiffness_is_given_once(bearing: Bearing, name: str) -> Iterator[str]:
             yield f"{name} has {beside[0]} beside its {whole}, which is all of its stiffness there; leave one out"
     if bearing.rolling is not None:
         yield from (f"{name} {said}" for said in wrong_with(bearing.rolling))
-
-
-def _teeth_are_outside(scene: Any, pair: Any, found: ElasticShaft, shaft: str) -> Iterator[str]:
-    """The shaft fits within the root circle; a gear cut into it is of one piece with it and coupled beside its face."""
-    own, gear = scene.shafts.sections[found.gear], getattr(pair, found.gear)
-    root, thickest = 2.0 * gear.root_radius, max(_under_the_face(own.sections, found.seat_ends), default=0.0)
-    if thickest > root:
-        yield (
-            f"shafts.{shaft}.sections: the shaft is {thickest:g} mm thick under the {found.gear}'s face, more than the"
-            f" root diameter of {root:g} mm; allowed are smaller ones"
-        )
-    if not found.integral:
-        return
-    named, material = f'shafts.{shaft}.seat = "{INTEGRAL}"', scene.gears.materials[GEARS.index(found.gear)]
-    if found.material != (material.youngs_modulus, material.poissons_ratio):
-        yield f"{named}: {found.gear} and shaft are one piece, but of two materials; leave shafts.{shaft}.material out"
-    if gear.web is not None:
-        yield f'{named}: gears.{found.gear}.web stands between teeth and shaft; leave one out, or seat = "{RIGID_SEAT}"'
-    if abs(found.torque_at - found.gear_at) < 0.5 * found.seat - ROUND_OFF:
-        yield f"{named}: torque_at = {found.torque_at:g} mm is within the face; move the coupling beside it"
-    if found.housing is not None:
-        yield f"{named}: stands beside a housing, which is not alike in all directions across the axis; leave one out"
-    if any(each.stiffness_matrix is not None or each.rolling is not None for each in found.bearings):
-        yield (
-            f"{named}: bearings.{found.gear} has a stiffness_matrix or rolling; allowed are bearings that are alike in"
-            " all directions across the axis: give radial_stiffness, axial_stiffness and tilting_stiffness"
-        )
 
 
 def _rolling_stands_for_itself(scene: Any, found: ElasticShaft) -> Iterator[str]:

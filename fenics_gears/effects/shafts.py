@@ -16,7 +16,7 @@ from fenics_gears.inputs.section import AllowedTables, Section, allowed_in
 from fenics_gears.inputs.tree import SHAFTS, Tree, shafts_with_sections, table
 
 MOST_SECTIONS = 100
-RIGID_SEAT, INTEGRAL = "rigid over its width", "integral"
+RIGID_SEAT, PRESS_FIT, INTEGRAL = "rigid over its width", "press fit", "integral"
 
 
 def _stiffness(meaning: str, otherwise: str = ""):
@@ -115,9 +115,11 @@ class Shaft(Section):
     )
     seat: str | None = choice(
         RIGID_SEAT,
+        PRESS_FIT,
         INTEGRAL,
-        meaning="how the gear sits: the shaft does not give way within the gear's face width; or the teeth are cut into"
-        " the shaft, which bends and twists there as a cylinder of the root diameter",
+        meaning="how the gear sits: the shaft does not give way within the gear's face width; or shaft and hub hold"
+        " each other without slip, as one piece, and give way together; or the teeth are cut into the shaft, which"
+        " bends and twists there as a cylinder of the root diameter",
         default=RIGID_SEAT,
     )
     material: ShaftMaterial = ShaftMaterial()

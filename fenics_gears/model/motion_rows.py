@@ -80,6 +80,9 @@ def unknown_rows(model: Model) -> Rows:
             rows.append(
                 (f"the {shaft.gear} is cut into its shaft", 2.0 * getattr(model.pair, shaft.gear).root_radius, words)
             )
+        elif shaft.hub is not None:
+            words = "mm, the bore, where hub and shaft hold each other without slip and give way together"
+            rows.append((f"press fit of the {shaft.gear}", 2.0 * shaft.hub.shaft.outer, words))
     names = [name for name in model.drivetrain.coordinates if "_mode_" not in name]
     motions = ", ".join(map(motion_in_words, names))
     return [*rows, ("motions of the gears that are unknown", f"{len(names)}:", motions)]

@@ -14,7 +14,7 @@ from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.bodies import body_key, gear_bodies, gear_body
-from fenics_gears.simulation.elastic_route import gaps_of, integral_shafts, mesh_cycle, sections_of_gaps
+from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_of_gaps, yielding_seats
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
 
@@ -126,7 +126,7 @@ def operators_key(model: Model) -> tuple:
         bodies_key(model),
         in_operators,
         scene.coast_flanks is not None,
-        (accuracy, springs, integral_shafts(model)),
+        (accuracy, springs, yielding_seats(model)),
         tuple(model.drivetrain.indices),
         scene.friction is not None,
         bool(apart),

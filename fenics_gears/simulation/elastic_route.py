@@ -50,10 +50,10 @@ def mesh_cycle(model: Model, bodies: Bodies) -> Cycle:
 
 
 def _seated(model: Model, *bodies: FaceCompliance) -> tuple[FaceCompliance, FaceCompliance]:
-    """Both bodies, those that are cut into an elastic shaft with what it gives way within the face."""
+    """Both bodies, those on a seat that gives way with what it does so within the face."""
     by_gear = dict(zip(GEARS, bodies))
-    for shaft in integral_shafts(model):
-        # Imported here: few gears are cut into a shaft.
+    for shaft in yielding_seats(model):
+        # Imported here: few seats give way.
         from fenics_gears.dynamics.elastic_shaft_seat import seat_compliance
 
         body = by_gear[shaft.gear]
@@ -61,9 +61,9 @@ def _seated(model: Model, *bodies: FaceCompliance) -> tuple[FaceCompliance, Face
     return by_gear[GEARS[0]], by_gear[GEARS[1]]
 
 
-def integral_shafts(model: Model) -> tuple[ElasticShaft, ...]:
-    """The elastic shafts into which a gear is cut: flanks give way by them."""
-    return tuple(shaft for shaft in model.drivetrain.elastic if shaft.integral)
+def yielding_seats(model: Model) -> tuple[ElasticShaft, ...]:
+    """The elastic shafts on which a gear is no rigid seat: flanks give way by them."""
+    return tuple(shaft for shaft in model.drivetrain.elastic if shaft.yields_within)
 
 
 def cycle_of(model: Model, mesh: Mesh) -> Cycle:

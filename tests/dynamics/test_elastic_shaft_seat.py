@@ -1,12 +1,13 @@
 """A gear that is cut into its shaft: twist in closed form, elements of a textbook, and the flanks' compliance by the
 rows that move them."""
 
+import re
 from math import pi
 
 import numpy as np
 import pytest
 from tests.beam_elements import assembled
-from tests.elastic_shaft_scenes import CUT
+from tests.elastic_shaft_scenes import CUT, PRESSED
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
@@ -67,14 +68,14 @@ def test_rigid_seat_and_remainder_make_up_the_whole_compliance(name):
     assert np.linalg.eigvalsh(seat / size)[0] >= -1e-12
 
 
-@pytest.mark.parametrize("helix", [0.0, 15.0])
-def test_flanks_give_way_as_their_rows_say(helix):
-    """Identity: what a gear that is cut into its shaft adds to the compliance of contact nodes is J D J^T, J being the
-    rows by which the motions of gears move these nodes, shifted to each node's height."""
+@pytest.mark.parametrize(("helix", "shafts"), [(0.0, CUT), (15.0, CUT), (15.0, PRESSED)])
+def test_flanks_give_way_as_their_rows_say(helix, shafts):
+    """Identity: what a gear that is cut into its shaft, or gives way with it, adds to the compliance of contact nodes
+    is J D J^T, J being the rows by which the motions of gears move these nodes, shifted to each node's height."""
     accuracy = "slices = 6\ncontact_nodes = 9\nsteps_per_mesh_cycle = 4"
     models = [
         model_of(helical_scene(each + "[friction]\ncoefficient = 0.1\n", helix=helix, accuracy=accuracy))
-        for each in (CUT.replace('seat = "integral"\n', ""), CUT)
+        for each in (re.sub("seat = .*\n", "", shafts), shafts)
     ]
     rigid, cut = (mesh_cycle(each, on_stand_in_bodies(each)) for each in models)
     model = models[1]

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from tests.elastic_shaft_scenes import CUT, ELASTIC, INERTIA, INPUT, PINION, ROLLING
+from tests.elastic_shaft_scenes import CUT, ELASTIC, INERTIA, INPUT, PINION, PRESSED, ROLLING
 from tests.helical import helical_scene
 
 from fenics_gears import SceneError, model_of, scene_from_text
@@ -61,6 +61,17 @@ PLACED = '[bearings.places]\npinion = ["-40 mm", "60 mm"]\n'
         (ELASTIC.replace("torque_at", 'seat = "integral"\ntorque_at'), "bearings.wheel has a stiffness_matrix"),
         (CUT.replace('torque_at = "0 mm"', 'torque_at = "110 mm"'), "torque_at = 110 mm is within the face"),
         (CUT + WEB, 'output.seat = "integral": gears.wheel.web stands between teeth and shaft'),
+        (
+            PRESSED.replace('"22.36 mm"', '"23 mm"'),
+            'input.seat = "press fit": the shaft is 23 mm thick under .* 22.362 mm',
+        ),
+        (
+            PRESSED.replace(
+                '"22.36 mm" }', '"22.36 mm" }, { length = "9 mm", diameter = "22.36 mm", bore = "5 mm" }'
+            ).replace('"90 mm"', '"80 mm"'),
+            "bore changes under the pinion's face",
+        ),
+        (PRESSED.replace('torque_at = "0 mm"', 'torque_at = "110 mm"'), "torque_at = 110 mm is within the face"),
         (ROLLING.replace("number = 9,", ""), "bearings.pinion.* has no rolling.number at place 1"),
         (ROLLING.replace("number = 9,", "number = 2,"), "pinion = a list.*number = 2 at place 1.*to 500[^:]*$"),
         (ROLLING.replace("number = 9,", "number = 90,"), "place 1, has 90 balls .* do not fit on a pitch_diameter"),

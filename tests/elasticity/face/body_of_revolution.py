@@ -38,14 +38,14 @@ def ring_sector(rim):
     return BodyMesh(points, oriented(points, _cells(grid)), edges)
 
 
-def motion(rim, width, thickness, order, direction, offset=0.0, hub=0.5 * BORE):
+def motion(rim, width, thickness, order, direction, offset=0.0, hub=0.5 * BORE, layers=4):
     """Heights (h,), and what the outer circle moves there (h, 3), radially, around and along the axis, under forces
     cos(order theta) in a `direction` (3,), of 1 N in every sector and even over the face. A rim of a `width` is on a
     web of a `thickness` (mm), and that on a `hub` as wide as the rim, if its radius is beyond the bore, which is
     held."""
     mesh = ring_sector(rim)
     web = SweptWeb(hub, rim, offset - 0.5 * thickness, offset + 0.5 * thickness)
-    sweep = Sweep(layers_with_web(layers_of_face(4, width), web.low, web.high), 0.0, web)
+    sweep = Sweep(layers_with_web(layers_of_face(layers, width), web.low, web.high), 0.0, web)
     if sweep.alike:
         blocks = ring_blocks(condensed_swept_sector(mesh, sweep, POISSON, 0.5 * pi, SECTORS), SECTORS, SECTORS // 2)
     else:

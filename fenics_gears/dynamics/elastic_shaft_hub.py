@@ -1,0 +1,100 @@
+"""A gear that sits on its shaft without slip: hub and shaft give way together under the face.
+
+Within the face, and as far beside it as the shaft's stress is not that of a beam, shaft, hub, web and rim are one body
+of revolution (`elasticity.body_of_revolution`). Held at its left end it gives way, on circles of the rim and at its
+right end, as `elastic_shaft_seat` has a shaft under teeth that are cut in give way. From that is taken
+
+* what the shaft beside the face gives way as a beam: it is counted there;
+* what the rim gives way with the bore held: the gear's body has that, by its own finite elements, teeth and all.
+
+With T the motions of the rim per motion of the bore, C_b the compliance of the bore of the whole, what is left is
+T C_b T^T: the body on its held bore and this make up the whole exactly. Harmonics 0 and 1 carry all forces and moments
+from gear to shaft; the others do not leave the gear.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from fenics_gears.dynamics.elastic_shaft import OF_CYLINDER, SIX, Properties, beam_flexibility, gauss_rule
+from fenics_gears.dynamics.elastic_shaft_seat import carried_with_twist
+from fenics_gears.elasticity.body_of_revolution import BodyOfRevolution, Ring, flexibility, flexibility_outside
+
+# Of the bore's radius: how far beside the face, and the size of elements.
+BESIDE, SIZE = 1.5, 1.0 / 7.0
+
+
+@dataclass(frozen=True)
+class Hub:
+    """The rings of a gear around its shaft, heights from mid-width: the gear's, and the shaft within the face."""
+
+    gear: tuple[Ring, ...]
+    shaft: Ring
+
+    @property
+    def outer(self) -> float:
+        """Radius, mm, of the circles on which the gear's body is loaded."""
+        return max(ring.outer for ring in self.gear)
+
+
+def hub_flexibility(hub: Hub, heights: np.ndarray) -> np.ndarray:
+    """Motions (h + 1, 6, h + 1, 6), over MOTIONS and the twist, of the rim at `heights` (h,), mm from mid-width, and of
+    the shaft at the right end of the face, per load there, with the shaft held at the left end of the face."""
+    return _flexibility(hub, tuple(heights.tolist()))
+
+
+@lru_cache(maxsize=8)
+def _flexibility(hub: Hub, heights: tuple[float, ...]) -> np.ndarray:
+    shaft, circles = hub.shaft, np.array(heights)
+    beside, size = BESIDE * shaft.outer, SIZE * shaft.outer
+    left, right = shaft.low - beside, shaft.high + beside
+    body = BodyOfRevolution([shaft._replace(low=left, high=right), *hub.gear], size)
+    harmonics = []
+    for order in (1, 0):
+        stiffness = body.stiffness(order)
+        rim = body.of_circles(hub.outer, circles, order)
+        ends = [body.of_section(end, shaft.outer, order) for end in (left, right)]
+        found = flexibility(stiffness, ends[0], np.concatenate([rim, ends[1]]))
+        within = body.nodes[:, 0] < shaft.outer + 1e-9
+        found[: len(rim), : len(rim)] -= flexibility_outside(stiffness, within, rim)
+        harmonics.append(found)
+    found, piece = _over_motions(*harmonics), _piece(shaft, beside, size)
+    # The left end of the body carries all places, and the right end is carried by that of the face.
+    carry = np.stack([carried_with_twist(each - shaft.low) for each in (*heights, right)])
+    found -= np.einsum("pia,ab,qjb->piqj", carry, piece, carry)
+    found[-1, :, -1] -= piece
+    back = carried_with_twist(-beside)
+    found[-1] = np.einsum("ab,bqj->aqj", back, found[-1])
+    found[:, :, -1] = np.einsum("piq,bq->pib", found[:, :, -1], back)
+    return found
+
+
+def _over_motions(first: np.ndarray, zeroth: np.ndarray) -> np.ndarray:
+    """Motions (p, 6, p, 6) of what harmonic 1 (2 p, 2 p) and harmonic 0 do: bending is alike in both planes."""
+    first, zeroth = (each.reshape(len(each) // 2, 2, -1, 2) for each in (first, zeroth))
+    found = np.zeros((len(first), SIX, len(first), SIX))
+    # A positive tilt about x moves what lies further along the axis to negative y.
+    for motions, part, sense in (([0, 4], first, 1.0), ([1, 3], first, -1.0), ([2, 5], zeroth, 1.0)):
+        for row, column in np.ndindex(2, 2):
+            found[:, motions[row], :, motions[column]] = sense ** (row + column) * part[:, row, :, column]
+    return found
+
+
+def _piece(shaft: Ring, length: float, size: float) -> np.ndarray:
+    """Flexibility (6, 6) of a piece of the shaft beside the face, as a beam whose shear is that of the elements: half
+    of that of a piece twice as long, so that each end has what is local to it once."""
+    both = BodyOfRevolution([shaft._replace(low=0.0, high=2.0 * length)], size)
+    ends = [both.of_section(place, shaft.outer, 1) for place in (0.0, 2.0 * length)]
+    whole = flexibility(both.stiffness(1), *ends)[0, 0]
+    points, weights = gauss_rule(OF_CYLINDER)
+    area, second = np.pi * (shaft.outer**2 - shaft.inner**2), 0.25 * np.pi * (shaft.outer**4 - shaft.inner**4)
+    bending = 1.0 / (shaft.modulus * second)
+    shear = (whole - bending * (2.0 * length) ** 3 / 3.0) / (2.0 * length)
+    flexible = shear, 1.0 / (shaft.modulus * area), bending, (1.0 + shaft.ratio) * bending
+    along = Properties(
+        0.5 * length * (1.0 + points), 0.5 * length * weights, *(np.full(len(points), each) for each in flexible)
+    )
+    return beam_flexibility(along, [length], [length], (0.0, 0.0))[0, :, 0, :]

@@ -1,0 +1,123 @@
+"""How a gear sits on a shaft with sections, where its seat is not rigid, and what is wrong with that. Not an effect by
+itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+from fenics_gears.dynamics.elastic_shaft import ElasticShaft
+from fenics_gears.effects.shafts import PRESS_FIT, RIGID_SEAT, ShaftSection
+from fenics_gears.inputs.tree import GEARS
+
+if TYPE_CHECKING:
+    from fenics_gears.dynamics.elastic_shaft_hub import Hub
+    from fenics_gears.geometry.gear import Gear
+    from fenics_gears.geometry.gear_data import Material
+
+# Bearings of a shaft (mm) that are no further apart, and ends that stand out by as little, are so by round-off.
+ROUND_OFF = 1e-9
+# Part of a bore by which the shaft in it may be thinner or thicker without a word: a press fit's.
+OFF_THE_BORE = 0.01
+
+
+def seated(shaft: ElasticShaft, seat: str, gear: Gear, material: Material) -> ElasticShaft:
+    """A shaft with a gear of a material on a seat that gives way."""
+    if seat == PRESS_FIT:
+        return replace(shaft, hub=hub_of(shaft, gear, material))
+    face = shaft.seat_ends
+    # The gear's own mass is counted down to its bore.
+    toothed, heavy = (_toothed(shaft.sections, face, 2.0 * each) for each in (gear.root_radius, gear.bore_radius))
+    return replace(shaft, sections=toothed, heavy=heavy, integral=True)
+
+
+def hub_of(shaft: ElasticShaft, gear: Gear, material: Material) -> Hub:
+    """Gear and shaft within the face as rings, the shaft as bored as it is there."""
+    # Imported here: few gears have a hub that gives way.
+    from fenics_gears.dynamics.elastic_shaft_hub import Hub, Ring
+
+    half, bore, constants = 0.5 * shaft.seat, gear.bore_radius, (material.youngs_modulus, material.poissons_ratio)
+    bores = [part.bore for part, under in _cut_at(shaft.sections, shaft.seat_ends) if under]
+    hollow = 0.5 * max(bores, default=0.0)
+    within = Ring(hollow, bore, -half, half, *shaft.material)
+    if gear.web is None:
+        return Hub((Ring(bore, gear.root_radius, -half, half, *constants),), within)
+    middle, thick = gear.web.offset * shaft.seat, 0.5 * gear.web.share * shaft.seat
+    hub, rim = gear.web.hub_radius, gear.web.rim_radius
+    rings = [
+        Ring(rim, gear.root_radius, -half, half, *constants),
+        Ring(hub, rim, middle - thick, middle + thick, *constants),
+    ]
+    return Hub((*rings, *([Ring(bore, hub, -half, half, *constants)] if hub > bore else [])), within)
+
+
+def _toothed(sections: Sequence[ShaftSection], face: tuple[float, float], diameter: float) -> tuple[ShaftSection, ...]:
+    """The sections of a shaft, which between both ends of a gear's `face` (mm from the left end) is a cylinder of a
+    diameter (mm), bored as it is."""
+    return tuple(
+        replace(part, diameter=diameter, end_diameter=diameter) if under else part
+        for part, under in _cut_at(sections, face)
+    )
+
+
+def _cut_at(sections: Sequence[ShaftSection], face: tuple[float, float]) -> Iterator[tuple[ShaftSection, bool]]:
+    """The sections of a shaft, cut at both ends of a gear's `face`, and whether each part is under it."""
+    begin = 0.0
+    for section in sections:
+        end, slope = begin + section.length, (section.right_diameter - section.diameter) / section.length
+        stops = [begin, *(each for each in face if begin + ROUND_OFF < each < end - ROUND_OFF), end]
+        for left, right in pairwise(stops):
+            thick, end_thick = (section.diameter + slope * (each - begin) for each in (left, right))
+            yield ShaftSection(right - left, thick, end_thick, section.bore), face[0] < 0.5 * (left + right) < face[1]
+        begin = end
+
+
+def under_the_face(sections: Sequence[ShaftSection], face: tuple[float, float]) -> list[float]:
+    """Diameters (mm) of a shaft at both ends of each section, as far as a gear's face reaches over it."""
+    parts = (part for part, under in _cut_at(sections, face) if under)
+    return [diameter for part in parts for diameter in (part.diameter, part.right_diameter)]
+
+
+def wrong_with_seat(scene: Any, pair: Any, found: ElasticShaft, shaft: str) -> Iterator[str]:
+    """The shaft fits within the root circle; a gear cut into it is of one piece with it and coupled beside its face."""
+    own, gear = scene.shafts.sections[found.gear], getattr(pair, found.gear)
+    root, thickest = 2.0 * gear.root_radius, max(under_the_face(own.sections, found.seat_ends), default=0.0)
+    if thickest > root:
+        yield (
+            f"shafts.{shaft}.sections: the shaft is {thickest:g} mm thick under the {found.gear}'s face, more than the"
+            f" root diameter of {root:g} mm; allowed are smaller ones"
+        )
+    if not found.yields_within:
+        return
+    named, material = f'shafts.{shaft}.seat = "{own.seat}"', scene.gears.materials[GEARS.index(found.gear)]
+    if found.hub is not None:
+        yield from _is_a_cylinder(own, found, 2.0 * gear.bore_radius, named)
+    elif found.material != (material.youngs_modulus, material.poissons_ratio):
+        yield f"{named}: {found.gear} and shaft are one piece, but of two materials; leave shafts.{shaft}.material out"
+    if gear.web is not None and found.integral:
+        yield f'{named}: gears.{found.gear}.web stands between teeth and shaft; leave one out, or seat = "{RIGID_SEAT}"'
+    if abs(found.torque_at - found.gear_at) < 0.5 * found.seat - ROUND_OFF:
+        yield f"{named}: torque_at = {found.torque_at:g} mm is within the face; move the coupling beside it"
+    if found.housing is not None:
+        yield f"{named}: stands beside a housing, which is not alike in all directions across the axis; leave one out"
+    if any(each.stiffness_matrix is not None or each.rolling is not None for each in found.bearings):
+        yield (
+            f"{named}: bearings.{found.gear} has a stiffness_matrix or rolling; allowed are bearings that are alike in"
+            " all directions across the axis: give radial_stiffness, axial_stiffness and tilting_stiffness"
+        )
+
+
+def _is_a_cylinder(own: Any, found: ElasticShaft, bore: float, named: str) -> Iterator[str]:
+    """The shaft in a hub that gives way is as thick as its bore, and bored alike."""
+    under = [part for part, within in _cut_at(own.sections, found.seat_ends) if within]
+    ends = [each for part in under for each in (part.diameter, part.right_diameter)]
+    off = [each for each in ends if abs(each - bore) > OFF_THE_BORE * bore]
+    if off:
+        yield (
+            f"{named}: the shaft is {off[0]:g} mm thick under the {found.gear}'s face; allowed is a cylinder as thick"
+            f" as gears.{found.gear}.bore_diameter, {bore:g} mm"
+        )
+    elif len({part.bore for part in under}) > 1:
+        yield f"{named}: the shaft's bore changes under the {found.gear}'s face; let it change beside it"
