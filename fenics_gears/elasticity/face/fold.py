@@ -33,7 +33,9 @@ class Fold:
     drive flank's side, and at the section's centreline from mid-width on; standing: (k,), the section's nodes some of
     which are kept. Half the unknowns are their dofs, 3 each; at mid-width on the centreline some of them are dead.
     flank, cut: dofs (f,), (c,) of the drive flank's and the upper cut's nodes in the half, by height, then radius.
-    on_cut: which nodes of the section's cut at all heights these are.
+    on_cut: which nodes of the section's cut at all heights these are. lines: the section's places (k, 2) of both; hub:
+    (h, 2), held. axes: (3, 3), columns along the centreline, across it and along z; across: (2,), towards the drive
+    flank.
     cut_turned, flank_turned: sparse (c, c), (f, f), from motions of the upper cut and the drive flank to those of the
     lower cut and the coast flank, their images.
     """
@@ -46,17 +48,16 @@ class Fold:
         heights = self.heights
         along = np.array([np.cos(centreline), np.sin(centreline)])
         # Along the centreline a displacement keeps its sign, across it and along z it changes.
-        self._mirror, self._axes = np.diag([0.0, 0.0, -1.0]), np.eye(3)
+        self._mirror, self.axes = np.diag([0.0, 0.0, -1.0]), np.eye(3)
         self._mirror[:2, :2] = 2.0 * np.outer(along, along) - np.eye(2)
-        self._axes[:2, :2] = [[along[0], -along[1]], [along[1], along[0]]]
+        self.axes[:2, :2] = [[along[0], -along[1]], [along[1], along[0]]]
         distance, image = cKDTree(nodes).query(nodes @ self._mirror[:2, :2])
         if distance.max() > 1e-9 * np.abs(nodes).max():
             raise ComputationError("swept sector: its section is not symmetric about the tooth's centreline")
         flank, cut, hub = (mesh.edge_nodes(name, ELEMENT.order) for name in ("flank", "upper cut", "hub"))
-        lines = [by_radius(flank), by_radius(without(cut, hub))]
-        side = (
-            nodes @ [-along[1], along[0]] * (1.0 if flank @ [-along[1], along[0]] @ np.ones(len(flank)) > 0.0 else -1.0)
-        )
+        self.lines, self.hub = (by_radius(flank), by_radius(without(cut, hub))), hub
+        self.across = self.axes[:2, 1] * np.sign((flank @ self.axes[:2, 1]).sum())
+        side = nodes @ self.across
         own = np.arange(len(nodes))
         held = np.isin(own, swept_nodes(nodes, hub, 1))
         self.standing = np.flatnonzero(((image == own) | (side > 0.0)) & ~held)
@@ -64,7 +65,7 @@ class Fold:
         self.kept = np.flatnonzero(kept)
         self._image = len(nodes) * (heights - 1 - self.kept // len(nodes)) + image[self.kept % len(nodes)]
         number = np.cumsum(kept.ravel()) - 1
-        swept = [swept_nodes(nodes, line, heights) for line in lines]
+        swept = [swept_nodes(nodes, line, heights) for line in self.lines]
         there = [material.ravel()[numbers] for numbers in swept]
         self.on_cut = there[1]
         self.flank, self.cut = (dofs_of(number[numbers[own]], 3) for numbers, own in zip(swept, there))
@@ -100,7 +101,7 @@ class Fold:
         kept, image = self.kept[places.start : places.stop], self._image[places.start : places.stop]
         alone, dofs = kept == image, np.arange(3 * len(kept)).reshape(-1, 3)
         alive = np.array([1.0, 0.0, 0.0]) if sign == EVEN else np.array([0.0, 1.0, 1.0])
-        own = np.where(alone[:, None, None], self._axes * alive, (2.0 if half else 1.0) * 0.5**0.5 * np.eye(3))
+        own = np.where(alone[:, None, None], self.axes * alive, (2.0 if half else 1.0) * 0.5**0.5 * np.eye(3))
         parts = [_blocks(kept, dofs, own)]
         if not half:
             parts.append(

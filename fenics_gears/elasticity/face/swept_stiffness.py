@@ -54,14 +54,17 @@ class SectionForms:
 
     def material(self, sweep: Sweep) -> np.ndarray:
         """Which nodes of the section (h, n) the body has at each height."""
-        nodes = len(self.nodes.points)
-        whole = np.ones(nodes, dtype=bool)
-        if self.beside_web is None:
-            return np.tile(whole, (len(sweep.heights), 1))
-        beside, found = np.isin(np.arange(nodes), self.beside_web[1]), np.zeros((len(sweep.heights), nodes), dtype=bool)
+        found = np.zeros((len(sweep.heights), len(self.nodes.points)), dtype=bool)
         for layer, within in enumerate(sweep.in_web):
-            found[2 * layer : 2 * layer + 3] |= whole if within else beside
+            found[2 * layer : 2 * layer + 3] |= self.in_layer(within)
         return found
+
+    def in_layer(self, within_web: bool) -> np.ndarray:
+        """Which nodes of the section (n,) a layer within the web or beside it has."""
+        nodes = len(self.nodes.points)
+        if within_web or self.beside_web is None:
+            return np.ones(nodes, dtype=bool)
+        return np.isin(np.arange(nodes), self.beside_web[1])
 
     def at(self, turn: complex, sweep: complex) -> tuple[sparse.csr_matrix, ...]:
         """Forms (3n, 3n) where w = `turn` and w'/w = `sweep`: of u and v, of u and dv/dz (rows: v), of du/dz and
@@ -122,12 +125,18 @@ def swept_stiffness(
 
 def _layers(section: SectionForms, sweep: Sweep, dofs: np.ndarray) -> Iterator[dict]:
     known: dict[tuple[float, bool], dict] = {}
-    for kind in zip(sweep.thicknesses.tolist(), sweep.in_web.tolist()):
+    for kind in sweep.kinds:
         if kind not in known:
-            thickness, within = kind
-            made = layer_stiffness if within else _layer_beside_web
-            known[kind] = made(section, thickness, sweep.twist, dofs)
+            known[kind] = layer_of_kind(section, sweep.twist, kind, dofs)
         yield known[kind]
+
+
+def layer_of_kind(
+    section: SectionForms, twist: float, kind: tuple[float, bool], dofs: np.ndarray
+) -> dict[tuple[int, int], sparse.csr_matrix]:
+    """`layer_stiffness` of one of `Sweep.kinds`."""
+    thickness, within = kind
+    return (layer_stiffness if within else _layer_beside_web)(section, thickness, twist, dofs)
 
 
 def _layer_beside_web(
