@@ -162,7 +162,7 @@ def in_shapes(flank: np.ndarray, to_cut: np.ndarray, cut: np.ndarray, to_neck: n
         return Half(flank, *spanned(to_cut, energy=energy), cut)
     # As long as the flank's motions are, in fewer rows.
     columns, rows = np.linalg.qr(to_neck)
-    shapes, to_cut = spanned(rows @ to_cut, len(rows) // 2, energy=energy)
+    shapes, to_cut = spanned(rows @ to_cut, 3 * len(rows) // 5, energy=energy)
     return Half(flank, columns @ shapes, to_cut, cut)
 
 

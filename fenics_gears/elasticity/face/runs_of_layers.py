@@ -102,9 +102,12 @@ def _joined(below: _Run, above: _Run) -> _Run:
     above = _widened(above, [common, line, *above.lines[1:], above.high])
     inside, own = len(common), len(below.stiffness) - len(common)
     first, total = own - len(line), own - len(line) + len(above.stiffness) - len(common)
-    kept, coupling = np.zeros((total, total), order="F"), np.zeros((inside, total), order="F")
+    kept, coupling = np.empty((total, total), order="F"), np.zeros((inside, total), order="F")
     kept[:own, :own] = below.stiffness[:own, :own]
-    kept[first:, first:] += above.stiffness[inside:, inside:]
+    kept[:first, own:] = 0.0
+    kept[first:, own:] = above.stiffness[inside:, inside + len(line) :]
+    both = slice(inside, inside + len(line))
+    kept[first:own, first:own] += above.stiffness[both, both]
     coupling[:, :own] = below.stiffness[:own, own:].T
     coupling[:, first:] += above.stiffness[:inside, inside:]
     free = below.stiffness[own:, own:] + above.stiffness[:inside, :inside]

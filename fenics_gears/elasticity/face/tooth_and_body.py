@@ -29,6 +29,7 @@ from fenics_gears.elasticity.triangle import symmetric
 
 # In the largest coordinate.
 ON_CENTRELINE = 1e-9
+ROWS_AT_ONCE = 64
 
 
 def condensed_halves(
@@ -138,16 +139,20 @@ class _Part:
         """Stiffness of the EVEN or ODD motions on both groups, one after the other, each by height, then place; and
         dofs of the first one."""
         first, second, inner = (self._dofs(group, sign) for group in self._groups)
-        own, image, factor = (np.concatenate(each) for each in zip(inner, first, second))
-        paired = np.flatnonzero(image >= 0)
-        moved = self._stiffness[own] * np.where(image < 0, factor, 1.0)[:, None]
-        moved[paired] += factor[paired, None] * self._stiffness[image[paired]]
-        stiffness = moved[:, own] * np.where(image < 0, factor, 1.0)
-        stiffness[:, paired] += factor[paired] * moved[:, image[paired]]
-        del moved
-        free = len(inner[0])
-        parts = stiffness[:free, :free], stiffness[free:, :free].T, stiffness[free:, free:]
-        return symmetric(eliminated(*(np.array(part, order="F") for part in parts))).T, len(first[0])
+        dofs, free = [np.concatenate(each) for each in zip(inner, first, second)], len(inner[0])
+        kept = len(dofs[0]) - free
+        parts = np.empty((free, free)), np.empty((kept, free)), np.empty((kept, kept))
+        # Few rows at a time: whole matrices would be made anew for each step.
+        for start, end in ((0, free), (free, free + kept)):
+            for row in range(start, end, ROWS_AT_ONCE):
+                rows = [each[row : min(row + ROWS_AT_ONCE, end)] for each in dofs]
+                moved = _folded_rows(_folded_rows(self._stiffness, *rows).T, *dofs).T
+                here = slice(row - start, row - start + len(moved))
+                parts[1 if start else 0][here] = moved[:, :free]
+                if start:
+                    parts[2][here] = moved[:, free:]
+        # Transposed, they are in LAPACK's order.
+        return symmetric(eliminated(*(part.T for part in parts))).T, len(first[0])
 
     def _dofs(self, lines: np.ndarray, sign: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Dofs (k,) of some lines that stand for all, those at the opposite height that move with them (k,), -1 where
@@ -166,3 +171,11 @@ class _Part:
         factor = np.where(above == 0, 2.0**0.5, np.where(above < heights, factor, 1.0))
         image = np.where((above > 0) & (above < heights), opposite, -1)
         return own[alive], image[alive], factor[alive]
+
+
+def _folded_rows(matrix: np.ndarray, own: np.ndarray, image: np.ndarray, factor: np.ndarray) -> np.ndarray:
+    """Rows (k, n) of a matrix that belong to dofs of `_Part._dofs`."""
+    rows, paired, alone = matrix[own], np.flatnonzero(image >= 0), np.flatnonzero((image < 0) & (factor != 1.0))
+    rows[alone] *= factor[alone, None]
+    rows[paired] += factor[paired, None] * matrix[image[paired]]
+    return rows
