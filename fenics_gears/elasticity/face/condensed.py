@@ -12,7 +12,7 @@ from scipy.linalg.blas import dtrsm
 from fenics_gears.elasticity.condensation import by_radius, without
 from fenics_gears.elasticity.face.fold import EVEN, ODD, Fold
 from fenics_gears.elasticity.face.layers import Sweep
-from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
+from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms
 from fenics_gears.elasticity.face.tooth_and_body import condensed_halves
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import check_congruent, definite_factor
@@ -66,21 +66,13 @@ class SweptSector:
 
 
 def condensed_swept_sector(
-    mesh: BodyMesh,
-    sweep: Sweep,
-    poissons_ratio: float,
-    centreline: float,
-    teeth: int,
-    both: bool = False,
-    comm=None,
-    iterative: bool = False,
+    mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, centreline: float, teeth: int, both: bool = False, comm=None
 ) -> SweptSector:
     """A sector of a gear of `teeth`, its section symmetric about a line at the polar angle `centreline` (rad); `both`:
     with its coast flank.
 
-    iterative: by conjugate gradients. comm: communicator whose ranks share the work: rank 0 has the even motions and
-    rank 1 the odd ones; by conjugate gradients half of the ranks each, which share out the heights. Every rank calls
-    this and gets the result, rank 0 alone the flank's compliances.
+    comm: communicator whose first two ranks share the work: rank 0 has the even motions and rank 1 the odd ones. Every
+    rank calls this and gets the result, rank 0 alone the flank's compliances.
     """
     clock = perf_counter()
     section = SectionForms(mesh, poissons_ratio, sweep.web)
@@ -88,14 +80,9 @@ def condensed_swept_sector(
     fold = Fold(mesh, section.nodes.points, section.material(sweep), centreline)
     alone = comm is None or comm.size == 1
     signs = (EVEN, ODD) if alone else (EVEN, ODD)[comm.rank % 2 :][:1]
-    if iterative:
-        found = _by_gradients(section, sweep, fold, signs, None if alone else comm.Split(comm.rank % 2))
-    else:
-        pair = None if alone else comm.Split(min(comm.rank // 2, 1))
-        found = [None]
-        if pair is None or comm.rank < 2:
-            parts = condensed_halves(mesh, poissons_ratio, sweep, fold, signs, pair)
-            found = [in_shapes(*each) for each in parts]
+    pair, found = None if alone else comm.Split(min(comm.rank // 2, 1)), [None]
+    if alone or comm.rank < 2:
+        found = [in_shapes(*each) for each in condensed_halves(mesh, poissons_ratio, sweep, fold, signs, pair)]
     if not alone:
         found = [_of_rank(found[0], comm, rank) for rank in (0, 1)]
     condensed = perf_counter()
@@ -164,27 +151,6 @@ def in_shapes(flank: np.ndarray, to_cut: np.ndarray, cut: np.ndarray, to_neck: n
     columns, rows = np.linalg.qr(to_neck)
     shapes, to_cut = spanned(rows @ to_cut, 3 * len(rows) // 5, energy=energy)
     return Half(flank, columns @ shapes, to_cut, cut)
-
-
-def _by_gradients(section: SectionForms, sweep: Sweep, fold: Fold, signs: tuple[float, ...], group) -> list[Half]:
-    # Imported here: few bodies need it.
-    from fenics_gears.elasticity.face.conjugate_gradients import flank_free_by_gradients, rigid_motions
-
-    first, last = (
-        (0, fold.heights)
-        if group is None
-        else np.linspace(0, fold.heights, group.size + 1).astype(int)[group.rank : group.rank + 2]
-    )
-    own = range(first, last)
-    rows = swept_stiffness(section, sweep, own, fold.standing)
-    halves = [fold.folded(rows, own, sign) for sign in signs]
-    del rows
-    height, place = np.divmod(fold.kept, len(fold.nodes))
-    motions = rigid_motions(np.column_stack([fold.nodes[place], sweep.heights[height]]), sweep.twist)
-    found = []
-    while halves:
-        found.append(in_shapes(*flank_free_by_gradients(halves.pop(0), fold, own, motions, group)))
-    return found
 
 
 def _of_rank(half: Half | None, comm, rank: int) -> Half:

@@ -10,8 +10,6 @@ plane section, whose products with N and N' give the layer. Layers of one thickn
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 import ufl
 from scipy import sparse
@@ -102,33 +100,18 @@ def _forms(space, poisson, a, b, c, d):
     ]
 
 
-def swept_stiffness(
-    section: SectionForms, sweep: Sweep, own: range | None = None, standing: np.ndarray | None = None
-) -> sparse.csr_matrix:
+def swept_stiffness(section: SectionForms, sweep: Sweep) -> sparse.csr_matrix:
     """Stiffness (3 n h, 3 n h), N/mm, of the swept body: dofs by height, then the section's node, then x, y, z in the
-    section's frame turned with it.
-
-    own: consecutive heights whose rows are wanted, standing: (k,) nodes of the section whose rows are; all when None.
-    """
-    heights, nodes = range(len(sweep.heights)), len(section.nodes.points)
-    dofs = dofs_of(np.arange(nodes) if standing is None else standing, 3)
-    nothing = sparse.csr_matrix((len(dofs), 3 * nodes))
-    # A block in every column, so that the matrix has all columns.
-    rows = {height: [nothing if number == 0 else None] * len(heights) for number, height in enumerate(own or heights)}
-    for layer, blocks in enumerate(_layers(section, sweep, dofs)):
-        for (low, high), block in blocks.items():
-            if 2 * layer + low in rows:
-                row, column = rows[2 * layer + low], 2 * layer + high
-                row[column] = block if row[column] is None else row[column] + block
-    return sparse.bmat([*rows.values()], format="csr")
-
-
-def _layers(section: SectionForms, sweep: Sweep, dofs: np.ndarray) -> Iterator[dict]:
-    known: dict[tuple[float, bool], dict] = {}
-    for kind in sweep.kinds:
-        if kind not in known:
-            known[kind] = layer_of_kind(section, sweep.twist, kind, dofs)
-        yield known[kind]
+    section's frame turned with it."""
+    heights, size = len(sweep.heights), 3 * len(section.nodes.points)
+    # A block in every row and column, so that the matrix has all.
+    rows = [[sparse.csr_matrix((size, size)) if 0 in (i, j) else None for j in range(heights)] for i in range(heights)]
+    known = {kind: layer_of_kind(section, sweep.twist, kind, np.arange(size)) for kind in set(sweep.kinds)}
+    for layer, kind in enumerate(sweep.kinds):
+        for (low, high), block in known[kind].items():
+            row, column = rows[2 * layer + low], 2 * layer + high
+            row[column] = block if row[column] is None else row[column] + block
+    return sparse.bmat(rows, format="csr")
 
 
 def layer_of_kind(
