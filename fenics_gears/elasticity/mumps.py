@@ -23,9 +23,6 @@ COLUMNS_AT_ONCE = 64
 class Factor:
     """Cholesky factor of a symmetric matrix (scipy's, or PETSc's), positive definite on all dofs but `schur_dofs` (k,).
 
-    Of a matrix over several processes (`distributed`) only the Schur complement is there for the taking: all of them
-    make the factor and call `schur`.
-
     `what`: the matrix's name in messages. Raises ComputationError when the factorisation fails. Release the memory by
     `close`.
     """
@@ -34,10 +31,7 @@ class Factor:
         self._schur_size, self._what = 0 if schur_dofs is None else len(schur_dofs), what
         if sparse.issparse(matrix):
             matrix = _petsc_matrix(matrix)
-        # Of a matrix declared definite, MUMPS over several processes gives back the diagonal of the Schur complement
-        # alone.
-        self._rank, alone = matrix.comm.rank, matrix.comm.size == 1
-        matrix.setOption(PETSc.Mat.Option.SPD if alone else PETSc.Mat.Option.SYMMETRIC, True)
+        matrix.setOption(PETSc.Mat.Option.SPD, True)
         self._preconditioner = PETSc.PC().create(matrix.comm)
         self._preconditioner.setOperators(matrix)
         self._preconditioner.setType("cholesky")
@@ -46,9 +40,7 @@ class Factor:
         self._factor = self._preconditioner.getFactorMatrix()
         try:
             if schur_dofs is not None:
-                # Rank 0 has them all; PETSc refuses to share them out.
-                listed = np.asarray(schur_dofs if self._rank == 0 else [], dtype=PETSc.IntType)
-                indices = PETSc.IS().createGeneral(listed, PETSc.COMM_SELF)
+                indices = PETSc.IS().createGeneral(np.asarray(schur_dofs, dtype=PETSc.IntType), PETSc.COMM_SELF)
                 _call("MatFactorSetSchurIS", _handle(self._factor), _handle(indices))
                 indices.destroy()
             self._preconditioner.setUp()
@@ -90,11 +82,8 @@ class Factor:
                 dense.destroy()
         return result
 
-    def schur(self) -> np.ndarray | None:
-        """Dense stiffness (k, k) on the Schur dofs with all others in equilibrium without load. None on all
-        ranks but 0."""
-        if self._rank > 0:
-            return None
+    def schur(self) -> np.ndarray:
+        """Dense stiffness (k, k) on the Schur dofs with all others in equilibrium without load."""
         schur, entries, status = ctypes.c_void_p(), ctypes.c_void_p(), ctypes.c_int()
         _call("MatFactorGetSchurComplement", _handle(self._factor), ctypes.byref(schur), ctypes.byref(status))
         _call("MatDenseGetArrayRead", schur, ctypes.byref(entries))
@@ -118,14 +107,6 @@ def _petsc_matrix(matrix: sparse.csr_matrix) -> PETSc.Mat:
     matrix.sort_indices()
     csr = (matrix.indptr.astype(PETSc.IntType), matrix.indices.astype(PETSc.IntType), matrix.data)
     return PETSc.Mat().createAIJ(matrix.shape, csr=csr, comm=PETSc.COMM_SELF)
-
-
-def distributed(rows: sparse.csr_matrix, comm) -> PETSc.Mat:
-    """PETSc matrix of which every rank of a communicator gives its consecutive rows (k, n)."""
-    rows.sort_indices()
-    csr = (rows.indptr.astype(PETSc.IntType), rows.indices.astype(PETSc.IntType), rows.data)
-    local, size = rows.shape
-    return PETSc.Mat().createAIJ(((local, size), (local, size)), csr=csr, comm=comm)
 
 
 def schur_complement(matrix: PETSc.Mat, dofs: np.ndarray) -> np.ndarray:

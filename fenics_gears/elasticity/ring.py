@@ -202,13 +202,13 @@ def inverse_of_factor(factor: np.ndarray, what: str) -> np.ndarray:
     return symmetric(upper)
 
 
-def definite_factor(matrix: np.ndarray, what: str) -> np.ndarray:
+def definite_factor(matrix: np.ndarray, what: str, overwrite: bool = False) -> np.ndarray:
     """Cholesky factor, upper triangle (the lower one is not zero), of a symmetric or Hermitian positive definite
-    matrix.
+    matrix; with `overwrite` in its place, if it is in Fortran's order.
 
     Raises ComputationError that says the stiffness of `what` is not positive definite.
     """
-    upper, failed = get_lapack_funcs(("potrf",), (matrix,))[0](matrix, clean=False)
+    upper, failed = get_lapack_funcs(("potrf",), (matrix,))[0](matrix, clean=False, overwrite_a=overwrite)
     if failed:
         raise _not_definite(what)
     return upper

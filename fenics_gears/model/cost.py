@@ -134,8 +134,8 @@ def flank_bytes(unknowns: Number) -> Number:
     return BYTES_OF_A_NUMBER * MATRICES_OF_A_FLANK * unknowns**2
 
 
-def expected_cost(model: Model, ranks: int = 1) -> ExpectedCost:
-    """What a run of a scene costs, gears not being in the cache; on each of some MPI ranks, where they share it.
+def expected_cost(model: Model) -> ExpectedCost:
+    """What a run of a scene costs, gears not being in the cache.
 
     >>> from fenics_gears import load_scene, model_of
     >>> expected_cost(model_of(load_scene("demos/lundvall2004.toml"))).marching < 60.0  # s
@@ -153,7 +153,7 @@ def expected_cost(model: Model, ranks: int = 1) -> ExpectedCost:
     # Imported here: plane scenes have none.
     from .face_cost import face_cost
 
-    return face_cost(model, sections, ranks)
+    return face_cost(model, sections)
 
 
 @dataclass(frozen=True)

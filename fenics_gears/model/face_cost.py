@@ -10,11 +10,11 @@ from fenics_gears.contact.face import Face
 from fenics_gears.contact.mesh_cycle import SHARE_FORMED
 from fenics_gears.contact.places import face_places
 from fenics_gears.contact.window import ends_of, offsets_of
-from fenics_gears.elasticity.face.cost import expected_memory, expected_size, is_iterative
+from fenics_gears.elasticity.face.cost import expected_memory, expected_size
 from fenics_gears.model.cost import CONDENSING_PROGRAM, ON_FLANKS, ExpectedCost, root_stress_cost
 from fenics_gears.model.face_resolution import face_discretisation
 from fenics_gears.model.model import Model
-from fenics_gears.system.memory import allowed_memory, usual_memory
+from fenics_gears.system.memory import allowed_memory
 
 # Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a
 # cut for each harmonic of the ring, of which there are half as many as teeth.
@@ -23,8 +23,6 @@ UNKNOWN, CONDENSED_CUBE, HARMONIC_CUBE = 6e-5, 5e-11, 5e-11
 WHOLE_SECTOR = 3.0
 # Of a solution for one load of the root stress, an unknown.
 SOLVED_UNKNOWN = 4e-7
-# Of conjugate gradients, for each of the condensed unknowns a second time.
-SOLVED_BY_GRADIENTS = 3e-5
 # Seconds at a position of each tooth pair in a slice and of the square of contact nodes; of a step, of their square and
 # their cube (elimination).
 PAIR_IN_SLICE, NODES_SQUARE, STEP_NODES_SQUARE, STEP_NODES_CUBE = 5e-4, 3.5e-9, 1.5e-9, 5e-12
@@ -68,11 +66,6 @@ def _size(model: Model, number: int) -> tuple[int, int]:
     )
 
 
-def by_gradients(model: Model, number: int, ranks: int = 1) -> bool:
-    """Whether the body of a gear, 0 or 1, is condensed by conjugate gradients."""
-    return face_discretisation(model, number).sweep.alike and is_iterative(*_size(model, number), ranks)
-
-
 def both_at_once(model: Model) -> bool:
     """Whether the bodies of both gears differ, and can be condensed at the same time in the memory that the run may
     take."""
@@ -80,17 +73,13 @@ def both_at_once(model: Model) -> bool:
     if len({(gear, material, face_discretisation(model, number)) for number, (gear, material) in enumerate(gears)}) < 2:
         return False
     memory = (
-        expected_memory(
-            *_size(model, number), by_gradients(model, number), halves=face_discretisation(model, number).sweep.alike
-        )
-        for number in range(2)
+        expected_memory(*_size(model, number), face_discretisation(model, number).sweep.alike) for number in range(2)
     )
     return CONDENSING_PROGRAM + sum(memory) <= allowed_memory()
 
 
-def face_cost(model: Model, sections: ExpectedCost, ranks: int = 1) -> ExpectedCost:
-    """Cost of a run over the face whose plane sections cost so much; memory of each of some MPI ranks that share the
-    bodies."""
+def face_cost(model: Model, sections: ExpectedCost) -> ExpectedCost:
+    """Cost of a run over the face whose plane sections cost so much."""
     bodies, ways, condensing, largest = [], [], sections.condensing, 0.0
     # What the sections hold, without their contact operators, which are not made.
     held, stress_step = sections.held, 0.0
@@ -101,15 +90,14 @@ def face_cost(model: Model, sections: ExpectedCost, ranks: int = 1) -> ExpectedC
         bodies.append((f"the {name}'s body", unknowns))
         of_flank = expected_size(gear, division, True)[1] - expected_size(gear, division, False)[1]
         of_cut = 0.5 * (condensed - of_flank * (2 if coast else 1))
-        iterative = by_gradients(model, number, ranks)
-        condensing += (UNKNOWN + (SOLVED_BY_GRADIENTS * condensed if iterative else 0.0)) * unknowns
+        condensing += UNKNOWN * unknowns
         halves = division.sweep.alike
         condensing += (1.0 if halves else WHOLE_SECTOR) * (
             CONDENSED_CUBE * condensed**3 + HARMONIC_CUBE * (gear.teeth // 2 + 1) * of_cut**3
         )
-        memory = [expected_memory(unknowns, condensed, each, ranks, halves) for each in (iterative, False)]
-        largest = max(largest, memory[0])
-        ways.append((f"the {name}'s body", _way(iterative, *memory)))
+        memory = expected_memory(unknowns, condensed, halves)
+        largest = max(largest, memory)
+        ways.append((f"the {name}'s body", f"{memory / 1e9:.3g} GB"))
         finer = 0.35 * gear.module / division.section_size
         on_slices = 3.0 * FLANK_NODES * finer**POWER * model.face.slices * (2 if coast else 1)
         held += 8.0 * (2 * model.touching.reach.farthest + 1) * on_slices**2
@@ -133,13 +121,3 @@ def face_cost(model: Model, sections: ExpectedCost, ranks: int = 1) -> ExpectedC
         tuple(ways),
         positions * position,
     )
-
-
-def _way(iterative: bool, memory: float, by_factor: float) -> str:
-    """How a body is condensed, and why."""
-    if iterative:
-        return (
-            f"conjugate gradients, {memory / 1e9:.3g} GB: a factorisation takes {by_factor / 1e9:.3g} GB, and"
-            f" {usual_memory() / 1e9:.3g} GB are allowed"
-        )
-    return f"factorisation by MUMPS, {memory / 1e9:.3g} GB"

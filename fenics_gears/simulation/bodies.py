@@ -80,13 +80,11 @@ def solids_of(
     if model.solid_discretisation(0) is None:
         return None, None
     # Imported here: plane scenes have none.
-    from fenics_gears.model.face_cost import both_at_once, by_gradients
+    from fenics_gears.model.face_cost import both_at_once
     from fenics_gears.system.second_process import second_process, threads
 
     def begin(number: int) -> None:
-        # Conjugate gradients take a multiple of the time.
-        way = " by conjugate gradients" if by_gradients(model, number, 1 if job is None else job.size) else ""
-        progress.stage(f"condense {GEARS[number]}'s body{way}")
+        progress.stage(f"condense {GEARS[number]}'s body")
 
     if job is None and threads() > 1 and both_at_once(model):
         with ThreadPoolExecutor(1) as waiting, second_process() as second:

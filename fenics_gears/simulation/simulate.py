@@ -139,7 +139,7 @@ def _simulated(
     job: Job | None,
     journal: Place | None,
 ) -> RunResult:
-    for_operators = memory_for_operators(model, 1 if job is None else job.size)
+    for_operators = memory_for_operators(model)
     gears, cycle = (preparation or functools.partial(prepared, job=job))(model, progress, cache)
     cycle.kept.most = for_operators
     progress.stage("compile")
@@ -162,10 +162,10 @@ def _simulated(
     return _with_dynamic_factors(recorder, result, progress)
 
 
-def memory_for_operators(model: Model, ranks: int = 1) -> float:
+def memory_for_operators(model: Model) -> float:
     """Bytes that contact operators may take beside all else; raises ComputationError where a run does not fit without
     keeping any."""
-    allowed, cost = allowed_memory(), expected_cost(model, ranks)
+    allowed, cost = allowed_memory(), expected_cost(model)
     if said := too_large(model, cost, allowed):
         raise ComputationError(said)
     return allowed - cost.held

@@ -8,7 +8,6 @@ import functools
 import mmap
 import os
 import re
-from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -43,18 +42,8 @@ def size_in_bytes(size: str, name: str, example: str) -> float:
 def allowed_memory() -> float:
     """Bytes that a run may take; processes of an MPI job on one machine share what is free. Raises SceneError for a
     size that is none."""
-    return _named_or(free_memory)
-
-
-def usual_memory() -> float:
-    """The same by what the machine, or this container, has in all: what is decided by it is decided alike whatever else
-    runs. Raises SceneError as `allowed_memory`."""
-    return _named_or(lambda: min(_of_machine("MemTotal"), _of_container(used=False)))
-
-
-def _named_or(of_machine: Callable[[], float]) -> float:
     given = os.environ.get(MEMORY_VARIABLE)
-    return size_in_bytes(given, MEMORY_VARIABLE, "8 GB") if given else SHARE * of_machine() / ranks_on_machine()
+    return size_in_bytes(given, MEMORY_VARIABLE, "8 GB") if given else SHARE * free_memory() / ranks_on_machine()
 
 
 def pages(rows: int, columns: int) -> np.ndarray:
@@ -115,18 +104,18 @@ class _HeapInformation(ctypes.Structure):
 
 def free_memory() -> float:
     """Bytes that programs can still take on this machine, or in this container."""
-    return min(_of_machine("MemAvailable"), _of_container())
+    return min(_of_machine(), _of_container())
 
 
-def _of_machine(what: str) -> float:
+def _of_machine() -> float:
     try:
-        found = re.search(rf"^{what}:\s*(\d+) kB", Path("/proc/meminfo").read_text(encoding="ascii"), re.MULTILINE)
+        found = re.search(r"^MemAvailable:\s*(\d+) kB", Path("/proc/meminfo").read_text(encoding="ascii"), re.MULTILINE)
     except OSError:
         return UNKNOWN
     return 1024.0 * int(found[1]) if found else UNKNOWN
 
 
-def _of_container(used: bool = True) -> float:
+def _of_container() -> float:
     """By the control group's limit, less what is in use; infinite where there is none."""
     for names in (("memory.max", "memory.current"), ("memory/memory.limit_in_bytes", "memory/memory.usage_in_bytes")):
         try:
@@ -134,5 +123,5 @@ def _of_container(used: bool = True) -> float:
         except OSError:
             continue
         if limit.isdecimal():
-            return max(float(limit) - (float(in_use) if used else 0.0), 0.0)
+            return max(float(limit) - float(in_use), 0.0)
     return float("inf")

@@ -1,26 +1,19 @@
 """Memory that a run may take: what does not fit is made again, with the same numbers, or refused before anything is
 computed."""
 
-import os
 import re
 
 import numpy as np
 import pytest
 from tests.coarse import coarse_scene
-from tests.helical import helical_scene
 from tests.programs import DEMO
 
 from fenics_gears import ComputationError, SceneError, expected_cost, model_of, simulate
 from fenics_gears.commands.cli import main
 from fenics_gears.elasticity.cache import user_cache
-from fenics_gears.elasticity.face.cost import expected_memory, expected_size
-from fenics_gears.model.face_resolution import face_discretisation
-from fenics_gears.simulation import bodies
 from fenics_gears.simulation import simulate as simulation
 from fenics_gears.simulation.routes import prepared
-from fenics_gears.system import memory
-from fenics_gears.system.memory import MEMORY_VARIABLE, SHARE, allowed_memory, size_in_bytes, usual_memory
-from fenics_gears.system.progress import SilentProgress
+from fenics_gears.system.memory import MEMORY_VARIABLE, allowed_memory, size_in_bytes
 
 
 @pytest.mark.parametrize("share", [pytest.param(0.0, marks=pytest.mark.nightly), 0.4])
@@ -36,7 +29,7 @@ def test_operators_that_are_not_kept_change_no_number(paper_scene, monkeypatch, 
         return gears, cycle
 
     operators = expected_cost(model_of(scene)).operators
-    monkeypatch.setattr(simulation, "memory_for_operators", lambda model, ranks: share * operators)
+    monkeypatch.setattr(simulation, "memory_for_operators", lambda model: share * operators)
     again = simulate(scene, preparation=preparation, cache=user_cache())
     steps = scene.accuracy.steps_per_mesh_cycle
     assert len(made) > (3 if share == 0.0 else 1.5) * steps
@@ -79,31 +72,6 @@ def test_check_says_that_a_scene_cannot_fit(tmp_path, monkeypatch, capsys):
     )
     assert main(["check", str(wide), "--memory", "1 TB"]) == 0
     assert "CANNOT" not in capsys.readouterr().err
-
-
-def test_the_choice_of_a_solver_does_not_depend_on_what_is_free(monkeypatch):
-    """Definition: of what the machine has in all, of which no more than that can be free; the same on every look."""
-    monkeypatch.delenv(MEMORY_VARIABLE, raising=False)
-    usual = usual_memory()
-    monkeypatch.setattr(memory, "free_memory", lambda: 1e6)
-    assert (
-        allowed_memory() < usual_memory() == usual <= SHARE * os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-    )
-
-
-def test_a_run_says_that_bodies_are_condensed_by_conjugate_gradients(monkeypatch):
-    """Promise of the page on clusters: they take a multiple of the time. The pinion's memory is between what the two
-    ways need, the wheel's is enough for a factorisation."""
-    model, said = model_of(helical_scene(teeth=(24, 18))), []
-    monkeypatch.setattr(bodies, "solid_of", lambda *arguments: None)
-    monkeypatch.setattr(SilentProgress, "stage", lambda self, name: said.append(name))
-    enough = [
-        [expected_memory(*expected_size(gear, face_discretisation(model, number)), way) for way in (True, False)]
-        for number, gear in enumerate((model.pair.pinion, model.pair.wheel))
-    ]
-    monkeypatch.setenv(MEMORY_VARIABLE, f"{0.5 * (max(enough[1][1], enough[0][0]) + enough[0][1]) / 1e6:.6f} MB")
-    bodies.solids_of(model, SilentProgress(), None)
-    assert said == ["condense pinion's body by conjugate gradients", "condense wheel's body"], enough
 
 
 def test_sizes_of_memory(monkeypatch):

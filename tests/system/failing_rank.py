@@ -20,7 +20,7 @@ STAGES = {
     "model": "simulation.simulate:memory_for_operators",
     "plane sections": "elasticity.gear_compliance:_drive_flank",
     "section mesh": "elasticity.face.condensed:SectionForms",
-    "condensing": "elasticity.face.condensed:_condensed",
+    "condensing": "elasticity.face.condensed:condensed_halves",
     "ring": "elasticity.face.half_turn:definite_factor",
     "remeshing": "elasticity.remeshed_gear:RemeshedGear.stiffness",
     "positions": "contact.mesh_cycle:Cycle.position",

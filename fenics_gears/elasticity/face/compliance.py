@@ -10,7 +10,6 @@ import numpy as np
 
 from fenics_gears.elasticity.cache import Cache, kept
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
-from fenics_gears.elasticity.face.cost import expected_size, is_iterative
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.elasticity.gear_compliance import COUNTS, check_inputs, similar_inputs
@@ -54,9 +53,7 @@ def face_compliance(
     }
 
     def compute() -> tuple[dict, dict]:
-        size = expected_size(similar, scaled, both)
-        iterative = scaled.sweep.alike and is_iterative(*size, 1 if job is None else job.size)
-        return together(job, _computed, similar, scaled, material.poissons_ratio, farthest, both, iterative)[0]
+        return together(job, _computed, similar, scaled, material.poissons_ratio, farthest, both)[0]
 
     arrays, timings = kept(cache, inputs, compute)
     # In place: the arrays are large, and nothing else refers to them.
@@ -76,7 +73,7 @@ def face_compliance(
 
 
 def _computed(
-    gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, iterative: bool, comm
+    gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, comm
 ) -> tuple[dict, dict] | None:
     """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took; None on all ranks of a
     communicator but 0, which share the work."""
@@ -93,7 +90,7 @@ def _computed(
     meshed = perf_counter()
     if face.sweep.alike:
         sector = condensed_swept_sector(
-            mesh, face.sweep, poissons_ratio, centreline_angle(gear), gear.teeth, both, comm, iterative
+            mesh, face.sweep, poissons_ratio, centreline_angle(gear), gear.teeth, both, comm
         )
         condensed = perf_counter()
         found, blocks = sector.timings, ring_blocks(sector, gear.teeth, farthest, comm)

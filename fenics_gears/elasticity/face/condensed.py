@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from time import perf_counter
-from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -13,10 +12,9 @@ from scipy.linalg.blas import dtrsm
 from fenics_gears.elasticity.condensation import by_radius, without
 from fenics_gears.elasticity.face.fold import EVEN, ODD, Fold
 from fenics_gears.elasticity.face.layers import Sweep
-from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
+from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms
+from fenics_gears.elasticity.face.tooth_and_body import condensed_halves
 from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.mirrored_ring import flank_free
-from fenics_gears.elasticity.mumps import Factor, distributed
 from fenics_gears.elasticity.ring import check_congruent, definite_factor
 
 # Part of the motions of a flank by its cuts that may be missing, by their energy: the compliance then errs by 4e-12 of
@@ -68,54 +66,29 @@ class SweptSector:
 
 
 def condensed_swept_sector(
-    mesh: BodyMesh,
-    sweep: Sweep,
-    poissons_ratio: float,
-    centreline: float,
-    teeth: int,
-    both: bool = False,
-    comm=None,
-    iterative: bool = False,
+    mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, centreline: float, teeth: int, both: bool = False, comm=None
 ) -> SweptSector:
     """A sector of a gear of `teeth`, its section symmetric about a line at the polar angle `centreline` (rad); `both`:
     with its coast flank.
 
-    iterative: by conjugate gradients instead of MUMPS. comm: communicator whose ranks share the work: one half of them
-    has the even motions, the other the odd ones, and each half shares out the heights. Every rank calls this and gets
-    the result, rank 0 alone the flank's compliances.
+    comm: communicator whose first two ranks share the work: rank 0 has the even motions and rank 1 the odd ones. Every
+    rank calls this and gets the result, rank 0 alone the flank's compliances.
     """
     clock = perf_counter()
     section = SectionForms(mesh, poissons_ratio, sweep.web)
     compiled = perf_counter()
-    heights = len(sweep.heights)
     fold = Fold(mesh, section.nodes.points, section.material(sweep), centreline)
-    group, signs = (
-        (comm, (EVEN, ODD))
-        if comm is None or comm.size == 1
-        else (comm.Split(comm.rank % 2), (EVEN, ODD)[comm.rank % 2 :][:1])
-    )
-    own = (
-        range(heights)
-        if group is None
-        else range(*np.linspace(0, heights, group.size + 1).astype(int)[[group.rank, group.rank + 1]])
-    )
-    rows = swept_stiffness(section, sweep, own, fold.standing)
-    halves = [fold.folded(rows, own, sign) for sign in signs]
-    del rows
-    assembled = perf_counter()
-    found: list[Any] = []
-    while halves:
-        found.append(
-            _by_gradients(halves.pop(0), fold, own, sweep, group)
-            if iterative
-            else _condensed(halves.pop(0), fold, group)
-        )
-    if len(signs) == 1:
+    alone = comm is None or comm.size == 1
+    signs = (EVEN, ODD) if alone else (EVEN, ODD)[comm.rank % 2 :][:1]
+    pair, found = None if alone else comm.Split(min(comm.rank // 2, 1)), [None]
+    if alone or comm.rank < 2:
+        found = [in_shapes(*each) for each in condensed_halves(mesh, poissons_ratio, sweep, fold, signs, pair)]
+    if not alone:
         found = [_of_rank(found[0], comm, rank) for rank in (0, 1)]
+    condensed = perf_counter()
     timings = {
         "time_compile": compiled - clock,
-        "time_assemble": assembled - compiled,
-        "time_schur": perf_counter() - assembled,
+        "time_schur": condensed - compiled,
         "unknowns": 2 * fold.unknowns,
         "condensed_unknowns": (2 if both else 1) * len(fold.flank) + 2 * len(fold.cut),
     }
@@ -124,7 +97,8 @@ def condensed_swept_sector(
         for name in ("lower", "upper")
     ]
     check_congruent(cuts[0], cuts[1], teeth)
-    lower = np.column_stack([np.tile(cuts[0], (heights, 1)), np.repeat(sweep.heights, len(cuts[0]))])[fold.on_cut]
+    places = np.tile(cuts[0], (fold.heights, 1)), np.repeat(sweep.heights, len(cuts[0]))
+    lower = np.column_stack(places)[fold.on_cut]
     even, odd = found
     return SweptSector(even, odd, lower, fold.cut_turned, fold.flank_turned if both else None, timings)
 
@@ -162,43 +136,21 @@ def spanned(
     return np.eye(len(matrix)), matrix
 
 
-def _condensed(rows: sparse.csr_matrix, fold: Fold, group) -> Half | None:
-    """One half; on the group's rank 0."""
-    alone = group is None or group.size == 1
-    factor = Factor(
-        rows if alone else distributed(rows, group), "the body's stiffness", np.concatenate([fold.flank, fold.cut])
-    )
-    del rows
-    try:
-        condensed = factor.schur()
-    finally:
-        factor.close()
-    if condensed is None:
-        return None
-    parts = flank_free(condensed, len(fold.flank))
-    # Beside the shapes it would be the process's peak of memory.
-    del condensed
-    return in_shapes(*parts)
-
-
-def in_shapes(flank: np.ndarray, response: np.ndarray, cut: np.ndarray) -> Half:
-    """A half of the parts of `mirrored_ring.flank_free`.
+def in_shapes(flank: np.ndarray, to_cut: np.ndarray, cut: np.ndarray, to_neck: np.ndarray | None = None) -> Half:
+    """A half of the parts of `mirrored_ring.flank_free`; with the flank's motion `to_neck` (f, w), `to_cut` is the
+    neck's (w, c).
 
     The ring adds to a flank's compliance ``response D^-1 response^T`` with D above the cut's own stiffness, so that
     motions of the cut count by the strain energy that they take: with ``cut = U^T U`` the shapes are those of
     ``response U^-1``. There are a quarter fewer than of the response itself.
     """
     energy = definite_factor(cut, "a cut")
-    return Half(flank, *spanned(response, energy=energy), cut)
-
-
-def _by_gradients(rows: sparse.csr_matrix, fold: Fold, own: range, sweep: Sweep, group) -> Half:
-    # Imported here: few bodies need it.
-    from fenics_gears.elasticity.face.conjugate_gradients import flank_free_by_gradients, rigid_motions
-
-    height, place = np.divmod(fold.kept, len(fold.nodes))
-    motions = rigid_motions(np.column_stack([fold.nodes[place], sweep.heights[height]]), sweep.twist)
-    return in_shapes(*flank_free_by_gradients(rows, fold, own, motions, group))
+    if to_neck is None:
+        return Half(flank, *spanned(to_cut, energy=energy), cut)
+    # As long as the flank's motions are, in fewer rows.
+    columns, rows = np.linalg.qr(to_neck)
+    shapes, to_cut = spanned(rows @ to_cut, 3 * len(rows) // 5, energy=energy)
+    return Half(flank, columns @ shapes, to_cut, cut)
 
 
 def _of_rank(half: Half | None, comm, rank: int) -> Half:

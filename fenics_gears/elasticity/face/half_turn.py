@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import numpy as np
 from scipy import sparse
+from scipy.linalg import block_diag
 from scipy.linalg.blas import dsyrk, dtrsm
 from scipy.spatial import cKDTree
 
@@ -26,6 +27,9 @@ from fenics_gears.errors import ComputationError
 
 # Of entries that the symmetry makes zero, in the largest entry.
 ROUND_OFF = 1e-9
+# Teeth of a ring that stands for a larger one reach so far, and are so many of all; what goes round it may miss this
+# part.
+FEWEST_OFFSETS, MOST_OF_TEETH, AROUND = 3, 0.35, 1e-13
 
 
 def half_turn_basis(lower: np.ndarray) -> tuple[sparse.csr_matrix, int]:
@@ -133,22 +137,47 @@ def _joined_through_cuts(
     """What the ring adds to the compliance (offsets + 1, r, r) between the shapes of the even and of the odd half; on
     rank `offset` of a communicator (counted on from 0 again beyond its last) that offset alone.
 
-    cuts: (c, c), to_cuts: (r, c), of both halves over the basis of a cut. By block inversion (`ring.ring_compliance`),
-    with each harmonic's Cholesky factor L: ``Y^T Y`` where ``L Y`` are the halves' motions by motions of the cut.
+    cuts: (c, c), to_cuts: (r, c), of both halves over the basis of a cut. With many teeth, all shapes in a ring of few
+    teeth, which is right but for what goes round it; that takes few shapes, those by which the farthest of these teeth
+    move each other: with these the ring is joined again.
     """
+    reach, first = max(offsets, FEWEST_OFFSETS), len(to_cuts[0])
+    few = 2 * reach + 1
+    if few > MOST_OF_TEETH * teeth:
+        return _by_harmonics(cuts, to_cuts, even, teeth, offsets, comm)
+    found = _by_harmonics(cuts, to_cuts, even, few, reach, comm)
+    far, owner = None, 0 if comm is None else reach % comm.size
+    if comm is None or comm.rank == owner:
+        ends, last = (slice(0, first), slice(first, None)), found[reach]
+        far = [spanned(np.hstack([last[end], last[:, end].T]), len(last) // 16, AROUND)[0] for end in ends]
+    if comm is not None:
+        far = comm.bcast(far, root=owner)
+    around = _by_harmonics(cuts, [each.T @ to_cut for each, to_cut in zip(far, to_cuts)], even, teeth, offsets, comm)
+    columns = block_diag(*far)
+    for block, more in zip(found, around):
+        block += columns @ (more - columns.T @ block @ columns) @ columns.T
+    return found[: offsets + 1]
+
+
+def _by_harmonics(
+    cuts: list[np.ndarray], to_cuts: list[np.ndarray], even: int, teeth: int, offsets: int, comm=None
+) -> np.ndarray:
+    """The same by all harmonics. By block inversion (`ring.ring_compliance`), with each harmonic's Cholesky factor L:
+    ``Y^T Y`` where ``L Y`` are the halves' motions by motions of the cut."""
     same, differing = cuts[0] + cuts[1], cuts[0] - cuts[1]
     differing[even:] *= -1.0
     across_signs = np.ascontiguousarray(differing[:even, even:].T)
-    first = len(to_cuts[0])
+    first, stiffness = len(to_cuts[0]), np.empty_like(same)
     motions = np.vstack(to_cuts).T
     # In LAPACK's order, as the products that are added.
     found = np.zeros((offsets + 1, motions.shape[1], motions.shape[1])).transpose(0, 2, 1)
     for harmonic in range(teeth // 2 + 1) if comm is None else range(comm.rank, teeth // 2 + 1, comm.size):
         angle, weight = harmonic_of(harmonic, teeth)
-        stiffness = same + np.cos(angle) * differing
+        np.multiply(differing, np.cos(angle), out=stiffness)
+        stiffness += same
         np.multiply(across_signs, -np.sin(angle), out=stiffness[even:, :even])
         # Transposed, it is in LAPACK's order, and its lower triangle alone is read.
-        factor = definite_factor(stiffness.T, "a harmonic")
+        factor = definite_factor(stiffness.T, "a harmonic", overwrite=True)
         own, across = np.cos(0.5 * angle), np.sin(0.5 * angle)
         moved = np.array(motions, order="F")
         moved[:even, :first] *= own

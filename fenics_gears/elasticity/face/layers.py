@@ -65,6 +65,11 @@ class Sweep:
         return (middles > self.web.low) & (middles < self.web.high)
 
     @property
+    def kinds(self) -> list[tuple[float, bool]]:
+        """Thickness of each layer, and whether it has the whole section."""
+        return list(zip(self.thicknesses.tolist(), self.in_web.tolist()))
+
+    @property
     def alike(self) -> bool:
         """Whether the body is the same towards both ends of the face."""
         return self.web is None or self.web.low == -self.web.high

@@ -10,8 +10,6 @@ plane section, whose products with N and N' give the layer. Layers of one thickn
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 import ufl
 from scipy import sparse
@@ -54,14 +52,17 @@ class SectionForms:
 
     def material(self, sweep: Sweep) -> np.ndarray:
         """Which nodes of the section (h, n) the body has at each height."""
-        nodes = len(self.nodes.points)
-        whole = np.ones(nodes, dtype=bool)
-        if self.beside_web is None:
-            return np.tile(whole, (len(sweep.heights), 1))
-        beside, found = np.isin(np.arange(nodes), self.beside_web[1]), np.zeros((len(sweep.heights), nodes), dtype=bool)
+        found = np.zeros((len(sweep.heights), len(self.nodes.points)), dtype=bool)
         for layer, within in enumerate(sweep.in_web):
-            found[2 * layer : 2 * layer + 3] |= whole if within else beside
+            found[2 * layer : 2 * layer + 3] |= self.in_layer(within)
         return found
+
+    def in_layer(self, within_web: bool) -> np.ndarray:
+        """Which nodes of the section (n,) a layer within the web or beside it has."""
+        nodes = len(self.nodes.points)
+        if within_web or self.beside_web is None:
+            return np.ones(nodes, dtype=bool)
+        return np.isin(np.arange(nodes), self.beside_web[1])
 
     def at(self, turn: complex, sweep: complex) -> tuple[sparse.csr_matrix, ...]:
         """Forms (3n, 3n) where w = `turn` and w'/w = `sweep`: of u and v, of u and dv/dz (rows: v), of du/dz and
@@ -99,35 +100,26 @@ def _forms(space, poisson, a, b, c, d):
     ]
 
 
-def swept_stiffness(
-    section: SectionForms, sweep: Sweep, own: range | None = None, standing: np.ndarray | None = None
-) -> sparse.csr_matrix:
+def swept_stiffness(section: SectionForms, sweep: Sweep) -> sparse.csr_matrix:
     """Stiffness (3 n h, 3 n h), N/mm, of the swept body: dofs by height, then the section's node, then x, y, z in the
-    section's frame turned with it.
-
-    own: consecutive heights whose rows are wanted, standing: (k,) nodes of the section whose rows are; all when None.
-    """
-    heights, nodes = range(len(sweep.heights)), len(section.nodes.points)
-    dofs = dofs_of(np.arange(nodes) if standing is None else standing, 3)
-    nothing = sparse.csr_matrix((len(dofs), 3 * nodes))
-    # A block in every column, so that the matrix has all columns.
-    rows = {height: [nothing if number == 0 else None] * len(heights) for number, height in enumerate(own or heights)}
-    for layer, blocks in enumerate(_layers(section, sweep, dofs)):
-        for (low, high), block in blocks.items():
-            if 2 * layer + low in rows:
-                row, column = rows[2 * layer + low], 2 * layer + high
-                row[column] = block if row[column] is None else row[column] + block
-    return sparse.bmat([*rows.values()], format="csr")
+    section's frame turned with it."""
+    heights, size = len(sweep.heights), 3 * len(section.nodes.points)
+    # A block in every row and column, so that the matrix has all.
+    rows = [[sparse.csr_matrix((size, size)) if 0 in (i, j) else None for j in range(heights)] for i in range(heights)]
+    known = {kind: layer_of_kind(section, sweep.twist, kind, np.arange(size)) for kind in set(sweep.kinds)}
+    for layer, kind in enumerate(sweep.kinds):
+        for (low, high), block in known[kind].items():
+            row, column = rows[2 * layer + low], 2 * layer + high
+            row[column] = block if row[column] is None else row[column] + block
+    return sparse.bmat(rows, format="csr")
 
 
-def _layers(section: SectionForms, sweep: Sweep, dofs: np.ndarray) -> Iterator[dict]:
-    known: dict[tuple[float, bool], dict] = {}
-    for kind in zip(sweep.thicknesses.tolist(), sweep.in_web.tolist()):
-        if kind not in known:
-            thickness, within = kind
-            made = layer_stiffness if within else _layer_beside_web
-            known[kind] = made(section, thickness, sweep.twist, dofs)
-        yield known[kind]
+def layer_of_kind(
+    section: SectionForms, twist: float, kind: tuple[float, bool], dofs: np.ndarray
+) -> dict[tuple[int, int], sparse.csr_matrix]:
+    """`layer_stiffness` of one of `Sweep.kinds`."""
+    thickness, within = kind
+    return (layer_stiffness if within else _layer_beside_web)(section, thickness, twist, dofs)
 
 
 def _layer_beside_web(
