@@ -2,16 +2,20 @@
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.image import imread
-from tests.over_face import helical_run, root_stress_run
+from tests.helical import wide_pair
+from tests.over_face import MORE, helical_run, root_stress_run
 from tests.show.synthetic import made_up_run
 
 from fenics_gears.results.mesh_curves import read_off
-from fenics_gears.show import FACE_PICTURE_FILES
+from fenics_gears.show import FACE_PICTURE_FILES, face_picture
 from fenics_gears.show.contact_pattern import contact_patterns, pattern
 from fenics_gears.show.line_load import line_loads
 from fenics_gears.show.plots import draw_run
 from fenics_gears.show.run import Run
+from fenics_gears.show.stress_picture import charts_of, still
+from fenics_gears.simulation.run_stresses import RunStresses
 
 
 @pytest.fixture(scope="module")
@@ -88,3 +92,24 @@ def test_line_loads_add_up_to_the_forces(run, side):
         touched = pair.field.x[:-1][loads > 0.0]
         ends = (np.interp(z, start.y, start.x), np.interp(z, end.y, end.x))
         assert (touched[0], touched[-1]) == pytest.approx(ends, abs=2.5 / 12)
+
+
+def test_gears_in_space_are_coloured_where_they_touch(monkeypatch):
+    """Position: the camera looks at the pitch point, beside which lines of contact cross the flanks of either gear
+    alone, and nothing else is red; the words have the largest of the curves along the face."""
+    pytest.importorskip("pyvista")
+    monkeypatch.setattr(face_picture, "PIXELS", 60)
+    result = helical_run()
+    with RunStresses(result, wide_pair(MORE)) as runs:
+        mesh = runs.at(3)
+    figure = still(mesh, result)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    colours = np.asarray(canvas.buffer_rgba())[..., :3] / 255.0
+    for left in (0.385, 0.66):
+        panel = colours[130:790, round(1600 * left) : round(1600 * (left + 0.265))]
+        places = np.argwhere(panel[..., 0] - panel[..., 2] > 0.35) / panel.shape[:2]
+        assert len(places) > 200 and np.ptp(places[:, 1]) > 0.3 and np.abs(places[:, 0] - 0.5).max() < 0.25
+    (chart,) = charts_of(mesh)[1]
+    said = " ".join(text.get_text() for text in figure.texts)
+    assert all(f"{curve.name} {curve.y.max():.0f} MPa at z" in said for curve in chart.curves)

@@ -107,7 +107,6 @@ def test_teeth_that_have_parted_move_and_are_reported(parted, tmp_path, monkeypa
     assert "It could not be drawn" not in (tmp_path / "report.html").read_text(encoding="utf-8")
 
 
-@pytest.mark.nightly
 def test_animation_goes_through_the_cycle_once(run, tmp_path, monkeypatch):
     """Frames asked for, all of one size, which differ; the last is not the first again."""
     image = pytest.importorskip("PIL.Image")

@@ -10,6 +10,7 @@ from tests.helical import FRICTION, helical_scene, on_stand_in_bodies
 from fenics_gears import model_of, scene_from_text
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
+from fenics_gears.results.summary import summary_rows
 from fenics_gears.scene.write import text_of
 from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle
 from fenics_gears.simulation.lead_correction import wanted
@@ -75,15 +76,20 @@ def test_no_slope_and_crowning_are_better(name):
 
 
 def test_a_proposal_is_in_place_of_what_is_there():
-    """By definition: a scene that has lead modifications gets the same proposal, to what the search leaves open."""
+    """By definition: a scene that has lead modifications gets the same proposal, to what the search leaves open; the
+    words of the summary are those of a scene with these amounts."""
     model = model_of(helical_scene(MISALIGNED, helix=0.0, accuracy=ACCURACY))
     runs = Runs(model.scene, on_stand_in_bodies(model))
     plain = simulate(model, preparation=runs.prepare)
+    words = {label: value for label, value, _ in summary_rows(plain)}["for an even line load, in [lead_modifications]"]
+    pasted = helical_scene(f"{MISALIGNED}[lead_modifications]\n{words}\n", helix=0.0).lead_modifications.pinion
     pinion = LeadModification(crowning=4e-3, helix_slope=2e-3)
     led = replace(model.scene, lead_modifications=LeadModifications(pinion=pinion))
     other = simulate(led, preparation=runs.prepare)
     for name in ("helix_slope", "crowning"):
-        assert other.attrs[f"proposed_{name}"] == pytest.approx(plain.attrs[f"proposed_{name}"], abs=0.1)
+        amount = plain.attrs[f"proposed_{name}"]
+        assert other.attrs[f"proposed_{name}"] == pytest.approx(amount, abs=0.1)
+        assert 1e3 * getattr(pasted, name) == pytest.approx(amount, abs=0.05)
 
 
 def test_a_run_with_inertia_has_the_proposal_of_the_quasi_static_one():

@@ -9,17 +9,20 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.image import imread
 from tests.programs import command, ended, python
 
 from fenics_gears.commands.cli import main
 from fenics_gears.errors import ComputationError, SceneError
 from fenics_gears.extensions.optimization import optimize as optimization
+from fenics_gears.extensions.optimization.charts import tolerance_rows, write_pictures
 from fenics_gears.extensions.optimization.conditions import samples, scattered
 from fenics_gears.extensions.optimization.design import QUANTILE, WORST, Bound, Goal, Loads, Tolerances
 from fenics_gears.extensions.optimization.design_file import load_design
 from fenics_gears.extensions.optimization.evaluations import Evaluation, Evaluator
 from fenics_gears.extensions.optimization.expected import expected_work
 from fenics_gears.extensions.optimization.optimize import chosen, optimize
+from fenics_gears.extensions.optimization.page import write_page
 from fenics_gears.extensions.optimization.search import front
 from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.results.files import read
@@ -188,14 +191,27 @@ def test_any_number_of_processes_gives_the_same_result(folder):
     assert designs[ERROR].values.tolist() == [each.goals[ERROR] for each in alone.tried]
     keys = [line["key"] for line in lines(folder / "two")]
     assert len(keys) == len({*keys}) and {*run_lines.kept(folder / "alone" / "runs")[0]} <= {*keys}
-    assert {"search.png", "variables.png", "harris_map.png", "report.html", "best.toml", "designs.csv"} <= {
-        each.name for each in (folder / "two").iterdir()
-    }
-    page = (folder / "two" / "report.html").read_text(encoding="utf-8")
-    assert all(
-        heading in page
-        for heading in ("Summary", "Designs", "Each variable alone", "Harris map, before", "Harris map, chosen design")
-    )
+
+
+def test_page_and_pictures_show_what_was_found(folder):
+    """The chosen scene run alone with its relief's depth at either limit; a row of Pareto's front for each of its
+    designs; every picture has more than its ground."""
+    text = RIGID + VARIABLES + GOAL + "max_normal_force = 1\n" + SCATTER + FEWER
+    outcome = found(write(folder, text))
+    design, chosen_tree = outcome.design, outcome.design.scene_tree(outcome.chosen.values)
+    rows = {row[0]: row[1:] for row in tolerance_rows(outcome, design.goals[0])}
+    place = [scatter.name for scatter in design.tolerances.scatters].index("tip_relief.depth")
+    numbers = []
+    for deviation in np.outer([-1.0, 0.0, 1.0], np.eye(5)[place]):
+        scene = build_scene(scattered(chosen_tree, design.tolerances.scatters, deviation))
+        numbers.append(f"{simulate(scene).attrs[ERROR] * 1e3 * gear_pair(scene.gears).wheel.base_radius:.4g}")
+    assert rows["tip relief depth"] == ("± 4 um", *numbers)
+    page = write_page(outcome).read_text(encoding="utf-8")
+    assert all(f">{number}<" in page for number in numbers)
+    assert f"The {len(outcome.front)} designs of the Pareto front" in page
+    pictures = {file.stem: imread(file) for file in write_pictures(outcome)}
+    assert set(pictures) == {"search", "pareto_front", "variables", "harris_map"}
+    assert all(np.mean(picture[..., :3].min(axis=2) < 0.9) > 0.005 for picture in pictures.values())
 
 
 def test_the_number_of_runs_and_their_time_are_said_before_they_start(folder, monkeypatch, capsys, unwritten):
