@@ -5,8 +5,6 @@ module is not imported. The scene's sections, the output of ``gears check``, the
 documentation's table follow from this list.
 """
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Collection
 from dataclasses import replace

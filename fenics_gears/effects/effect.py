@@ -5,8 +5,6 @@ section, which is its data in program units, its description, and hooks. A hook 
 effect; it imports the effect's physics inside the function, so that a scene without the effect does not load it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path

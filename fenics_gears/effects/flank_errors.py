@@ -8,8 +8,6 @@ Teeth are counted in the order in which they mesh, from the tooth of either gear
 the tooth before.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import lcm
 from typing import Any

@@ -1,8 +1,6 @@
 """Deviations of a gear's teeth from tables (CSV), as a measuring machine or a spreadsheet writes them. Not an effect by
 itself."""
 
-from __future__ import annotations
-
 import csv
 import re
 from collections.abc import Mapping, Sequence

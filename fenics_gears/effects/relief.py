@@ -1,7 +1,5 @@
 """What ``[tip_relief]`` and ``[root_relief]`` share: fields, data, rules and findings. Not an effect by itself."""
 
-from __future__ import annotations
-
 from dataclasses import KW_ONLY, dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Reads a study file into a `Study` and validates all its cases."""
 
-from __future__ import annotations
-
 import functools
 import math
 from collections.abc import Collection, Mapping

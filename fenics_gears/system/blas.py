@@ -6,8 +6,6 @@ whether others are right, a process of its own finds out, once for a processor a
 file is that process.
 """
 
-from __future__ import annotations
-
 import contextlib
 import ctypes
 import functools

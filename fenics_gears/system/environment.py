@@ -6,8 +6,6 @@ matplotlib its list of fonts; where they cannot, a command fails or takes a minu
 temporary files have no room.
 """
 
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import os

@@ -6,8 +6,6 @@ end the whole process at one wrong bit of a damaged one. It ignores bytes after 
 read them.
 """
 
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import os

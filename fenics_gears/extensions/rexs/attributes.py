@@ -5,8 +5,6 @@ Where several are named, the first one present counts, unless all must agree (``
 in another version of REXS, is one more line here.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import TypeVar
 

@@ -1,7 +1,5 @@
 """Reliefs and tolerances of the loaded flanks, and what a file says of flanks that a scene has no field for."""
 
-from __future__ import annotations
-
 from math import cos, isclose, sqrt
 
 from .attributes import NO_PLACE, NO_PLACE_OF_RELIEFS, Place, Reading, given, missing, positive

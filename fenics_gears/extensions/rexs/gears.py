@@ -1,8 +1,6 @@
 """The gears of a stage: teeth, circles and material, given by the file, computed from it, or taken from the
 standard."""
 
-from __future__ import annotations
-
 from functools import partial
 from math import acos, atan, cos, isclose, tan
 

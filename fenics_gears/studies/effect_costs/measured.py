@@ -1,7 +1,5 @@
 """Runs and times the subsets of a scene's effects: results from whole runs, times from shorter runs in turns."""
 
-from __future__ import annotations
-
 import statistics
 import time
 from dataclasses import dataclass, replace
