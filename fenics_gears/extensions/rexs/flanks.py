@@ -144,8 +144,8 @@ def _stated(where: Place) -> Value | None:
 
 def _start(relief: Component, base: float, tip: float) -> tuple[str, Value, float | None]:
     """Where a relief starts, as the field that a scene has for it: by the diameter, or by its length of roll (L_C, ISO
-    21771), which lies on the path of contact. The diameter (mm) of a tip relief's start beside it: a flank rolls
-    through s = sqrt(d^2 - d_b^2)/2 up to the diameter d."""
+    21771). The diameter (mm) of a tip relief's start beside it: a flank rolls through s = sqrt(d^2 - d_b^2)/2.
+    """
     where, by_length = (relief, f"{relief.type}_datum_diameter", "mm"), (relief, f"{relief.type}_datum_length", "mm")
     stated, length = _stated(where), _stated(by_length)
     if stated is None and length is None:
