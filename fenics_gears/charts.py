@@ -3,8 +3,6 @@
 A `Chart` is data: curves over one axis, with titles and units. `draw_charts` writes charts as PNG.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 

@@ -1,8 +1,6 @@
 """``gears accuracy SCENE``: measure error and time of each accuracy setting of a scene; print and write a table and a
 picture of error against time."""
 
-from __future__ import annotations
-
 import argparse
 
 from .measuring import measured, print_origin, scene_to_measure, write_report

@@ -1,7 +1,5 @@
 """``gears cache``: show what the cache of condensed gears holds, or empty it."""
 
-from __future__ import annotations
-
 import argparse
 from datetime import datetime
 

@@ -1,7 +1,5 @@
 """``gears check SCENE``: check a scene; print its geometry, effects, accuracy and expected cost; compute nothing."""
 
-from __future__ import annotations
-
 import argparse
 
 from fenics_gears.errors import ComputationError

@@ -6,8 +6,6 @@ the reason), 130 interrupted by Ctrl-C (the steps computed are kept), 141 the st
 when the program that reads it closed the pipe.
 """
 
-from __future__ import annotations
-
 import argparse
 import gc
 import logging

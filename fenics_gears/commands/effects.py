@@ -1,8 +1,6 @@
 """``gears effects SCENE``: run a scene with subsets of its effects; print and write, as table and picture, the time
 each effect takes and how it changes the result."""
 
-from __future__ import annotations
-
 import argparse
 
 from .measuring import measured, print_origin, scene_to_measure, write_report

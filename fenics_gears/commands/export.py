@@ -1,7 +1,5 @@
 """``gears export RUN``: write the curves of a run as a table (CSV) for spreadsheets."""
 
-from __future__ import annotations
-
 import argparse
 
 from .shared import add_output_argument, add_run_argument, file_to_write, loaded_run, print_files, run_file

@@ -7,8 +7,6 @@ Each is a module with a function ``add(commands, shared)``: `commands` takes par
 only what has the command that is called, and modules whose docstrings name none.
 """
 
-from __future__ import annotations
-
 import argparse
 import os
 import re

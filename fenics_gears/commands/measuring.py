@@ -1,7 +1,5 @@
 """What the commands share that measure times of a scene's variants: they write a report as table and picture."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path

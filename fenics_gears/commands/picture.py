@@ -1,7 +1,5 @@
 """``gears picture RUN``: draw the gears of a run in mesh with their stresses; write them for ParaView."""
 
-from __future__ import annotations
-
 import argparse
 from contextlib import closing
 from pathlib import Path

@@ -1,7 +1,5 @@
 """``gears plot RUN``: draw the pictures of a run again."""
 
-from __future__ import annotations
-
 import argparse
 
 from fenics_gears.show import FACE_PICTURE_FILES, PICTURE_FILES

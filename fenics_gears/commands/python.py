@@ -1,8 +1,6 @@
 """``gears python ...``: run a Python script that imports fenics_gears, or a module such as `-m jupyter lab`, in the
 program's own Python."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Sequence

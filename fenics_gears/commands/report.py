@@ -1,7 +1,5 @@
 """``gears report RUN``: write one HTML page on a run or a study, readable without a network."""
 
-from __future__ import annotations
-
 import argparse
 from contextlib import closing
 from os.path import exists, isdir

@@ -1,7 +1,5 @@
 """``gears run SCENE``: run a scene; write run.nc and pictures."""
 
-from __future__ import annotations
-
 import argparse
 import gc
 import sys

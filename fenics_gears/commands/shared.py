@@ -1,7 +1,5 @@
 """What several commands share: exit codes, arguments, the files that they read, and their progress."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import shutil

@@ -1,7 +1,5 @@
 """``gears study STUDY``: run a parameter study and draw it, alone or under mpirun; a stopped study is continued."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

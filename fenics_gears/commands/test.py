@@ -1,7 +1,5 @@
 """``gears test ...``: run the tests of the checkout; options are those of pytest."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Sequence

@@ -1,11 +1,9 @@
 """The one list of effects; a scene switches an effect on by naming its section.
 
-An effect whose section is absent is not constructed: none of its unknowns, terms or result variables exist, and its
-module is not imported. The scene's sections, the output of ``gears check``, the result's variables and the
-documentation's table follow from this list.
+Of an effect whose section is absent none of its unknowns, terms or result variables exist, and its module is not
+imported. The scene's sections, the output of ``gears check``, the result's variables and the documentation's table
+follow from this list.
 """
-
-from __future__ import annotations
 
 import functools
 from collections.abc import Collection
@@ -40,19 +38,20 @@ SECTIONS = ("tooth_elasticity", *AT_THE_TOP)
 # What opens the flanks along a face.
 ALONG_THE_FACE = ("lead_modifications", "misalignment")
 
+OF_GEARS = ("time", "gear")
 # What every run has, whatever its effects.
 COMMON_VARIABLES: tuple[ResultVariable, ...] = (
     ResultVariable("transmission_error", "rad", "transmission error"),
-    ResultVariable("rotation", "rad", "rotation of the hub relative to its nominal rotation", dims=("time", "gear")),
+    ResultVariable("rotation", "rad", "rotation of the hub relative to its nominal rotation", dims=OF_GEARS),
     ResultVariable("normal_force", "N", "contact force of the mesh along the line of action"),
     ResultVariable("pair_normal_force", "N", "contact force of the tooth pair along the line of action", dims=OF_PAIRS),
-    ResultVariable("reaction_x", "N", "force of the gear on its shaft along the line of action", dims=("time", "gear")),
-    ResultVariable("reaction_y", "N", "force of the gear on its shaft off the line of action", dims=("time", "gear")),
+    ResultVariable("reaction_x", "N", "force of the gear on its shaft along the line of action", dims=OF_GEARS),
+    ResultVariable("reaction_y", "N", "force of the gear on its shaft off the line of action", dims=OF_GEARS),
     ResultVariable(
         "reaction_couple",
         "N mm",
         "torque of the gear on its shaft, positive in the pinion's sense of rotation",
-        dims=("time", "gear"),
+        dims=OF_GEARS,
     ),
     ResultVariable("newton_iterations", "1", "Newton iterations of the step"),
     ResultVariable("closed_nodes", "1", "number of closed contact nodes"),
@@ -95,18 +94,18 @@ FACE_VARIABLES: tuple[ResultVariable, ...] = (
         "contact force of the tooth pair along the contact normal, per length of the face",
         dims=OF_SLICES,
     ),
-    ResultVariable("reaction_z", "N", "axial force of the gear on its shaft", dims=("time", "gear")),
+    ResultVariable("reaction_z", "N", "axial force of the gear on its shaft", dims=OF_GEARS),
     ResultVariable(
         "reaction_moment_x",
         "N mm",
         "moment of the gear on its shaft about the line of action, at mid-width",
-        dims=("time", "gear"),
+        dims=OF_GEARS,
     ),
     ResultVariable(
         "reaction_moment_y",
         "N mm",
         "moment of the gear on its shaft off the line of action, at mid-width",
-        dims=("time", "gear"),
+        dims=OF_GEARS,
     ),
 )
 
@@ -154,25 +153,23 @@ def check_files(scene, pair) -> None:
 
 def result_variables(scene) -> tuple[ResultVariable, ...]:
     """Every variable that the result of a scene has."""
-    on = effects_on(scene)
+    on, over_face = effects_on(scene), scene.three_dimensional
     named = {each.section for each in on}
-    there = [
-        (found, getattr(scene, each.section))
-        for each in on
-        for found in each.variables
-        if not found.needs or found.needs in named
-    ]
-    found = COMMON_VARIABLES + tuple(
-        found
-        for found, data in there
-        if (not found.field or any(getattr(data, name) is not None for name in found.field.split(" or ")))
-        and (scene.three_dimensional or not found.over_face)
-    )
-    if scene.three_dimensional:
-        found = tuple(
-            replace(each, dims=(*OF_SLICES, "contact_node")) if each.dims == OF_NODES else each
-            for each in (*found, *FACE_VARIABLES)
+
+    def is_there(variable: ResultVariable, data) -> bool:
+        fields = variable.field.split(" or ") if variable.field else ()
+        return (
+            (not variable.needs or variable.needs in named)
+            and (not fields or any(getattr(data, name) is not None for name in fields))
+            and (over_face or not variable.over_face)
         )
+
+    found = list(COMMON_VARIABLES)
+    found += [each for effect in on for each in effect.variables if is_there(each, getattr(scene, effect.section))]
+    if over_face:
+        along_face = (*OF_SLICES, "contact_node")
+        found = [replace(each, dims=along_face) if each.dims == OF_NODES else each for each in found]
+        found += FACE_VARIABLES
     left_out = () if scene.resolves_contact else OVER_CONTACT_NODES
     if not scene.motion.speed_given:
         left_out = (*left_out, "sliding_speed")

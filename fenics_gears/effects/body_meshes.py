@@ -1,7 +1,5 @@
 """``[body_meshes]``: gears meshed as a whole by the user, whose teeth need not be alike (``elasticity.whole_body``)."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """``[coast_flanks]``: contact on the unloaded flanks (``contact.tooth_pair``)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from fenics_gears.inputs.problem import Broken

@@ -1,7 +1,5 @@
 """``[corner_contact]``: tips touch before and after the theoretical path of contact (``contact.corner``)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from fenics_gears.inputs.fields import quantity

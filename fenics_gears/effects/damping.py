@@ -1,8 +1,6 @@
 """``[damping]``: Rayleigh damping of each shaft (``dynamics.drivetrain``), or damping ratios of the modes
 (``dynamics.modal_damping``)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from fenics_gears.inputs.fields import number, numbers, quantity

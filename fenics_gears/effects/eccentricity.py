@@ -1,7 +1,5 @@
 """``[eccentricity]``: run-out of either gear (``contact.run_out``), and wobble of its teeth (``contact.wobble``)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import lcm
 

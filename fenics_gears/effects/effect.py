@@ -1,11 +1,9 @@
 """What an effect is: the section that switches it on, and the hooks by which it enters the model.
 
-An effect is one module of this package and one entry in the list of ``fenics_gears.effects``. A module holds the
-section, which is its data in program units, its description, and hooks. A hook is called only when the scene names the
-effect; it imports the effect's physics inside the function, so that a scene without the effect does not load it.
+An effect is one module of this package and one entry in the list of ``fenics_gears.effects``: its section, which is its
+data in program units, its description, and hooks. A hook is called only when the scene names the effect, and imports
+the effect's physics inside, so that a scene without it does not load it.
 """
-
-from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -24,11 +22,10 @@ OF_SLICES = ("contact_time", "slot", "face_position")
 
 @dataclass(frozen=True)
 class ResultVariable:
-    """One variable of the result: its name, its units and its long name for labels; ``needs``: another effect without
-    which it is not there;
-    ``dims``: its dimensions; ``field``: the field of the effect's own section without which it is not there, or
-    several, "places or each", of which one is enough;
-    ``over_face``: whether it is there in three-dimensional scenes only."""
+    """One variable of the result: name, units, and long name for labels; ``needs``: another effect without which it is
+    not there; ``field``: the field of the effect's own section without which it is not there, or several, "places or
+    each", of which one is enough; ``over_face``: in three-dimensional scenes only.
+    """
 
     name: str
     units: str
@@ -43,30 +40,28 @@ class ResultVariable:
 class Effect:
     """One effect: the section that switches it on, what it adds, and the sections it needs or excludes.
 
-    ``needs`` and ``excludes`` are section names; ``absent`` says what the model is without the effect; ``unknowns``,
-    ``terms`` and ``variables`` say what it adds. ``fields`` declares the section and is its data; where the data are
-    something else, ``read`` makes them of the section, and ``write`` a section (a dictionary) of them. ``rules`` finds
-    what is wrong between fields: each place, and what to do about it.
-    ``within``: the section's path where a scene does not have it at the top; the scene's attribute is ``section`` all
-    the same.
+    ``needs`` and ``excludes``: section names; ``absent``: what the model is without it; ``unknowns``, ``terms`` and
+    ``variables``: what it adds. ``fields`` declares the section and is its data; where the data are something else,
+    ``read`` makes them of the section, and ``write`` a section (a dictionary) of them. ``rules`` finds what is wrong
+    between fields: each place, and what to do about it. ``within``: the section's path where it is not at the top; the
+    scene's attribute is ``section`` all the same.
 
     Hooks, each with the effect's data first:
 
     ``removal(data, pair)``: material removed from pinion and wheel, two functions of the roll angle (rad) giving mm, or
-    None. ``gaps(data, model)``: a function of a step and its position giving what the effect adds to the gaps of the
-    contact nodes (n,), mm. ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N,
-    besides the constant load. ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as
-    long. ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach
-    of teeth; None for that of equal teeth. ``located(data, directory)``: the data with the files that it names found
-    from a directory on, the scene file's. ``files(data)``: the names of these files, each with a hash of what was read
-    from it. ``check(data, scene, pair)``: raises SceneError where those files are wrong, or the effect is not for this
-    load and speed. ``warnings(data, model)``: sentences that a user should read before the run.
-    ``watched(data, cycle, steps)``: values of consecutive steps (``dynamics.steps.Steps``) that the effect's findings
-    need, name to values (steps,). ``findings(data, watched)``: sentences on where a run violates what the effect
-    assumes, from the watched values of all steps. ``results(data, scene, cycle, steps)``: the effect's own variables at
-    steps (time,), name to (dimensions, values). ``period(data, scene)``: mesh cycles after which what the effect does
-    repeats; infinite where it never does. 1 unless given. ``gentle(data)``: whether teeth come into contact so gently
-    that fewer layers of elements over a face resolve it.
+    None. ``gaps(data, model)``: a function of a step and its position giving what is added to the gaps of the contact
+    nodes (n,), mm. ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N, besides
+    the constant load. ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
+    ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach of
+    teeth; None for that of equal teeth. ``located(data, directory)``: the data with their files found from the scene
+    file's directory on. ``files(data)``: the names of these files, each with a hash of what was read. ``check(data,
+    scene, pair)``: raises SceneError where those files are wrong, or the effect is not for this load and speed.
+    ``warnings(data, model)``: sentences to read before the run. ``watched(data, cycle, steps)``: values of consecutive
+    steps (``dynamics.steps.Steps``) that the findings need, name to values (steps,). ``findings(data, watched)``:
+    sentences on where a run violates what the effect assumes. ``results(data, scene, cycle, steps)``: the effect's own
+    variables at steps (time,), name to (dimensions, values). ``period(data, scene)``: mesh cycles after which what it
+    does repeats, infinite where never; 1 unless given. ``gentle(data)``: whether teeth come into contact so gently that
+    fewer layers over a face resolve it.
     """
 
     section: str
@@ -115,7 +110,6 @@ class Effect:
 
 
 def own_or_shared(own: Section | None, shared: Section, name: str) -> Any:
-    """A field of one gear: what its own section has, else what the section of both gears has; None where neither
-    does."""
+    """A field of one gear: its own section's, else that of the section of both gears; None where neither has it."""
     value = None if own is None else getattr(own, name)
     return getattr(shared, name) if value is None else value

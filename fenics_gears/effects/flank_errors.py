@@ -8,8 +8,6 @@ Teeth are counted in the order in which they mesh, from the tooth of either gear
 the tooth before.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from math import lcm
 from typing import Any
@@ -65,8 +63,7 @@ def period(errors: FlankErrors, scene) -> int:
 
 
 def _differ(own: GearErrors, names: Sequence[str], drawn: bool) -> bool:
-    """Whether a gear's teeth are not all alike in deviations of some names; what is not given is `drawn`, or there is
-    none of it."""
+    """Whether a gear's teeth are not all alike in some deviations; what is not given is `drawn`, or there is none."""
     given = [getattr(own, name) for name in names]
     measured = own.profile_curves is not None or own.helix_curves is not None
     return (

@@ -1,8 +1,6 @@
 """Deviations of a gear's teeth from tables (CSV), as a measuring machine or a spreadsheet writes them. Not an effect by
 itself."""
 
-from __future__ import annotations
-
 import csv
 import re
 from collections.abc import Mapping, Sequence
@@ -29,8 +27,7 @@ _LARGEST = 100.0
 
 
 class FileProblem(ValueError):
-    """What is wrong with a table: where, what, and what is allowed, in sentences that follow the field that names the
-    file."""
+    """What is wrong with a table: where, what, and what is allowed, in sentences that follow its field."""
 
 
 @dataclass(frozen=True)
@@ -46,8 +43,8 @@ def deviations_in(path: Path, names: Sequence[str]) -> dict[str, tuple[float, ..
     """Each column's deviations, mm, in the order of the teeth, which are numbered from 1; by the column's name, one of
     `names`.
 
-    The first line names the columns: `tooth`, and deviations with their unit in brackets, or with a unit in every cell.
-    Columns are parted by commas, semicolons or tabs; empty lines and those that begin with # are passed over. Raises
+    The first line names the columns: `tooth`, and deviations with their unit in brackets, or with a unit in every cell;
+    they are parted by commas, semicolons or tabs. Empty lines and those that begin with # are passed over. Raises
     FileProblem.
     """
     columns, rows = _table(path, dict.fromkeys(names, LENGTH), "tooth, pitch (um), profile_slope (um)")
@@ -76,13 +73,8 @@ def curves_in(path: Path, along: Mapping[str, str]) -> MeasuredCurves:
     columns, rows = _table(path, {**along, DEVIATION: LENGTH}, example)
     places = [name for name in columns if name in along]
     if len(columns) != 2 or len(places) != 1:
-        lacking = (
-            f"no column {DEVIATION}"
-            if DEVIATION not in columns
-            else "no column that says where a point lies"
-            if not places
-            else "more than one such column"
-        )
+        lacking = "more than one such column" if places else "no column that says where a point lies"
+        lacking = lacking if DEVIATION in columns else f"no column {DEVIATION}"
         raise FileProblem(
             f"{path}: has {lacking}. Allowed: a first line such as `{example}`, with one of {', '.join(along)}."
         )

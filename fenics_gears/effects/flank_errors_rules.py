@@ -1,7 +1,5 @@
 """What is wrong between the fields of ``[flank_errors]``. Not an effect by itself."""
 
-from __future__ import annotations
-
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.tree import GEARS, Tree, quantity_at, quantity_in, table, teeth_in
 

@@ -1,7 +1,5 @@
 """The sections of ``[flank_errors]`` as a scene file has them. Not an effect by itself."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from fenics_gears.inputs.fields import choice, file_name, quantities, quantity, whole_number

@@ -1,7 +1,5 @@
 """Tables that a scene's flank errors name: found, and compared with their gears. Not an effect by itself."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import replace
 from hashlib import sha256

@@ -1,8 +1,6 @@
 """``[friction]``: Coulomb friction between the flanks (``contact``), with a coefficient that is given or follows from a
 formula."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from fenics_gears.errors import SceneError

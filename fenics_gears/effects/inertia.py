@@ -1,8 +1,6 @@
 """``[inertia]``: mass and moment of inertia of each gear and of what the output shaft drives; the march in time becomes
 dynamic (``dynamics``)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 from fenics_gears.inputs.fields import quantity

@@ -1,7 +1,5 @@
 """``[lead_modifications]``: crowning, helix slope and end relief of either gear (``geometry.face``)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from fenics_gears.inputs.fields import choice, quantity

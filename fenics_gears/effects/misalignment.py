@@ -1,7 +1,5 @@
 """``[misalignment]``: axes that are not parallel (``geometry.face``)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from fenics_gears.inputs.fields import quantity

@@ -1,7 +1,5 @@
 """``[profile_modifications]``: crowning and slope of the profile of either gear (``geometry.profile_modification``)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from fenics_gears.inputs.fields import quantity

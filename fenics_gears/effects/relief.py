@@ -1,7 +1,5 @@
 """What ``[tip_relief]`` and ``[root_relief]`` share: fields, data, rules and findings. Not an effect by itself."""
 
-from __future__ import annotations
-
 from dataclasses import KW_ONLY, dataclass
 from typing import Any
 
@@ -118,8 +116,7 @@ class RootReliefOfGear(Relief):
 
 @dataclass(frozen=True)
 class Reliefs:
-    """Relief of pinion and wheel, each by itself; None for a gear without. One without start or length begins at the
-    usual place, HPSTC or LPSTC."""
+    """Relief of pinion and wheel; None for a gear without. One without start or length begins at HPSTC or LPSTC."""
 
     pinion: Relief | None
     wheel: Relief | None
@@ -131,7 +128,7 @@ def read(kind: type[Reliefs], section: Any) -> Reliefs:
 
 
 def _of_gear(both: Relief, own: Relief | None) -> Relief | None:
-    """One gear's relief; None without a depth. Of fields that say the same, its own section's are taken together."""
+    """One gear's relief; None without a depth. Fields that say the same are taken from its own section together."""
     values: dict[str, Any] = {}
     for names in (("depth",), STARTS, GROWTH):
         given = own if own is not None and any(getattr(own, name) is not None for name in names) else both
@@ -189,6 +186,6 @@ def _is_diameter(written: Any) -> bool:
 
 
 def _alike(tree: Tree) -> bool:
-    """Whether both gears have the same teeth, so that a diameter is the same place of both."""
+    """Whether a diameter is the same place of both gears."""
     _, pinion, wheel = with_gears(tree, "gears").values()
     return {**pinion, "bore_diameter": None} == {**wheel, "bore_diameter": None}

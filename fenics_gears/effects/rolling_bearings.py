@@ -1,7 +1,5 @@
 """``[[bearings.pinion]] rolling``: a ball or roller bearing by its inner geometry (``dynamics.rolling_bearing``)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import pi

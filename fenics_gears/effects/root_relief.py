@@ -1,7 +1,5 @@
 """``[root_relief]``: material removed towards the roots (``geometry.relief``)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import partial
 

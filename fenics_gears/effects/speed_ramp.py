@@ -1,7 +1,5 @@
 """``[speed_ramp]``: a mesh frequency that rises or falls during the run (``dynamics.speed_ramp``)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import inf
 

@@ -1,7 +1,5 @@
 """``[tip_relief]``: material removed towards the tips (``geometry.relief``)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import partial
 

@@ -1,8 +1,6 @@
 """``[gears.material]``: teeth and gear bodies that give way (``elasticity``); without it the flanks are rigid
 (``contact.rigid_mesh``)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

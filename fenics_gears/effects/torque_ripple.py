@@ -1,7 +1,5 @@
 """``[torque_ripple]``: load torque that varies with the rotation of the wheel's shaft (``dynamics.torque_ripple``)."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction

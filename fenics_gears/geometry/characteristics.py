@@ -1,7 +1,5 @@
 """The characteristic data of a pair, as ``gears check`` prints them."""
 
-from __future__ import annotations
-
 from math import atan, degrees
 
 from .gear_checks import ROUNDING

@@ -5,8 +5,6 @@ itself; values are not rounded as it prints them. Check: the values that another
 40 teeth, class 6: single pitch 8.94 um, total cumulative pitch 28.80 um).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import hypot, sqrt
 

@@ -1,8 +1,6 @@
 """Coefficient of friction of lubricated flanks by published formulas, from load, speed, radii, oil and roughness at the
 pitch point or along the path."""
 
-from __future__ import annotations
-
 from math import cos, log10, pi, sin
 
 import numpy as np

@@ -2,8 +2,6 @@
 to change.
 """
 
-from __future__ import annotations
-
 from math import cos, floor, isfinite, pi, sin
 from typing import NoReturn
 

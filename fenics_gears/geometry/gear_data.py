@@ -1,8 +1,6 @@
 """Dimensions, width and material of a gear pair, as on its drawing, materials by name, and a rough stiffness of a tooth
 pair, for natural frequencies and defaults; in N, mm and rad."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 # ISO 53:1998, Annex A, in modules: addendum, dedendum, tip radius of the rack. The same as types A to D of GOST

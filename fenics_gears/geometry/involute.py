@@ -5,8 +5,6 @@ Body frame of one tooth: gear centre at the origin, the tooth points downwards, 
 point of that roll angle lies on the line of action ``y = -base_radius`` with its outward normal along +x.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 NEWTON_STEPS = 60

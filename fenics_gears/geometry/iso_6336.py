@@ -5,8 +5,6 @@ adjusted to measurements, and for the mesh ``c_gamma_alpha = c' (0.75 eps_alpha 
 (C_R = 1).
 """
 
-from __future__ import annotations
-
 from math import cos, degrees, sin
 
 import numpy as np

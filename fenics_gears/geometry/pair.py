@@ -5,8 +5,6 @@ drives, so that contact runs from the wheel's tip (path_start) to the pinion's t
 away there.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from math import acos, cos, exp, floor, pi, sin, sqrt, tan

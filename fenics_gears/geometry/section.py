@@ -5,8 +5,6 @@ an involute of roll angle v these are rb^2 v^2 dv and rb^4 v^2 (1 + v^2) dv, exa
 contribute nothing; the fillet goes by Gauss quadrature. Micro-geometry (reliefs, errors) is left out.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import atan2, pi
 

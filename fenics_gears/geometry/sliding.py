@@ -4,8 +4,6 @@ At a distance xi (mm) from T1 the flanks' radii of curvature are rho1 = xi and r
 across the line of action with omega1 rho1 and omega2 rho2. Positions are arrays of any shape.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .pair import GearPair

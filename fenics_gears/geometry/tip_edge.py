@@ -1,7 +1,5 @@
 """The rounded edge between a tooth's flank and its tip circle, in the tooth's body frame (see involute.py)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

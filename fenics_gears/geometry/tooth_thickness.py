@@ -6,8 +6,6 @@ circle (DIN 3960, ISO 21771): W_k = cos(beta_b) [(k - 1) p_bt + d_b psi_b], and 
 teeth inv(alpha_K) = D_M/(d_b cos(beta_b)) + psi_b - pi/z.
 """
 
-from __future__ import annotations
-
 from math import acos, atan, cos, hypot, pi, sqrt, tan
 
 from .gear import Gear

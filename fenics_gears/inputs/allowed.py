@@ -1,7 +1,5 @@
 """What a field of a section allows (``inputs.fields``), and how its text in a scene file becomes a value and back."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from math import inf, isfinite

@@ -5,8 +5,6 @@ where a scene leaves it out (``default``, and ``otherwise`` in words; a field wi
 messages, writing and the documentation follow from what a field is ``Allowed``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import field
 from typing import Any

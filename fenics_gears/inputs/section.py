@@ -4,8 +4,6 @@
 gets. ``tree_of`` is the way back, bit for bit.
 """
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import MISSING, Field, dataclass, fields

@@ -4,8 +4,6 @@ the right one.
 Only what no likeness of spelling finds: the standards' symbols, and the commonest other word.
 """
 
-from __future__ import annotations
-
 # A gear's own section also has the names of the section above.
 SYNONYMS = {
     "gears": "pair stage geometry",

@@ -1,7 +1,5 @@
 """Values of a parsed scene file, of which some may be wrong."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from math import pi
 from typing import Any

@@ -4,8 +4,6 @@ The list of units is closed: no prefix is guessed, so that "Mm" is a mistake and
 dimension of its own, so that "N m" is no torsional stiffness and "Hz" no angular speed.
 """
 
-from __future__ import annotations
-
 import functools
 import math
 import re

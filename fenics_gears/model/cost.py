@@ -5,8 +5,6 @@ machines differ by a factor of two. `python -m tests.benchmarks.expected_cost` p
 measured, of the examples.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import lcm
 

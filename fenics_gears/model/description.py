@@ -1,7 +1,5 @@
 """The rows of `gears check`: what a scene is and what it will cost, without computing it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import log

@@ -1,7 +1,5 @@
 """What moves, in rows for people: speed, inertia, periods and natural frequencies of a scene."""
 
-from __future__ import annotations
-
 from math import inf, lcm
 
 import numpy as np

@@ -4,8 +4,6 @@ What may be in a result beside them: one attribute for each method of the solver
 each setting whose error was estimated, by the prefix ``ESTIMATED``.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from .numbers import CUBICS, SOLVED, STEPS

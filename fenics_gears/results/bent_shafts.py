@@ -1,7 +1,5 @@
 """Shafts that bend in the result: what their deflection does to the axes, the bearings' loads, and deflection lines."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

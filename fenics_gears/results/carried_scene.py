@@ -1,7 +1,5 @@
 """The scene that a result carries: what of it stands in the result's attributes, and the scene again from these."""
 
-from __future__ import annotations
-
 import logging
 from pathlib import Path
 

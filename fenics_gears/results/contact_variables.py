@@ -1,8 +1,6 @@
 """Contact and energy in the result: forces of the mesh, of each tooth pair and of each contact node, their reactions on
 the shafts; what the drivetrain and the teeth store, and the work that supplies and takes it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import pi

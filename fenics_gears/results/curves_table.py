@@ -1,8 +1,6 @@
 """CSV tables for programs that do not read NetCDF: all curves over time of a result, and what a dataset has over given
 dimensions."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Iterator
 from pathlib import Path

@@ -1,8 +1,6 @@
 """Where the face of a result ends: its slices with their widths, and the zone at either end whose line load and
 pressure are those of an edge."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 

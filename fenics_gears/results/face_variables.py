@@ -1,8 +1,6 @@
 """Contact over a face in the result: line loads, mesh stiffness in the transverse plane, and a warning where much of
 the face does not touch."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -6,8 +6,6 @@ what was written is in the hands of the operating system, which loses nothing of
 keeps parts of its files in the process; what a kill leaves of them cannot always be opened.
 """
 
-from __future__ import annotations
-
 import json
 import logging
 import os

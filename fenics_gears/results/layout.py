@@ -1,8 +1,6 @@
 """What every result's file has: names, dimensions and types, checked after its seal, which only says that its bytes are
 those that were written."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import cache
 

@@ -3,8 +3,6 @@
 Face and transverse load factor are those of ISO 6336-1 by its own definitions (method A); its methods B and C
 estimate them. None of the factors has the dynamic factor in it: each compares loads of the same steps."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 

@@ -4,8 +4,6 @@ Curves (steps,) are those of whole mesh cycles of the settled motion, one value 
 next cycle. Contact losses of the drive flanks: how long and how far.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import groupby

@@ -1,8 +1,6 @@
 """Root stress in the result: stress along the surface of both fillets of each loaded tooth, over time, slice by slice
 where flanks are resolved over the face."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Sequence
 

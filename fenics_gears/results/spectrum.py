@@ -5,8 +5,6 @@ Windows are sums of cosines as `scipy.signal.windows` has them; their figures af
 for harmonic analysis, Proc. IEEE 66 (1978).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import lcm
 

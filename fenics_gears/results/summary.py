@@ -1,7 +1,5 @@
 """The summary that is printed when a run ends."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 

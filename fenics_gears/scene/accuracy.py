@@ -4,8 +4,6 @@ None: the program chooses (``model.resolution``, ``model.face_resolution``) by t
 which the reference of scenes says what defaults are.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from math import inf

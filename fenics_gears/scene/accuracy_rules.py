@@ -1,7 +1,5 @@
 """Rules between the fields of ``[accuracy]`` and ``[output]``, and what they need of a scene."""
 
-from __future__ import annotations
-
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import allowed_in, names_in
 from fenics_gears.inputs.tree import Tree, load_in, material_sections, quantity_at, quantity_in, table, value_at

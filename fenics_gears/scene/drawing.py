@@ -7,8 +7,6 @@ at which the rack cuts flanks and root; they differ by the allowance where a thi
 k shortens the tips, so that their clearance stays the rack's when a is less than a_d + (x1 + x2) m_n.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import chain

@@ -1,7 +1,5 @@
 """Rules of what a drawing may leave out: of alternatives one is given, and what belongs together is there."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from fenics_gears.inputs.problem import Broken

@@ -1,7 +1,5 @@
 """Rules of three-dimensional scenes, which plane scenes do not load."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from fenics_gears.inputs.problem import Broken, Path

@@ -1,7 +1,5 @@
 """``[gears]`` and the sections below it: what a drawing of the pair says; ``scene.drawing`` derives the rest."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from fenics_gears.effects.tooth_elasticity import MaterialText, OwnMaterialText

@@ -1,7 +1,5 @@
 """From a scene file to the frozen dataclasses of ``scene.data``."""
 
-from __future__ import annotations
-
 import math
 import os
 import tomllib

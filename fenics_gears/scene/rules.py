@@ -4,8 +4,6 @@ They read the parsed TOML file, so that they apply even where some field is wron
 reported elsewhere.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping
 from itertools import chain

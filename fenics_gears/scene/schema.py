@@ -4,8 +4,6 @@ own module. Mistakes against them in sentences that say what to do.
 Ranges are generous: ``geometry`` checks whether teeth and diameters make a gear.
 """
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, make_dataclass, replace

@@ -1,8 +1,6 @@
 """The tooth thickness of a gear as a drawing has it, measured by caliper, span or balls. Most drawings give profile
 shifts and do not load it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from fenics_gears.geometry import tooth_thickness

@@ -1,8 +1,6 @@
 """Remarks on derived figures that leave what is usual: one of the figures they follow from is then likely wrong. None
 of them is refused."""
 
-from __future__ import annotations
-
 from math import tan
 
 from .gear_schema import Gears

@@ -2,8 +2,6 @@
 table for notebooks.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import fields

@@ -1,7 +1,5 @@
 """Shafts that bend, with gears and bearings: to scale with their deflection magnified, and the deflection lines."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import floor, log10
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """The cases of a study: swept values, results and file of each."""
 
-from __future__ import annotations
-
 import os
 import urllib.parse
 from dataclasses import dataclass

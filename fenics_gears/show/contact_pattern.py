@@ -1,8 +1,6 @@
 """The contact pattern: the largest pressure at each point of a flank while it is in mesh, over face and height of the
 tooth."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 

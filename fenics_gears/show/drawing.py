@@ -4,8 +4,6 @@ Panels, ticks and labels are placed here, by numbers: matplotlib's own layouts a
 picture. Lengths are in inches.
 """
 
-from __future__ import annotations
-
 import io
 import textwrap
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """The largest scale at which displacements may be drawn without drawing teeth into each other."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.path import Path
 from scipy.sparse import csr_matrix

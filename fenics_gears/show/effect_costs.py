@@ -1,7 +1,5 @@
 """The picture of `gears effects`: cost and change of each effect, a line for each subset of the scene's effects."""
 
-from __future__ import annotations
-
 import textwrap
 
 import numpy as np

@@ -1,8 +1,6 @@
 """The gears of a run over the face in mesh in three dimensions, and the teeth of either gear alone, coloured by
 stress."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

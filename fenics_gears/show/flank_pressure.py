@@ -1,7 +1,5 @@
 """The contact pressure at one time as tiles on the flanks of both gears in three dimensions."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -3,8 +3,6 @@
 After S. L. Harris, Dynamic loads on the teeth of spur gears, Proc. IMechE 172 (1958).
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

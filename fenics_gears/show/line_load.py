@@ -1,7 +1,5 @@
 """The line load over face and time: of all tooth pairs together, of one pair while it is in mesh, and over the face."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from fenics_gears.results.face_ends import inner_face, slice_ends

@@ -1,7 +1,5 @@
 """The place of the most loaded contact in the picture of a pair."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,8 +1,6 @@
 """Charts of motion and forces: transmission error over a few and over all mesh cycles, shafts, load and speed where
 they vary; forces of the mesh, of each tooth pair, and their reactions on the shafts."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

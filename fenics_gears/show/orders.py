@@ -1,8 +1,6 @@
 """Charts of orders: spectra of transmission error and mesh force by their source, and the mesh orders from cycle to
 cycle."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import inf, lcm
 

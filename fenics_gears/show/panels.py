@@ -1,8 +1,6 @@
 """What all pictures share: palette, fonts, ends and ticks of axes, long curves with fewer points; and numbers and units
 as people read them: micrometres instead of mm, microradians instead of rad, four digits."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable, Sequence
 

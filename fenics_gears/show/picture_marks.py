@@ -1,7 +1,5 @@
 """What is drawn over a picture of gears in mesh: the line of action, names, frames, a bar of length."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

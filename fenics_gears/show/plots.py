@@ -1,7 +1,5 @@
 """The pictures of a run and of a study: charts of the dataset, saved under fixed names."""
 
-from __future__ import annotations
-
 import struct
 import textwrap
 import zlib

@@ -1,8 +1,6 @@
 """Charts of the contact pressure: its largest value over time, and the pressure of the contact nodes as a map over
 flank and time."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from fenics_gears.results.pairs import words_of_slice

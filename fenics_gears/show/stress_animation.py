@@ -1,8 +1,6 @@
 """The stored mesh cycles as a moving picture: GIF, or MP4 where ffmpeg is installed; and for ParaView: a .vtu file for
 each step, and the .pvd file that lists them with their times."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 from collections.abc import Callable

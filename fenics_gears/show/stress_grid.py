@@ -3,8 +3,6 @@
 Pictures have the line of centres upright, the pinion above; files have the frame of the line of action.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from pathlib import Path
 

@@ -1,8 +1,6 @@
 """The gears of a run in mesh at one time, deformed and coloured by von Mises stress: in the plane here, over the face
 in three dimensions by `face_picture`."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import BinaryIO

@@ -1,8 +1,6 @@
 """Results over a study's parameters: lines over the field with most values, one for each combination of the others; a
 map for many."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .cases import Cases, SweptField

@@ -1,8 +1,6 @@
 """The picture of `gears accuracy`: error against time of whole settings and cheaper models, and of every setting's
 values alone."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Iterable
 

@@ -1,7 +1,5 @@
 """A swept field and its values, given as a list or as a range."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Mapping

@@ -1,7 +1,5 @@
 """The dataset of a study: what it takes from the run of each case, over the swept fields."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any

@@ -1,8 +1,6 @@
 """Sections and fields of a scene by their dotted paths, and changes of a parsed scene. Tables that are listed have
 numbers from 1: ``shafts.input.sections.2.diameter``, ``bearings.pinion.1.rolling.clearance``."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

@@ -1,8 +1,6 @@
 """What `gears accuracy` and `gears effects` share: the machine on which times were measured, and the CSV file of the
 numbers."""
 
-from __future__ import annotations
-
 import csv
 import importlib.metadata
 import os

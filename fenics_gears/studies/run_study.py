@@ -1,7 +1,5 @@
 """A study from its file to its combined dataset: the stages, in order."""
 
-from __future__ import annotations
-
 import json
 import logging
 import sys

@@ -1,7 +1,5 @@
 """The scenes of a study's cases: the base scene with the changes of each."""
 
-from __future__ import annotations
-
 import functools
 import itertools
 from collections.abc import Iterator, Mapping

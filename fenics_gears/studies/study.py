@@ -1,7 +1,5 @@
 """A study as a frozen dataclass: the swept fields and one run for each combination of their values."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from fenics_gears.runs.run import Run

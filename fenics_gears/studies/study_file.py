@@ -1,7 +1,5 @@
 """Reads a study file into a `Study` and validates all its cases."""
 
-from __future__ import annotations
-
 import functools
 import math
 from collections.abc import Collection, Mapping
@@ -101,25 +99,15 @@ def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:
         if key in tree and not isinstance(tree[key], str):
             mistakes.add((key,), as_written(tree[key]), "is not a text.")
     if "scene" not in tree:
-        mistakes.add(
-            ("scene",),
-            None,
-            "is missing. Allowed: the file of the base scene, from this file's folder on, such as"
-            ' "lundvall2004.toml".',
-        )
+        allowed = "the file of the base scene, from this file's folder on, such as"
+        mistakes.add(("scene",), None, f'is missing. Allowed: {allowed} "lundvall2004.toml".')
     if isinstance(tree.get("combine"), str) and tree["combine"] not in COMBINATIONS:
-        mistakes.add(
-            ("combine",),
-            as_written(tree["combine"]),
-            f'is not known.{did_you_mean(tree["combine"], COMBINATIONS)} Allowed: "product", "zip".',
-        )
+        message = f'is not known.{did_you_mean(tree["combine"], COMBINATIONS)} Allowed: "product", "zip".'
+        mistakes.add(("combine",), as_written(tree["combine"]), message)
     for key in ("set", "sweep"):
         if key in tree and not isinstance(tree[key], Mapping):
-            mistakes.add(
-                (key,),
-                as_written(tree[key]),
-                f"is not a section. Write a line [{key}], and below it fields of the scene.",
-            )
+            message = f"is not a section. Write a line [{key}], and below it fields of the scene."
+            mistakes.add((key,), as_written(tree[key]), message)
     if not tree.get("sweep"):
         mistakes.add(
             ("sweep",),
@@ -178,14 +166,8 @@ def entries(
             else:
                 found.append((path, value))
 
-    walk(
-        (),
-        (
-            {key: value for key, value in tree[table].items() if key not in own}
-            if isinstance(tree.get(table), Mapping)
-            else {}
-        ),
-    )
+    if isinstance(tree.get(table), Mapping):
+        walk((), {key: value for key, value in tree[table].items() if key not in own})
     return found
 
 

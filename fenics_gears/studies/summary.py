@@ -1,7 +1,5 @@
 """What `gears study` prints when a study ends."""
 
-from __future__ import annotations
-
 from fenics_gears.results.summary import MICROMETRES
 from fenics_gears.results.validity import NO_MEANING
 

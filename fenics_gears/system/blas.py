@@ -1,12 +1,9 @@
 """Kernels of OpenBLAS that suit the processor.
 
 An OpenBLAS that is older than the processor takes kernels of 2004, which condense at half the speed. It reads
-OPENBLAS_CORETYPE when it is loaded, so that other kernels have to be chosen before. Which ones it takes by itself, and
-whether others are right, a process of its own finds out, once for a processor and its libraries; run as a script, this
-file is that process.
+OPENBLAS_CORETYPE when it is loaded. Which kernels it takes by itself, and whether others are right, a process of its
+own finds out, once for a processor and its libraries; run as a script, this file is that process.
 """
-
-from __future__ import annotations
 
 import contextlib
 import ctypes
@@ -96,8 +93,7 @@ def _found() -> Choice:
 
 
 def in_another_process(kernels: str | None) -> list[dict]:
-    """`libraries` of a process with these kernels, None for those that OpenBLAS takes by itself; none where it
-    fails."""
+    """`libraries` of a process with these kernels, None for those that OpenBLAS takes; none where it fails."""
     environment = {name: value for name, value in os.environ.items() if name != VARIABLE}
     environment |= {"OMP_NUM_THREADS": "1"} | ({VARIABLE: kernels} if kernels else {})
     with contextlib.suppress(OSError, ValueError, subprocess.SubprocessError):

@@ -1,8 +1,6 @@
 """Tables for people: drawn by rich on a terminal, plain aligned lines elsewhere; and streams that take any text,
 and text that a terminal and a file of results can take."""
 
-from __future__ import annotations
-
 import io
 import os
 import re

@@ -1,12 +1,9 @@
 """What MPI, PETSc and BLAS read from the process environment, set before they are loaded.
 
 A variable the user has set is never changed, unless it names a folder for temporary files or caches that this user
-cannot write, as in a container or on a full disk. numba and DOLFINx keep compiled code in the user's folder for caches,
-matplotlib its list of fonts; where they cannot, a command fails or takes a minute more. MPI ends the process where
-temporary files have no room.
+cannot write. numba and DOLFINx keep compiled code in the user's folder for caches, matplotlib its list of fonts; where
+they cannot, a command fails or takes a minute more. MPI ends the process where temporary files have no room.
 """
-
-from __future__ import annotations
 
 import contextlib
 import hashlib

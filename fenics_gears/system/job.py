@@ -5,8 +5,6 @@ An error of any rank is an error of all. A rank that fails while others wait for
 reach them no other way than by MPI's Abort. A process that runs alone never touches MPI.
 """
 
-from __future__ import annotations
-
 import contextlib
 import functools
 import logging

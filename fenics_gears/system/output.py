@@ -1,12 +1,9 @@
 """The directory a run writes to: every file is written aside and then renamed, so that a final name never holds half a
 file.
 
-Sealed files end with a digest of all bytes before it, which is checked before anything else reads the file: HDF5 can
-end the whole process at one wrong bit of a damaged one. It ignores bytes after its own end, so other programs still
-read them.
+Sealed files end with a digest of all bytes before it, which is checked first: HDF5 can end the whole process at one
+wrong bit, and ignores bytes after its own end.
 """
-
-from __future__ import annotations
 
 import contextlib
 import hashlib
@@ -111,8 +108,9 @@ def written_aside(directory: Path, written: list[Path]) -> Iterator[Path]:
 
 
 def remove_left_over(directory: Path) -> None:
-    """Remove from a directory, not from those in it, what killed processes were writing: those of this machine that are
-    no more, and others of more than a day ago."""
+    """Remove from a directory, not from those in it, what killed processes were writing: of this machine those that are
+    no more, else those of more than a day ago.
+    """
     own = f"{UNFINISHED}{_machine()}-"
     for left in directory.glob(f"{UNFINISHED}*"):
         # Another run may remove it at the same time.

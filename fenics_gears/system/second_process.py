@@ -4,8 +4,6 @@ threads, and half of the cores go further with each of two gears than all with o
 It is started anew, not a copy: a copy of a process that has loaded MPI, or that has threads, may hang.
 """
 
-from __future__ import annotations
-
 import os
 import pickle
 import signal

@@ -3,8 +3,6 @@
 What would fill the memory, or be waited for, is refused before it is read.
 """
 
-from __future__ import annotations
-
 import os
 import stat
 from pathlib import Path

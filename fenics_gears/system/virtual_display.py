@@ -1,7 +1,5 @@
 """A display in memory, for versions of VTK that cannot draw without one."""
 
-from __future__ import annotations
-
 import atexit
 import os
 import shutil

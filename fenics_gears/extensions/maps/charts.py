@@ -1,7 +1,5 @@
 """Charts of a map over loads and speeds: Harris map, numbers over load and over speed, Campbell diagram, waterfalls."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

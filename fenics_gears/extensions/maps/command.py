@@ -1,8 +1,6 @@
 """``gears map SCENE``: run a scene over loads and speeds; draw its Harris map, Campbell diagram and waterfalls, alone
 or under mpirun; a stopped map is continued."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

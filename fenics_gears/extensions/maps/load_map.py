@@ -1,8 +1,6 @@
 """A map over loads and speeds as two studies: quasi-static over the loads, and with inertia over loads and steady
 speeds."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

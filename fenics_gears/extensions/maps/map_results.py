@@ -1,7 +1,5 @@
 """The dataset of a map over loads and speeds, from its studies."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

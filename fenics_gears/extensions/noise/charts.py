@@ -1,8 +1,6 @@
 """Charts of noise figures (`figures`): levels over mesh orders with their sidebands, mesh orders over a speed
 ramp."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 

@@ -1,7 +1,5 @@
 """``gears listen RUN``: write a curve of a run as sound (WAV). ``gears plot RUN --spectrum``: its noise figures."""
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Callable
 from functools import partial

@@ -5,8 +5,6 @@ mesh force re 1 N. Steps stand at equal phases of the mesh also where the speed 
 is one over orders without resampling.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 

@@ -1,7 +1,5 @@
 """A curve of a run as sound: its fluctuation, as pressure would follow it, at the samples of an audio file."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import ceil
 from pathlib import Path

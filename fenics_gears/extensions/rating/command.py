@@ -1,7 +1,5 @@
 """``gears rate RUN``: rate a run by ISO 6336, beside its computed loads and stresses."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import fields
 from math import isnan

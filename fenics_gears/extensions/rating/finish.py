@@ -1,7 +1,5 @@
 """What the standard wants to know of material, finish and oil."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 

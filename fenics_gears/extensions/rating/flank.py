@@ -1,8 +1,6 @@
 """Contact stress and its limit by ISO 6336-2:2006, method B, for endurance (Z_NT = 1), and equal hardness of both gears
 (Z_W = 1)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import cos, pi, sin, sqrt, tan
 

@@ -6,8 +6,6 @@ heats it by ``31.62 K mu w / sqrt(b_H) |v_1 - v_2| / (B_M1 sqrt(v_1) + B_M2 sqrt
 pressure; w in N/mm, b_H in mm, v in m/s, B_M in N/(mm s^0.5 K).
 """
 
-from __future__ import annotations
-
 from math import cos, pi
 
 import numpy as np

@@ -1,8 +1,6 @@
 """Dynamic, face and transverse load factors of ISO 6336-1:2006: K_v and K_Halpha by method B, K_Hbeta by method C,
 of pairs on shafts that bend also by method B."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import cos, hypot, pi, sin, sqrt
 

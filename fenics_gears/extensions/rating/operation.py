@@ -1,7 +1,5 @@
 """What a rating is about: the pair under its nominal load."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi, tan

@@ -1,8 +1,6 @@
 """A run's load capacity, row by row: by the standard's own formulas from the nominal load, and from the loads and
 stresses that the run has computed."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import isnan, nan
 

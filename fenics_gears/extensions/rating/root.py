@@ -1,8 +1,6 @@
 """Tooth root stress and its limit by ISO 6336-3:2006, method B, for endurance (Y_NT = 1), solid rims (Y_B = 1) and
 teeth of ordinary depth (Y_DT = 1)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from math import acos, cos, degrees, pi, sin, sqrt, tan
 

@@ -5,8 +5,6 @@ Where several are named, the first one present counts, unless all must agree (``
 in another version of REXS, is one more line here.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import TypeVar
 
@@ -123,17 +121,9 @@ def places(owner: GearParts | Stage, asked: str) -> list[Place]:
     """All components and attributes that may say it, with the unit, whether or not they do."""
     found = []
     for holder, name, unit in ATTRIBUTES[asked]:
-        holders = getattr(owner, holder)
-        found += [
-            (each, name, unit)
-            for each in (
-                [holders]
-                if isinstance(holders, Component)
-                else holders.values()
-                if isinstance(holders, dict)
-                else holders
-            )
-        ]
+        held = getattr(owner, holder)
+        components = [held] if isinstance(held, Component) else held.values() if isinstance(held, dict) else held
+        found += [(each, name, unit) for each in components]
     return found
 
 

@@ -1,8 +1,6 @@
 """``gears import FILE.rexs``: write a gear pair of a REXS file as a scene. The scene names the origin of every
 value."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Reliefs and tolerances of the loaded flanks, and what a file says of flanks that a scene has no field for."""
 
-from __future__ import annotations
-
 from math import cos, isclose, sqrt
 
 from .attributes import NO_PLACE, NO_PLACE_OF_RELIEFS, Place, Reading, given, missing, positive
@@ -146,8 +144,8 @@ def _stated(where: Place) -> Value | None:
 
 def _start(relief: Component, base: float, tip: float) -> tuple[str, Value, float | None]:
     """Where a relief starts, as the field that a scene has for it: by the diameter, or by its length of roll (L_C, ISO
-    21771), which lies on the path of contact. The diameter (mm) of a tip relief's start beside it: a flank rolls
-    through s = sqrt(d^2 - d_b^2)/2 up to the diameter d."""
+    21771). The diameter (mm) of a tip relief's start beside it: a flank rolls through s = sqrt(d^2 - d_b^2)/2.
+    """
     where, by_length = (relief, f"{relief.type}_datum_diameter", "mm"), (relief, f"{relief.type}_datum_length", "mm")
     stated, length = _stated(where), _stated(by_length)
     if stated is None and length is None:

@@ -1,8 +1,6 @@
 """The gears of a stage: teeth, circles and material, given by the file, computed from it, or taken from the
 standard."""
 
-from __future__ import annotations
-
 from functools import partial
 from math import acos, atan, cos, isclose, tan
 
@@ -160,17 +158,13 @@ def _remaining_shift(
 def _gear_section(
     reading: Reading, part: GearParts, beta: float, module: Value | None, teeth: Value | None, shift: Value | None
 ) -> dict[str, Value | None]:
-    tip = (
-        reading.attempt(needed, part, "tip_diameter")
-        if given(part, "tip_diameter")
-        else reading.attempt(_tip_diameter, part, beta, module, teeth, shift)
-    )
-    stated = given(part, "root_diameter")
-    root = (
-        reading.attempt(needed, part, "root_diameter")
-        if stated
-        else reading.attempt(_root_diameter, part, beta, module, teeth, shift, tip)
-    )
+    def stated_or(asked: str, computed_by, *arguments) -> Value | None:
+        if given(part, asked):
+            return reading.attempt(needed, part, asked)
+        return reading.attempt(computed_by, part, beta, module, teeth, shift, *arguments)
+
+    tip = stated_or("tip_diameter", _tip_diameter)
+    root = stated_or("root_diameter", _root_diameter, tip)
     radius = reading.attempt(_of_tool, part, module, "rack_tip_radius")
     return {
         "teeth": teeth,

@@ -1,7 +1,5 @@
 """A pair of a REXS file as a scene, with values of the command line in place of the file's."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from pathlib import Path

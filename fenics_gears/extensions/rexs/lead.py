@@ -6,8 +6,6 @@ scene's +z looks on a pinion that turns counter-clockwise, so that both loaded f
 datum face is the scene's right end where the left flank is loaded, its left end where the right one is.
 """
 
-from __future__ import annotations
-
 from math import isclose
 
 from .attributes import Reading, missing, needed, positive

@@ -1,7 +1,5 @@
 """Torque on the driven gear and speed of the driving one, looked up at the gears, the stage and the shafts."""
 
-from __future__ import annotations
-
 from .attributes import every, first
 from .model import Component, Model
 from .stage import GearParts, Stage

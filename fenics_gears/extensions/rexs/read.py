@@ -1,7 +1,5 @@
 """Reading a REXS file of any of its three forms, found by its content, as the tree of its JSON form."""
 
-from __future__ import annotations
-
 import io
 import json
 import struct

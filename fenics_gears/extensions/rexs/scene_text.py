@@ -1,7 +1,5 @@
 """A scene's values as TOML, each with its origin in a comment behind it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 
 from fenics_gears import toml_value

@@ -1,7 +1,5 @@
 """The pair that is meant in a REXS model, and the components that describe it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from .model import Component, Model, Relation

@@ -1,7 +1,5 @@
 """Values of REXS attributes with their units, as numbers and as a scene writes them."""
 
-from __future__ import annotations
-
 import base64
 import math
 import re

@@ -1,7 +1,5 @@
 """The sections of the report that are charts: motion, spectra, forces, contact pressure."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from fenics_gears.results.spectrum import OrderLines

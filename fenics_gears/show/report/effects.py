@@ -1,7 +1,5 @@
 """The effects of a run, on and off, with the cost and change of each where `gears effects` has measured it."""
 
-from __future__ import annotations
-
 import csv
 import math
 

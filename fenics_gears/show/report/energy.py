@@ -1,7 +1,5 @@
 """The energy account: energy stored, work put in, work done and lost, and the unexplained rest."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from fenics_gears.results.contact_variables import transmitted

@@ -1,7 +1,5 @@
 """Contact over the face: pattern and line load, where the flanks are resolved over it."""
 
-from __future__ import annotations
-
 from fenics_gears.show.run import TOO_FEW, Run
 
 from .page import Section, Words

@@ -1,7 +1,5 @@
 """The pair in numbers and as a drawing."""
 
-from __future__ import annotations
-
 from math import degrees
 
 from fenics_gears.geometry.characteristics import characteristics

@@ -4,8 +4,6 @@ apart.
 Only its browser library is used: plotly's Python objects take longer to make than everything else of a page.
 """
 
-from __future__ import annotations
-
 import html
 import math
 

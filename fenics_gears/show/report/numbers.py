@@ -1,7 +1,5 @@
 """The numbers of the run in tables, and the points of the path of contact."""
 
-from __future__ import annotations
-
 import math
 
 from fenics_gears.results.summary import result_rows

@@ -1,7 +1,5 @@
 """The origin of a report: versions, the file, the scene's text."""
 
-from __future__ import annotations
-
 import datetime
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The head of the report: key numbers, summary, warnings."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """The parts of a report's page: sections of words, tables, charts and pictures. The template decides how they look."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """The gear pair as a drawing that can be zoomed: teeth, circles, the line of action and the points on it."""
 
-from __future__ import annotations
-
 from math import degrees
 
 import numpy as np

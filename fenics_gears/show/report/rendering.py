@@ -1,8 +1,6 @@
 """A page as HTML: the template filled, plotly's library and all pictures inside, nothing to be fetched from
 anywhere."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import re

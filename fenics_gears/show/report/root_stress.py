@@ -1,7 +1,5 @@
 """Root stress, where the run recorded it: over time, and along the fillets where it is largest."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from fenics_gears.results.pairs import contact_times

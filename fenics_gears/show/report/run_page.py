@@ -1,7 +1,5 @@
 """The report on a run: its sections in order."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from fenics_gears.results.carried_scene import changed_files

@@ -1,7 +1,5 @@
 """How the run was computed: model, accuracy, natural frequencies, solver statistics, times."""
 
-from __future__ import annotations
-
 from fenics_gears.errors import GearsError
 from fenics_gears.model.description import describe
 from fenics_gears.results.numbers import RUNG

@@ -1,7 +1,5 @@
 """The gears in mesh with their stresses, drawn as `gears picture` draws them."""
 
-from __future__ import annotations
-
 import io
 
 import numpy as np

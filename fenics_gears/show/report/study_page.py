@@ -1,7 +1,5 @@
 """The report on a study: its cases as a table and as curves, what failed, and the cases that stand out in detail."""
 
-from __future__ import annotations
-
 from collections import Counter
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Runs and times the subsets of a scene's effects: results from whole runs, times from shorter runs in turns."""
 
-from __future__ import annotations
-
 import statistics
 import time
 from dataclasses import dataclass, replace
@@ -36,10 +34,8 @@ class Row:
 
     `contact_rows`: of the contact operator, on the average over the mesh cycle; `step_times` (rounds,), s; `condense`:
     both gears, s, zero for rigid flanks; `operators`: of one mesh cycle, s; `transmission_error`: peak to peak, mm on
-    the wheel's base circle;
-    `peak_force`: largest contact force of the mesh, N; `remarks`: what to know of this row; `peak_pressure`: MPa, tip
-    edges left out, NaN of rigid flanks;
-    `face_load_factor`: K_Hbeta, NaN where flanks are not resolved over the face.
+    the wheel's base circle; `peak_force`: of the mesh, N; `remarks`: what to know of this row; `peak_pressure`: MPa,
+    tip edges left out; `face_load_factor`: K_Hbeta. NaN where there is none.
     """
 
     subset: Subset
@@ -93,14 +89,11 @@ class EffectReport:
 
     @property
     def ratios(self) -> tuple[float, ...]:
-        """Time of a step of the full scene by that of the bare one, in each round; empty where one of them is
-        missing."""
+        """Time of a step of the full scene by that of the bare one, in each round; empty without one of them."""
         bare, full = self.row(BARE), self.row(ALL)
-        return (
-            ()
-            if bare is None or full is None
-            else tuple(large / small for small, large in zip(bare.step_times, full.step_times))
-        )
+        if bare is None or full is None:
+            return ()
+        return tuple(large / small for small, large in zip(bare.step_times, full.step_times))
 
     def reference(self, row: Row) -> Row | None:
         """What a row is compared with: the bare scene for an effect alone, the full one for an effect left out; else

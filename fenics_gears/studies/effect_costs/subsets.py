@@ -1,8 +1,6 @@
 """The subsets of a scene's effects that are run: none, each alone, all but each, all; only those that make a valid
 scene."""
 
-from __future__ import annotations
-
 import functools
 import tomllib
 from collections.abc import Callable, Iterable, Iterator

@@ -1,7 +1,5 @@
 """The report of `gears effects` as a table, in words, and as CSV."""
 
-from __future__ import annotations
-
 import re
 import statistics
 from math import isnan, nan
