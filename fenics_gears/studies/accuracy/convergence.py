@@ -22,7 +22,7 @@ SAFETY = 1.25
 LEFT_WITHOUT_ORDER = 2.4
 # Of two runs, of which nothing but the order that is expected is known: at coarse sizes differences fall more slowly,
 # and scatter (docs/evidence/accuracy.md).
-EXPECTED_ORDER, SAFETY_OF_TWO = 2.0, 1.7
+EXPECTED_ORDER, SAFETY_OF_TWO = 2.0, 2.0
 LEAST_ORDER, MOST_ORDER = 0.1, 10.0
 # An order is used to extrapolate only above this, for else the limit lies far off, and not further above the expected
 # order than this.

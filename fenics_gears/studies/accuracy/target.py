@@ -34,7 +34,7 @@ FIRST_PLANE_MESH = 1.8
 # Over the face the first mesh of larger targets is coarser, up to that of this part.
 COARSEST_FIRST = 0.7
 # Slices and layers of the first trial runs for a target of 1 %, in the default numbers, and the fewest.
-FIRST_SLICES, FEWEST_SLICES = 0.7, 10
+FIRST_SLICES, FEWEST_SLICES = 0.7, 16
 FIRST_LAYERS, FEWEST_LAYERS = 0.5, 4
 # Steps over the face for a target of 1 %, where they know nothing of one another: line loads are averaged over them.
 # From 20 to 100 steps the mean changes by 0.25 %.
