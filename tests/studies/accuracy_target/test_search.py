@@ -62,8 +62,7 @@ def test_the_cheapest_sizes_are_lagranges(target, powers):
     assert hypot(*errors_at(TRIED, errors, found).values()) <= target
     assert found.steps % ROUND_STEPS == 0
     least = best_mesh**-a * best_steps**b
-    # Steps are rounded up; meshes are searched by their ratio; neither is coarser than what was run.
-    best_mesh, best_steps = min(best_mesh, 2.0 * TRIED.mesh), max(best_steps, 40)
+    # Steps are rounded up; meshes are searched by their ratio.
     assert least * (1.0 - 1e-9) <= runs.cost(found) <= least * RATIO**a * (1.0 + ROUND_STEPS / best_steps) ** b
 
 
@@ -113,18 +112,18 @@ def test_slices_and_layers_are_chosen_beside_mesh_and_steps(steps_matter, target
     the slices apart."""
     runs = KnownRunsOverFace((0.002, 0.004 * 60**2), steps_matter=steps_matter)
     tried = first_sizes(target, FEWEST_STEPS, steps_matter, runs.slices, runs.layers)
-    assert tried.slices == even(max(10, 14 * sqrt(0.01 / target))) and tried.layers == (6 if target == 0.01 else 4)
+    assert tried.slices == even(max(16, 14 * sqrt(0.01 / target))) and tried.layers == (6 if target == 0.01 else 4)
     errors = runs.errors(tried)
     found = search(runs, tried, errors, target)
     assert hypot(*errors_at(tried, errors, found).values()) <= target
     assert found.slices <= MOST_SLICES_OF_A_LAYER * found.layers
     candidates = (
-        Sizes(2.0 * tried.mesh / RATIO**place, steps, slices, layers)
+        Sizes(tried.mesh / RATIO**place, steps, slices, layers)
         for place, slices, layers, steps in product(
             range(18),
             range(tried.slices // 2, 40),
             range(tried.layers // 2, 12),
-            range(tried.steps // 2, 161, ROUND_STEPS) if steps_matter else [tried.steps],
+            range(tried.steps, 161, ROUND_STEPS) if steps_matter else [tried.steps],
         )
         if slices <= MOST_SLICES_OF_A_LAYER * layers
     )
