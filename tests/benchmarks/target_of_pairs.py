@@ -153,10 +153,19 @@ def rows_of(name: str, scene: Scene, not_reached: list[str]) -> list[Row]:
     return rows
 
 
+def write(rows: list[Row], names: list[str]) -> None:
+    """Write rows, and the file's lines of other pairs, in the order of the pairs' names."""
+    with FILE.open(encoding="utf-8", newline="") as file:
+        others = [line for line in list(csv.reader(file))[1:] if line[0] not in {row.pair for row in rows}]
+    lines = sorted([*others, *(row.cells for row in rows)], key=lambda line: names.index(line[0]))
+    with FILE.open("w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([HEADINGS, *lines])
+
+
 def main() -> None:
-    """Measure, print, write after each pair."""
+    """Measure, print, after each pair write its lines in place of those that the file has of it."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--only", help="one pair, by the beginning of its name; nothing is written")
+    parser.add_argument("--only", help="pairs by the beginning of their name")
     parser.add_argument("--seed", type=int, help="other pairs at random, held out; nothing is written")
     options = parser.parse_args()
     for tangential in (False, True):
@@ -168,9 +177,8 @@ def main() -> None:
         if options.only is not None and not name.startswith(options.only):
             continue
         rows += rows_of(name, scene, not_reached)
-        if options.only is None and options.seed is None:
-            with FILE.open("w", encoding="utf-8", newline="") as file:
-                csv.writer(file, lineterminator="\n").writerows([HEADINGS, *(row.cells for row in rows)])
+        if options.seed is None:
+            write(rows, list(measured))
     print("\n".join(not_reached))
 
 

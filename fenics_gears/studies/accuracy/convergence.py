@@ -4,8 +4,7 @@
 Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5: the error of the finest
 run is the last change over r^p - 1, with r the ratio of sizes and p the order, times a safety factor. That is 1.25 for
 three runs and more, which show their order; without an observed order the error is three times the last change: 1.25
-times the 2.4 that h^0.5 leaves where sizes halve. For two runs, of which nothing but the order that is expected is
-known, it is 2.5.
+times the 2.4 that h^0.5 leaves where sizes halve.
 """
 
 from __future__ import annotations
@@ -21,10 +20,9 @@ from fenics_gears.studies.accuracy.refinement import LENGTH, Level, Refinement
 
 SAFETY = 1.25
 LEFT_WITHOUT_ORDER = 2.4
-# Of two runs: at coarse sizes differences fall more slowly than with the expected order, and signs of their parts
-# differ. Over the face, where each measure's errors are added apart, what the order leaves is enough: 1.5 was seen of
-# the mesh, 1.7 of slices.
-EXPECTED_ORDER, SAFETY_OF_TWO, SAFETY_OF_FACE_MESH, SAFETY_OF_SLICES = 2.0, 2.5, 1.7, 1.3
+# Of two runs, of which nothing but the order that is expected is known: at coarse sizes differences fall more slowly,
+# and scatter (docs/evidence/accuracy.md).
+EXPECTED_ORDER, SAFETY_OF_TWO = 2.0, 2.0
 LEAST_ORDER, MOST_ORDER = 0.1, 10.0
 # An order is used to extrapolate only above this, for else the limit lies far off, and not further above the expected
 # order than this.
@@ -87,10 +85,10 @@ def part_left(sizes: Sequence[float], order: float) -> float:
     return 1.0 / ((sizes[-2] / sizes[-1]) ** order - 1.0)
 
 
-def errors_of_two(finer: Answer, coarser: Answer, ratio: float, safety: float) -> np.ndarray:
+def errors_of_two(finer: Answer, coarser: Answer, ratio: float) -> np.ndarray:
     """Relative error of the finer of two runs in each measure, by the expected order; `ratio` of their sizes."""
     changes = np.array([distance(coarser, finer, measure) for measure in sorted(finer)])
-    return safety * part_left((ratio, 1.0), EXPECTED_ORDER) * changes
+    return SAFETY_OF_TWO * part_left((ratio, 1.0), EXPECTED_ORDER) * changes
 
 
 def richardson(values: Sequence[np.ndarray], sizes: Sequence[float], expected: float) -> Limit:

@@ -1,15 +1,14 @@
-"""The trial runs from which the errors of settings are estimated: three that are coarse in different ways.
+"""The trial runs from which the errors of settings are estimated: a few that are coarse in different ways.
 
 Two sizes make a setting: that of the mesh, with which flank elements, contact nodes and body elements grow together
-from their defaults, and the number of steps. Over a face there is a third, the number of slices; layers of the bodies
-go with these, since a layer tells but a few slices apart. All errors fall with the square of the size, so that a run
-with twice the size differs by three times the error."""
+from their defaults, and the number of steps. Over a face there are two more, the numbers of slices and of the bodies'
+layers. All errors fall with the square of the size, so that a run with twice the size differs by three times the
+error."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import ceil
 
 import numpy as np
 
@@ -21,24 +20,15 @@ from fenics_gears.runs.runs import Ticking
 from fenics_gears.scene.accuracy import MOST_CONTACT_NODES
 from fenics_gears.scene.accuracy_rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.data import Output, Scene
-from fenics_gears.studies.accuracy.convergence import (
-    SAFETY_OF_FACE_MESH,
-    SAFETY_OF_SLICES,
-    SAFETY_OF_TWO,
-    errors_of_two,
-)
+from fenics_gears.studies.accuracy.convergence import errors_of_two
 from fenics_gears.studies.accuracy.measures import Answer, judged_answer
 from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
 from fenics_gears.studies.accuracy.setting_runs import SettingRuns
 
-# Fewest steps in a mesh cycle, and the most that are taken for the sake of vibrations: if these are still faster, the
-# motion follows the static one.
+# Fewest steps in a mesh cycle of the finer trial runs, where steps matter, and the most that are taken for the sake of
+# vibrations: if these are still faster, the motion follows the static one.
 FEWEST_STEPS, MOST_STEPS = 40, 1280
-MESH, STEPS, SLICES = "finite elements and contact nodes", "steps per mesh cycle", "slices"
-FEWEST_LAYERS, ROUNDING = 2, 1e-9
-# Layers per slice in parts of the defaults', which are made for pressures too: three slices share one. Layers are most
-# of the cost, and what they leave is in the error of the slices, with which they are halved.
-COARSER_LAYERS = 2.0 / 3.0
+MESH, STEPS, SLICES, LAYERS = "finite elements and contact nodes", "steps per mesh cycle", "slices", "layers"
 COARSER = 2
 # Gears kept in memory: pinion and wheel of two meshes.
 KEPT_GEARS = 4
@@ -54,11 +44,13 @@ class TargetNotReached(ComputationError):
 
 @dataclass(frozen=True)
 class Sizes:
-    """Size of the mesh in that of the defaults, steps in a mesh cycle, and slices of the face, 0 in the plane."""
+    """Size of the mesh in that of the defaults, steps in a mesh cycle, and slices and layers of the face, 0 in the
+    plane."""
 
     mesh: float
     steps: int
     slices: int = 0
+    layers: int = 0
 
 
 class TrialRuns:
@@ -81,18 +73,15 @@ class TrialRuns:
     def setting(self, sizes: Sizes) -> Setting:
         """Sizes as a setting with the contact window in use."""
         default = self._default
-        found = replace(
+        return replace(
             default,
             flank=sizes.mesh * default.flank,
             spacing=sizes.mesh * default.spacing,
             body=sizes.mesh,
             steps=sizes.steps,
+            slices=sizes.slices or default.slices,
+            layers=sizes.layers or default.layers,
         )
-        if not self.slices:
-            return found
-        slices = sizes.slices or self.slices
-        layers = ceil(default.layers * COARSER_LAYERS * slices / default.slices - ROUNDING)
-        return replace(found, slices=slices, layers=max(layers, FEWEST_LAYERS))
 
     @property
     def slices(self) -> int:
@@ -100,10 +89,17 @@ class TrialRuns:
         return self._default.slices or 0
 
     @property
+    def layers(self) -> int:
+        """The default number of layers, 0 in the plane."""
+        return self._default.layers or 0
+
+    @property
     def fewest_steps(self) -> int:
         """Fewest steps of a run beside one with half as many: both can represent the slowest vibration, where there is
         one that matters."""
         steps = FEWEST_STEPS
+        if not self.steps_matter:
+            return steps // COARSER
         while not self._model(Sizes(COARSER, steps // COARSER)).time_scales.averages_acceleration:
             steps *= 2
             if steps > MOST_STEPS:
@@ -113,25 +109,28 @@ class TrialRuns:
     def errors(self, sizes: Sizes) -> dict[str, np.ndarray]:
         """Estimated relative errors of a run, by setting: of each judged measure over the face, where settings tell on
         different ones; in the plane of the worst of both. Raises ComputationError."""
-        self._with_window_long_enough(sizes)
-        coarser = replace(sizes, mesh=COARSER * sizes.mesh)
-        # The mesh's error is measured where runs are short, beside fewer steps and slices.
-        of_mesh = SAFETY_OF_FACE_MESH if self.slices else SAFETY_OF_TWO
-        short, errors = sizes, dict[str, np.ndarray]()
+        # Each error is measured where runs are short: the mesh's beside fewer steps, over the face each beside
+        # coarser sizes of the others, but that of slices, which needs layers that tell them apart.
+        short = sizes
         if self.steps_matter:
             short = replace(short, steps=sizes.steps // COARSER)
-            errors[STEPS] = self._error(sizes, short)
         if self.slices:
-            fewer = replace(short, slices=short.slices // COARSER)
-            errors[SLICES] = self._error(short, fewer, SAFETY_OF_SLICES)
-            short = fewer
-        return {MESH: self._error(short, replace(coarser, steps=short.steps, slices=short.slices), of_mesh), **errors}
+            short = replace(short, slices=sizes.slices // COARSER, layers=sizes.layers // COARSER)
+        self._with_window_long_enough(replace(short, steps=sizes.steps))
+        coarse = replace(short, mesh=COARSER * sizes.mesh)
+        errors = {MESH: self._error(short, coarse)}
+        if self.steps_matter:
+            errors[STEPS] = self._error(replace(short, steps=sizes.steps), short)
+        if self.slices:
+            layered = replace(coarse, layers=sizes.layers)
+            errors[LAYERS] = self._error(layered, coarse)
+            errors[SLICES] = self._error(replace(layered, slices=sizes.slices), layered)
+        return errors
 
     def cost(self, sizes: Sizes) -> float:
         """Expected seconds of the whole scene's run, which are counted. Raises TargetNotReached where it is beyond the
         limits."""
-        model = self._model(sizes)
-        expected = expected_cost(model)
+        expected = expected_cost(self._model(sizes))
         # Operators over a face are the most of it, and need not be kept.
         held = expected.memory - (expected.operators if self.slices else 0.0)
         if held > MOST_BYTES:
@@ -157,9 +156,9 @@ class TrialRuns:
         except GearsError as error:
             raise TargetNotReached(f"{setting.words}: {error}") from None
 
-    def _error(self, sizes: Sizes, coarser: Sizes, safety: float = SAFETY_OF_TWO) -> np.ndarray:
+    def _error(self, sizes: Sizes, coarser: Sizes) -> np.ndarray:
         """Errors of `sizes`, from the difference to a run that is coarser in one of them."""
-        errors = errors_of_two(self._answer(sizes), self._answer(coarser), COARSER, safety)
+        errors = errors_of_two(self._answer(sizes), self._answer(coarser), COARSER)
         return errors if self.slices else errors.max(keepdims=True)
 
     def _answer(self, sizes: Sizes) -> Answer:

@@ -1,20 +1,23 @@
 """What a choice of settings rests on: errors of order 2 and the cheapest sizes, on errors and costs that are known."""
 
+from itertools import product
+from math import hypot, sqrt
 from types import SimpleNamespace
 
 import pytest
 
+from fenics_gears.model.face_resolution import MOST_SLICES_OF_A_LAYER
 from fenics_gears.studies.accuracy.target import (
     RATIO,
-    RATIO_OF_SLICES,
     ROUND_STEPS,
     _chosen,
     errors_at,
+    even,
     first_sizes,
     round_steps,
     search,
 )
-from fenics_gears.studies.accuracy.trial_runs import FEWEST_STEPS, MESH, SLICES, STEPS, Sizes, TargetNotReached
+from fenics_gears.studies.accuracy.trial_runs import FEWEST_STEPS, LAYERS, MESH, SLICES, STEPS, Sizes, TargetNotReached
 
 TRIED = Sizes(2.0, 60)
 MODULE = 4.5
@@ -24,7 +27,7 @@ class KnownRuns:
     """Errors `constants` times the square of the size, costs a power of both; sizes below `finest` are beyond the
     limits."""
 
-    fewest_steps, slices = FEWEST_STEPS, 0
+    fewest_steps, slices, layers = FEWEST_STEPS, 0, 0
 
     def __init__(self, constants, powers=(2.0, 1.0), finest=0.0, order=2.0, steps_matter=True):
         self.constants, self.powers, self.finest, self.order = constants, powers, finest, order
@@ -48,15 +51,15 @@ class KnownRuns:
 @pytest.mark.parametrize("target", [0.02, 0.005, 0.001])
 @pytest.mark.parametrize("powers", [(2.0, 1.0), (1.0, 1.0), (1.0, 2.0)])
 def test_the_cheapest_sizes_are_lagranges(target, powers):
-    """Exact: with errors of order 2 and a cost mesh^-a steps^b the least cost has errors as a to b (Lagrange's
-    multiplier)."""
+    """Exact: with errors of order 2, whose squares add, and a cost mesh^-a steps^b the least cost has squares of errors
+    as a to b (Lagrange's multiplier)."""
     runs = KnownRuns((0.005, 0.02 * 60**2), powers)
     errors = runs.errors(TRIED)
     found = search(runs, TRIED, errors, target)
     a, b = powers
-    best_mesh = (target * a / (a + b) / runs.constants[0]) ** 0.5
-    best_steps = (runs.constants[1] / (target * b / (a + b))) ** 0.5
-    assert sum(errors_at(TRIED, errors, found).values()) <= target
+    best_mesh = (target * sqrt(a / (a + b)) / runs.constants[0]) ** 0.5
+    best_steps = (runs.constants[1] / (target * sqrt(b / (a + b)))) ** 0.5
+    assert hypot(*errors_at(TRIED, errors, found).values()) <= target
     assert found.steps % ROUND_STEPS == 0
     least = best_mesh**-a * best_steps**b
     # Steps are rounded up; meshes are searched by their ratio.
@@ -86,39 +89,44 @@ def test_first_sizes_go_with_the_root_of_the_target(target):
     """Order 2; halves of the steps are whole numbers, at least the fewest without a warning."""
     sizes, coarser = (first_sizes(each, FEWEST_STEPS, True) for each in (target, 4.0 * target))
     assert coarser.mesh <= 2.0 * sizes.mesh * (1.0 + 1e-12) and sizes.steps <= 2 * coarser.steps
-    assert sizes.steps % ROUND_STEPS == 0 and sizes.steps >= FEWEST_STEPS == round_steps(1)
+    assert sizes.steps % ROUND_STEPS == 0 and sizes.steps >= FEWEST_STEPS and round_steps(1) == ROUND_STEPS
 
 
 class KnownRunsOverFace(KnownRuns):
-    """With slices: an error of order 2 in them, and a cost of their square."""
+    """With slices and layers: errors of order 2 in them, a cost of the slices' square, and of the layers' over mesh."""
 
-    slices = 20
+    slices, layers = 20, 10
 
     def errors(self, sizes):
-        return super().errors(sizes) | {SLICES: self.of_slices / sizes.slices**2}
+        slices, layers = 0.02 * (10 / sizes.slices) ** 2, 0.02 * (4 / sizes.layers) ** 2
+        return super().errors(sizes) | {SLICES: slices, LAYERS: layers}
 
     def cost(self, sizes):
-        return super().cost(sizes) + 0.01 * sizes.slices**2 * sizes.steps
-
-    of_slices = 0.04 * 14**2
+        return super().cost(sizes) * (1.0 + 0.02 * sizes.slices**2) + 20.0 * sizes.layers**2 / sizes.mesh
 
 
 @pytest.mark.parametrize("steps_matter", [True, False])
-def test_slices_are_chosen_beside_mesh_and_steps(steps_matter):
-    """Brute force over all meshes of the search and every number of slices: nothing that reaches the target is much
-    cheaper."""
+@pytest.mark.parametrize("target", [0.05, 0.01])
+def test_slices_and_layers_are_chosen_beside_mesh_and_steps(steps_matter, target):
+    """Brute force over meshes, slices, layers and steps: nothing that reaches the target is much cheaper. Layers tell
+    the slices apart."""
     runs = KnownRunsOverFace((0.002, 0.004 * 60**2), steps_matter=steps_matter)
-    tried = first_sizes(0.01, FEWEST_STEPS, steps_matter, runs.slices)
-    assert tried.slices == 14
+    tried = first_sizes(target, FEWEST_STEPS, steps_matter, runs.slices, runs.layers)
+    assert tried.slices == even(max(16, 14 * sqrt(0.01 / target))) and tried.layers == (6 if target == 0.01 else 4)
     errors = runs.errors(tried)
-    found = search(runs, tried, errors, 0.01)
-    assert sum(errors_at(tried, errors, found).values()) <= 0.01 and found.slices > tried.slices
-    candidates = [
-        Sizes(tried.mesh / RATIO**place, steps, slices)
-        for place in range(12)
-        for slices in range(14, 90)
-        for steps in range(tried.steps, 400, ROUND_STEPS)
-    ]
-    least = min(runs.cost(sizes) for sizes in candidates if sum(errors_at(tried, errors, sizes).values()) <= 0.01)
-    # Numbers of slices of the search rise by a fifth.
-    assert runs.cost(found) <= least * RATIO_OF_SLICES**2
+    found = search(runs, tried, errors, target)
+    assert hypot(*errors_at(tried, errors, found).values()) <= target
+    assert found.slices <= MOST_SLICES_OF_A_LAYER * found.layers
+    candidates = (
+        Sizes(tried.mesh / RATIO**place, steps, slices, layers)
+        for place, slices, layers, steps in product(
+            range(18),
+            range(tried.slices // 2, 40),
+            range(tried.layers // 2, 12),
+            range(tried.steps, 161, ROUND_STEPS) if steps_matter else [tried.steps],
+        )
+        if slices <= MOST_SLICES_OF_A_LAYER * layers
+    )
+    least = min(runs.cost(each) for each in candidates if hypot(*errors_at(tried, errors, each).values()) <= target)
+    # A step of the mesh apart, by which costs change by its square.
+    assert runs.cost(found) <= RATIO**2 * least
