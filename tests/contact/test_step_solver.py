@@ -15,14 +15,16 @@ from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 from tests.contact.laws_of_contact import law_residual
 from tests.contact.problems import all_open, only_one_moves, random_problem
+from tests.contact.sliding_block import block_at_rest
 
-from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
+from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium, SelfLocking
 from fenics_gears.contact.mesh import elastic_mesh
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.newton import CONVERGED
 from fenics_gears.contact.step_solver import HALVED, NEWTON_AND_FALLBACKS, _methods, cold_start, solve_step
 from fenics_gears.contact.tresca import frozen_friction
 from fenics_gears.contact.window import ContactGrid
+from fenics_gears.dynamics.average_acceleration import AverageAcceleration
 from fenics_gears.dynamics.march import Marcher
 from fenics_gears.dynamics.stepping import MOST_HALVINGS, EquationsOfMotion
 from fenics_gears.model.drivetrain import drivetrain
@@ -117,6 +119,29 @@ def test_frozen_friction_is_the_bounded_minimum_of_the_energy(seed, nodes):
     assert frozen.forces == pytest.approx(expected, rel=1e-6, abs=1e-6 * np.abs(expected).max())
     coordinates = np.linalg.solve(problem.stiffness, problem.load - problem.jacobian.T @ frozen.forces)
     assert frozen.coordinates == pytest.approx(coordinates, rel=1e-6, abs=1e-6 * np.abs(coordinates).max())
+
+
+def test_a_step_without_a_solution_is_divided():
+    """The one held problem of the search that no method solves: as the step of a block with mass it has a solution in
+    two halves."""
+    problem = problem_of(11490, 6, 1.0, False)
+    with pytest.raises(SelfLocking, match="by more than the normal force moves them apart"):
+        solve_step(problem, all_open(problem))
+    marcher, rest = block_at_rest(problem, all_open(problem))
+    record = marcher.step(marcher.dynamic, rest, 1)
+    assert record.solution.method == HALVED
+    assert marcher.cycle.solved == [1, 1, 0.5, 0.5]  # the state before is a position too
+    # The last half: its own slip, from the tangents that its first half left.
+    half, (middle, last) = AverageAcceleration(marcher.drivetrain, 0.5 * marcher.time_step), record.parts
+    assert (middle.step, last.step) == (0.5, 1)
+    tangential = problem.jacobian[6:] @ middle.state.position - problem.compliance[6:] @ middle.solution.forces
+    second = replace(
+        problem,
+        stiffness=half.stiffness,
+        load=half.load(middle.state, marcher.load(1)),
+        slip_before=0.5 * problem.slip_before - tangential,
+    )
+    check_laws(second, record.solution)
 
 
 def jammed(scene, pair, flanks, absent, nodes, steps):
