@@ -18,9 +18,9 @@ from fenics_gears.system.memory import allowed_memory
 
 # Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a
 # cut for each harmonic of the ring, of which there are half as many as teeth.
-UNKNOWN, CONDENSED_CUBE, HARMONIC_CUBE = 6e-5, 5e-11, 5e-11
+UNKNOWN, CONDENSED_CUBE, HARMONIC_CUBE = 6e-5, 3e-11, 3e-11
 # How many times as long the latter two are of a sector that is not folded, since its web is not in the middle.
-WHOLE_SECTOR = 3.0
+WHOLE_SECTOR = 5.0
 # Of a solution for one load of the root stress, an unknown.
 SOLVED_UNKNOWN = 4e-7
 # Seconds at a position of each tooth pair in a slice and of the square of contact nodes; of a step, of their square and

@@ -13,6 +13,7 @@ from fenics_gears import ComputationError, SceneError
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.elasticity.condensation import by_radius
+from fenics_gears.elasticity.face import half_turn, tooth_and_body
 from fenics_gears.elasticity.face.compliance import face_compliance
 from fenics_gears.elasticity.face.condensed import SweptSector, condensed_swept_sector, spanned
 from fenics_gears.elasticity.face.cost import expected_memory, expected_size
@@ -59,6 +60,22 @@ def test_the_shapes_of_a_flank_are_all_that_its_cuts_move():
         assert columns.shape[1] <= most
         assert difference(columns.T @ columns, np.eye(columns.shape[1])) < 1e-12
         assert difference(columns @ rows, matrix) < 1e-11
+
+
+def test_few_teeth_stand_for_many(sector, monkeypatch):
+    """Brute force: the same ring by all of its harmonics."""
+    found = []
+    for most in (0.0, 1.0):
+        monkeypatch.setattr(half_turn, "MOST_OF_TEETH", most)
+        found.append(ring_blocks(sector, GEAR.teeth, 2))
+    assert 0.0 < difference(*found) < 1e-11
+
+
+def test_a_sector_without_a_neck_is_condensed_whole(sector, monkeypatch):
+    """Two ways to one elimination: tooth and body apart, and both at once."""
+    apart = ring_blocks(sector, GEAR.teeth, 1)
+    monkeypatch.setattr(tooth_and_body, "_tooth", lambda nodes, half, fold, sweep: np.zeros_like(half))
+    assert 0.0 < difference(ring_blocks(swept_sector(mesh(both_flanks=True)), GEAR.teeth, 1), apart) < 1e-10
 
 
 def test_hands_mirror_each_other():
