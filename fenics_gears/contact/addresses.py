@@ -15,7 +15,7 @@ from numba import carray, from_dtype, njit, types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from fenics_gears.contact.laws import OPEN, SLIP_FORWARD
+from .laws import OPEN, SLIP_FORWARD
 
 
 class Arrays(NamedTuple):

@@ -15,13 +15,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fenics_gears.contact.flank_at_height import flank_at_height
-from fenics_gears.contact.interpolation import INTERPOLATIONS
-from fenics_gears.contact.tooth_pair import DRIVE, SENSES, Flanks, Line, Place, ToothPair, nodes_on_flanks
-from fenics_gears.contact.window import ContactGrid, Ends, node_offsets, window
 from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.tip_edge import TipEdge, form_edge, tip_edge
+
+from .flank_at_height import flank_at_height
+from .interpolation import INTERPOLATIONS
+from .tooth_pair import DRIVE, SENSES, Flanks, Line, Place, ToothPair, nodes_on_flanks
+from .window import ContactGrid, Ends, node_offsets, window
 
 
 @dataclass(frozen=True, eq=False)

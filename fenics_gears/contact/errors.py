@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.contact.laws import STATUS_NAMES
-from fenics_gears.contact.newton import RESIDUAL_NAMES, RESIDUAL_UNITS
 from fenics_gears.errors import ComputationError
+
+from .laws import STATUS_NAMES
+from .newton import RESIDUAL_NAMES, RESIDUAL_UNITS
 
 
 class ContactNotConverged(ComputationError):

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.errors import ContactNotConverged, MoreThanOneSolution, NoStaticEquilibrium, SelfLocking
-from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD
-from fenics_gears.contact.newton import CYCLED, OUTCOMES
+from .errors import ContactNotConverged, MoreThanOneSolution, NoStaticEquilibrium, SelfLocking
+from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD
+from .newton import CYCLED, OUTCOMES
 
 # A cycle of sets is rarely longer.
 LAST_SETS = 6
@@ -116,14 +116,14 @@ def _locking(problem, visited: np.ndarray, weights: Balance | None) -> str:
 
 def _own_response(problem, signs: np.ndarray) -> np.ndarray:
     """How far a sliding node (n,) yields under its own normal force, mm/N."""
-    from fenics_gears.contact.uniqueness import flexibility
+    from .uniqueness import flexibility
 
     n, matrix = len(signs), flexibility(problem.stiffness, problem.compliance, problem.jacobian)
     return np.diag(matrix)[:n] + problem.friction * signs * np.diag(matrix[:n, n:])
 
 
 def _several(problem, visited: np.ndarray) -> str:
-    from fenics_gears.contact.uniqueness import is_only_solution
+    from .uniqueness import is_only_solution
 
     for sets in visited:
         certified = is_only_solution(

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.contact.face import Face
-from fenics_gears.contact.operator import FACE_COORDINATES, Lines, per_node
+from .face import Face
+from .operator import FACE_COORDINATES, Lines, per_node
 
 SENSES = (1.0, -1.0)  # of the relative displacement: the pinion approaches with +n, the wheel with -n
 

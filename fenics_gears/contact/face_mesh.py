@@ -7,15 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from fenics_gears.contact.face import Face
-from fenics_gears.contact.face_pairing import FacePair, FacePairing
-from fenics_gears.contact.mesh import Mesh, MeshTraits, flank_nodes
-from fenics_gears.contact.mesh_cycle import Cycle, Opening, PerPosition, Position
-from fenics_gears.contact.operator import node_ends, over_nodes, per_node
-from fenics_gears.contact.places import face_places
-from fenics_gears.contact.tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, interpolations, rolls_of
-from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
+
+from .face import Face
+from .face_pairing import FacePair, FacePairing
+from .mesh import Mesh, MeshTraits, flank_nodes
+from .mesh_cycle import Cycle, Opening, PerPosition, Position
+from .operator import node_ends, over_nodes, per_node
+from .places import face_places
+from .tooth_pair import COAST, DRIVE, Flanks, PairNodes, Place, interpolations, rolls_of
+from .window import ContactGrid, coast_roll_angles, contact_roll_angles
 
 # Gap (k,), mm along the line of action, between flanks at heights z (k,), mm, and positions (k,), mm from T1.
 OverFace = Callable[[np.ndarray, np.ndarray], np.ndarray]

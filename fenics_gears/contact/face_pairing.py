@@ -14,19 +14,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.addresses import form_rows
-from fenics_gears.contact.compliance_product import directions
-from fenics_gears.contact.face import Face
-from fenics_gears.contact.fine_sections import BEGIN, IN_SLICE, OF_SLICE, SLICE, TOOTH, Fine, Side, stacked
-from fenics_gears.contact.formed_rows import FormedRows, fine_section, uncertain_slices
-from fenics_gears.contact.interpolation import FlankInterpolation
-from fenics_gears.contact.operator import Passage, Response, turned
-from fenics_gears.contact.pairing import LAYER, SMALLEST_PIVOT, dependent_rows
-from fenics_gears.contact.tooth_pair import Flanks, Place, ToothPair
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.elasticity.slice_averages import on_slices, slice_averages
 from fenics_gears.errors import ComputationError
+
+from .addresses import form_rows
+from .compliance_product import directions
+from .face import Face
+from .fine_sections import BEGIN, IN_SLICE, OF_SLICE, SLICE, TOOTH, Fine, Side, stacked
+from .formed_rows import FormedRows, fine_section, uncertain_slices
+from .interpolation import FlankInterpolation
+from .operator import Passage, Response, turned
+from .pairing import LAYER, SMALLEST_PIVOT, dependent_rows
+from .tooth_pair import Flanks, Place, ToothPair
 
 GEARS = (0, 1)
 
@@ -63,7 +64,7 @@ class FacePairing:
         found = on_slices(body.blocks, weights, body.flanks)
         if body.seat is not None:
             # Imported here: few gears are cut into a shaft.
-            from fenics_gears.contact.face_seat import add_seat
+            from .face_seat import add_seat
 
             own = (pair.pinion, pair.wheel)[gear]
             add_seat(found, weights, body, own, (1.0, -1.0)[gear] * face.slope / own.base_radius)

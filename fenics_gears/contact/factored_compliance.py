@@ -19,9 +19,10 @@ import numpy as np
 from numba import carray, cfunc, njit
 from numba.extending import get_cython_function_address
 
-from fenics_gears.contact.addresses import KNOWN, OF_FRICTION, PIVOTS, ROOM, call, to_integer, to_number
-from fenics_gears.contact.mixed_form import add_slip, put_entries, put_solution, system_of
 from fenics_gears.system.memory import pages
+
+from .addresses import KNOWN, OF_FRICTION, PIVOTS, ROOM, call, to_integer, to_number
+from .mixed_form import add_slip, put_entries, put_solution, system_of
 
 # Of the largest pivot: a compliance with smaller ones is left to elimination that looks for pivots in all unknowns.
 LEAST_PIVOT = 1e-6

@@ -8,9 +8,10 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.compliance_product import add_multiple
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.errors import ComputationError
+
+from .compliance_product import add_multiple
 
 # Of a group: its first node, its slice, the place of that node among those in the slice, and how many these are.
 BEGIN, SLICE, IN_SLICE, OF_SLICE = range(4)

@@ -8,10 +8,11 @@ from typing import cast
 
 import numpy as np
 
-from fenics_gears.contact.compliance_product import directions
-from fenics_gears.contact.face import Face
-from fenics_gears.contact.tooth_pair import COAST, ToothPair
 from fenics_gears.geometry.gear import Gear
+
+from .compliance_product import directions
+from .face import Face
+from .tooth_pair import COAST, ToothPair
 
 # A tooth pair counted on is a tooth ahead (counter-clockwise) on the pinion, and behind on the wheel.
 SENSE_OF_TEETH = (1, -1)
@@ -42,7 +43,7 @@ def rows_in_slice(gear: int, data: Gear, face: Face, pair: ToothPair, tangential
     force at the pair's contact nodes: N over a face of many slices, of one N/mm."""
     if face.slices > 1:
         # Imported here: plane scenes have none.
-        from fenics_gears.contact.face_pairing import FacePair, directions_on_face
+        from .face_pairing import FacePair, directions_on_face
 
         axes = directions_on_face(pair.place, face, gear, tangential)
         if pair.place.flank == COAST:

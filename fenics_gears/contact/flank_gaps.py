@@ -13,15 +13,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.face import Face
-from fenics_gears.contact.flank_at_height import roll_angle_at_height
-from fenics_gears.contact.interpolation import node_average, quadrature_offsets
-from fenics_gears.contact.mesh_cycle import PerPosition, Position
-from fenics_gears.contact.operator import IN_THE_PLANE, node_slices
-from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, ToothPair
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.flank_deviations import FlankDeviations, flank_deviations
 from fenics_gears.geometry.pair import GearPair
+
+from .face import Face
+from .flank_at_height import roll_angle_at_height
+from .interpolation import node_average, quadrature_offsets
+from .mesh_cycle import PerPosition, Position
+from .operator import IN_THE_PLANE, node_slices
+from .tooth_pair import DRIVE, PairNodes, ToothPair
 
 if TYPE_CHECKING:
     from fenics_gears.effects.flank_errors_sections import FlankErrors

@@ -16,8 +16,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numba import carray, cfunc, njit
 
-from fenics_gears.contact.addresses import form_rows, to_flag, to_integer, to_number
-from fenics_gears.contact.fine_sections import (
+from fenics_gears.system.memory import pages
+
+from .addresses import form_rows, to_flag, to_integer, to_number
+from .fine_sections import (
     BEGIN,
     DOF,
     IN_SLICE,
@@ -39,10 +41,9 @@ from fenics_gears.contact.fine_sections import (
     surely_independent,
     weighted,
 )
-from fenics_gears.system.memory import pages
 
 if TYPE_CHECKING:
-    from fenics_gears.contact.factored_compliance import Factors
+    from .factored_compliance import Factors
 
 
 class _Source(NamedTuple):
@@ -101,7 +102,7 @@ class FormedRows:
         table[0, 0] = row_former().address
         factors = None
         if rows is columns:
-            from fenics_gears.contact.factored_compliance import Factors, factored_solver
+            from .factored_compliance import Factors, factored_solver
 
             factors = Factors(len(rows.group), n)
             table[0, 1:3] = factored_solver().address, factors.table.ctypes.data

@@ -6,20 +6,21 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from fenics_gears.contact.operator import Passage, Response
-from fenics_gears.contact.pairing import CompliancePairing
-from fenics_gears.contact.places import pair_places
-from fenics_gears.contact.step_solver import StepProblem, StepSolution, solve_step
-from fenics_gears.contact.tooth_pair import Flanks, PairNodes, Place, ToothPair, tooth_pairs
-from fenics_gears.contact.window import ContactGrid
 from fenics_gears.geometry.pair import GearPair
+
+from .operator import Passage, Response
+from .pairing import CompliancePairing
+from .places import pair_places
+from .step_solver import StepProblem, StepSolution, solve_step
+from .tooth_pair import Flanks, PairNodes, Place, ToothPair, tooth_pairs
+from .window import ContactGrid
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from fenics_gears.contact.corner import CornerContact
-    from fenics_gears.contact.face import Face
-    from fenics_gears.contact.mesh_cycle import Position
+    from .corner import CornerContact
+    from .face import Face
+    from .mesh_cycle import Position
 
 # Contact nodes of the tooth pairs that can touch at a phase (0 <= phase < 1).
 Nodes = Callable[[float], tuple[PairNodes, ...]]
@@ -87,7 +88,7 @@ def flank_nodes(
     """The contact nodes of elastic flanks at those places whose window is not empty; `corner`: with tip edges."""
     if corner is None:
         return tooth_pairs(flanks, grid, places)
-    from fenics_gears.contact.corner import corner_pairs
+    from .corner import corner_pairs
 
     return corner_pairs(flanks, grid, corner, places)
 

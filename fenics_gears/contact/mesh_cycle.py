@@ -17,13 +17,13 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
-from fenics_gears.contact.addresses import GAP, NODES, row_of
-from fenics_gears.contact.face import one_slice
-from fenics_gears.contact.mesh import Mesh, Nodes
-from fenics_gears.contact.node_before import nodes_before
-from fenics_gears.contact.operator import ContactOperator, Passage, contact_operator, over_nodes
-from fenics_gears.contact.step_solver import StepProblem, StepSolution
-from fenics_gears.contact.tooth_pair import PairNodes
+from .addresses import GAP, NODES, row_of
+from .face import one_slice
+from .mesh import Mesh, Nodes
+from .node_before import nodes_before
+from .operator import ContactOperator, Passage, contact_operator, over_nodes
+from .step_solver import StepProblem, StepSolution
+from .tooth_pair import PairNodes
 
 # Of the memory that contact operators may take: what is kept for good, and what a march holds of a block of steps, the
 # one before it beside.

@@ -19,9 +19,9 @@ import numpy as np
 from llvmlite.binding import add_symbol
 from numba import carray, cfunc, njit, types
 
-from fenics_gears.contact.addresses import call, form_rows, not_inlined, solver_of, to_number
-from fenics_gears.contact.compliance_product import add_multiple
-from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
+from .addresses import call, form_rows, not_inlined, solver_of, to_number
+from .compliance_product import add_multiple
+from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
 
 # Unknowns up to which elimination in compiled code is faster than LAPACK.
 SMALL_SYSTEM = 40

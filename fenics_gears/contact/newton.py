@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import carray, cfunc, njit
 
-from fenics_gears.contact.addresses import (
+from .addresses import (
     call,
     close_as_factored,
     from_afar,
@@ -22,8 +22,8 @@ from fenics_gears.contact.addresses import (
     to_number,
     to_set,
 )  # fmt: skip
-from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, next_status, presses
-from fenics_gears.contact.mixed_form import Equations, Iterate, product, relative_displacement, solve_sets
+from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK, next_status, presses
+from .mixed_form import Equations, Iterate, product, relative_displacement, solve_sets
 
 CONVERGED, CYCLED, SINGULAR = 0, 1, 2
 OUTCOMES = {CONVERGED: "converged", CYCLED: "the sets repeat", SINGULAR: "no solution with the last sets"}

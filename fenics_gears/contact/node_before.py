@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.operator import node_ends, over_nodes
-from fenics_gears.contact.tooth_pair import PairNodes
+from .operator import node_ends, over_nodes
+from .tooth_pair import PairNodes
 
 
 def nodes_before(pairs: tuple[PairNodes, ...], previous: tuple[PairNodes, ...], spacing: float) -> np.ndarray:

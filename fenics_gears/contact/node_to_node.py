@@ -10,8 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.interpolation import hat_integrals
-from fenics_gears.contact.operator import (
+from fenics_gears.elasticity.remeshed_gear import LoadedTooth
+from fenics_gears.geometry.pair import GearPair
+
+from .interpolation import hat_integrals
+from .operator import (
     Response,
     count_of,
     displacement_jacobian,
@@ -21,10 +24,8 @@ from fenics_gears.contact.operator import (
     over_nodes,
     turned,
 )
-from fenics_gears.contact.tooth_pair import PairNodes, Place, Removal, facing_points_at
-from fenics_gears.contact.window import ContactGrid, flank_ends, node_offsets
-from fenics_gears.elasticity.remeshed_gear import LoadedTooth
-from fenics_gears.geometry.pair import GearPair
+from .tooth_pair import PairNodes, Place, Removal, facing_points_at
+from .window import ContactGrid, flank_ends, node_offsets
 
 # A node this near to the end of a flank (in spacings) would leave an element too small for a mesh beside it.
 SMALLEST_REST = 0.3

@@ -16,12 +16,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from fenics_gears.contact.face import Face, one_slice
-from fenics_gears.contact.tooth_pair import DRIVE, PairNodes
 from fenics_gears.geometry.pair import GearPair
 
+from .face import Face, one_slice
+from .tooth_pair import DRIVE, PairNodes
+
 if TYPE_CHECKING:
-    from fenics_gears.contact.formed_rows import FormedRows
+    from .formed_rows import FormedRows
 
 # The centre coordinates q of the model: seven in the plane. Rotations are carried as arc lengths rb1 phi1, rb2 phi2
 # (mm), so that every coordinate is a length and every row a force, and no equation is scaled against another. The
@@ -208,7 +209,7 @@ def displacement_jacobian(
         rows[nodes:, 3:5], rows[nodes:, 5] = -tangent, turn * lines.friction_arms[1] / base_radii[1]
     if face.slices == 1:
         return rows
-    from fenics_gears.contact.face_jacobian import on_face
+    from .face_jacobian import on_face
 
     return on_face(rows, lines, face, base_radii)
 
@@ -317,6 +318,6 @@ def earlier_tangential_jacobian(
     rows[:, 3:5], rows[:, 5] = -tangent, turn * (arm_2 * cos(turned[1]) - turn * height_2 * sin(turned[1])) / radii[1]
     if face.slices == 1:
         return rows
-    from fenics_gears.contact.face_jacobian import earlier_tangents_on_face
+    from .face_jacobian import earlier_tangents_on_face
 
     return earlier_tangents_on_face(rows, lines, face, radii)

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.linalg.lapack import dpstrf
 
-from fenics_gears.contact.compliance_product import compliance_product, directions
-from fenics_gears.contact.operator import Passage, Response, count_of, turned
-from fenics_gears.contact.tooth_pair import Flanks, Place, ToothPair
+from .compliance_product import compliance_product, directions
+from .operator import Passage, Response, count_of, turned
+from .tooth_pair import Flanks, Place, ToothPair
 
 # Nodes that coincide, or more nodes on an element than it has degrees of freedom, yield together: elasticity does not
 # determine how they share a force. Each node then gets a thin elastic layer of its own, and nodes that coincide share

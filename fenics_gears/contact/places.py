@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.face import one_slice
-from fenics_gears.contact.tooth_pair import COAST, DRIVE, Place, coast_place, drive_place
-from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles, ends_of, exists, windows
 from fenics_gears.geometry.pair import GearPair
 
+from .face import one_slice
+from .tooth_pair import COAST, DRIVE, Place, coast_place, drive_place
+from .window import ContactGrid, coast_roll_angles, contact_roll_angles, ends_of, exists, windows
+
 if TYPE_CHECKING:
-    from fenics_gears.contact.corner import CornerContact
-    from fenics_gears.contact.face import Face
+    from .corner import CornerContact
+    from .face import Face
 
 
 # Cost, the search for touching pairs and the cycle itself ask for the same places.
@@ -79,6 +80,6 @@ def face_places(
 
 def _with_edges(pair: GearPair, grid: ContactGrid, corner: CornerContact, side, xi: np.ndarray) -> np.ndarray:
     """Whether flanks with their tip edges may touch where they stand on the path (mm)."""
-    from fenics_gears.contact.corner import pair_reaches
+    from .corner import pair_reaches
 
     return np.reshape([pair_reaches(pair, grid, corner, side(pair, 0, at)) for at in xi.ravel().tolist()], xi.shape)

@@ -7,11 +7,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from fenics_gears.contact.laws import OPEN
-from fenics_gears.contact.mesh_cycle import Position
-from fenics_gears.contact.published_newton import Equations, Iterate, iterates
-from fenics_gears.contact.relative_stiffness import RelativeStiffness
-from fenics_gears.contact.step_solver import PUBLISHED, StepProblem, StepSolution, solve_step
+from .laws import OPEN
+from .mesh_cycle import Position
+from .published_newton import Equations, Iterate, iterates
+from .relative_stiffness import RelativeStiffness
+from .step_solver import PUBLISHED, StepProblem, StepSolution, solve_step
 
 MOST_ITERATIONS = 60
 NO_DIRECTION, TOO_MANY = "no search direction", "the merit function stays too large"

@@ -8,11 +8,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, Points
-from fenics_gears.contact.mesh_cycle import Cycle, Gaps, PerPosition, Position
-from fenics_gears.contact.operator import node_ends, over_nodes
-from fenics_gears.contact.tooth_pair import DRIVE, Removal, facing_points, seen_gap
 from fenics_gears.geometry.relief import side_by_side
+
+from .interpolation import INTERPOLATIONS, Averages, Points
+from .mesh_cycle import Cycle, Gaps, PerPosition, Position
+from .operator import node_ends, over_nodes
+from .tooth_pair import DRIVE, Removal, facing_points, seen_gap
 
 
 @dataclass(frozen=True)

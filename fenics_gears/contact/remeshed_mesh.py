@@ -7,14 +7,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fenics_gears.contact.mesh import Mesh, MeshTraits, nodes_at
-from fenics_gears.contact.node_to_node import NodePairs, NodeResponse, by_direction, node_pairs, node_to_node_response
-from fenics_gears.contact.operator import Passage, Response
-from fenics_gears.contact.places import pair_places
-from fenics_gears.contact.published_solver import PublishedSolver
-from fenics_gears.contact.tooth_pair import Removal
-from fenics_gears.contact.window import ContactGrid
 from fenics_gears.geometry.pair import GearPair
+
+from .mesh import Mesh, MeshTraits, nodes_at
+from .node_to_node import NodePairs, NodeResponse, by_direction, node_pairs, node_to_node_response
+from .operator import Passage, Response
+from .places import pair_places
+from .published_solver import PublishedSolver
+from .tooth_pair import Removal
+from .window import ContactGrid
 
 # A position needs its own compliance and that of the position before; positions are built in the order of time.
 KEPT_COMPLIANCES = 3

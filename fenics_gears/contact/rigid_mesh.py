@@ -5,21 +5,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.contact.errors import NoStaticEquilibrium
-from fenics_gears.contact.interpolation import hat_integrals
-from fenics_gears.contact.laws import OPEN
-from fenics_gears.contact.mesh import Mesh, MeshTraits, nodes_at
-from fenics_gears.contact.mesh_cycle import Position
-from fenics_gears.contact.mixed_form import Iterate
-from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, Method
-from fenics_gears.contact.operator import ContactOperator, Passage, Response, count_of, lines_of
-from fenics_gears.contact.places import pair_places
-from fenics_gears.contact.rigid_step import Sides, rigid_step
-from fenics_gears.contact.step_solver import NEWTON, StepProblem, StepSolution
-from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, Place, Removal, facing_points_at
-from fenics_gears.contact.window import ContactGrid, flank_ends, node_offsets
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.sliding import sliding_per_rotation
+
+from .errors import NoStaticEquilibrium
+from .interpolation import hat_integrals
+from .laws import OPEN
+from .mesh import Mesh, MeshTraits, nodes_at
+from .mesh_cycle import Position
+from .mixed_form import Iterate
+from .newton import ALL_AT_ONCE, CONVERGED, Method
+from .operator import ContactOperator, Passage, Response, count_of, lines_of
+from .places import pair_places
+from .rigid_step import Sides, rigid_step
+from .step_solver import NEWTON, StepProblem, StepSolution
+from .tooth_pair import DRIVE, PairNodes, Place, Removal, facing_points_at
+from .window import ContactGrid, flank_ends, node_offsets
 
 
 def rigid_mesh(

@@ -16,10 +16,10 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.addresses import not_inlined
-from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
-from fenics_gears.contact.mixed_form import product, solved, system_of
-from fenics_gears.contact.newton import CONVERGED, SINGULAR
+from .addresses import not_inlined
+from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
+from .mixed_form import product, solved, system_of
+from .newton import CONVERGED, SINGULAR
 
 # Gaps (mm) that differ by less are the same: the round-off of positions on the line of action.
 SAME_GAP = 1e-10

@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import PerPosition, Position
-from fenics_gears.contact.operator import normals
 from fenics_gears.geometry.pair import GearPair
+
+from .mesh_cycle import PerPosition, Position
+from .operator import normals
 
 if TYPE_CHECKING:
     from fenics_gears.effects.eccentricity import Eccentricity, Offset
@@ -58,6 +59,6 @@ def run_out(pair: GearPair, eccentricity: Eccentricity, steps: int) -> RunOut:
     if not any(own is not None and own.wobble for own in (eccentricity.pinion, eccentricity.wheel)):
         return RunOut(pair, eccentricity, steps)
     # Imported here: it is of faces, and itself a run-out.
-    from fenics_gears.contact.wobble import WobblingRunOut
+    from .wobble import WobblingRunOut
 
     return WobblingRunOut(pair, eccentricity, steps)

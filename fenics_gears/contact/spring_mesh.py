@@ -14,11 +14,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.mesh import Mesh, MeshTraits
-from fenics_gears.contact.operator import Passage, Response, over_nodes
-from fenics_gears.contact.tooth_pair import DRIVE, PairNodes, coast_place, drive_place
-from fenics_gears.contact.window import ContactGrid
 from fenics_gears.geometry.pair import GearPair
+
+from .mesh import Mesh, MeshTraits
+from .operator import Passage, Response, over_nodes
+from .tooth_pair import DRIVE, PairNodes, coast_place, drive_place
+from .window import ContactGrid
 
 # The springs of a pair stand at one point; this distance (mm) between them tells them apart from step to step.
 APART = 1e-9

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.addresses import form_rows, row_of
-from fenics_gears.contact.laws import OPEN, SLIP_FORWARD, Tolerance
-from fenics_gears.contact.mixed_form import Equations, Iterate
-from fenics_gears.contact.newton import (
+from .addresses import form_rows, row_of
+from .laws import OPEN, SLIP_FORWARD, Tolerance
+from .mixed_form import Equations, Iterate
+from .newton import (
     ALL_AT_ONCE,
     CONVERGED,
     FAILED,
@@ -110,7 +110,7 @@ def solve_step(
         if result[0] == CONVERGED:
             outcome, iterations, forces, coordinates, displacement, sets = result
             return StepSolution(forces, coordinates, displacement, sets, spent, method)
-    from fenics_gears.contact.existence import explained
+    from .existence import explained
 
     _form_all(problem)
     raise explained(problem, attempts)
@@ -131,7 +131,7 @@ def _methods(problem: StepProblem, status: np.ndarray, max_iterations: int) -> I
     yield one_by_one, lambda: run_newton(problem, status, 10 * max_iterations, rule=ONE_AT_A_TIME)
     if len(problem.gap):
         # Imported where it is needed, which is rare.
-        from fenics_gears.contact.tresca import tresca
+        from .tresca import tresca
 
         _form_all(problem)
         yield (

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.contact.laws import Tolerance
-from fenics_gears.contact.mesh_cycle import Cycle
-from fenics_gears.contact.operator import ContactOperator
-from fenics_gears.contact.spring_mesh import PairSprings
-from fenics_gears.contact.step_solver import StepProblem, cold_start, solve_step
-from fenics_gears.contact.tooth_pair import COAST, DRIVE
+from .laws import Tolerance
+from .mesh_cycle import Cycle
+from .operator import ContactOperator
+from .spring_mesh import PairSprings
+from .step_solver import StepProblem, cold_start, solve_step
+from .tooth_pair import COAST, DRIVE
 
 # In parts of the scene's load; above the last the curve goes on straight.
 LOADS = (0.0, 0.25, 0.5, 0.7, 0.85, 1.0, 1.15, 1.3, 1.6, 2.5)

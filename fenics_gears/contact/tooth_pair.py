@@ -9,11 +9,12 @@ from itertools import accumulate
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.flank_at_height import points_of_pairs
-from fenics_gears.contact.interpolation import INTERPOLATIONS, Averages, FlankInterpolation, Points, Seeing, hats_of
-from fenics_gears.contact.window import ContactGrid, coast_roll_angles, contact_roll_angles, ends_of, offsets_of
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.geometry.pair import GearPair
+
+from .flank_at_height import points_of_pairs
+from .interpolation import INTERPOLATIONS, Averages, FlankInterpolation, Points, Seeing, hats_of
+from .window import ContactGrid, coast_roll_angles, contact_roll_angles, ends_of, offsets_of
 
 Removal = Callable[[np.ndarray], np.ndarray]
 

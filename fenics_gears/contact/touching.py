@@ -13,14 +13,15 @@ from functools import lru_cache
 from math import floor
 from typing import TYPE_CHECKING
 
-from fenics_gears.contact.places import pair_places
-from fenics_gears.contact.tooth_pair import COAST, DRIVE, Place
-from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import Reach
 from fenics_gears.geometry.pair import GearPair
 
+from .places import pair_places
+from .tooth_pair import COAST, DRIVE, Place
+from .window import ContactGrid
+
 if TYPE_CHECKING:
-    from fenics_gears.contact.corner import CornerContact
+    from .corner import CornerContact
 
 # Positions of a mesh cycle at which touching pairs are looked for; between them the ends are found by halving.
 LOOKED_AT = 16

@@ -20,8 +20,8 @@ import numpy as np
 from scipy.linalg import qr
 from scipy.optimize import nnls
 
-from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
-from fenics_gears.contact.newton import CONVERGED, CYCLED, SINGULAR
+from .laws import OPEN, SLIP_BACKWARD, SLIP_FORWARD, STICK
+from .newton import CONVERGED, CYCLED, SINGULAR
 
 MOST_PROGRAMMES = 100
 # From this programme on only half of each change of the bounds is taken, so that bounds that alternate converge.

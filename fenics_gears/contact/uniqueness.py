@@ -22,8 +22,8 @@ from itertools import compress
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.laws import OPEN, SLIP_BACKWARD, STICK
-from fenics_gears.contact.mixed_form import add_slip, put_entries
+from .laws import OPEN, SLIP_BACKWARD, STICK
+from .mixed_form import add_slip, put_entries
 
 # Below this part of the largest eigenvalue a stiffness holds nothing.
 SINGULAR = 1e-14

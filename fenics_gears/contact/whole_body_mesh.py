@@ -12,16 +12,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.mesh import Mesh, elastic_mesh
-from fenics_gears.contact.pairing import CompliancePairing
-from fenics_gears.contact.places import pair_places
-from fenics_gears.contact.tooth_pair import Flanks
-from fenics_gears.contact.window import ContactGrid
 from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 
+from .mesh import Mesh, elastic_mesh
+from .pairing import CompliancePairing
+from .places import pair_places
+from .tooth_pair import Flanks
+from .window import ContactGrid
+
 if TYPE_CHECKING:
-    from fenics_gears.contact.corner import CornerContact
+    from .corner import CornerContact
 
 # Teeth respond alike where their compliances agree to this part of the largest, a fifth of the error of a default mesh.
 # The effect of a crack on the next teeth falls by about half from tooth to tooth.

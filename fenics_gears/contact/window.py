@@ -15,8 +15,9 @@ from math import ceil
 import numpy as np
 from numba import njit
 
-from fenics_gears.contact.interpolation import AVERAGED
 from fenics_gears.geometry.pair import GearPair
+
+from .interpolation import AVERAGED
 
 # Sizes of the cells beside an edge, in spacings: whole spacings together, so that the other nodes do not jump where an
 # edge enters the window.

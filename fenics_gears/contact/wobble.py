@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.contact.mesh_cycle import PerPosition, Position
-from fenics_gears.contact.operator import COORDINATES, displacement_jacobian
-from fenics_gears.contact.run_out import RunOut
 from fenics_gears.geometry.pair import GearPair
+
+from .mesh_cycle import PerPosition, Position
+from .operator import COORDINATES, displacement_jacobian
+from .run_out import RunOut
 
 if TYPE_CHECKING:
     from fenics_gears.effects.eccentricity import Eccentricity

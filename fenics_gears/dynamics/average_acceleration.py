@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from fenics_gears.dynamics.drivetrain import Drivetrain
+from .drivetrain import Drivetrain
 
 
 class State(NamedTuple):

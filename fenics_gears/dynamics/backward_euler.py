@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from fenics_gears.dynamics.average_acceleration import Scheme
+from .average_acceleration import Scheme
 
 
 @njit(cache=True)

@@ -13,9 +13,10 @@ from fenics_gears.contact.addresses import Arrays, row_of
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.contact.step_solver import NEWTON
-from fenics_gears.dynamics.compiled_march import NO_SETS, STATIC, Course, Motion, solve_steps
-from fenics_gears.dynamics.stepping import EquationsOfMotion, Stepper
-from fenics_gears.dynamics.steps import Record, Steps
+
+from .compiled_march import NO_SETS, STATIC, Course, Motion, solve_steps
+from .stepping import EquationsOfMotion, Stepper
+from .steps import Record, Steps
 
 # The first attempt begins so many mesh cycles before the place: flanks that turn back at the pitch point slip again
 # after some per cent of one.

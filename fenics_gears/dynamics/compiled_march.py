@@ -17,13 +17,14 @@ from fenics_gears.contact.laws import OPEN, Tolerance
 from fenics_gears.contact.mixed_form import Equations, Iterate, product
 from fenics_gears.contact.newton import ALL_AT_ONCE, CONVERGED, MOST_ITERATIONS, Method, newton, newton_solver
 from fenics_gears.contact.rigid_step import Sides, rigid_step
-from fenics_gears.dynamics.average_acceleration import advanced as advanced_by_average
-from fenics_gears.dynamics.average_acceleration import history as average_history
-from fenics_gears.dynamics.average_acceleration import with_history
-from fenics_gears.dynamics.backward_euler import advanced as advanced_backward
-from fenics_gears.dynamics.backward_euler import history as backward_history
-from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.steps import Steps, in_block
+
+from .average_acceleration import advanced as advanced_by_average
+from .average_acceleration import history as average_history
+from .average_acceleration import with_history
+from .backward_euler import advanced as advanced_backward
+from .backward_euler import history as backward_history
+from .drivetrain import Drivetrain
+from .steps import Steps, in_block
 
 STATIC, AVERAGE_ACCELERATION, BACKWARD_EULER = range(3)
 # Sets of a mesh cycle before, where there are none.

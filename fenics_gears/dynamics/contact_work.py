@@ -11,8 +11,9 @@ from numba import njit
 
 from fenics_gears.contact.addresses import Arrays
 from fenics_gears.contact.mixed_form import product
-from fenics_gears.dynamics.compiled_march import slip_at_start
-from fenics_gears.dynamics.steps import Steps, forces_at, in_block, operator_at
+
+from .compiled_march import slip_at_start
+from .steps import Steps, forces_at, in_block, operator_at
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,8 @@ import numpy as np
 from fenics_gears.contact.flank_forces import flank_rows
 from fenics_gears.contact.operator import node_slices
 from fenics_gears.contact.whole_body_mesh import GEARS, first_tooth
-from fenics_gears.dynamics.steps import Record
+
+from .steps import Record
 
 NAMES = ("pinion", "wheel")
 # Overlaps (mm) below this are round-off.

@@ -19,12 +19,13 @@ from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair
 
 if TYPE_CHECKING:
-    from fenics_gears.dynamics.elastic_shaft import ElasticShaft
-    from fenics_gears.dynamics.tilting import MeshOverFace
     from fenics_gears.effects.bearings import Bearings
     from fenics_gears.effects.damping import Damping
     from fenics_gears.effects.inertia import Inertia
     from fenics_gears.effects.shafts import Shafts
+
+    from .elastic_shaft import ElasticShaft
+    from .tilting import MeshOverFace
 
 
 # The load's moment of inertia over the wheel's, at most: their sum keeps six digits of the wheel's.
@@ -166,7 +167,7 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
             if (own := supports.bearings.of(*side)) is not None:
                 stiffness[names.index(name), names.index(name)] = own
         if supports.bearings.places is not None:
-            from fenics_gears.dynamics.tilting import add_bearings
+            from .tilting import add_bearings
 
             add_bearings(stiffness, names, supports.bearings)
     in_bearings = stiffness.copy()
@@ -179,14 +180,14 @@ def assembled(pair: GearPair, wheel_torque: float, supports: Supports, mesh_stif
     if supports.inertia is not None:
         mass = _mass(names, supports.inertia, supports.gears)
         if supports.elastic:
-            from fenics_gears.dynamics.elastic_shaft_modes import add_masses
+            from .elastic_shaft_modes import add_masses
 
             # Turned by the pinion's base pitch, as its own rotation is.
             coupling = add_masses(mass, names, supports.elastic) / pair.pinion.base_radius
     scale = np.outer(1.0 / radii, 1.0 / radii)
     stiffness, mass = stiffness * scale, None if mass is None else mass * scale
     if mass is not None and (pair.slope or not set(names).isdisjoint(FACE_COORDINATES)):
-        from fenics_gears.dynamics.tilting import mesh_over_face
+        from .tilting import mesh_over_face
 
         mesh = mesh_over_face(pair, names)
     load = forces_of_torque(names, radii, wheel_torque)
@@ -270,7 +271,7 @@ def _check_load(end: float, wheel: float) -> None:
 def _damping(damping: Damping, undamped: Drivetrain, mesh_stiffness: float) -> np.ndarray:
     """D (k, k): alpha K + beta M of either shaft, or by the ratios of the modes with one tooth pair in mesh."""
     if damping.modal:
-        from fenics_gears.dynamics.modal_damping import modal_damping
+        from .modal_damping import modal_damping
 
         return modal_damping(undamped, mesh_stiffness, damping.modal)
     # No spring and no mass connects both sides of the mesh: a row and its column have the same factors.

@@ -21,11 +21,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
-    from fenics_gears.dynamics.drivetrain import Drivetrain
-    from fenics_gears.dynamics.elastic_shaft_hub import Hub
     from fenics_gears.effects.bearings import Bearing
     from fenics_gears.effects.shafts import ShaftSection
     from fenics_gears.inputs.allowed import Matrix
+
+    from .drivetrain import Drivetrain
+    from .elastic_shaft_hub import Hub
 
 # Names of the coordinates of a gear's middle, without its number; and the gears' numbers.
 MOTIONS = ("centre_x", "centre_y", "axial_", "tilt_x", "tilt_y")

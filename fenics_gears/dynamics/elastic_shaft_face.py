@@ -7,9 +7,10 @@ from collections.abc import Iterable
 import numpy as np
 
 from fenics_gears.contact.face import even_slices
-from fenics_gears.dynamics.elastic_shaft import NUMBERS, ElasticShaft
-from fenics_gears.dynamics.elastic_shaft_seat import carried_with_twist, seat_compliance
 from fenics_gears.geometry.pair import GearPair
+
+from .elastic_shaft import NUMBERS, ElasticShaft
+from .elastic_shaft_seat import carried_with_twist, seat_compliance
 
 SLICES = 40
 

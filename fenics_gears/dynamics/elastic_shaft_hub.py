@@ -19,9 +19,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from fenics_gears.dynamics.elastic_shaft import OF_CYLINDER, SIX, Properties, beam_flexibility, gauss_rule
-from fenics_gears.dynamics.elastic_shaft_seat import carried_with_twist
 from fenics_gears.elasticity.body_of_revolution import BodyOfRevolution, Ring, flexibility, flexibility_outside
+
+from .elastic_shaft import OF_CYLINDER, SIX, Properties, beam_flexibility, gauss_rule
+from .elastic_shaft_seat import carried_with_twist
 
 # Of the bore's radius: how far beside the face, and the size of elements.
 BESIDE, SIZE = 1.5, 1.0 / 7.0

@@ -19,15 +19,7 @@ from math import ceil
 import numpy as np
 from scipy.linalg import block_diag, eigh
 
-from fenics_gears.dynamics.elastic_shaft import (
-    MASS_POINTS,
-    MOTIONS,
-    NUMBERS,
-    SIX,
-    ElasticShaft,
-    beam_flexibility,
-    properties,
-)
+from .elastic_shaft import MASS_POINTS, MOTIONS, NUMBERS, SIX, ElasticShaft, beam_flexibility, properties
 
 # Elements are no longer than this part of the shaft.
 LONGEST_ELEMENT = 1.0 / 60.0

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fenics_gears.dynamics.elastic_shaft import SIX, ElasticShaft, beam_flexibility, carried, properties
+from .elastic_shaft import SIX, ElasticShaft, beam_flexibility, carried, properties
 
 
 def seat_compliance(shaft: ElasticShaft, heights: np.ndarray) -> np.ndarray:
@@ -40,7 +40,7 @@ def _within_the_face(shaft: ElasticShaft, heights: np.ndarray) -> np.ndarray:
     held."""
     if shaft.hub is not None:
         # Imported here: few gears have a hub that gives way.
-        from fenics_gears.dynamics.elastic_shaft_hub import hub_flexibility
+        from .elastic_shaft_hub import hub_flexibility
 
         return hub_flexibility(shaft.hub, heights)
     begin, end = shaft.seat_ends

@@ -24,11 +24,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.dynamics.clock import Clock
-from fenics_gears.dynamics.contact_work import contact_work
-from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.stepping import VaryingLoad
-from fenics_gears.dynamics.steps import Steps
+from .clock import Clock
+from .contact_work import contact_work
+from .drivetrain import Drivetrain
+from .stepping import VaryingLoad
+from .steps import Steps
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from math import atan, inf, pi, sqrt
 import numpy as np
 from scipy.linalg import eigh, null_space
 
-from fenics_gears.dynamics.drivetrain import Drivetrain, gear_of
+from .drivetrain import Drivetrain, gear_of
 
 # Relative normal displacement of the flanks per coordinate; see contact.operator.displacement_jacobian. Friction also
 # acts across.

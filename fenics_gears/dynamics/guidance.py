@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Sequence
 from math import ceil
 
-from fenics_gears.dynamics.clock import TimeScales
-from fenics_gears.dynamics.frequencies import PERIOD_ERROR, STEPS_OF_A_RESOLVED_PERIOD, Vibration
+from .clock import TimeScales
+from .frequencies import PERIOD_ERROR, STEPS_OF_A_RESOLVED_PERIOD, Vibration
 
 # Effects on the transmission error below this part of its peak-to-peak value give no warning.
 NOTABLE = 0.01

@@ -17,18 +17,11 @@ from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import SHARE_OF_A_BLOCK, Cycle
 from fenics_gears.contact.step_solver import METHODS, NEWTON
 from fenics_gears.contact.tooth_pair import DRIVE
-from fenics_gears.dynamics.average_acceleration import AverageAcceleration
-from fenics_gears.dynamics.compiled_march import (
-    AVERAGE_ACCELERATION,
-    BACKWARD_EULER,
-    NO_SETS,
-    STATIC,
-    Course,
-    Motion,
-    solve_steps,
-)
-from fenics_gears.dynamics.stepping import EquationsOfMotion, Stepper
-from fenics_gears.dynamics.steps import Record, Steps, drive_flanks_touch, smallest_openings
+
+from .average_acceleration import AverageAcceleration
+from .compiled_march import AVERAGE_ACCELERATION, BACKWARD_EULER, NO_SETS, STATIC, Course, Motion, solve_steps
+from .stepping import EquationsOfMotion, Stepper
+from .steps import Record, Steps, drive_flanks_touch, smallest_openings
 
 SECONDS_BETWEEN_REPORTS = 0.1
 # Steps are handed on in blocks of at most so many; those of a cycle's own solver can take a tenth of a second each.

@@ -15,9 +15,10 @@ from fenics_gears.contact.addresses import GAP, NODES, ROW
 from fenics_gears.contact.errors import ContactNotConverged
 from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.contact.step_solver import NEWTON
-from fenics_gears.dynamics.compiled_march import NO_SETS, STATIC, Course, Motion, solve_steps
-from fenics_gears.dynamics.stepping import STEPS_SLID_BEFORE_START, EquationsOfMotion, Stepper
-from fenics_gears.dynamics.steps import Record, Steps, table_of
+
+from .compiled_march import NO_SETS, STATIC, Course, Motion, solve_steps
+from .stepping import STEPS_SLID_BEFORE_START, EquationsOfMotion, Stepper
+from .steps import Record, Steps, table_of
 
 RIGID_SLIP = ROW.names.index("rigid_slip")
 

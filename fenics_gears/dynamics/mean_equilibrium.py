@@ -20,7 +20,8 @@ import numpy as np
 from fenics_gears.contact.laws import OPEN, Tolerance
 from fenics_gears.contact.mesh_cycle import Cycle, Position
 from fenics_gears.contact.step_solver import StepProblem, StepSolution, cold_start
-from fenics_gears.dynamics.drivetrain import Drivetrain
+
+from .drivetrain import Drivetrain
 
 ITERATIONS = 20
 # Of the largest load. An unbalanced rest only adds a vibration of its size to the start of a run.

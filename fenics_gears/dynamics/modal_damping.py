@@ -11,8 +11,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.frequencies import RIGID, modes
+from .drivetrain import Drivetrain
+from .frequencies import RIGID, modes
 
 
 def modal_damping(drivetrain: Drivetrain, mesh_stiffness: float, ratios: Sequence[float]) -> np.ndarray:

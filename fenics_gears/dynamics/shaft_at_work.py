@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.optimize import minimize
 
-from fenics_gears.dynamics.rolling_bearing import MOTIONS, reaction, secant_stiffness
-from fenics_gears.dynamics.tilting import coast_normal, contact_normal, moved
 from fenics_gears.errors import SceneError
 
+from .rolling_bearing import MOTIONS, reaction, secant_stiffness
+from .tilting import coast_normal, contact_normal, moved
+
 if TYPE_CHECKING:
-    from fenics_gears.dynamics.elastic_shaft import ElasticShaft
     from fenics_gears.effects.bearings import Bearing
     from fenics_gears.geometry.pair import GearPair
+
+    from .elastic_shaft import ElasticShaft
 
 # Lever arm, mm, that makes tilts comparable with displacements; mm/N that every bearing yields besides in the search of
 # a minimum; parts of the load that the search may leave, and that Newton's method may, with its largest number of

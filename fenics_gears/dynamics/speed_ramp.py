@@ -16,7 +16,7 @@ from math import pi, sqrt
 
 import numpy as np
 
-from fenics_gears.dynamics.drivetrain import Drivetrain
+from .drivetrain import Drivetrain
 
 
 @dataclass(frozen=True)

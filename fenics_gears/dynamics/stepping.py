@@ -14,14 +14,15 @@ from fenics_gears.contact.errors import ContactNotConverged, NoStaticEquilibrium
 from fenics_gears.contact.laws import Tolerance
 from fenics_gears.contact.mesh_cycle import Cycle, Position, in_common
 from fenics_gears.contact.step_solver import HALVED, StepProblem, StepSolution, cold_start
-from fenics_gears.dynamics.average_acceleration import AverageAcceleration, State
-from fenics_gears.dynamics.clock import FOLLOWING, Clock, SteadyClock, TimeScales
-from fenics_gears.dynamics.compiled_march import NO_SETS, begin, slip_at_start
-from fenics_gears.dynamics.drivetrain import Drivetrain
-from fenics_gears.dynamics.steps import Record
+
+from .average_acceleration import AverageAcceleration, State
+from .clock import FOLLOWING, Clock, SteadyClock, TimeScales
+from .compiled_march import NO_SETS, begin, slip_at_start
+from .drivetrain import Drivetrain
+from .steps import Record
 
 if TYPE_CHECKING:
-    from fenics_gears.dynamics.backward_euler import BackwardEuler
+    from .backward_euler import BackwardEuler
 
 NO_SLIP = np.empty(0)
 # The start assumes long sliding before it, by this many steps.
@@ -54,7 +55,7 @@ def _method(time_scales: TimeScales) -> type[AverageAcceleration] | type[Backwar
     """The method in time; quasi-static scenes, which average acceleration, do not import the other."""
     if time_scales.averages_acceleration:
         return AverageAcceleration
-    from fenics_gears.dynamics.backward_euler import BackwardEuler
+    from .backward_euler import BackwardEuler
 
     return BackwardEuler
 
@@ -130,7 +131,7 @@ class Stepper:
         return Record(0, State(middle.state.position, velocity, acceleration), middle.position, middle.solution)
 
     def _mean_start(self, static: Record) -> Record:
-        from fenics_gears.dynamics.mean_equilibrium import mean_equilibrium
+        from .mean_equilibrium import mean_equilibrium
 
         mean = mean_equilibrium(
             self.cycle, self.drivetrain, self.clock.duration(0, 1), self.friction, self.tolerance,

@@ -17,7 +17,8 @@ from fenics_gears.contact.mesh_cycle import Position
 from fenics_gears.contact.operator import ContactOperator
 from fenics_gears.contact.step_solver import StepSolution
 from fenics_gears.contact.tooth_pair import COAST, DRIVE
-from fenics_gears.dynamics.average_acceleration import State
+
+from .average_acceleration import State
 
 ARRAYS = ("numbers", "states", "forces", "displacement", "status", "iterations")
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.dynamics.drivetrain import Drivetrain, forces_of_torque
+from .drivetrain import Drivetrain, forces_of_torque
 
 if TYPE_CHECKING:
     from fenics_gears.effects.torque_ripple import TorqueRipple

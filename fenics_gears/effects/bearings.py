@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
-from fenics_gears.effects.rolling_bearings import RollingBearing
 from fenics_gears.inputs.allowed import AllowedMatrix, Matrix
 from fenics_gears.inputs.fields import declared, quantities, quantity
 from fenics_gears.inputs.problem import LISTED, Broken
 from fenics_gears.inputs.section import AllowedTables, Section, names_in
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, quantity_at, quantity_in, shafts_with_sections, table
+
+from .effect import Effect, ResultVariable, own_or_shared
+from .rolling_bearings import RollingBearing
 
 DIRECTIONS = ("x", "y")
 STIFFNESSES = ("stiffness", "stiffness_x", "stiffness_y")
@@ -187,7 +188,7 @@ def supports_are_complete(tree: Tree) -> Broken:
     bent = shafts_with_sections(tree)
     if listed or bent:
         # Imported here: few scenes have any.
-        from fenics_gears.effects.elastic_shaft_rules import rules_of_listed_bearings
+        from .elastic_shaft_rules import rules_of_listed_bearings
 
         yield from rules_of_listed_bearings(tree, both, listed)
     missing = [

@@ -11,11 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
-from fenics_gears.effects.shafts import HousingFile, Shaft
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.allowed import AllowedMatrix, Matrix, Refused
 from fenics_gears.inputs.written import as_written
 from fenics_gears.system import user_file
+
+from .shafts import HousingFile, Shaft
 
 # Of a seat: displacements along x, y, z and rotations about them.
 OF_A_SEAT, ABOUT_Z = 6, 5

@@ -6,14 +6,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from fenics_gears.effects.effect import Effect, ResultVariable, own_or_shared
-from fenics_gears.effects.tooth_elasticity import material_name, poissons_ratio, youngs_modulus
 from fenics_gears.geometry.gear_data import MATERIALS, Material
 from fenics_gears.inputs.allowed import Matrix
 from fenics_gears.inputs.fields import choice, declared, file_name, quantity
 from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import AllowedTables, Section, allowed_in
 from fenics_gears.inputs.tree import SHAFTS, Tree, shafts_with_sections, table
+
+from .effect import Effect, ResultVariable, own_or_shared
+from .tooth_elasticity import material_name, poissons_ratio, youngs_modulus
 
 MOST_SECTIONS = 100
 RIGID_SEAT, PRESS_FIT, INTEGRAL = "rigid over its width", "press fit", "integral"
@@ -165,7 +166,7 @@ def shafts_are_complete(tree: Tree) -> Broken:
     yield from _each_gives_way(both)
     if shafts_with_sections(tree):
         # Imported here: few scenes have any.
-        from fenics_gears.effects.elastic_shaft_rules import rules_of_elastic_shafts
+        from .elastic_shaft_rules import rules_of_elastic_shafts
 
         yield from rules_of_elastic_shafts(tree)
         return
@@ -202,7 +203,7 @@ def located(shafts: Shafts, directory: Path) -> Shafts:
     """The shafts with the matrices of their housings, whose files are looked for from a directory on."""
     if all(each is None or each.housing is None for each in (shafts.input, shafts.output)):
         return shafts
-    from fenics_gears.effects.elastic_shaft_housing import found
+    from .elastic_shaft_housing import found
 
     return replace(shafts, input=found(shafts.input, directory), output=found(shafts.output, directory))
 
@@ -216,7 +217,7 @@ def files(shafts: Shafts) -> dict[str, str]:
 def check(shafts: Shafts, scene, pair) -> None:
     """Raise SceneError where gears, couplings and bearings do not fit their shafts."""
     if shafts.sections is not None:
-        from fenics_gears.effects.elastic_shaft_rules import check_shafts
+        from .elastic_shaft_rules import check_shafts
 
         check_shafts(scene, pair)
 
@@ -225,7 +226,7 @@ def warnings(shafts: Shafts, model) -> list[str]:
     """A sentence where a gear's bore and the shaft in it differ."""
     if shafts.sections is None:
         return []
-    from fenics_gears.effects.elastic_shaft_rules import shaft_warnings
+    from .elastic_shaft_rules import shaft_warnings
 
     return shaft_warnings(model.scene, model.pair)
 

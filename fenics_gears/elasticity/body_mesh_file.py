@@ -7,10 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from fenics_gears.elasticity.gmsh_session import gmsh_model
-from fenics_gears.elasticity.mesh_content import LINE, mesh_content
-from fenics_gears.elasticity.mesh_data import BodyMesh, corner_areas, oriented
 from fenics_gears.errors import ComputationError, SceneError
+
+from .gmsh_session import gmsh_model
+from .mesh_content import LINE, mesh_content
+from .mesh_data import BodyMesh, corner_areas, oriented
 
 CORNERS_BY_TYPE = {2: 3, 3: 4}  # gmsh's numbers of straight-sided triangles and quadrilaterals
 TYPE_BY_CORNERS = {corners: number for number, corners in CORNERS_BY_TYPE.items()}

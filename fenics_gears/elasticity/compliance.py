@@ -10,8 +10,9 @@ import numpy as np
 from fenics_gears.errors import ComputationError
 
 if TYPE_CHECKING:
-    from fenics_gears.elasticity.face_compliance_data import FaceCompliance
     from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
+
+    from .face_compliance_data import FaceCompliance
 
 STAGES = ("time_mesh", "time_compile", "time_condense")
 

@@ -7,16 +7,10 @@ from time import perf_counter
 
 import numpy as np
 
-from fenics_gears.elasticity.elements import Element
-from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.mumps import schur_complement
-from fenics_gears.elasticity.stiffness import (
-    compile_ahead,
-    displacement_space,
-    nodes_at,
-    nodes_in_cells,
-    stiffness_matrix,
-)
+from .elements import Element
+from .mesh_data import BodyMesh
+from .mumps import schur_complement
+from .stiffness import compile_ahead, displacement_space, nodes_at, nodes_in_cells, stiffness_matrix
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,7 @@ def _load_vtk_before_old_dolfinx() -> None:
 _load_vtk_before_old_dolfinx()
 
 # Before DOLFINx, which would start PETSc itself.
-from fenics_gears.elasticity.petsc import PETSc  # noqa: E402 I001
+from .petsc import PETSc  # noqa: E402 I001
 
 import basix  # noqa: E402
 import dolfinx  # noqa: E402

@@ -8,11 +8,12 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.elements import Element
-from fenics_gears.elasticity.mesh_data import BodyMesh, distinct, sides_of
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, roll_angle_at_arc_length
+
+from .elements import Element
+from .mesh_data import BodyMesh, distinct, sides_of
 
 # Cells of straight sides into which the nodes of a second-order cell divide it.
 SUBCELLS = {

@@ -6,9 +6,10 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-from fenics_gears.elasticity.elements import Element, element_named
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
+
+from .elements import Element, element_named
 
 # An edge across this angle (rad) cuts less than 0.05 % of its radius off the bore.
 HUB_ANGLE = 0.06

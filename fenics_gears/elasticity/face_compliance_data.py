@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from fenics_gears.elasticity.compliance import FlankCompliance
+from .compliance import FlankCompliance
 
 
 @dataclass(frozen=True)

@@ -9,14 +9,15 @@ import numpy as np
 from scipy import sparse
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.element_nodes import ElementNodes
-from fenics_gears.elasticity.element_sizes import arc_lengths
-from fenics_gears.elasticity.sector_boundary import root_curve
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import ToothOutline, tooth_outline
 
+from .element_nodes import ElementNodes
+from .element_sizes import arc_lengths
+from .sector_boundary import root_curve
+
 if TYPE_CHECKING:
-    from fenics_gears.elasticity.recovery import GearRecovery
+    from .recovery import GearRecovery
 
 # Points of one fillet, without the one where the tangent stands at 30 degrees to the tooth's centreline, in the section
 # normal to the tooth.

@@ -7,14 +7,15 @@ from time import perf_counter
 
 import numpy as np
 
-from fenics_gears.elasticity.cache import Cache, kept
-from fenics_gears.elasticity.compliance import BothFlanksCompliance, FlankCompliance, Reach
-from fenics_gears.elasticity.element_sizes import Discretisation, ElementSizes
-from fenics_gears.elasticity.elements import Element, element_named
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.numbers_version import NUMBERS_VERSION
+
+from .cache import Cache, kept
+from .compliance import BothFlanksCompliance, FlankCompliance, Reach
+from .element_sizes import Discretisation, ElementSizes
+from .elements import Element, element_named
 
 COUNTS = ("unknowns", "condensed_unknowns")
 
@@ -108,9 +109,9 @@ def _computed(
 ) -> tuple[dict, dict]:
     """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
-    from fenics_gears.elasticity.condensation import by_radius
-    from fenics_gears.elasticity.element_nodes import node_roll_angles
-    from fenics_gears.elasticity.sector_mesh import half_sector_mesh, sector_mesh
+    from .condensation import by_radius
+    from .element_nodes import node_roll_angles
+    from .sector_mesh import half_sector_mesh, sector_mesh
 
     clock = perf_counter()
     mesh = (half_sector_mesh if sizes.both_flanks else sector_mesh)(gear, sizes, element.quadrilateral)
@@ -126,15 +127,15 @@ def _computed(
 
 
 def _drive_flank(gear, element, mesh, poissons_ratio, reach: Reach):
-    from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
+    from .ring import condensed_sector, ring_compliance
 
     sector = condensed_sector(mesh, element, poissons_ratio)
     return sector, {"blocks": ring_compliance(sector, gear.teeth, reach.same)}
 
 
 def _both_flanks(gear, element, mesh, poissons_ratio, reach: Reach):
-    from fenics_gears.elasticity.half_sector import centreline_direction
-    from fenics_gears.elasticity.mirrored_ring import both_flanks_compliance, condensed_half
+    from .half_sector import centreline_direction
+    from .mirrored_ring import both_flanks_compliance, condensed_half
 
     sector = condensed_half(mesh, element, poissons_ratio)
     blocks, across = both_flanks_compliance(sector, centreline_direction(mesh), gear.teeth, reach)

@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from fenics_gears.elasticity.element_sizes import SizeField, along, divided
-from fenics_gears.elasticity.mesh_data import BodyMesh, oriented
-from fenics_gears.elasticity.sector_boundary import SectorBoundary
+from .element_sizes import SizeField, along, divided
+from .mesh_data import BodyMesh, oriented
+from .sector_boundary import SectorBoundary
 
 CENTRELINE_SAMPLES = 400
 # Parts of the half on the drive flank's side and their mirror images.

@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 import ufl
 
-from fenics_gears.elasticity import dolfinx_adapter as adapter
+from . import dolfinx_adapter as adapter
 
 MODES = 4  # amplitudes of a cell: two modes, two directions
 # Reference coordinates of a cell's corners, row by row as DOLFINx numbers them.

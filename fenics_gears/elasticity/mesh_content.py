@@ -16,8 +16,9 @@ from pathlib import Path
 
 import numpy as np
 
-from fenics_gears.elasticity.gmsh_session import gmsh_model
 from fenics_gears.errors import SceneError
+
+from .gmsh_session import gmsh_model
 
 LINE = 1  # gmsh's number of a straight line
 # What reading may take, in bytes and seconds, for gmsh itself and for each byte of the file: many times what it takes.

@@ -13,12 +13,12 @@ from __future__ import annotations
 import numpy as np
 from scipy.linalg.blas import dsyrk, dtrsm
 
-from fenics_gears.elasticity.compliance import Reach
-from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense, without
-from fenics_gears.elasticity.elements import Element
-from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.ring import cut_response, definite_factor, inverse_of_factor, sector_response, turned_nodes
-from fenics_gears.elasticity.triangle import symmetric
+from .compliance import Reach
+from .condensation import CondensedBody, by_radius, condense, without
+from .elements import Element
+from .mesh_data import BodyMesh
+from .ring import cut_response, definite_factor, inverse_of_factor, sector_response, turned_nodes
+from .triangle import symmetric
 
 # Compliance (f, f) of the flank with the cuts held, its response (f, c) to motions of the cut, stiffness (c, c) of the
 # cut with the flank free.

@@ -11,9 +11,10 @@ import ctypes
 import numpy as np
 from scipy import sparse
 
-from fenics_gears.elasticity.petsc import PETSc
-from fenics_gears.elasticity.triangle import symmetric
 from fenics_gears.errors import ComputationError
+
+from .petsc import PETSc
+from .triangle import symmetric
 
 LIBRARY = ctypes.CDLL(PETSc.__file__)
 # Right-hand sides solved at once; more take memory and save no time.

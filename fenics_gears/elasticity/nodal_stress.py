@@ -14,11 +14,12 @@ from dataclasses import replace
 import numpy as np
 from scipy import sparse
 
-from fenics_gears.elasticity import dolfinx_adapter as adapter
-from fenics_gears.elasticity.condensation import dofs_of
-from fenics_gears.elasticity.element_nodes import ElementNodes
 from fenics_gears.elasticity.face.layers import Sweep, shapes
-from fenics_gears.elasticity.ring import rotation
+
+from . import dolfinx_adapter as adapter
+from .condensation import dofs_of
+from .element_nodes import ElementNodes
+from .ring import rotation
 
 # Of the reference triangle and square: corners counter-clockwise, middles of sides, middle, as of ElementNodes.
 REFERENCE = {

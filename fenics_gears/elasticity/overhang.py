@@ -8,11 +8,12 @@ from math import pi
 
 import numpy as np
 
-from fenics_gears.elasticity.compliance import FlankCompliance
 from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.involute import arc_length
+
+from .compliance import FlankCompliance
 
 # Depth, in normal modules, down to which the load spreads over the common face alone; found together with
 # `geometry.pair.OVERHANG_REACH`.

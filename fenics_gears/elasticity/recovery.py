@@ -13,17 +13,18 @@ from typing import Self
 import numpy as np
 from scipy.sparse import identity, kron
 
-from fenics_gears.elasticity.element_sizes import Discretisation
-from fenics_gears.elasticity.elements import element_named
 from fenics_gears.elasticity.face.condensed import spanned
 from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face.half_turn import half_turn_basis, half_turn_whitened
-from fenics_gears.elasticity.nodal_stress import NodalStress
-from fenics_gears.elasticity.ring import Whitened, cyclic, cyclic_motion, ring_work, rotation, whitened
-from fenics_gears.elasticity.sector import Sector, plane_sector, swept_sector
-from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
+
+from .element_sizes import Discretisation
+from .elements import element_named
+from .nodal_stress import NodalStress
+from .ring import Whitened, cyclic, cyclic_motion, ring_work, rotation, whitened
+from .sector import Sector, plane_sector, swept_sector
+from .sector_mesh import sector_mesh
 
 
 @dataclass(frozen=True)

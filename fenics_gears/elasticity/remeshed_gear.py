@@ -13,15 +13,16 @@ from time import perf_counter
 import numpy as np
 from scipy.linalg import block_diag
 
-from fenics_gears.elasticity.cut_chain import closed_ring, eliminated, run_of
-from fenics_gears.elasticity.element_sizes import ElementSizes
-from fenics_gears.elasticity.elements import Element
-from fenics_gears.elasticity.ring import centre_motion, condensed_sector, rotation, sector_cuts
-from fenics_gears.elasticity.sector_boundary import flank_through
-from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.involute import canonical_point
+
+from .cut_chain import closed_ring, eliminated, run_of
+from .element_sizes import ElementSizes
+from .elements import Element
+from .ring import centre_motion, condensed_sector, rotation, sector_cuts
+from .sector_boundary import flank_through
+from .sector_mesh import sector_mesh
 
 NO_NODES = np.empty((0, 2))
 

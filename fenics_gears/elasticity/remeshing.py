@@ -7,13 +7,14 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from fenics_gears.elasticity.cache import Cache, kept
-from fenics_gears.elasticity.element_sizes import Discretisation
-from fenics_gears.elasticity.elements import element_named
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.system.job import Job, together
+
+from .cache import Cache, kept
+from .element_sizes import Discretisation
+from .elements import element_named
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,7 @@ def remeshed_stiffness(
 def _computed(gear, material, discretisation, positions, comm, report=None) -> tuple[dict[int, np.ndarray], dict]:
     """This rank's share of the positions, each meshed and condensed by it."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
-    from fenics_gears.elasticity.remeshed_gear import RemeshedGear
+    from .remeshed_gear import RemeshedGear
 
     body = RemeshedGear(gear, material, element_named(discretisation.element), discretisation.sizes(gear))
     mine = range(len(positions)) if comm is None else range(comm.rank, len(positions), comm.size)

@@ -15,12 +15,13 @@ from scipy.linalg import block_diag, cho_solve, get_lapack_funcs
 from scipy.linalg.blas import ztrsm
 from scipy.sparse import csr_matrix
 
-from fenics_gears.elasticity.condensation import CondensedBody, by_radius, condense, without
-from fenics_gears.elasticity.cut_chain import CutResponse, chain_is_quicker, chain_response
-from fenics_gears.elasticity.elements import Element
-from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.triangle import symmetric
 from fenics_gears.errors import ComputationError
+
+from .condensation import CondensedBody, by_radius, condense, without
+from .cut_chain import CutResponse, chain_is_quicker, chain_response
+from .elements import Element
+from .mesh_data import BodyMesh
+from .triangle import symmetric
 
 
 def condensed_sector(

@@ -13,10 +13,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import sparse
 
-from fenics_gears.elasticity.cache import Cache, kept
-from fenics_gears.elasticity.gear_compliance import similar_inputs
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
+
+from .cache import Cache, kept
+from .gear_compliance import similar_inputs
 
 # Right-hand sides in memory at once.
 COLUMNS = 64
@@ -68,7 +69,7 @@ def root_stress_rows(
     averages = np.ones((1, 1))
     if over_face:
         # Imported here: plane scenes have none.
-        from fenics_gears.elasticity.slice_averages import slice_averages
+        from .slice_averages import slice_averages
 
         averages = slice_averages(gear.module * discretisation.in_modules_of(gear).sweep.heights, 2, *slices)
     arrays, _ = kept(
@@ -86,8 +87,8 @@ def _computed(
 ) -> dict[str, np.ndarray]:
     """Rows for lengths in modules, and the points' angles."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
-    from fenics_gears.elasticity.fillet_points import POINTS, POINTS_OVER_FACE, fillet_curve, fillet_rows
-    from fenics_gears.elasticity.recovery import gear_recovery
+    from .fillet_points import POINTS, POINTS_OVER_FACE, fillet_curve, fillet_rows
+    from .recovery import gear_recovery
 
     over_face = averages.shape[1] > 1
     curve = fillet_curve(gear.of_module_one, POINTS_OVER_FACE if over_face else POINTS)

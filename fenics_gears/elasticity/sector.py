@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 from scipy import sparse
 
-from fenics_gears.elasticity.condensation import by_radius, dofs_of
-from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes
-from fenics_gears.elasticity.elements import Element
 from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
-from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.mumps import Factor
-from fenics_gears.elasticity.stiffness import assembled, compile_ahead, displacement_space, nodes_at, stiffness_matrix
+
+from .condensation import by_radius, dofs_of
+from .element_nodes import ElementNodes, element_nodes
+from .elements import Element
+from .mesh_data import BodyMesh
+from .mumps import Factor
+from .stiffness import assembled, compile_ahead, displacement_space, nodes_at, stiffness_matrix
 
 
 class Sector:

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fenics_gears.elasticity.element_sizes import ElementSizes, SizeField, SizeSource, along, divided
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, canonical_point, roll_angle_at_arc_length
 from fenics_gears.geometry.outline import ToothOutline, tooth_outline
+
+from .element_sizes import ElementSizes, SizeField, SizeSource, along, divided
 
 FILLET_SAMPLES = 201
 CURVE_SAMPLES = 400

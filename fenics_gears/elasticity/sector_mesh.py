@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.element_sizes import ElementSizes, SizeField
-from fenics_gears.elasticity.gmsh_session import gmsh_model
-from fenics_gears.elasticity.half_sector import drive_half, with_image
-from fenics_gears.elasticity.mesh_data import BodyMesh, oriented, split_to_quadrilaterals
-from fenics_gears.elasticity.sector_boundary import SectorBoundary, sector_boundary
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear import Gear
+
+from .element_sizes import ElementSizes, SizeField
+from .gmsh_session import gmsh_model
+from .half_sector import drive_half, with_image
+from .mesh_data import BodyMesh, oriented, split_to_quadrilaterals
+from .sector_boundary import SectorBoundary, sector_boundary
 
 NAMED_PARTS = ("flank", "coast", "hub", "lower cut", "upper cut")
 TRIANGLE, QUADRILATERAL = 2, 3  # gmsh's numbers of cell types

@@ -9,12 +9,13 @@ import ufl
 from scipy import sparse
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity import dolfinx_adapter as adapter
-from fenics_gears.elasticity.element_nodes import numbers_at
-from fenics_gears.elasticity.elements import Element
-from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.errors import ComputationError
 from fenics_gears.geometry.gear_data import Web
+
+from . import dolfinx_adapter as adapter
+from .element_nodes import numbers_at
+from .elements import Element
+from .mesh_data import BodyMesh
 
 WEB_QUADRATURE = 8
 
@@ -38,7 +39,7 @@ def stiffness_matrix(space, element: Element, poissons_ratio: float, web: Web | 
     A web that is less wide than the face is in plane strain as the rest is, and stiff by its share of the face width.
     """
     if element.incompatible_modes:
-        from fenics_gears.elasticity.incompatible_modes import condensed_stiffness
+        from .incompatible_modes import condensed_stiffness
 
         poisson = adapter.constant(space.mesh, poissons_ratio)
         return condensed_stiffness(

@@ -11,10 +11,11 @@ from fenics_gears.contact.mesh_cycle import SHARE_FORMED
 from fenics_gears.contact.places import face_places
 from fenics_gears.contact.window import ends_of, offsets_of
 from fenics_gears.elasticity.face.cost import expected_memory, expected_size
-from fenics_gears.model.cost import CONDENSING_PROGRAM, ON_FLANKS, ExpectedCost, root_stress_cost
-from fenics_gears.model.face_resolution import face_discretisation
-from fenics_gears.model.model import Model
 from fenics_gears.system.memory import allowed_memory
+
+from .cost import CONDENSING_PROGRAM, ON_FLANKS, ExpectedCost, root_stress_cost
+from .face_resolution import face_discretisation
+from .model import Model
 
 # Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a
 # cut for each harmonic of the ring, of which there are half as many as teeth.

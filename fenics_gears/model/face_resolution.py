@@ -25,7 +25,7 @@ from fenics_gears.scene.accuracy import (
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
-    from fenics_gears.model.model import Model
+    from .model import Model
 
 # A layer tells two slices apart. With 16 in it, line loads that vary over it err by up to half; the mean over the face
 # does not.

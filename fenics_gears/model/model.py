@@ -19,11 +19,12 @@ from fenics_gears.effects import check_files, common_period, from_effects
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.pair import GearPair, gear_pair
 from fenics_gears.geometry.pair_checks import design_warnings
-from fenics_gears.model.drivetrain import drivetrain, mesh_stiffness
-from fenics_gears.model.modification import corner, removals, rim_warnings
-from fenics_gears.model.resolution import Resolution, locking_warnings, resolution_warnings, resolve
-from fenics_gears.model.storage import counted_bytes, sizes, stored_arrays
 from fenics_gears.scene.data import HUNTING_TOOTH_PERIOD, LAST_CYCLES, Scene
+
+from .drivetrain import drivetrain, mesh_stiffness
+from .modification import corner, removals, rim_warnings
+from .resolution import Resolution, locking_warnings, resolution_warnings, resolve
+from .storage import counted_bytes, sizes, stored_arrays
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.frequencies import Vibration
@@ -105,7 +106,7 @@ class Model:
         """The common face in slices; a plane scene has one."""
         if not self.scene.three_dimensional:
             return one_slice(self.pair.face_width)
-        from fenics_gears.model.face_resolution import face_of
+        from .face_resolution import face_of
 
         return face_of(self.scene, self.pair)
 
@@ -130,7 +131,7 @@ class Model:
         """How many slices of one width the common face has, and layers either body in it; None of a plane scene."""
         if not self.scene.three_dimensional:
             return None, None
-        from fenics_gears.model.face_resolution import layers_of_common_face
+        from .face_resolution import layers_of_common_face
 
         return self.face.evenly, layers_of_common_face(self.scene, self.pair, self.face.evenly)
 
@@ -138,7 +139,7 @@ class Model:
         """How the body of the pinion (0) or the wheel (1) is divided over its face; None of a plane scene."""
         if not self.scene.three_dimensional:
             return None
-        from fenics_gears.model.face_resolution import face_discretisation
+        from .face_resolution import face_discretisation
 
         return face_discretisation(self, gear)
 
@@ -185,7 +186,7 @@ class Model:
         for sentences in from_effects(self.scene, "warnings", self):
             found += sentences
         if self.scene.three_dimensional:
-            from fenics_gears.model.face_resolution import face_warnings
+            from .face_resolution import face_warnings
 
             found += face_warnings(self)
         if self.corner is not None:
@@ -250,7 +251,7 @@ def model_of(scene: Scene) -> Model:
     shafts = drivetrain(scene, pair)
     model = Model(scene, pair, shafts, resolve(scene, pair, shafts), removals(scene, pair))
     if scene.three_dimensional:
-        from fenics_gears.model.face_resolution import check_layers
+        from .face_resolution import check_layers
 
         check_layers(model)
     cycles = scene.motion.recorded_cycles if scene.output.contact_fields and scene.resolves_contact else 0

@@ -22,7 +22,6 @@ from fenics_gears.elasticity.element_sizes import Discretisation
 from fenics_gears.geometry.gear_data import PAIR_STIFFNESS, mean_youngs_modulus
 from fenics_gears.geometry.involute import arc_length, roll_angle_at_arc_length
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.scene.accuracy import (
     COARSEST_ELEMENT,
     FINEST_ELEMENT,
@@ -31,6 +30,8 @@ from fenics_gears.scene.accuracy import (
     STEPS_PER_PERIOD,
 )
 from fenics_gears.scene.data import ISO_6336, Material, Scene
+
+from .drivetrain import mesh_stiffness
 
 DEFAULT_ELEMENT = "P2"
 # Half of the rough stiffness of a pair bounds its deflection from above.
@@ -124,7 +125,7 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     condensation = asked.condensation or ONCE
     inner = None
     if scene.three_dimensional:
-        from fenics_gears.model.face_resolution import in_steps, inner_length
+        from .face_resolution import in_steps, inner_length
 
         half_width_of = partial(
             hertz_half_width, relative_radius=_widest(pair), plane_modulus=plane_contact_modulus(scene)

@@ -16,7 +16,7 @@ from math import inf, isnan, nan, sqrt
 import numpy as np
 from numba import njit
 
-from fenics_gears.results.numbers import SAME
+from .numbers import SAME
 
 # Values asked for at most.
 MOST_SOLVED = 20

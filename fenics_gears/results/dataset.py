@@ -21,16 +21,17 @@ from fenics_gears.dynamics.march import March
 from fenics_gears.effects import common_period, from_effects, result_variables
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.numbers_version import NUMBERS_VERSION
-from fenics_gears.results.carried_scene import scene_attributes
-from fenics_gears.results.contact_variables import largest_normal_force, transmitted
-from fenics_gears.results.extrema import Extrema, extremes
-from fenics_gears.results.key_numbers import key_numbers, largest_root_stress, path_point_coordinate, path_point_values
-from fenics_gears.results.numbers import RUNG, loss_attributes
-from fenics_gears.results.pairs import shown_steps
-from fenics_gears.results.recorder import Recorder
-from fenics_gears.results.settled import settled
-from fenics_gears.results.validity import warnings_of, warnings_of_energy
 from fenics_gears.scene.data import Scene
+
+from .carried_scene import scene_attributes
+from .contact_variables import largest_normal_force, transmitted
+from .extrema import Extrema, extremes
+from .key_numbers import key_numbers, largest_root_stress, path_point_coordinate, path_point_values
+from .numbers import RUNG, loss_attributes
+from .pairs import shown_steps
+from .recorder import Recorder
+from .settled import settled
+from .validity import warnings_of, warnings_of_energy
 
 
 class RunResult:

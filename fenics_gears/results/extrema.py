@@ -21,9 +21,10 @@ from fenics_gears.dynamics.march import March, thread_pools
 from fenics_gears.dynamics.steps import Record
 from fenics_gears.effects import common_period
 from fenics_gears.model.model import Model
-from fenics_gears.results.crests import Searches, largest_of_cubics
-from fenics_gears.results.key_numbers import largest_force_over_time
-from fenics_gears.results.numbers import CUBICS, SAME, SOLVED, STEPS
+
+from .crests import Searches, largest_of_cubics
+from .key_numbers import largest_force_over_time
+from .numbers import CUBICS, SAME, SOLVED, STEPS
 
 # Up to which part of the curve's span an extremum is sought.
 SOUGHT = 1e-4

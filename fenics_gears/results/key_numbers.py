@@ -11,16 +11,10 @@ import xarray as xr
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.geometry.sliding import CONTACT_POINTS, contact_points, sliding_speed, specific_sliding
-from fenics_gears.results.contact_variables import Curves, largest_normal_force, mesh_force, transmitted
-from fenics_gears.results.numbers import (
-    HARMONICS,
-    first_largest,
-    harmonics,
-    largest_of_one_pair,
-    mean_where_positive,
-    shares_at,
-)
 from fenics_gears.scene.data import Scene
+
+from .contact_variables import Curves, largest_normal_force, mesh_force, transmitted
+from .numbers import HARMONICS, first_largest, harmonics, largest_of_one_pair, mean_where_positive, shares_at
 
 MICROMETRE, WATT = 1e-3, 1e3  # mm, N mm/s
 HARMONIC_NAMES = tuple(f"transmission_error_harmonic_{n}" for n in range(1, HARMONICS + 1))
@@ -132,7 +126,7 @@ def _pressure(settled: Curves, pair: GearPair) -> dict[str, float | str]:
     roll = at("largest_contact_pressure_roll_angle")
     if pair.slope:
         # Imported here: plane runs have none.
-        from fenics_gears.results.load_factors import end_of_line
+        from .load_factors import end_of_line
 
         if end := end_of_line(pair, pair.pinion.base_radius * roll):
             found["peak_contact_pressure_beside"] = end

@@ -19,7 +19,8 @@ from fenics_gears.dynamics.steps import Steps
 from fenics_gears.effects import effects_on, from_effects
 from fenics_gears.model.model import Model
 from fenics_gears.model.storage import InMemory, Kept, sizes, stored_arrays
-from fenics_gears.results.contact_variables import (
+
+from .contact_variables import (
     energy_variables,
     mesh_variables,
     node_variables,
@@ -27,13 +28,13 @@ from fenics_gears.results.contact_variables import (
     watched_contact,
     work_variables,
 )
-from fenics_gears.results.mesh_curves import EdgesAndKinks, pressure_curves, stiffness_curves
-from fenics_gears.results.side_by_side import KnownLayouts, SideBySide
+from .mesh_curves import EdgesAndKinks, pressure_curves, stiffness_curves
+from .side_by_side import KnownLayouts, SideBySide
 
 if TYPE_CHECKING:
-    from fenics_gears.results.face_variables import AlongTheFace
-    from fenics_gears.results.journal import Place, Recorded
-    from fenics_gears.results.root_stress_variables import RootStress
+    from .face_variables import AlongTheFace
+    from .journal import Place, Recorded
+    from .root_stress_variables import RootStress
 
 # How the names of what the warnings need begin, beside those of the result.
 WATCHED = "watched: "
@@ -44,11 +45,11 @@ def _along_face(model: Model, cycle: Cycle) -> tuple[AlongTheFace, ...]:
     if cycle.face.slices == 1:
         return ()
     # Imported here: plane scenes have none.
-    from fenics_gears.results.face_variables import AlongTheFace
+    from .face_variables import AlongTheFace
 
     if not model.drivetrain.elastic:
         return (AlongTheFace(cycle),)
-    from fenics_gears.results.bent_shafts import BentShafts
+    from .bent_shafts import BentShafts
 
     return (BentShafts(cycle, model),)
 
@@ -112,7 +113,7 @@ class Recorder:
         room = self.stored, self.model.steps + 1, self.model.contact_steps
         if journal is None:
             return InMemory(*room)
-        from fenics_gears.results.journal import Journal
+        from .journal import Journal
 
         return Journal(journal, self.model.scene, *room)
 

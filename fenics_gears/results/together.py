@@ -19,7 +19,8 @@ from fenics_gears.dynamics.march import thread_pools
 from fenics_gears.dynamics.marches import Marches, OpenedNodes
 from fenics_gears.dynamics.steps import Steps, drive_flanks_touch
 from fenics_gears.model.model import Model
-from fenics_gears.results.contact_variables import (
+
+from .contact_variables import (
     energy_variables,
     largest_normal_force,
     node_variables,
@@ -27,13 +28,13 @@ from fenics_gears.results.contact_variables import (
     pair_variables,
     work_variables,
 )
-from fenics_gears.results.dataset import friction_loss
-from fenics_gears.results.extrema import Extrema, Quantity, extremes
-from fenics_gears.results.key_numbers import HARMONIC_NAMES, key_numbers
-from fenics_gears.results.mesh_curves import EdgesAndKinks, pressure_curves
-from fenics_gears.results.recorder import KnownTouching
-from fenics_gears.results.settled import settled
-from fenics_gears.results.side_by_side import KnownLayouts, SideBySide
+from .dataset import friction_loss
+from .extrema import Extrema, Quantity, extremes
+from .key_numbers import HARMONIC_NAMES, key_numbers
+from .mesh_curves import EdgesAndKinks, pressure_curves
+from .recorder import KnownTouching
+from .settled import settled
+from .side_by_side import KnownLayouts, SideBySide
 
 ERROR, FORCE, PRESSURE, LOSS = (
     "peak_to_peak_transmission_error", "largest_pair_force", "peak_contact_pressure", "friction_loss",

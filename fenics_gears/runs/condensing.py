@@ -8,14 +8,15 @@ from dataclasses import dataclass
 from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model, model_of
-from fenics_gears.runs.gear_store import own_gear_store
-from fenics_gears.runs.run import Run
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.bodies import body_key
 from fenics_gears.simulation.root_stress import rows_of
 from fenics_gears.simulation.routes import route_of
 from fenics_gears.system.progress import SilentProgress
 from fenics_gears.system.second_process import threads
+
+from .gear_store import own_gear_store
+from .run import Run
 
 # What is condensed of a gear.
 BODY, ROOT_STRESS = "body", "root stress"

@@ -17,11 +17,12 @@ from fenics_gears import results
 from fenics_gears.errors import ComputationError
 from fenics_gears.results.dataset import RunResult
 from fenics_gears.results.files import read
-from fenics_gears.runs.record import VARIABLES, Record, record_of
-from fenics_gears.runs.run import Run
-from fenics_gears.runs.runs import Failure, failure_of
-from fenics_gears.runs.spent import seconds_of
 from fenics_gears.system.output import remove_left_over, write_whole
+
+from .record import VARIABLES, Record, record_of
+from .run import Run
+from .runs import Failure, failure_of
+from .spent import seconds_of
 
 LOGGER = logging.getLogger(__name__)
 ENDING, FAILED_ENDING = ".nc", ".failed.txt"

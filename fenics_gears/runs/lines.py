@@ -16,9 +16,10 @@ from typing import TYPE_CHECKING, Any
 from fenics_gears.errors import ComputationError, GearsError
 from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.results.dataset import RunResult
-from fenics_gears.runs.run import Run
-from fenics_gears.runs.runs import Failure, failure_of
 from fenics_gears.system.job import communicator
+
+from .run import Run
+from .runs import Failure, failure_of
 
 if TYPE_CHECKING:
     from fenics_gears.results.together import NumbersOfRun

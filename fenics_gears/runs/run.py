@@ -11,8 +11,9 @@ from typing import Any
 from fenics_gears.elasticity.cache import as_json
 from fenics_gears.model.model import RELIEFS, WORDS, Model, differ_only, model_of, with_reliefs
 from fenics_gears.numbers_version import NUMBERS_VERSION
-from fenics_gears.runs.gear_store import cycle_key, operators_key
 from fenics_gears.scene.data import Scene
+
+from .gear_store import cycle_key, operators_key
 
 Sharing = tuple[int, int]
 

@@ -13,15 +13,16 @@ from typing import Any, Protocol
 from fenics_gears.errors import GearsError
 from fenics_gears.model.model import Model
 from fenics_gears.results.dataset import RunResult
-from fenics_gears.runs.condensing import condense, gear_tasks
-from fenics_gears.runs.gear_store import own_gear_store
-from fenics_gears.runs.run import Run
-from fenics_gears.runs.spent import Spent
-from fenics_gears.runs.team import Alone, Together
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.routes import Preparation
 from fenics_gears.simulation.simulate import solved
 from fenics_gears.system.progress import Progress, SilentProgress
+
+from .condensing import condense, gear_tasks
+from .gear_store import own_gear_store
+from .run import Run
+from .spent import Spent
+from .team import Alone, Together
 
 LOGGER = logging.getLogger(__name__)
 # Runs that are computed together at most, and tasks that each process gets at least.

@@ -10,11 +10,12 @@ import xarray as xr
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.model import Model
-from fenics_gears.runs.gear_store import GearStore
-from fenics_gears.runs.runs import completed
 from fenics_gears.scene.data import Scene
 from fenics_gears.simulation.routes import Prepared
 from fenics_gears.system.progress import Progress, SilentProgress
+
+from .gear_store import GearStore
+from .runs import completed
 
 STAGES = ("mesh", "condense", "march")
 

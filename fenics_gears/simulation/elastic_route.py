@@ -14,10 +14,11 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.compliance import Bodies
 from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.model import Model
-from fenics_gears.simulation.bodies import gear_bodies
-from fenics_gears.simulation.routes import CONDENSED, route_of
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
+
+from .bodies import gear_bodies
+from .routes import CONDENSED, route_of
 
 if TYPE_CHECKING:
     from fenics_gears.dynamics.elastic_shaft import ElasticShaft

@@ -30,8 +30,9 @@ from fenics_gears.model.model import Model
 from fenics_gears.results.face_ends import slice_widths, windows
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.dynamic_factor import at_rest, quasi_static
-from fenics_gears.simulation.elastic_route import gaps_apart, gaps_of
+
+from .dynamic_factor import at_rest, quasi_static
+from .elastic_route import gaps_apart, gaps_of
 
 # Positions of the mesh cycle, about.
 POSITIONS = 16

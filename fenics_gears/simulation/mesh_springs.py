@@ -19,10 +19,11 @@ from fenics_gears.elasticity.compliance import Bodies
 from fenics_gears.geometry.iso_6336 import mesh_factor, pair_stiffness
 from fenics_gears.model.drivetrain import mesh_stiffness
 from fenics_gears.model.model import Model
-from fenics_gears.simulation.bodies import gear_bodies
-from fenics_gears.simulation.elastic_route import cycle_of, flanks_of
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
+
+from .bodies import gear_bodies
+from .elastic_route import cycle_of, flanks_of
 
 # Most phases of a table, which is linear between them.
 MOST_PHASES = 200

@@ -15,9 +15,10 @@ from fenics_gears.elasticity.remeshing import RemeshedStiffness, remeshed_stiffn
 from fenics_gears.errors import SceneError
 from fenics_gears.model.model import Model
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
-from fenics_gears.simulation.elastic_route import cycle_of
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
+
+from .elastic_route import cycle_of
 
 
 def reference_route(

@@ -6,9 +6,10 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.rigid_mesh import rigid_mesh
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.model.model import Model
-from fenics_gears.simulation.elastic_route import cycle_of
 from fenics_gears.system.job import Job
 from fenics_gears.system.progress import Progress
+
+from .elastic_route import cycle_of
 
 
 def rigid_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[tuple, Cycle]:

@@ -8,8 +8,9 @@ from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
 from fenics_gears.model.model import Model
 from fenics_gears.results.root_stress_variables import RootStress
-from fenics_gears.simulation.bodies import discretisation_of
 from fenics_gears.system.progress import Progress
+
+from .bodies import discretisation_of
 
 
 def root_stress(model: Model, cycle: Cycle, progress: Progress, cache: Cache | None) -> RootStress:

@@ -23,10 +23,11 @@ from fenics_gears.model.model import Model, model_of
 from fenics_gears.model.resolution import ONCE
 from fenics_gears.results.pairs import contact_times
 from fenics_gears.scene.data import Scene
-from fenics_gears.simulation.bodies import discretisation_of
-from fenics_gears.simulation.routes import prepared
-from fenics_gears.simulation.stored_forces import StoredForces, stored_forces
 from fenics_gears.system.progress import SilentProgress
+
+from .bodies import discretisation_of
+from .routes import prepared
+from .stored_forces import StoredForces, stored_forces
 
 # Over the face, sectors on either side of the loaded teeth that are recovered; in the plane all are.
 BESIDE = 2

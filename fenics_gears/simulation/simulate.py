@@ -23,11 +23,12 @@ from fenics_gears.results.numbers import ESTIMATED
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.results.validity import worst_first
 from fenics_gears.scene.data import ELASTIC, LAST_CYCLES, Scene
-from fenics_gears.simulation.routes import Preparation, prepared, route_of
-from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.system.job import Job
 from fenics_gears.system.memory import allowed_memory, give_back
 from fenics_gears.system.progress import Progress, SilentProgress
+
+from .routes import Preparation, prepared, route_of
+from .warm_up import compile_kernels
 
 if TYPE_CHECKING:
     from fenics_gears.results.journal import Place
@@ -153,7 +154,7 @@ def _simulated(
         return recorder, _marched(recorder, gears, compiled, progress)
 
     if model.drivetrain.on_rolling_bearings:
-        from fenics_gears.simulation.bearings_at_work import with_bearings_at_work
+        from .bearings_at_work import with_bearings_at_work
 
         recorder, march = with_bearings_at_work(model, marched)
     else:
@@ -176,7 +177,7 @@ def root_stress_of(model: Model, cycle, progress: Progress, cache: Cache):
     rigid flanks."""
     if not (model.scene.output.root_stress and route_of(model).stresses):
         return None
-    from fenics_gears.simulation.root_stress import root_stress
+    from .root_stress import root_stress
 
     return root_stress(model, cycle, progress, cache)
 
@@ -220,7 +221,7 @@ def _with_dynamic_factors(recorder: Recorder, result: RunResult, progress: Progr
     inertia."""
     if recorder.model.scene.inertia is None or not result.attrs["complete"]:
         return result
-    from fenics_gears.simulation import dynamic_factor
+    from . import dynamic_factor
 
     if not dynamic_factor.wanted(recorder.model.scene):
         return result
@@ -234,7 +235,7 @@ def _with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:
     model, dataset = result.recorder.model, result.dataset
     if not model.scene.three_dimensional or not result.attrs["complete"]:
         return dataset
-    from fenics_gears.simulation import lead_correction
+    from . import lead_correction
 
     if lead_correction.wanted(model):
         progress.stage("propose lead modifications")

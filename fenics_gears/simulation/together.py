@@ -10,12 +10,13 @@ from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import RELIEFS, Model, differ_only
 from fenics_gears.results.extrema import repeating_steps
 from fenics_gears.results.together import OFFERED, NumbersOfRun, numbers_together
-from fenics_gears.simulation.elastic_route import reliefs_apart
-from fenics_gears.simulation.routes import Preparation
-from fenics_gears.simulation.simulate import memory_for_operators
-from fenics_gears.simulation.warm_up import compile_kernels
 from fenics_gears.system.memory import give_back
 from fenics_gears.system.progress import SilentProgress
+
+from .elastic_route import reliefs_apart
+from .routes import Preparation
+from .simulate import memory_for_operators
+from .warm_up import compile_kernels
 
 
 def can_be_solved_together(model: Model, asked: Collection[str]) -> bool:

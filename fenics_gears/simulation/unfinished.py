@@ -11,9 +11,10 @@ from fenics_gears.elasticity.cache import user_cache
 from fenics_gears.model.model import model_of
 from fenics_gears.results.journal import read
 from fenics_gears.results.recorder import Recorder
-from fenics_gears.simulation.routes import prepared
-from fenics_gears.simulation.simulate import result_of, root_stress_of
 from fenics_gears.system.progress import SilentProgress
+
+from .routes import prepared
+from .simulate import result_of, root_stress_of
 
 NOT_ENDED = "not ended"
 

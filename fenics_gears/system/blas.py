@@ -70,7 +70,7 @@ def choice() -> Choice:
             return Choice(**known["choice"])
     found = _found()
     # Not imported by the process that runs this file as a script.
-    from fenics_gears.system.output import whole_file
+    from .output import whole_file
 
     with contextlib.suppress(OSError), whole_file(file) as kept:
         kept.write(json.dumps({"key": key, "choice": asdict(found)}).encode())

@@ -10,7 +10,6 @@ import numpy as np
 
 from fenics_gears.elasticity.cache import Cache, kept
 from fenics_gears.elasticity.compliance import FlankCompliance, Reach
-from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.face_compliance_data import FaceCompliance
 from fenics_gears.elasticity.gear_compliance import COUNTS, check_inputs, similar_inputs
 from fenics_gears.geometry.gear import Gear
@@ -18,6 +17,8 @@ from fenics_gears.geometry.gear_data import Material
 from fenics_gears.geometry.outline import centreline_angle
 from fenics_gears.system.job import Job, together
 from fenics_gears.system.second_process import SecondProcess
+
+from .discretisation import FaceDiscretisation
 
 if TYPE_CHECKING:
     from fenics_gears.elasticity.element_sizes import ElementSizes
@@ -80,10 +81,11 @@ def _computed(
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from fenics_gears.elasticity.condensation import by_radius
     from fenics_gears.elasticity.element_nodes import node_roll_angles
-    from fenics_gears.elasticity.face.condensed import condensed_swept_sector
-    from fenics_gears.elasticity.face.half_turn import ring_blocks
-    from fenics_gears.elasticity.face.swept_stiffness import ELEMENT
     from fenics_gears.elasticity.ring import condensed_sector, ring_compliance
+
+    from .condensed import condensed_swept_sector
+    from .half_turn import ring_blocks
+    from .swept_stiffness import ELEMENT
 
     clock = perf_counter()
     mesh = swept_section(gear, face.sizes)
@@ -97,7 +99,7 @@ def _computed(
         del sector
     else:
         # Imported here: few gears have such a web.
-        from fenics_gears.elasticity.face.whole_sector import condensed_whole_sector, whole_ring_blocks
+        from .whole_sector import condensed_whole_sector, whole_ring_blocks
 
         if comm is not None and comm.rank > 0:
             return None
@@ -134,7 +136,7 @@ def swept_section(gear: Gear, sizes: ElementSizes) -> BodyMesh:
 
         return sector_mesh(gear, sizes)
     # Imported here: gears without web have none of it.
-    from fenics_gears.elasticity.face.web import webbed_section
+    from .web import webbed_section
 
     return webbed_section(gear, sizes)
 

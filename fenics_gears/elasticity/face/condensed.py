@@ -10,12 +10,13 @@ from scipy import sparse
 from scipy.linalg.blas import dtrsm
 
 from fenics_gears.elasticity.condensation import by_radius, without
-from fenics_gears.elasticity.face.fold import EVEN, ODD, Fold
-from fenics_gears.elasticity.face.layers import Sweep
-from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms
-from fenics_gears.elasticity.face.tooth_and_body import condensed_halves
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import check_congruent, definite_factor
+
+from .fold import EVEN, ODD, Fold
+from .layers import Sweep
+from .swept_stiffness import ELEMENT, SectionForms
+from .tooth_and_body import condensed_halves
 
 # Part of the motions of a flank by its cuts that may be missing, by their energy: the compliance then errs by 4e-12 of
 # that within a tooth, and by 7e-11 of the largest entry between two teeth (measured).

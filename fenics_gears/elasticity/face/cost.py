@@ -5,9 +5,10 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
 from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.geometry.gear import Gear
+
+from .discretisation import FaceDiscretisation
 
 # Nodes of a section by those of its outline, within 15 % for 16 to 80 teeth and sections of 0.15 to 0.4 modules.
 NODES, POWER = 0.37, 1.7
@@ -23,7 +24,7 @@ def expected_size(gear: Gear, face: FaceDiscretisation, both_flanks: bool = Fals
     """Unknowns of a gear's sector, and those that it is condensed onto: flank or flanks, and cuts."""
     if gear.web is not None:
         # Imported here: gears without web have none of it.
-        from fenics_gears.elasticity.face.web import webbed_size
+        from .web import webbed_size
 
         unknowns, of_flank, of_cut = webbed_size(
             gear.of_module_one, face.in_modules_of(gear), lambda points: NODES * points**POWER

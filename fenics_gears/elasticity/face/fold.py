@@ -18,10 +18,11 @@ from scipy import sparse
 from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.condensation import by_radius, dofs_of, without
-from fenics_gears.elasticity.face.layers import swept_nodes
-from fenics_gears.elasticity.face.swept_stiffness import ELEMENT
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.errors import ComputationError
+
+from .layers import swept_nodes
+from .swept_stiffness import ELEMENT
 
 EVEN, ODD = 1.0, -1.0
 

@@ -20,10 +20,11 @@ from scipy.linalg import block_diag
 from scipy.linalg.blas import dsyrk, dtrsm
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.face.condensed import MISSING, SweptSector, spanned
 from fenics_gears.elasticity.ring import Whitened, cyclic, definite_factor, harmonic_of, rotation
 from fenics_gears.elasticity.triangle import symmetric
 from fenics_gears.errors import ComputationError
+
+from .condensed import MISSING, SweptSector, spanned
 
 # Of entries that the symmetry makes zero, in the largest entry.
 ROUND_OFF = 1e-9

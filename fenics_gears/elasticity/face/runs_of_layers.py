@@ -14,9 +14,10 @@ from scipy import sparse
 from scipy.linalg.blas import dsyrk, dtrsm
 
 from fenics_gears.elasticity.condensation import dofs_of
-from fenics_gears.elasticity.face.layers import Sweep
-from fenics_gears.elasticity.face.swept_stiffness import SectionForms, layer_of_kind
 from fenics_gears.elasticity.ring import definite_factor
+
+from .layers import Sweep
+from .swept_stiffness import SectionForms, layer_of_kind
 
 
 @dataclass(frozen=True)

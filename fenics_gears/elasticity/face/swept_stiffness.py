@@ -18,10 +18,11 @@ from fenics_gears.elasticity import dolfinx_adapter as adapter
 from fenics_gears.elasticity.condensation import dofs_of
 from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes, numbers_at
 from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.face.layers import POINTS, WEIGHTS, Sweep, SweptWeb, shapes
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.elasticity.stiffness import assembled, nodes_at, stress_of_strain
+
+from .layers import POINTS, WEIGHTS, Sweep, SweptWeb, shapes
 
 ELEMENT = ELEMENTS["P2"]
 # Of the section's coordinates times a gradient, squared.
@@ -45,7 +46,7 @@ class SectionForms:
         self.beside_web: tuple[SectionForms, np.ndarray] | None = None
         if web is not None:
             # Imported here: gears without web have none of it.
-            from fenics_gears.elasticity.face.web import beside_web
+            from .web import beside_web
 
             beside = SectionForms(beside_web(mesh, web), poissons_ratio)
             self.beside_web = beside, numbers_at(self.nodes.points, beside.nodes.points)

@@ -18,14 +18,15 @@ from scipy.spatial import cKDTree
 
 from fenics_gears.elasticity.condensation import dofs_of
 from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes, numbers_at
-from fenics_gears.elasticity.face.fold import Fold
-from fenics_gears.elasticity.face.layers import Sweep
-from fenics_gears.elasticity.face.runs_of_layers import condensed_onto_lines, eliminated
-from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.mirrored_ring import flank_free
 from fenics_gears.elasticity.ring import definite_factor
 from fenics_gears.elasticity.triangle import symmetric
+
+from .fold import Fold
+from .layers import Sweep
+from .runs_of_layers import condensed_onto_lines, eliminated
+from .swept_stiffness import ELEMENT, SectionForms
 
 # In the largest coordinate.
 ON_CENTRELINE = 1e-9

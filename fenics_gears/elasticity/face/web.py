@@ -30,14 +30,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fenics_gears.elasticity.element_sizes import ElementSizes
-from fenics_gears.elasticity.face.layers import SweptWeb
 from fenics_gears.elasticity.mesh_data import BodyMesh, oriented
 from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import centreline_angle
 
+from .layers import SweptWeb
+
 if TYPE_CHECKING:
-    from fenics_gears.elasticity.face.discretisation import FaceDiscretisation
+    from .discretisation import FaceDiscretisation
 
 # Of elements of web and hub along the radius: by how much they grow away from the circles where the width changes, and
 # the largest over a pitch's arc there.

@@ -14,13 +14,14 @@ import numpy as np
 from scipy.linalg.blas import zherk, ztrsm
 
 from fenics_gears.elasticity.condensation import CondensedBody, by_radius, dofs_of, without
-from fenics_gears.elasticity.face.condensed import spanned
-from fenics_gears.elasticity.face.layers import Sweep, swept_nodes
-from fenics_gears.elasticity.face.swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.mumps import Factor
 from fenics_gears.elasticity.ring import cyclic, definite_factor, definite_inverse, harmonic_of, sector_cuts
 from fenics_gears.elasticity.triangle import symmetric
+
+from .condensed import spanned
+from .layers import Sweep, swept_nodes
+from .swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 
 
 def condensed_whole_sector(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, both: bool = False) -> CondensedBody:

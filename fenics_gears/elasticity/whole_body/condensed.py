@@ -23,11 +23,12 @@ from fenics_gears.elasticity.gear_compliance import COUNTS
 from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.elasticity.mumps import Factor
 from fenics_gears.elasticity.ring import definite_inverse, rotation
-from fenics_gears.elasticity.whole_body.compliance import WholeBodyCompliance
-from fenics_gears.elasticity.whole_body.parts import DividedBody, Part, divided_body
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
 from fenics_gears.numbers_version import NUMBERS_VERSION
+
+from .compliance import WholeBodyCompliance
+from .parts import DividedBody, Part, divided_body
 
 
 def whole_body_compliance(

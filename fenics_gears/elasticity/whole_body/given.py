@@ -7,10 +7,11 @@ from pathlib import Path
 
 from fenics_gears.elasticity.body_mesh_file import read_body_mesh
 from fenics_gears.elasticity.elements import element_named
-from fenics_gears.elasticity.whole_body.outline import WholeBody, whole_body
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.system import user_file
+
+from .outline import WholeBody, whole_body
 
 
 @lru_cache(maxsize=8)

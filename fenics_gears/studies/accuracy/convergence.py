@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
-from fenics_gears.studies.accuracy.measures import DEFECT, Answer, comparable, distance
-from fenics_gears.studies.accuracy.refinement import LENGTH, Level, Refinement
+from .measures import DEFECT, Answer, comparable, distance
+from .refinement import LENGTH, Level, Refinement
 
 SAFETY = 1.25
 LEFT_WITHOUT_ORDER = 2.4

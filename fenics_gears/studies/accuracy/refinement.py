@@ -11,9 +11,10 @@ from fenics_gears.model.model import model_of
 from fenics_gears.model.resolution import EVERY_STEP, ONCE
 from fenics_gears.scene.accuracy import NODE_SPACING
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Scene
-from fenics_gears.studies.accuracy import over_face
-from fenics_gears.studies.accuracy.over_face import BODY, FAMILY, FLANK, LAYERS, LENGTH, SLICES, STEPS
-from fenics_gears.studies.accuracy.setting import Setting, default_setting, half_width, own_setting
+
+from . import over_face
+from .over_face import BODY, FAMILY, FLANK, LAYERS, LENGTH, SLICES, STEPS
+from .setting import Setting, default_setting, half_width, own_setting
 
 NODES, CONDENSATION = "contact node spacing", "condensation"
 # Flank elements and contact nodes, which stand at NODE_SPACING elements. Their errors interact: nodes refined alone

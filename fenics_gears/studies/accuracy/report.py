@@ -15,27 +15,18 @@ from fenics_gears.model.resolution import EVERY_STEP
 from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.scene.data import STIFFNESS_TABLE, Accuracy, Output, Scene
 from fenics_gears.simulation.warm_up import compile_kernels
-from fenics_gears.studies.accuracy import whole
-from fenics_gears.studies.accuracy.convergence import Limit, error_from, limit_of, together
-from fenics_gears.studies.accuracy.measures import DEFECT, Answer, answer, distances, judged, measures_of
-from fenics_gears.studies.accuracy.over_face import PLANE, in_the_plane
-from fenics_gears.studies.accuracy.refinement import (
-    CONDENSATION,
-    LENGTH,
-    OF_FAMILY,
-    Level,
-    Refinement,
-    check_measurable,
-    fine,
-    plan_of,
-    refinements,
-)
-from fenics_gears.studies.accuracy.root_point import peak_root_stress
-from fenics_gears.studies.accuracy.setting import Setting, default_setting, own_setting, without_settings
-from fenics_gears.studies.accuracy.setting_runs import SettingRuns
-from fenics_gears.studies.accuracy.target import settings_of
 from fenics_gears.studies.machine import machine
 from fenics_gears.system.progress import Progress, SilentProgress
+
+from . import whole
+from .convergence import Limit, error_from, limit_of, together
+from .measures import DEFECT, Answer, answer, distances, judged, measures_of
+from .over_face import PLANE, in_the_plane
+from .refinement import CONDENSATION, LENGTH, OF_FAMILY, Level, Refinement, check_measurable, fine, plan_of, refinements
+from .root_point import peak_root_stress
+from .setting import Setting, default_setting, own_setting, without_settings
+from .setting_runs import SettingRuns
+from .target import settings_of
 
 OWN, DEFAULTS = "the scene's own", "the program's defaults"
 

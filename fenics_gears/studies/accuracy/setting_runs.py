@@ -11,9 +11,10 @@ from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.model.model import Model, model_of
 from fenics_gears.runs.timed import Times, run_sharing, shared_gears
 from fenics_gears.scene.data import Scene
-from fenics_gears.studies.accuracy.measures import Answer
-from fenics_gears.studies.accuracy.setting import Setting
 from fenics_gears.system.progress import Progress
+
+from .measures import Answer
+from .setting import Setting
 
 Measured = Callable[[xr.Dataset, Model, Cycle], Answer]
 

@@ -6,11 +6,12 @@ from math import isnan
 from pathlib import Path
 
 from fenics_gears.runs.timed import STAGES, Times
-from fenics_gears.studies.accuracy.convergence import largest_part
-from fenics_gears.studies.accuracy.measures import OVER_FACE, judged, measures_of
-from fenics_gears.studies.accuracy.refinement import CONDENSATION
-from fenics_gears.studies.accuracy.report import AccuracyReport, RefinementResult, WholeResult
 from fenics_gears.studies.machine import write_lines
+
+from .convergence import largest_part
+from .measures import OVER_FACE, judged, measures_of
+from .refinement import CONDENSATION
+from .report import AccuracyReport, RefinementResult, WholeResult
 
 # Measures whose observed orders are shown.
 ORDERED = ("T_E", "T_EPP", "root stress")

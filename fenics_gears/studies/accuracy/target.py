@@ -12,19 +12,11 @@ import numpy as np
 from fenics_gears.errors import ComputationError
 from fenics_gears.model.face_resolution import MOST_SLICES_OF_A_LAYER
 from fenics_gears.scene.data import Accuracy, Scene
-from fenics_gears.studies.accuracy.convergence import EXPECTED_ORDER
-from fenics_gears.studies.accuracy.setting import Setting
-from fenics_gears.studies.accuracy.trial_runs import (
-    COARSER,
-    LAYERS,
-    MESH,
-    SLICES,
-    STEPS,
-    Sizes,
-    TargetNotReached,
-    TrialRuns,
-)
 from fenics_gears.system.progress import Progress
+
+from .convergence import EXPECTED_ORDER
+from .setting import Setting
+from .trial_runs import COARSER, LAYERS, MESH, SLICES, STEPS, Sizes, TargetNotReached, TrialRuns
 
 # Sizes at which errors are estimated first for a target of 1 %; over the face the mesh also for larger ones.
 FIRST_MESH, FIRST_STEPS = 2.5, 60.0

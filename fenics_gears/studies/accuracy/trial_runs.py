@@ -20,10 +20,11 @@ from fenics_gears.runs.runs import Ticking
 from fenics_gears.scene.accuracy import MOST_CONTACT_NODES
 from fenics_gears.scene.accuracy_rules import FINEST_BODY, FINEST_ELEMENT
 from fenics_gears.scene.data import Output, Scene
-from fenics_gears.studies.accuracy.convergence import errors_of_two
-from fenics_gears.studies.accuracy.measures import Answer, judged_answer
-from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
-from fenics_gears.studies.accuracy.setting_runs import SettingRuns
+
+from .convergence import errors_of_two
+from .measures import Answer, judged_answer
+from .setting import Setting, own_setting, without_settings
+from .setting_runs import SettingRuns
 
 # Fewest steps in a mesh cycle of the finer trial runs, where steps matter, and the most that are taken for the sake of
 # vibrations: if these are still faster, the motion follows the static one.

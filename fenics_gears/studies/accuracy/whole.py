@@ -14,9 +14,10 @@ from fenics_gears.geometry.pair import gear_pair
 from fenics_gears.model.cost import expected_cost, operator_bytes
 from fenics_gears.model.model import model_of
 from fenics_gears.scene.data import Scene
-from fenics_gears.studies.accuracy.convergence import largest_part
-from fenics_gears.studies.accuracy.refinement import FAMILY, LENGTH, OF_FAMILY, Refinement
-from fenics_gears.studies.accuracy.setting import Setting
+
+from .convergence import largest_part
+from .refinement import FAMILY, LENGTH, OF_FAMILY, Refinement
+from .setting import Setting
 
 # The path keeps a setting when its error is below this part of the error of the last one kept.
 KEPT_PART, MOST_KEPT = 0.7, 9
