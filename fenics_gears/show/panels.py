@@ -93,12 +93,15 @@ def ticks(ends: Sequence[float], most: float, logarithmic: bool = False) -> np.n
 
 
 def tick_labels(places: np.ndarray, logarithmic: bool = False) -> list[str]:
-    """Numbers with as many decimals as the finest of them needs; with powers of ten where they are large or small."""
-    if logarithmic or len(places) < 2 or not 1e-4 <= np.abs(places).max() < 1e6:
+    """Numbers with as many decimals as the finest of them needs; with powers of ten where they are large or small.
+
+    Places that differ by round-off alone have the same one.
+    """
+    step = places[1] - places[0] if len(places) > 1 else 0.0
+    told = (count for count in range(12) if np.abs(np.round(places, count) - places).max() < 1e-3 * step)
+    if logarithmic or not 1e-4 <= np.abs(places).max(initial=0.0) < 1e6 or (decimals := next(told, None)) is None:
         words = [f"{place:g}" for place in places]
     else:
-        step = places[1] - places[0]
-        decimals = next(count for count in range(12) if np.abs(np.round(places, count) - places).max() < 1e-3 * step)
         words = [f"{place:.{decimals}f}" for place in np.round(places, decimals) + 0.0]
     return [each.replace("-", "−") for each in words]
 

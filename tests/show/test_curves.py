@@ -147,3 +147,8 @@ def test_ticks_are_round_numbers_written_with_the_decimals_they_need(ends, logar
     places = ticks(ends, 5.0, logarithmic)
     assert tick_labels(places, logarithmic) == expected
     np.testing.assert_allclose([float(each.replace("−", "-")) for each in expected], places, atol=1e-9 * np.ptp(ends))
+
+
+def test_ticks_that_differ_by_round_off_are_one_number():
+    """The promise; a result that a study does not change but for round-off has a picture."""
+    assert tick_labels(np.array([1.0, 1.0 + 1e-13, 1.0 + 2e-13])) == ["1", "1", "1"]

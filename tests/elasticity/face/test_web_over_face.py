@@ -174,17 +174,16 @@ def annuli(circles, widths, order, load):
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("thickness", [1e-4, 1.0])
-def test_a_ring_that_is_free_and_one_on_a_web_that_becomes_oval(thickness):
+@pytest.mark.parametrize("thickness", [1e-3, 1.0])
+def test_a_ring_that_is_nearly_free_and_one_on_a_web_that_becomes_oval(thickness):
     """Authority: plane stress, exact; with next to no web that is a free ring, whose curved beam has the radial
-    displacement q R^4/(9 E I) by a load q cos(2 theta)."""
+    displacement q R^4/(9 E I) by a load q cos(2 theta). The thinner web is a tenth of the thinnest of a scene."""
     rim, width, load = 54.0, 4.0, SECTORS / (2.0 * pi * OUTER)
+    middle = 0.5 * (rim + OUTER)
+    beam = load * OUTER / middle * middle**4 / (9.0 * width * (OUTER - rim) ** 3 / 12.0)
+    assert annuli([BORE, rim, OUTER], [1e-4, width], 2, load) == pytest.approx(beam, rel=0.05)
     # Two harmonics: what the rim gives way beside each sector's force is in both.
     exact = [annuli([BORE, rim, OUTER], [thickness, width], order, load) for order in (2, 4)]
-    if thickness < 1e-3:
-        middle = 0.5 * (rim + OUTER)
-        beam = load * OUTER / middle * middle**4 / (9.0 * width * (OUTER - rim) ** 3 / 12.0)
-        assert exact[0] == pytest.approx(beam, rel=0.05)
     found = [moved(rim, width, thickness, order, radial=True) for order in (2, 4)]
     assert found[0] - found[1] == pytest.approx(exact[0] - exact[1], rel=0.01)
 
