@@ -115,5 +115,8 @@ def test_a_shaft_on_rolling_bearings_rests_where_they_carry_its_load(force):
     motions = (working.at_bearings @ gear).reshape(2, 5)
     loads = [reaction(each.rolling, motion).loads for each, motion in zip(bearings, motions)]
     linear = (working.bearing_loads @ gear).reshape(2, 5)
-    assert np.abs(np.array(loads) - linear).max() < 1e-9 * np.abs(linear).max()
+    # The gear's motion has the round-off of the solution above, of a shaft that is hardly loaded 500 times that of a
+    # loaded one: its condition number is 1e8.
+    round_off = np.linalg.cond(working.stiffness) * np.finfo(float).eps
+    assert np.abs(np.array(loads) - linear).max() < round_off * np.abs(linear).max()
     assert np.abs(np.sum(loads, axis=0)[:3] - load[:3]).max() < 1e-8 * np.abs(load).max()
