@@ -36,7 +36,8 @@ class Motion(NamedTuple):
     drivetrain, friction, tolerance of length (mm) and force (N).
 
     `free_motion` (k,): how a load moves the drivetrain where only contact holds it, else empty; `rigid`: steps are
-    those of `contact.rigid_step`.
+    those of `contact.rigid_step`; `modes`: how many of the coordinates, the last ones, are modes of shafts, which
+    contact does not move: they are eliminated before each step.
     """
 
     method: int
@@ -48,6 +49,7 @@ class Motion(NamedTuple):
     length_tolerance: float
     force_tolerance: float
     rigid: bool = False
+    modes: int = 0
 
     @classmethod
     def of(
@@ -60,14 +62,26 @@ class Motion(NamedTuple):
             for matrix in (drivetrain.stiffness, drivetrain.mass, drivetrain.damping)
         )
         free = drivetrain.free_motion if method == STATIC else np.empty(0)
-        return cls(method, stiffness, mass, damping, free, float(friction), tolerance.length, tolerance.force, rigid)
+        modes = sum(len(shaft.modes) for shaft in drivetrain.elastic)
+        return cls(
+            method, stiffness, mass, damping, free, float(friction), tolerance.length, tolerance.force, rigid, modes
+        )  # fmt: skip
 
     @property
     def packed(self) -> np.ndarray:
         """All in one array for compiled code, which `_unpacked` takes apart: to find the types of many arrays takes
         numba longer than a step."""
-        numbers = self.method, self.friction, self.length_tolerance, self.force_tolerance, self.rigid
+        numbers = self.method, self.friction, self.length_tolerance, self.force_tolerance, self.rigid, self.modes
         return np.concatenate([numbers, *(array.ravel() for array in self[1:4]), self.free_motion])
+
+
+class Eliminated(NamedTuple):
+    """Modes that are eliminated from equations of motion over c other coordinates and m modes: the `stiffness` (c, c)
+    that is left, how the modes `follow` (m, c) the others, and their own `flexibility` (m, m)."""
+
+    stiffness: np.ndarray
+    follow: np.ndarray
+    flexibility: np.ndarray
 
 
 class Course(NamedTuple):
@@ -96,7 +110,7 @@ def solve_steps(steps: Steps, first: int, end: int, motion: Motion, course: Cour
 
 @njit(cache=True)
 def _unpacked(numbers, k):
-    matrices, free_motion = numbers[5 : 5 + 3 * k * k].reshape(3, k, k), numbers[5 + 3 * k * k :]
+    matrices, free_motion = numbers[6 : 6 + 3 * k * k].reshape(3, k, k), numbers[6 + 3 * k * k :]
     return Motion(
         int(numbers[0]),
         matrices[0],
@@ -107,6 +121,7 @@ def _unpacked(numbers, k):
         numbers[2],
         numbers[3],
         numbers[4] != 0.0,
+        int(numbers[5]),
     )
 
 
@@ -114,7 +129,8 @@ def _unpacked(numbers, k):
 def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest, solver):
     steps, motion = in_block(block), _unpacked(packed, loads.shape[1])
     starts, kinds, states, status = steps.starts, steps.kinds, steps.states, steps.status
-    effective, k, duration = motion.stiffness, len(motion.stiffness), -1.0
+    k, duration, moved = len(motion.stiffness), -1.0, len(motion.stiffness) - motion.modes
+    modes = _eliminated(motion.stiffness, motion.modes)
     history = np.zeros((3, k, k))
     # A number that is written out has `newton` compiled once more.
     method = Method(1.0, np.int64(ALL_AT_ONCE), motion.length_tolerance, motion.force_tolerance)
@@ -124,7 +140,7 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
         if durations[s] != duration and motion.method != STATIC:
             duration = durations[s]
             history = _history(motion, duration)
-            effective = motion.stiffness + history[0]
+            modes = _eliminated(motion.stiffness + history[0], motion.modes)
         outer = loads[s]
         load = outer if motion.method == STATIC else with_history(outer, history, states[s - 1])
         now, before = slice(starts[s], starts[s + 1]), slice(starts[s - 1], starts[s])
@@ -140,11 +156,11 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
                 states[s - 1, 0], forces_before,
             )  # fmt: skip
         equations = Equations(
-            effective, load, contact.compliance, contact.jacobian, contact.gap, slip_before, motion.friction,
-            _turned(motion.free_motion, outer), contact.rows,
+            modes.stiffness, _left_load(load, modes), contact.compliance, _left_jacobian(contact.jacobian, moved),
+            contact.gap, slip_before, motion.friction, _turned(motion.free_motion, outer)[:moved], contact.rows,
         )  # fmt: skip
         both = slice(kinds * starts[s], kinds * starts[s + 1])
-        iterate = Iterate(nodes, steps.forces[both], coordinates, steps.displacement[both])
+        iterate = Iterate(nodes, steps.forces[both], coordinates[:moved], steps.displacement[both])
         if motion.rigid:
             sides = Sides(contact.on_drive_flanks, contact.node_pair, contact.sliding)
             outcome, steps.iterations[s] = rigid_step(equations, sides, iterate, method)
@@ -153,8 +169,34 @@ def _solve_steps(places, block, packed, durations, loads, cycle_before, at_rest,
             outcome, steps.iterations[s] = newton(solver, equations, iterate, method, residuals, sets)
         if outcome != CONVERGED:
             return
+        if motion.modes:
+            coordinates[moved:] = modes.flexibility @ load[moved:] - modes.follow @ coordinates[:moved]
         states[s] = _advanced(motion.method, duration, states[s - 1], coordinates)
         places[0] = s + 1
+
+
+@njit(cache=True)
+def _eliminated(stiffness, modes):
+    """Eliminate the last coordinates, which contact does not move."""
+    c = len(stiffness) - modes
+    if modes == 0:
+        return Eliminated(stiffness, np.empty((0, c)), np.empty((0, 0)))
+    flexibility = np.ascontiguousarray(np.linalg.inv(np.ascontiguousarray(stiffness[c:, c:])))
+    follow = flexibility @ np.ascontiguousarray(stiffness[c:, :c])
+    return Eliminated(stiffness[:c, :c] - np.ascontiguousarray(stiffness[:c, c:]) @ follow, follow, flexibility)
+
+
+@njit(cache=True)
+def _left_load(load, modes):
+    """The load (c,) on the other coordinates, with what modes hand on to them."""
+    c = len(modes.stiffness)
+    return load[:c] - load[c:] @ modes.follow if c < len(load) else load
+
+
+@njit(cache=True)
+def _left_jacobian(jacobian, moved):
+    """The columns of coordinates that contact moves."""
+    return np.ascontiguousarray(jacobian[:, :moved]) if moved < jacobian.shape[1] else jacobian
 
 
 @njit(cache=True)

@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 from tests.elastic_shaft_scenes import FEW, INERTIA, VIBRATING
-from tests.hard_cases.invariants import run_of
+from tests.hard_cases.invariants import cycle_of, run_of
 from tests.helical import helical_scene, on_stand_in_bodies
 
 from fenics_gears import model_of
+from fenics_gears.dynamics.march import Marcher
 from fenics_gears.model.description import describe
 from fenics_gears.results.summary import summary_rows
 
@@ -62,3 +63,18 @@ def test_a_slow_run_with_inertia_is_the_quasi_static_one():
     for name in ("transmission_error", "bearing_force_x", "bearing_moment_y", "tilt_y", "shaft_deflection_x"):
         different = np.nanmax(np.abs(moving[name].values - still[name].values))
         assert different <= 1e-9 * np.nanmax(np.abs(still[name].values))
+
+
+@pytest.mark.parametrize("more", ["", "[friction]\ncoefficient = 0.05\n"])
+def test_a_march_that_eliminates_modes_is_the_one_that_keeps_them(more):
+    """Brute force: plain steps solve for modes with all else. A velocity is a difference of positions over a step, and
+    is as exact as they are."""
+    model = model_of(helical_scene(VIBRATING + more, accuracy=FEW.replace("= 8", "= 64"), frequency=800.0))
+    cycle, found = cycle_of(model, on_stand_in_bodies(model)), []
+    for plain in (False, True):
+        march = Marcher(cycle, model.equations_of_motion, plain).run(model.steps, model.steps + 1)
+        states, step = [each.state for each in march.records], model.equations_of_motion.time_step
+        found.append(np.array([[each.position, step * each.velocity] for each in states]))
+    assert any("_mode_" in name for name in model.drivetrain.coordinates)
+    one, other = found
+    np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-12 * np.abs(other[:, 0]).max())
