@@ -154,9 +154,10 @@ def rows_of(name: str, scene: Scene, not_reached: list[str]) -> list[Row]:
 
 
 def write(rows: list[Row], names: list[str]) -> None:
-    """Write rows, and the file's lines of other pairs, in the order of the pairs' names."""
+    """Write rows, and the file's lines of other pairs that are still measured, in the order of the pairs' names."""
+    kept = set(names) - {row.pair for row in rows}
     with FILE.open(encoding="utf-8", newline="") as file:
-        others = [line for line in list(csv.reader(file))[1:] if line[0] not in {row.pair for row in rows}]
+        others = [line for line in list(csv.reader(file))[1:] if line[0] in kept]
     lines = sorted([*others, *(row.cells for row in rows)], key=lambda line: names.index(line[0]))
     with FILE.open("w", encoding="utf-8", newline="") as file:
         csv.writer(file, lineterminator="\n").writerows([HEADINGS, *lines])
