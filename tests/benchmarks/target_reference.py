@@ -5,11 +5,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fenics_gears.model.cost import expected_cost
 from fenics_gears.model.model import model_of
 from fenics_gears.runs.timed import run_sharing, shared_gears
 from fenics_gears.scene.data import Scene
 from fenics_gears.studies.accuracy.measures import JUDGED, Answer, comparable, judged_answer
-from fenics_gears.studies.accuracy.setting import own_setting, without_settings
+from fenics_gears.studies.accuracy.setting import Setting, own_setting, without_settings
 
 # Meshes in parts of the default, and steps in a mesh cycle: the fine mesh has few, the coarser one few and many.
 FINE, COARSER, FEW, MANY = 0.5, 1.0, 120, 960
@@ -24,10 +25,16 @@ class Reference:
     uncertainty: float
 
 
-def at_sizes(scene: Scene, mesh: float, steps: int):
+def at_sizes(scene: Scene, mesh: float, steps: int) -> Setting:
     """A whole setting by the size of its mesh, in that of the scene's defaults, and its steps."""
     default = own_setting(without_settings(scene))
     return replace(default, flank=mesh * default.flank, spacing=mesh * default.spacing, body=mesh, steps=steps)
+
+
+def counted_seconds(scene: Scene, setting: Setting) -> float:
+    """What a run with a setting costs, by its operations: repeats whatever else the machine does."""
+    expected = expected_cost(model_of(setting.of(scene)))
+    return (expected.condensing or 0.0) + expected.marching
 
 
 def reference(scene: Scene) -> Reference:

@@ -40,6 +40,8 @@ STAGES = {
     "operators": "contact operators",
     "solving": "solving the steps",
 }
+# The most that settings for a target should cost, in the cheapest that reach it.
+TWICE = 2.0
 MEASURES = {"": "time", "arrays": "memory", "peak": "most memory of the process", "operations": "operations"}
 Rows = list[dict[str, str]]
 
@@ -88,17 +90,26 @@ def orders() -> str:
 
 
 def target() -> str:
-    """How many targets were reached, and what choosing took."""
-    found = rows("target_of_pairs")
-    reached = sum(float(line["true, %"]) <= float(line["target, %"]) for line in found)
-    choosing, ratios = ([float(line[name]) for line in found if line[name]] for name in ("choosing, in runs", "ratio"))
-    lines = [
-        ["pairs and targets", str(len(found))],
-        ["targets reached", str(reached)],
-        ["time for choosing, in runs at the chosen settings", f"{median(choosing):.1f}, at most {max(choosing):.1f}"],
-        ["time of the chosen settings over the cheapest found", f"{median(ratios):.1f}, at most {max(ratios):.1f}"],
-    ]
-    return "\n".join(table(["", "median"], lines))
+    """What targets in the plane are worth: how many were reached, how near errors came, what settings cost."""
+    found, lines = rows("target_of_pairs"), []
+    for target in sorted({line["target, %"] for line in found}, key=float, reverse=True):
+        own = [line for line in found if line["target, %"] == target]
+        parts = [float(line["true, %"]) / float(target) for line in own]
+        choosing, ratios = (
+            [float(line[name]) for line in own if line[name]] for name in ("choosing, in runs", "ratio")
+        )
+        lines.append(
+            [
+                f"{target} %",
+                f"{sum(part <= 1.0 for part in parts)} of {len(own)}",
+                f"{median(parts):.2f}, {max(parts):.2f}",
+                f"{median(ratios):.1f}, {max(ratios):.1f}",
+                f"{sum(ratio > TWICE for ratio in ratios)} of {len(ratios)}",
+                f"{median(choosing):.1f}",
+            ]
+        )
+    names = ["target", "reached", "true / target, median and most", "cost / cheapest, median and most"]
+    return "\n".join(table([*names, "above twice the cheapest", "choosing, in runs, median"], lines))
 
 
 def target_over_face() -> str:

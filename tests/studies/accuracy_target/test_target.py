@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.benchmarks.target_pairs import pairs
 from tests.coarse import teeth_alone
 
 from fenics_gears import SceneError, expected_cost, model_of, scene_from_text, simulate
@@ -217,3 +218,18 @@ def test_settings_of_targets(scene, monkeypatch):
     assert not settings_of(scene, (TARGET,), SilentProgress(), failures)
     ((name, reason),) = failures
     assert name == "target 10 %" and "is not reached" in reason
+
+
+@pytest.mark.nightly
+def test_steps_that_barely_follow_a_vibration_keep_the_target(paper_scene):
+    """Another resolution: a pair at random whose errors fall by order 1 from 40 to 80 steps, with four times the chosen
+    steps and half the mesh. Targets from 4.3 to 4.7 % were missed by up to 9 % of them."""
+    name = "20/80, shifts 0.22 and 0.23, 60 N/mm, sharp tips, friction 0.05, 200 Hz"
+    scene, target = pairs(paper_scene)[name], 0.044
+    setting = choose(scene, target, SilentProgress()).setting
+    finer = replace(
+        setting, flank=0.5 * setting.flank, spacing=0.5 * setting.spacing, body=0.5 * setting.body,
+        steps=4 * setting.steps,
+    )  # fmt: skip
+    found, reference = (judged_answer(simulate(each.of(scene))) for each in (setting, finer))
+    assert max(distance(found, reference, measure) for measure in JUDGED) < target
