@@ -19,7 +19,7 @@ from fenics_gears.simulation.simulate import solved
 from fenics_gears.system.progress import Progress, SilentProgress
 
 from .condensing import condense, gear_tasks
-from .gear_store import own_gear_store
+from .gear_store import operators_key, own_gear_store
 from .run import Run
 from .spent import Spent
 from .team import Alone, Together
@@ -92,9 +92,7 @@ class Runs:
         """Compute runs in this order; each is `known` when `finished` is called with it and what is known of it. `tick`
         is called often and may raise KeyboardInterrupt."""
 
-        together = (
-            1 if self._store.asked is None else min(MOST_TOGETHER, len(missing) // (TASKS * self._team.size) or 1)
-        )
+        together = 1 if self._store.asked is None else most_together(len(missing), self._team.size)
         tasks = in_tasks(missing, together)
 
         def take(index: int, found: Any) -> None:
@@ -110,6 +108,21 @@ class Runs:
             self._team.run(functools.partial(computed, self._store), tasks, take, tick)
         finally:
             self.spent.seconds += time.perf_counter() - begun
+
+
+def most_together(missing: int, processes: int) -> int:
+    """How many of so many runs whose numbers alone are kept are in a task at most."""
+    return min(MOST_TOGETHER, missing // (TASKS * processes) or 1)
+
+
+def solved_at_once(models: Sequence[Model], asked: Collection[str]) -> bool:
+    """Whether runs of these models are solved together where the numbers `asked` alone are kept."""
+    # Imported here, as in `_together`.
+    from fenics_gears.simulation.together import can_be_solved_together
+
+    return len({operators_key(model) for model in models}) == 1 and all(
+        can_be_solved_together(model, asked) for model in models
+    )
 
 
 def in_order_of_sharing(runs: Iterable[Run]) -> list[Run]:

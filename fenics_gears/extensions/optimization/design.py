@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -145,6 +146,11 @@ class Design:
     bounds: tuple[Bound, ...]
     search: Search
     text: str
+
+    @cached_property
+    def asked(self) -> tuple[str, ...]:
+        """The numbers of a run that goals and constraints name."""
+        return tuple(dict.fromkeys(goal.name for goal in (*self.goals, *(bound.goal for bound in self.bounds))))
 
     def scene_tree(self, values: Mapping[str, float | str]) -> dict[str, Any]:
         """The parsed scene with these values of the variables, by their names."""

@@ -3,7 +3,6 @@ amount to."""
 
 from __future__ import annotations
 
-import functools
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -74,7 +73,7 @@ class Evaluator:
 
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
         self.design, self._progress = design, progress
-        self.runs, self.others = Runs(Lines(directory, line_of, tuple(self._names)), team), kept(directory)[1]
+        self.runs, self.others = Runs(Lines(directory, line_of, self.design.asked), team), kept(directory)[1]
         self._models, self.designs = Models(design.name, design.directory), (0, 0)
 
     def of_designs(self, designs: Sequence[Mapping[str, float | str]], deviations: np.ndarray) -> list[Evaluation]:
@@ -115,17 +114,9 @@ class Evaluator:
 
     def _without_fields(self, tree: Mapping[str, Any]) -> Mapping[str, Any]:
         """Fields over the flanks take memory and time, and only face load factors need them."""
-        if any(name in OVER_FACE for name in self._names):
+        if any(name in OVER_FACE for name in self.design.asked):
             return tree
         return {**tree, "output": {**tree.get("output", {}), "contact_fields": False}}
-
-    @functools.cached_property
-    def _names(self) -> list[str]:
-        return [
-            *dict.fromkeys(
-                [goal.name for goal in self.design.goals] + [bound.goal.name for bound in self.design.bounds]
-            )
-        ]
 
     def _run(self, cases: list[Run], batch: int) -> None:
         """Compute the runs of a `batch` of designs that are not kept; their processes keep them."""
@@ -147,14 +138,15 @@ class Evaluator:
             f"the run has no {name}"
             for line in lines
             if not isinstance(line, Failure)
-            for name in self._names
+            for name in self.design.asked
             if name not in line["numbers"]
         ]
         if failures or lacking:
             return Evaluation(values, failure=[*failures, *lacking][0])
         points = len(self.design.loads.points)
         found = {
-            name: np.array([line["numbers"][name] for line in lines]).reshape(points, samples) for name in self._names
+            name: np.array([line["numbers"][name] for line in lines]).reshape(points, samples)
+            for name in self.design.asked
         }
         of_samples = {name: self.design.loads.combined(numbers) for name, numbers in found.items()}
         judge = self.design.tolerances.statistic

@@ -11,15 +11,19 @@ from fenics_gears.command_line import seconds_in_words
 from fenics_gears.runs.condensing import gear_tasks
 from fenics_gears.runs.gear_store import operators_key
 from fenics_gears.runs.run import Run, run_of
+from fenics_gears.runs.runs import most_together, solved_at_once
 from fenics_gears.studies.scenes import NoScene, model_of_tree
 
 from .conditions import FRESH
 from .design import Design
 
 MOST_HOURS = 8.0
-# Of a run beside its march: seconds, and positions whose operators extremes between steps take (measured on the paper's
-# pair and on a helical one).
+# Of a run by itself beside its march: seconds, and positions whose operators extremes between steps take (measured on
+# the paper's pair and on a helical one).
 TIME_OF_A_RESULT, EXTREMES = 0.015, 10
+# Of runs that are solved together beside their march, seconds: of each, and of a task of them (measured on the paper's
+# pair, its march of 1.6 ms included: 2.7 ms a run of 32 in a task, 6.7 ms of 8, 10 ms of 4).
+TIME_OF_NUMBERS, TIME_OF_A_TASK = 0.001, 0.02
 # Values of a variable at which the chosen design's goals are evaluated, over its whole range.
 VALUES = 9
 # Torques of the Harris map where the operating points have one, in parts of it.
@@ -54,7 +58,7 @@ class Work:
             )
 
 
-def expected_work(design: Design, kept: int) -> Work:
+def expected_work(design: Design, kept: int, processes: int = 1) -> Work:
     """Of a design file of which so many runs are kept."""
     points, samples, scatters = len(design.loads.points), design.tolerances.samples, len(design.tolerances.scatters)
     designs = 1 + design.search.evaluations
@@ -70,9 +74,13 @@ def expected_work(design: Design, kept: int) -> Work:
         sum(getattr(cost, name) or 0.0 for cost in costs) / len(costs)
         for name in ("marching", "building", "condensing")
     )
-    shared = len({operators_key(model) for model in models}) == 1
-    position = building / models[0].resolution.steps_per_mesh_cycle
-    each = TIME_OF_A_RESULT + EXTREMES * position + marching - (building if shared else 0.0)
+    if solved_at_once(models, design.asked):
+        in_a_task = most_together(design.search.population * points * samples, processes)
+        each = TIME_OF_NUMBERS + TIME_OF_A_TASK / in_a_task + marching - building
+    else:
+        shared = len({operators_key(model) for model in models}) == 1
+        position = building / models[0].resolution.steps_per_mesh_cycle
+        each = TIME_OF_A_RESULT + EXTREMES * position + marching - (building if shared else 0.0)
     bodies = 1 if len(gear_tasks(cases)) == len(gear_tasks(cases[:1])) else designs
     return Work(runs, runs * each + (bodies * condensing if runs else 0.0))
 

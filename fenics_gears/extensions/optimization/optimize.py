@@ -91,7 +91,7 @@ def _run(
     design: Design, directory: Path, team: Alone | Together, progress: Interruption, quiet: bool, any_time: bool
 ) -> Outcome:
     evaluator, deviations = Evaluator(design, directory / "runs", team, progress), samples(design)
-    work = expected_work(design, evaluator.runs.kept)
+    work = expected_work(design, evaluator.runs.kept, team.size)
     if not any_time:
         work.check(design.title, team.size)
     if not quiet:

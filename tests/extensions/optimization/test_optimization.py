@@ -20,7 +20,7 @@ from fenics_gears.extensions.optimization.conditions import samples, scattered
 from fenics_gears.extensions.optimization.design import QUANTILE, WORST, Bound, Goal, Loads, Tolerances
 from fenics_gears.extensions.optimization.design_file import load_design
 from fenics_gears.extensions.optimization.evaluations import Evaluation, Evaluator
-from fenics_gears.extensions.optimization.expected import expected_work
+from fenics_gears.extensions.optimization.expected import at_ends, expected_work
 from fenics_gears.extensions.optimization.optimize import chosen, optimize
 from fenics_gears.extensions.optimization.page import write_page
 from fenics_gears.extensions.optimization.search import front
@@ -230,6 +230,18 @@ def test_the_number_of_runs_and_their_time_are_said_before_they_start(folder, mo
     computed = len(run_lines.kept(folder / "here" / "runs")[0])
     assert f"up to {work.runs} runs, about" in capsys.readouterr().err and 0.8 * work.runs <= computed <= work.runs
     assert expected_work(load_design(path), computed).runs == work.runs - computed
+
+
+def test_time_of_runs_that_are_solved_together_is_less_than_of_single_ones(folder):
+    """The rule of docs/optimize.md: quasi-static plane runs are solved together, but not for a number that only whole
+    results have; of many processes fewer are in a task."""
+    design = load_design(write(folder, STILL + VARIABLES + GOAL + FEW))
+    models = [case.model for case in at_ends(design)]
+    alone = replace(design, goals=(replace(design.goals[0], name="peak_to_peak_force"),))
+    assert runs.solved_at_once(models, design.asked) and not runs.solved_at_once(models, alone.asked)
+    one, two, single = (expected_work(*each) for each in ((design, 0), (design, 0, 2), (alone, 0)))
+    assert one.runs == two.runs == single.runs
+    assert one.seconds < two.seconds < single.seconds
 
 
 def test_runs_that_fail_are_kept_as_failed(folder, monkeypatch):
