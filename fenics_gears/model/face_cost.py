@@ -19,8 +19,9 @@ from .model import Model
 
 # Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a
 # cut for each harmonic of the ring, of which there are half as many as teeth; of a folded sector (measured on helical
-# gears of 23 to 67 teeth and faces of 20 and 32 mm), and of one that is not, since its web is not in the middle.
-FOLDED_SECTOR, WHOLE_SECTOR = (3e-5, 2e-11, 4e-12), (6e-5, 1.5e-10, 1.5e-10)
+# gears of 23 to 67 teeth and faces of 20 and 32 mm), and of one that is not, since its web is not in the middle (of
+# 35 and 61 teeth, 20 mm wide).
+FOLDED_SECTOR, WHOLE_SECTOR = (3e-5, 2e-11, 4e-12), (6e-5, 4e-11, 3e-11)
 # Of the root stress, an unknown, factorised and solved for one load.
 FACTORISED_UNKNOWN, SOLVED_UNKNOWN = 6e-5, 4e-7
 # Seconds at a position of each tooth pair in a slice and of the square of contact nodes; of a step, of their square and
