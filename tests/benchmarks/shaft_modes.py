@@ -9,9 +9,7 @@ this one to the other and the largest relative difference of the motions.
 
 import argparse
 import json
-import os
 import statistics
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -80,24 +78,13 @@ def main() -> None:
     options = parser.parse_args()
     if options.serve:
         return serve()
-    processes = []
-    for checkout in [options.other.resolve(), HERE] if options.other else [HERE]:
-        environment = {**os.environ, "PYTHONPATH": str(checkout), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-        processes.append(subprocess.Popen(
-            [sys.executable, "-P", __file__, "--serve"], env=environment, cwd=checkout, text=True,
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-        ))  # fmt: skip
-    turns = []
-    for _ in range(options.turns):
-        for process in processes:
-            process.stdin.write("\n")
-            process.stdin.flush()
-            turns.append(json.loads(process.stdout.readline()))
-    for process in processes:
-        process.stdin.close()
-        process.wait()
-    for name in turns[0]:
-        print(_line(name, [turns[number :: len(processes)] for number in range(len(processes))]))
+    # Imported here: another checkout, which `serve` measures, may not have it.
+    from tests.benchmarks.in_turns import answers_in_turns
+
+    checkouts = [options.other.resolve(), HERE] if options.other else [HERE]
+    found = answers_in_turns(__file__, checkouts, (), options.turns)
+    for name in found[0][0]:
+        print(_line(name, found))
 
 
 def _line(name: str, checkouts: list[list[dict]]) -> str:

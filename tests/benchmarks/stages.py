@@ -9,9 +9,7 @@ and its gears in the cache of the user.
 
 import argparse
 import json
-import os
 import statistics
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -84,26 +82,14 @@ def main() -> None:
     options = parser.parse_args()
     if options.serve:
         return serve(options.scene, options.root_stress, options.condense)
-    checkouts, processes = [options.other.resolve(), HERE] if options.other else [HERE], []
+    # Imported here: another checkout, which `serve` measures, may not have it.
+    from tests.benchmarks.in_turns import answers_in_turns
+
+    checkouts = [options.other.resolve(), HERE] if options.other else [HERE]
     arguments = ["--scene", str(options.scene.resolve()), *(["--root-stress"] * options.root_stress)]
-    arguments += ["--condense"] * options.condense + ["--serve"]
-    for checkout in checkouts:
-        environment = {**os.environ, "PYTHONPATH": str(checkout), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
-        processes.append(subprocess.Popen(
-            [sys.executable, "-P", __file__, *arguments], env=environment, text=True,
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-        ))  # fmt: skip
-    found = []
-    for _ in range(options.turns):
-        for process in processes:
-            process.stdin.write("\n")
-            process.stdin.flush()
-            found.append(json.loads(process.stdout.readline()))
-    for process in processes:
-        process.stdin.close()
-        process.wait()
-    by_checkout = [found[number :: len(checkouts)] for number in range(len(checkouts))]
-    for stage in found[0]:
+    arguments += ["--condense"] * options.condense
+    by_checkout = answers_in_turns(__file__, checkouts, arguments, options.turns)
+    for stage in by_checkout[0][0]:
         taken = [[turn[stage] for turn in turns] for turns in by_checkout]
         words = "".join(f"  {1e3 * statistics.median(each):8.1f} (least {1e3 * min(each):7.1f})" for each in taken)
         ratio = statistics.median([new / old for old, new in zip(taken[0], taken[-1])])
