@@ -1,5 +1,5 @@
 """What runs of one process share in memory: the gears condensed last, and the contact operators of the last mesh
-cycle."""
+cycles."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from fenics_gears.simulation.elastic_route import gaps_of, mesh_cycle, sections_
 from fenics_gears.simulation.routes import CONDENSED, prepared, route_of
 from fenics_gears.system.progress import Progress
 
-# Mesh cycles of the same bodies that are kept, as of torques with other contact nodes, and the part of the memory for
-# contact operators that they may take beside another one.
-MOST_CYCLES, SHARE_OF_OTHERS = 4, 0.35
+# Mesh cycles that are kept, as of torques with other elements or contact nodes, and the part of the memory for contact
+# operators that they and their bodies may take beside another one.
+MOST_CYCLES, SHARE_OF_OTHERS = 8, 0.35
 NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
 
 
@@ -33,14 +33,13 @@ class GearStore:
     coefficient may differ. Where only gaps differ (reliefs, lead modifications, misalignment, errors of teeth) they
     share its operators, and each has gaps of its own.
     Shared gears keep the times that condensing them took; with a shared mesh cycle these times are zero. `most`: how
-    many gears are kept, None for all.
+    many gears are kept beside those of mesh cycles, None for all.
     """
 
     def __init__(self, most: int | None = 2, cycles: bool = True):
         self._gears: dict[tuple, Body] = {}
         self._most, self._cycles = most, cycles
         self._operators: dict[tuple, tuple[Bodies, Cycle]] = {}
-        self._bodies_key: tuple | None = None
         self._cycle_key: tuple | None = None
         self._cycle: Cycle | None = None
 
@@ -48,19 +47,19 @@ class GearStore:
         """Bodies and mesh cycle for ``simulate``, kept or made."""
         if not self._cycles:
             return self._made(model, progress, cache)
-        key, of_bodies = operators_key(model), bodies_key(model)
+        key = operators_key(model)
         of_cycle = cycle_key(model, key)
         found = self._operators.pop(key, None)
         shared = found is not None
         if found is None:
             # Frees memory before the next is made.
             self._cycle_key = self._cycle = None
-            self._make_room(of_bodies)
+            self._make_room()
             found = self._made(model, progress, cache)
         # Last in the dictionary, last to be given up.
-        self._operators[key], self._bodies_key = found, of_bodies
+        self._operators[key] = found
         bodies, cycle = found
-        cycle.kept.beside = self._taken - cycle.kept.taken
+        cycle.kept.beside = self._taken - cycle.kept.taken - _bytes_of(bodies)
         if of_cycle != self._cycle_key:
             self._cycle, self._cycle_key = cycle.with_gaps(gaps_of(model, cycle)) if shared else cycle, of_cycle
         if shared:
@@ -69,13 +68,11 @@ class GearStore:
 
     @property
     def _taken(self) -> float:
-        """Bytes that all contact operators take."""
-        return sum(cycle.kept.taken for _, cycle in self._operators.values())
+        """Bytes that all contact operators and their bodies take."""
+        return sum(cycle.kept.taken + _bytes_of(bodies) for bodies, cycle in self._operators.values())
 
-    def _make_room(self, bodies: tuple) -> None:
-        """Give up the contact operators of other bodies, and the oldest where those of these take much."""
-        if bodies != self._bodies_key:
-            self._operators.clear()
+    def _make_room(self) -> None:
+        """Give up the oldest contact operators where there are many or they take much."""
         while self._operators and (
             len(self._operators) >= MOST_CYCLES
             or self._taken > SHARE_OF_OTHERS * min(cycle.kept.most for _, cycle in self._operators.values())
@@ -99,14 +96,22 @@ class GearStore:
         return pinion, wheel
 
     def _give_up_oldest(self) -> None:
-        while self._most is not None and len(self._gears) > self._most:
-            del self._gears[next(iter(self._gears))]
+        if self._most is None:
+            return
+        held = {id(body) for bodies, _ in self._operators.values() for body in bodies}
+        for key in [key for key, body in self._gears.items() if id(body) not in held][: -self._most]:
+            del self._gears[key]
 
     def _made(self, model: Model, progress: Progress, cache: Cache | None) -> tuple[Bodies, Cycle]:
         if route_of(model) is not CONDENSED:
             return prepared(model, progress, cache)
         bodies = self.bodies(model, progress, cache)
         return bodies, mesh_cycle(model, bodies)
+
+
+def _bytes_of(bodies: Bodies) -> float:
+    """What bodies over the face take, which lie once more in the slices of their mesh cycle."""
+    return 2.0 * sum(body.solid.blocks.nbytes for body in bodies if body.solid is not None)
 
 
 @functools.lru_cache(maxsize=1)
