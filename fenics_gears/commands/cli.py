@@ -83,7 +83,6 @@ def _carried_out(arguments: Sequence[str]) -> int:
 
 
 def _print_versions() -> int:
-    """Print the version, those of the libraries that compute, and the kernels of each OpenBLAS."""
     from fenics_gears.studies.machine import processor, versions
     from fenics_gears.system import blas
 
@@ -97,7 +96,6 @@ def _print_versions() -> int:
 
 
 def _in_words(command: Callable[[], int]) -> int:
-    """The command's exit code, with errors said in words."""
     try:
         return command()
     except GearsError as error:

@@ -25,7 +25,6 @@ def scene_to_measure(options, command: str):
 
 
 def measured(measure: Callable, quiet: bool):
-    """The report that `measure(progress)` gives."""
     with closing(shown_progress(quiet)) as progress:
         return measure(progress)
 

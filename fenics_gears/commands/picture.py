@@ -13,7 +13,6 @@ PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("picture", parents=[shared])
     add_run_argument(command)
     command.add_argument(
@@ -127,7 +126,6 @@ def _check_outputs(options, output: Path | None) -> None:
 
 
 def _scale(text: str) -> float:
-    """A finite number from zero, for argparse."""
     try:
         value = float(text)
     except ValueError:

@@ -24,7 +24,6 @@ ENDINGS = (".html", ".htm")
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("report", parents=[shared])
     command.add_argument(
         "run",
@@ -54,7 +53,6 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def report(options: argparse.Namespace) -> int:
-    """Write the page of a run or a study."""
     file, is_study = found_file(options.run)
     output = output_file(options.output, file, is_study)
     _check(options, output, is_study)

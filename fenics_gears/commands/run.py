@@ -26,7 +26,6 @@ from .shared import (
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("run", parents=[shared])
     add_scene_argument(command)
     add_output_argument(command)
@@ -38,7 +37,6 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run a scene."""
     return led(lambda job: _run(options, job))
 
 

@@ -168,7 +168,7 @@ class AllowedText(Allowed):
 
 @dataclass(frozen=True, kw_only=True)
 class AllowedFile(AllowedText):
-    """The name of a file with a certain ``ending``, such as ".msh"; ``made``: what it becomes, which has its name as
+    """The name of a file with a certain ``ending``, such as ".msh"; ``made``: makes what has the name as its
     ``path``."""
 
     longest: int = LONGEST_FILE_NAME
@@ -244,7 +244,6 @@ def _bare(value: Any, whole: bool) -> float:
 
 
 def _quantity(value: Any, unit: str, words: Any, *kinds: str) -> tuple[float, str]:
-    """A quantity's number and its kind, one of some."""
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         raise Refused("is not a text with a number and its unit.")
     if not isinstance(value, str):

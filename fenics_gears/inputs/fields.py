@@ -1,8 +1,8 @@
-"""The kinds of fields that a section has (``inputs.section``): quantities with units, bare numbers, choices.
+"""The kinds of fields that a section has (``inputs.section``).
 
-Each function declares a field of a frozen dataclass: its range and unit, its meaning in one sentence, and what holds
-where a scene leaves it out (``default``, and ``otherwise`` in words; a field with neither is required). Reading,
-messages, writing and the documentation follow from what a field is ``Allowed``.
+Each function declares a field of a frozen dataclass: range and unit, meaning in one sentence, and what holds where a
+scene leaves it out (``default``, and ``otherwise`` in words; a field with neither is required). ``marks``: further
+fields of ``Allowed``.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -26,8 +26,7 @@ from .allowed import (
 def quantity(
     limits: str, example: str, *, meaning: str, otherwise: str = "", default: str = "", below: str = "", **marks: bool
 ) -> Any:
-    """A quantity with a unit; its limits, both included, are written with units too ("0 mm to 1 m"), and so is a
-    default. ``marks``: as ``Allowed`` has them."""
+    """A quantity; its limits, both included, are written with units ("0 mm to 1 m"), and so is a default."""
     kind, lowest, highest = _limits(limits)
     allowed = AllowedNumber(
         description=f'{kind} from {limits}, with its unit, such as "{example}"',
@@ -73,10 +72,9 @@ def number(
 def quantities(
     limits: str, *examples: str, meaning: str, otherwise: str, count: int | None = None, **marks: bool
 ) -> Any:
-    """A list of quantities with units, optional; limits of each entry as those of a quantity.
+    """A list of quantities, optional; limits of each entry as those of a quantity.
 
-    ``examples``: of two entries, or one for both; ``count``: of the entries, where it is fixed; ``marks``: as
-    ``Allowed`` has them.
+    ``examples``: of two entries, or one for both; ``count``: of the entries, where it is fixed.
     """
     (kind, low, high), first, second = _limits(limits), examples[0], examples[-1]
     many, sizes = (f"{count} quantities", {"shortest": count, "longest": count}) if count else ("quantities", {})
@@ -131,7 +129,7 @@ def whole_number(
     words: Mapping[str, Any] | None = None,
     **marks: bool,
 ) -> Any:
-    """A bare whole number, bounds included; ``marks``: as ``Allowed`` has them."""
+    """A bare whole number, bounds included."""
     words = words or {}
     allowed = AllowedNumber(
         description=f"a whole number from {lowest} to {highest}, without unit, such as {example}{_or(words)}",
@@ -165,7 +163,7 @@ def text(longest: int, *, meaning: str, otherwise: str) -> Any:
 def file_name(
     ending: str, example: str, *, meaning: str, otherwise: str, made: Callable[[str], Any] = str, **marks: bool
 ) -> Any:
-    """The name of a file that ends in ``ending``, optional; ``marks``: as ``Allowed`` has them."""
+    """The name of a file that ends in ``ending``, optional."""
     description = (
         f'the name of a file that ends in {ending}, of at most {LONGEST_FILE_NAME} characters, such as "{example}"'
     )

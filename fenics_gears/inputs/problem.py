@@ -1,6 +1,4 @@
-"""A mistake in a scene file, the line where it stands, and the known name that a misspelt one is nearest to or stands
-for.
-"""
+"""A mistake in a scene file, its line, and the known name that a misspelt one is nearest to or stands for."""
 
 import difflib
 import re
@@ -46,13 +44,11 @@ MOST_TOLD = 20
 
 
 def listed(problems: Sequence[Problem], lines: Mapping[Path, int], source: str) -> str:
-    """The first mistakes of a file in the order of their lines, and how many there are."""
     first = sorted(problems, key=lambda each: each.line(lines))[:MOST_TOLD]
     return counted([problem.describe(source, lines) for problem in first], len(problems), source)
 
 
 def counted(entries: Sequence[str], count: int, source: str) -> str:
-    """The first of `count` mistakes in words, and how many there are."""
     more = [f"... and {count - MOST_TOLD} more"] if count > MOST_TOLD else []
     total = f"{count} mistake{'s' if count > 1 else ''} in {source}. Nothing was computed or written."
     return "\n".join([*entries[:MOST_TOLD], *more, total])

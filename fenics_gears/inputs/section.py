@@ -1,7 +1,6 @@
 """A section of a scene, declared once: a frozen dataclass whose fields say what they allow (``inputs.fields``).
 
-``read`` makes one of a parsed file and tells what is wrong; its values, in N, mm, s, rad, are the data that physics
-gets. ``tree_of`` is the way back, bit for bit.
+``read`` makes one of a parsed file and tells what is wrong; ``tree_of`` is the way back, bit for bit.
 """
 
 import functools
@@ -37,15 +36,12 @@ def section_within(section: type[Section], name: str) -> type[Section] | None:
 
 @functools.cache
 def names_in(section: type[Section]) -> tuple[str, ...]:
-    """Names of all that a section may have in a file, in the order of their declaration; a field that declares nothing
-    is of the data alone.
-    """
+    """Names of all that a section may have in a file; a field that declares nothing is of the data alone."""
     return tuple(each.name for each in fields(section) if {each.name} & {*_allowed(section), *_sections(section)})
 
 
 @functools.cache
 def required_in(section: type[Section]) -> frozenset[str]:
-    """Names of what a section cannot leave out."""
     return frozenset(each.name for each in fields(section) if _default(each) is MISSING)
 
 
@@ -136,8 +132,8 @@ def _missing(section: type[Section], name: str, place: Path) -> Iterator[Problem
 
 @dataclass(frozen=True, kw_only=True)
 class AllowedTables(Allowed):
-    """A list of tables, each of them a ``section``, which is called ``singular``; ``empty``: what to do instead of
-    giving none."""
+    """A list of tables, each a ``section`` that is called ``singular``; ``empty``: what to do instead of giving
+    none."""
 
     section: type[Section]
     singular: str
@@ -201,5 +197,4 @@ def field_of(section: type[Section], name: str, value: Any) -> Any:
 
 
 def _default(each: Field) -> Any:
-    """MISSING for a required field."""
     return each.default if each.default_factory is MISSING else each.default_factory()

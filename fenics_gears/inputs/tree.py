@@ -23,8 +23,7 @@ def table(tree: Tree, name: str) -> Tree | None:
 
 
 def value_at(tree: Tree, *path: str) -> Any:
-    """What a parsed scene has at a path, in which tables that are listed have numbers from 1; None where there is
-    nothing."""
+    """What a parsed scene has at a path, in which listed tables have numbers from 1; None where there is nothing."""
     found: Any = tree
     for name in path:
         if name.isdigit():
@@ -42,7 +41,7 @@ def with_gears(tree: Tree, name: str) -> dict[Path, Tree]:
 
 
 def given_for(both: Tree, gear: str) -> set[str]:
-    """Names that a section gives for the "pinion" or the "wheel": those for both gears, and those of the gear's own
+    """Names that a section gives for the "pinion" or the "wheel": those for both, and those of the gear's own
     section."""
     return {*both, *(table(both, gear) or {})}
 
@@ -53,9 +52,8 @@ def shafts_with_sections(tree: Tree) -> list[str]:
 
 
 def written_out(tree: dict[str, Any]) -> dict[str, Any]:
-    """A parsed file with its short forms written out: ``material = "steel"`` is a section with that name, listed
-    bearings, ``[[bearings.pinion]]``, are in the gear's section.
-    """
+    """A parsed file with its short forms written out: ``material = "steel"`` is a section with that name, and listed
+    bearings, ``[[bearings.pinion]]``, are in the gear's section."""
     gears, shafts, bearings = (table(tree, name) or {} for name in ("gears", "shafts", "bearings"))
     homes = (gears, *(table(gears, gear) for gear in GEARS), *(table(shafts, shaft) for shaft in SHAFTS))
     for home in homes:

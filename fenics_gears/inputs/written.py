@@ -37,8 +37,8 @@ def as_written(value: Any) -> str:
 
 
 def as_toml(tree: Mapping[str, Any]) -> str:
-    """A parsed scene as the text of a scene file; entries that are None are left out. Raises TypeError for what no file
-    can hold.
+    """A parsed scene as the text of a scene file, without entries that are None. Raises TypeError for what no file can
+    hold.
 
     >>> print(as_toml({"load": {"wheel_torque": "437 N m"}}), end="")
     [load]

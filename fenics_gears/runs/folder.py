@@ -56,7 +56,6 @@ class Folder:
         return replace(record_of(result), seconds=seconds_of(found))
 
     def seconds(self, known: Record) -> tuple[float, ...]:
-        """Those of a record."""
         return known.seconds
 
     def keep_failure(self, run: Run, error: Exception) -> Failure:
@@ -87,8 +86,8 @@ def _undamaged(path: Path, run: Run) -> Record | None:
 
 @contextlib.contextmanager
 def sole_writer(directory: Path, inside: str = "cases") -> Iterator[None]:
-    """Lock the study's directory for this process, make the folder `inside` it, and remove half-written files of a
-    study that was killed.
+    """Lock the study's directory for this process, make the folder `inside` it, and remove what a killed study left
+    half-written.
 
     Raises ComputationError where another study is writing there, or nothing can be written.
     """

@@ -1,7 +1,6 @@
-"""Runs as lines of JSON, in a file of its own for each process, so that a kill loses no finished run.
+"""Runs as lines of JSON, in a file for each process, so that a kill loses no finished run.
 
-A line is written at once when its run has ended. One that a kill or a full disk cut short is none: it is not read, and
-the next one begins below it.
+A line is written as soon as its run has ended. One that was cut short is not read, and the next one begins below it.
 """
 
 from __future__ import annotations
@@ -30,8 +29,8 @@ Line = dict[str, Any]
 
 @dataclass(frozen=True)
 class Lines:
-    """A folder of lines, each with what `line_of` makes of a run and its result, the `numbers` that are `asked` for at
-    least; with `failure` why there is nothing, also of a result that has no meaning."""
+    """A folder of lines, each what `line_of` makes of a run and its result, with at least the `numbers` that are
+    `asked` for; with `failure` why there is nothing, also of a result that has no meaning."""
 
     directory: Path
     line_of: Callable[[Run, RunResult | NumbersOfRun], Line]
@@ -45,13 +44,11 @@ class Lines:
         }
 
     def keep(self, run: Run, result: RunResult | NumbersOfRun) -> Line | Failure:
-        """Write the line of a result."""
         line = {"key": run.key, **self.line_of(run, result)}
         append(self.directory, line)
         return _known(line)
 
     def seconds(self, known: Line) -> list[float]:
-        """Those of a line."""
         return known["seconds"]
 
     def keep_failure(self, run: Run, error: Exception) -> Failure:

@@ -37,8 +37,7 @@ class Record:
 
     `numbers`: by name, also those of `STUDIED` that the run has; `curves`: (steps,) or (steps, 2), in the units of the
     run; `mesh_phase` (steps,): mesh cycles since the first recorded step; `base_radius`: of the wheel, mm; `labels`:
-    units and long name of each curve; `warnings`: those of the run;
-    `seconds`: as of `spent.seconds_of`, of a run that was computed here.
+    units and long name of each curve; `seconds`: as of `spent.seconds_of`, of a run that was computed here.
     """
 
     numbers: dict[str, float]

@@ -23,8 +23,8 @@ class Run:
     """A scene that is to be run.
 
     `key`: hash of all that its result depends on; `sharing`: equal numbers of runs that share contact operators, and of
-    these of runs with the same gaps; `make`: makes its model; `index`: its place among the cases of a study, `values`:
-    of the swept fields, in words.
+    these of runs with the same gaps; `make`: makes its model; `index`: its place in a study; `values`: of the swept
+    fields, in words.
     """
 
     key: str
@@ -35,12 +35,10 @@ class Run:
 
     @property
     def model(self) -> Model:
-        """The model of its scene."""
         return self.make()
 
     @property
     def scene(self) -> Scene:
-        """Its scene."""
         return self.model.scene
 
     @property
@@ -49,7 +47,6 @@ class Run:
         return f"{self.index:04d}-{self.key[:16]}"
 
     def __str__(self) -> str:
-        """The run in words."""
         return f"case {self.index} ({', '.join(f'{name} = {value}' for name, value in self.values.items())})"
 
     def __reduce__(self) -> tuple:

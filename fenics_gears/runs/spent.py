@@ -1,4 +1,4 @@
-"""What computing runs took: how many a second, and what limits them, as each search says at its end."""
+"""What computing runs took: how many a second, and what limits them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def seconds_of(result: RunResult) -> tuple[float, float, float]:
 @dataclass
 class Spent:
     """How many runs were `computed`, in how many `seconds` by the clock on so many `processes`; `of_runs`: seconds of
-    all, each by itself, as of `seconds_of`."""
+    all, as of `seconds_of`."""
 
     processes: int = 1
     computed: int = 0

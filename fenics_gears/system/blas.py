@@ -1,8 +1,8 @@
 """Kernels of OpenBLAS that suit the processor.
 
 An OpenBLAS that is older than the processor takes kernels of 2004, which condense at half the speed. It reads
-OPENBLAS_CORETYPE when it is loaded. Which kernels it takes by itself, and whether others are right, a process of its
-own finds out, once for a processor and its libraries; run as a script, this file is that process.
+OPENBLAS_CORETYPE when it is loaded. Which kernels suit, a process of its own finds out once for a processor and its
+libraries; run as a script, this file is that process.
 """
 
 import contextlib
@@ -39,8 +39,8 @@ class Choice:
 
 
 def choose(environment) -> None:
-    """Set OPENBLAS_CORETYPE where OpenBLAS would take slow or wrong kernels, the user has not set it and NumPy is not
-    loaded yet."""
+    """Set OPENBLAS_CORETYPE where OpenBLAS would take slow or wrong kernels, unless the user has set it or NumPy is
+    loaded."""
     if VARIABLE in environment or "numpy" in sys.modules:
         return
     if kernels := choice().kernels:
@@ -104,8 +104,7 @@ def in_another_process(kernels: str | None) -> list[dict]:
 
 
 def libraries() -> list[dict]:
-    """Every OpenBLAS that this program loads: its file, version, kernels, threads, and whether its products are
-    exact."""
+    """Every OpenBLAS that this program loads: file, version, kernels, threads, and whether its products are exact."""
     import scipy.linalg  # noqa: F401 - may have a library of its own
     from threadpoolctl import ThreadpoolController
 
@@ -161,7 +160,6 @@ def _product(library: ctypes.CDLL):
 
 
 def _instructions() -> set[str]:
-    """What the first processor can do; nothing where the system does not say."""
     with contextlib.suppress(OSError), open(PROCESSORS, encoding="utf-8", errors="replace") as lines:
         for line in lines:
             if line.startswith("flags"):

@@ -1,8 +1,8 @@
 """What MPI, PETSc and BLAS read from the process environment, set before they are loaded.
 
-A variable the user has set is never changed, unless it names a folder for temporary files or caches that this user
-cannot write. numba and DOLFINx keep compiled code in the user's folder for caches, matplotlib its list of fonts; where
-they cannot, a command fails or takes a minute more. MPI ends the process where temporary files have no room.
+What the user has set is never changed, unless it names a folder for temporary files or caches that cannot be written:
+numba and DOLFINx keep compiled code there, matplotlib its list of fonts, and MPI ends the process where temporary files
+have no room.
 """
 
 import contextlib
@@ -28,8 +28,6 @@ LOCAL_COUNTS = ("OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "SLURM_STEP_TAS
 
 def prepare(environment=os.environ):
     """Give MPI, PETSc and BLAS the settings this program needs; call it before NumPy or mpi4py is imported.
-
-    environment: the mapping to complete, the process's own unless a test passes another.
 
     Raises SceneError where compiled code can be kept nowhere.
     """
@@ -88,9 +86,8 @@ CACHES = ("numba", "fenics", "matplotlib", "fenics_gears")
 
 
 def have_folders(environment: Environment, aloud: bool) -> None:
-    """Set TMPDIR, XDG_CACHE_HOME and MPLCONFIGDIR where what stands there cannot be used.
-
-    aloud: whether to say so on the standard error.
+    """Set TMPDIR, XDG_CACHE_HOME and MPLCONFIGDIR where what stands there cannot be used; `aloud`: say so on the
+    standard error.
 
     Raises SceneError where compiled code can be kept nowhere.
     """
@@ -132,7 +129,6 @@ def _can_be_written(folder: Path) -> bool:
 
 
 def _cache_elsewhere(environment: Environment, say: Callable[[str], None]) -> None:
-    """Have compiled code kept in a folder for temporary files: as long as that stays, nothing is said again."""
     folder, is_new = _own_temporary_folder()
     environment["XDG_CACHE_HOME"] = environment["MPLCONFIGDIR"] = folder
     if not os.path.isabs(environment.get("HOME") or os.path.expanduser("~")):

@@ -1,9 +1,5 @@
-"""Progress of a computation: a bar on a terminal, timed lines elsewhere, nothing when asked to be quiet;
-and when Ctrl-C takes effect.
-
-The computation calls ``stage`` once per stage and ``update`` as often as is cheap; the display decides how often to
-show it.
-"""
+"""Progress of a computation: a bar on a terminal, timed lines elsewhere, nothing when asked to be quiet; and when
+Ctrl-C takes effect."""
 
 from __future__ import annotations
 
@@ -68,14 +64,12 @@ class LineProgress:
         self.finished: Finished = []
 
     def stage(self, name: str) -> None:
-        """Close the stage before, begin this one."""
         self.close()
         self._name = name
         self._begun = self._spoken = self._clock()
         self._seen = [(self._begun, 0)]
 
     def update(self, done: int, total: int, note: str = "") -> None:
-        """Print a line when the last one is old enough."""
         now = self._clock()
         if now - self._spoken < self._interval or total <= 0:
             return
@@ -87,7 +81,6 @@ class LineProgress:
         )
 
     def _left(self, now: float, done: int, total: int) -> str:
-        """The time left in words; nothing where it is not known."""
         then, before = next((each for each in reversed(self._seen) if 2 * each[1] <= done), self._seen[0])
         if done != self._seen[-1][1]:
             self._seen.append((now, done))
@@ -99,7 +92,6 @@ class LineProgress:
         return f", about {seconds_in_words(left)} left" if left > 0.0 else ""
 
     def close(self) -> None:
-        """Print how long the stage took."""
         if self._name is not None:
             self.finished.append((self._name, self._clock() - self._begun))
             self._print(f"{self._name}: {seconds_in_words(self.finished[-1][1])}")
@@ -188,10 +180,11 @@ def seconds_in_words(seconds: float) -> str:
 
 
 class Interruption:
-    """A ``Progress`` that passes everything on and decides when Ctrl-C becomes a KeyboardInterrupt.
+    """A ``Progress`` that passes everything on and decides, as a context manager, when Ctrl-C becomes a
+    KeyboardInterrupt.
 
     Within a counted stage it waits for the next ``update``: compiled code that it hit in the middle would end in a
-    SystemError, a step in the middle would be half done. A second Ctrl-C does not wait. Use it as a context manager.
+    SystemError, a step in the middle would be half done. A second Ctrl-C does not wait.
     """
 
     def __init__(self, progress: Progress):
@@ -200,7 +193,6 @@ class Interruption:
 
     @property
     def finished(self) -> list[tuple[str, float]]:
-        """Names and seconds of the stages that are over."""
         return self._progress.finished
 
     def __enter__(self) -> Interruption:

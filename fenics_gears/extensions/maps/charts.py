@@ -41,8 +41,7 @@ MOST_DAMPED = 0.5**0.5
 
 
 def map_pictures(found: xr.Dataset) -> dict[str, tuple[str, list[Chart]]]:
-    """Subject and charts of each picture of a map (`map_results`), by file name; those for which it has
-    data."""
+    """Subject and charts of each picture for which a map (`map_results`) has data, by file name."""
     several = found.sizes["load"] > 1
     pictures: dict[str, tuple[str, list[Chart]]] = {}
     if "transmission_error" in found:
@@ -135,7 +134,7 @@ def _speed(found: xr.Dataset) -> str:
 
 
 def campbell(found: xr.Dataset) -> Chart:
-    """Frequency over speed: the mesh orders as lines from the origin, natural frequencies level, marked where an order
+    """Frequency over speed: mesh orders as lines from the origin, natural frequencies level, marked where an order
     meets one that contact excites."""
     fastest, largest = float(found["mesh_frequency"].max()), float(np.nanmax(found["natural_frequency"], initial=0.0))
     top, orders = max(1.1 * fastest, min(MESH_ORDERS * fastest, 1.2 * largest)), np.arange(1, MESH_ORDERS + 1)

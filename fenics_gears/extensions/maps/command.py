@@ -26,7 +26,6 @@ MOST_RUNS = 1000
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("map", parents=[shared])
     add_scene_argument(command)
     command.add_argument(

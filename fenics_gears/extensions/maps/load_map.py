@@ -28,8 +28,8 @@ NOTHING_DONE = "Nothing was computed or written."
 
 @dataclass(frozen=True)
 class LoadMap:
-    """A scene's file with the scene, loads and speeds as they are written ("437 N m", "15 kW"; "200 Hz" or "750 rpm";
-    none: no speeds).
+    """A scene's file with the scene, and loads and speeds as they are written ("437 N m", "15 kW"; "200 Hz" or "750
+    rpm").
 
     Loads are what the scene gives: torques on the wheel, torques on the pinion, or powers, which go through the pair at
     every speed.
@@ -64,7 +64,6 @@ class LoadMap:
 
     @property
     def count(self) -> int:
-        """Runs of both studies."""
         return len(self.loads) * (1 + len(self.speeds))
 
     @property
@@ -93,11 +92,8 @@ class LoadMap:
 
 
 def load_map(file: Path, scene: Scene, loads: Sequence[str], speeds: Sequence[str], most: int) -> LoadMap:
-    """The map of a scene over loads and speeds as a user writes them, values and ranges. Raises SceneError for what
-    cannot be computed.
-
-    loads: none for the scene's own. most: runs that are allowed.
-    """
+    """The map of a scene over loads (none: its own) and speeds as a user writes them, values and ranges. Raises
+    SceneError for what cannot be computed, and for more runs than `most`."""
     if not loads and not speeds:
         raise SceneError(
             f'gears map: neither {LOADS} nor {SPEEDS} is given. Allowed: such as {LOADS} "100 N m" "200 N m" or {LOADS}'
@@ -159,7 +155,6 @@ def _values(option: str, written: Sequence[str], *kinds: str, why: str = "") -> 
 
 
 def _by_pinion(speed: str) -> bool:
-    """Whether a speed is the pinion's, else a mesh frequency."""
     return units.of_kind(speed, *SPEED_KINDS)[1] == units.AN_ANGULAR_SPEED
 
 
@@ -197,8 +192,7 @@ def _quasi_static(wanted: LoadMap) -> dict[str, Any]:
 
 
 def _over_speed(wanted: LoadMap) -> dict[str, Any]:
-    """Changes of the scene: steady speeds, each run until its start has died down, and no contact fields, which would
-    take most of the room."""
+    """Changes of the scene: steady speeds, each run until its start has died down, without contact fields."""
     by_pinion = _by_pinion(wanted.speeds[0])
     without = ["speed_ramp", FREQUENCY if by_pinion else PINION_SPEED, "motion.recorded_cycles"]
     fixed: dict[str, Any] = {"output.contact_fields": False, **shared_accuracy(wanted)}
@@ -216,10 +210,8 @@ def _over_speed(wanted: LoadMap) -> dict[str, Any]:
 
 def shared_accuracy(wanted: LoadMap) -> dict[str, Any]:
     """Settings that the scene leaves to the program and that depend on the load: the same for all, so that all loads
-    share gears and contact operators.
-
-    Flank elements are those of the geometric mean of the loads, the contact length is that of the largest.
-    """
+    share gears and contact operators. Flank elements are those of the geometric mean of the loads, the contact length
+    is that of the largest."""
     scene, given = wanted.scene, wanted.scene.accuracy
     torques = [
         abs(torque)

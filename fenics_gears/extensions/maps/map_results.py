@@ -47,7 +47,7 @@ Columns = dict[str, tuple[tuple[str, ...], np.ndarray, dict[str, str]]]
 
 
 def map_dataset(wanted: LoadMap, at_rest: Outcome, over_speed: Outcome | None) -> xr.Dataset:
-    """Everything of a map over `load` (N m); with speeds also over `mesh_frequency` (Hz).
+    """Everything of a map over `load` (N m or kW); with speeds also over `mesh_frequency` (Hz).
 
     Transmission errors are in um along the line of action. A case without a result has not a number.
     """
@@ -170,8 +170,8 @@ def _spectra(outcome: Outcome, pair: GearPair, loads: int) -> Columns:
 
 
 def _orders(run: xr.Dataset, values: np.ndarray) -> np.ndarray:
-    """Amplitudes at ORDERS of the last settled mesh cycles, an even number of them so that half orders stand alone; not
-    a number of what the steps do not sample."""
+    """Amplitudes at ORDERS of the last settled mesh cycles, an even number of them so that half orders stand alone; NaN
+    for what the steps do not sample."""
     phase = run["mesh_phase"].values
     steps, cycles = round(1.0 / (phase[1] - phase[0])), int((phase[-1] - phase[0]) * (1.0 + 1e-9))
     whole = cycles - cycles % 2 or cycles

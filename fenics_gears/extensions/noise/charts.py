@@ -1,5 +1,4 @@
-"""Charts of noise figures (`figures`): levels over mesh orders with their sidebands, mesh orders over a speed
-ramp."""
+"""Charts of noise figures: levels over mesh orders with their sidebands, mesh orders over a speed ramp."""
 
 import numpy as np
 import xarray as xr
@@ -14,7 +13,6 @@ LEAST_RATIO = 1e-8
 
 
 def noise_charts(found: xr.Dataset) -> list[Chart]:
-    """A chart for each signal."""
     return [
         _followed(found, name) if "part" in found.dims else _levels(found, name)
         for name in SIGNALS

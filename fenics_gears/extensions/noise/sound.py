@@ -55,8 +55,8 @@ def sound(result: xr.Dataset, name: str, seconds: float, full_scale: float | Non
 def _samples(time: np.ndarray, values: np.ndarray, seconds: float | None) -> np.ndarray:
     """The curve (n,) at the rate of the file; repeated for so many seconds where they are given.
 
-    It is read between steps by a cubic spline, at a multiple of the rate that has all its steps, and what the file's
-    rate cannot hold is filtered out.
+    It is read between steps by a cubic spline, at a multiple of the rate that has all its steps; what the file's rate
+    cannot hold is filtered out.
     """
     times = max(ceil(1.0 / (np.diff(time).min() * SAMPLE_RATE) - 1e-9), 1)
     if seconds is None:

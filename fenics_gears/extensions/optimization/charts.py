@@ -1,5 +1,4 @@
-"""Pictures and the summary of an optimisation: how the search went, the Pareto front, each variable and each tolerance,
-Harris maps."""
+"""Pictures and the summary of an optimisation."""
 
 from __future__ import annotations
 
@@ -22,23 +21,21 @@ MOST_TIMES = 3.0
 
 
 def called(name: str) -> str:
-    """A variable or goal in words."""
     return name.replace(".", " ").replace("_", " ")
 
 
 def title(name: str, unit: str) -> str:
-    """That with its unit, for an axis."""
+    """A variable or goal in words with its unit, for an axis."""
     words, unit = sentence(called(name)), unit.replace("um", "µm")
     return f"{words} ({unit})" if unit not in ("", "1") else words
 
 
 def sentence(words: str) -> str:
-    """The words with a capital."""
     return words[:1].upper() + words[1:]
 
 
 def goals_of(evaluations, goal: Goal) -> np.ndarray:
-    """A goal of evaluations (n,), not a number where one failed."""
+    """A goal of evaluations (n,), NaN where one failed."""
     return np.array([each.goals.get(goal.name, np.nan) for each in evaluations])
 
 
@@ -123,8 +120,8 @@ def variable_chart(outcome: Outcome, variable: Variable, goal: Goal) -> Chart:
 
 
 def tolerance_rows(outcome: Outcome, goal: Goal) -> list[tuple[str, str, str, str, str]]:
-    """Of each scatter its limit, and the goal of the chosen design at the lower limit, without scatter, at the upper
-    one; the largest change first."""
+    """Of each scatter its limit, and the chosen design's goal at the lower limit, without scatter, at the upper limit;
+    the largest change first."""
     rows = []
     for scatter in outcome.design.tolerances.scatters if outcome.limits else ():
         low, nominal, high = outcome.limits[scatter.name][goal.name]
@@ -160,7 +157,7 @@ def harris_charts(outcome: Outcome) -> list[Chart]:
 
 
 def write_pictures(outcome: Outcome) -> list[Path]:
-    """Draw the search or the Pareto front, the variables and the Harris maps as PNG, and return the files."""
+    """Draw all charts as PNG, and return the files."""
     design, first = outcome.design, outcome.design.goals[0]
     charts = {"search": [search_chart(outcome, goal) for goal in design.goals]} | (
         {"pareto_front": [front_chart(outcome)]} if len(design.goals) > 1 else {}
@@ -197,7 +194,7 @@ def no_gain(outcome: Outcome) -> str:
 
 
 def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
-    """Rows of label, value, unit: what was tried and computed, the goals before and after, and the chosen values."""
+    """Rows of label, value, unit: what was tried and computed, goals before and after, and the chosen values."""
     failed = sum(bool(each.failure) for each in outcome.tried)
     rows = [
         ("designs", f"{len(outcome.tried)}" + (f", {failed} failed" if failed else ""), ""),

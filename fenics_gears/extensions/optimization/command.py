@@ -18,7 +18,6 @@ from fenics_gears.command_line import (
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("optimize", parents=[shared])
     command.add_argument("design", type=Path, metavar="DESIGN", help="a design file (TOML)")
     add_output_argument(command, "results/<name of the design file>")
@@ -34,7 +33,6 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def optimize(options: argparse.Namespace) -> int:
-    """Search, write and draw."""
     if options.processes is not None:
         return under_mpirun(options, ["optimize", str(options.design), *(["--yes"] if options.yes else [])])
     from .optimize import optimize

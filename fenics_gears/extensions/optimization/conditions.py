@@ -19,8 +19,8 @@ FROM_ZERO = ("profile_modifications", "lead_modifications")
 
 def samples(design: Design, fresh: bool = False) -> np.ndarray:
     """Deviations (samples, scatters) in parts of their limits, -1 to 1, by Sobol's scrambled sequence: the same for all
-    designs, so that these are compared under the same deviations. Without tolerances one sample of none. `fresh`: other
-    ones, and `FRESH` times as many."""
+    designs, so that these can be compared. Without tolerances one sample of none. `fresh`: others, `FRESH` times as
+    many."""
     count = len(design.tolerances.scatters)
     if not count:
         return np.zeros((1, 0))

@@ -1,5 +1,4 @@
-"""An optimisation as frozen dataclasses: what may vary, at which operating points, within which tolerances, for which
-goals."""
+"""An optimisation: what may vary, at which operating points, within which tolerances, for which goals."""
 
 from __future__ import annotations
 
@@ -63,7 +62,7 @@ class Scatter:
 
 @dataclass(frozen=True)
 class Goal:
-    """A number of the result to be made small. `weight`: of its ratio to what it is before, in the choice of one
+    """A number of the result to be made small; `weight`: of its ratio to what it is before, in the choice of one
     design."""
 
     name: str
@@ -74,7 +73,7 @@ class Goal:
 
 @dataclass(frozen=True)
 class Bound:
-    """A number of the result that must not pass its bounds, in the result's unit, at any operating point."""
+    """A number of the result that must keep its bounds, in the result's unit, at every operating point."""
 
     goal: Goal
     at_least: float = -np.inf
@@ -91,7 +90,7 @@ class Bound:
 @dataclass(frozen=True)
 class Loads:
     """Operating points: the values of scene fields at each, their weights, and whether goals are their mean or the
-    worst of them."""
+    worst."""
 
     points: tuple[dict[fields.Path, Any], ...] = ({},)
     weights: tuple[float, ...] = (1.0,)
@@ -104,8 +103,7 @@ class Loads:
 
 @dataclass(frozen=True)
 class Tolerances:
-    """What scatters, the number of samples (a power of two), the quantile, and by which of mean and quantile designs
-    are judged."""
+    """What scatters, the number of samples (a power of two), the quantile, and which of mean and quantile counts."""
 
     scatters: tuple[Scatter, ...] = ()
     samples: int = 1

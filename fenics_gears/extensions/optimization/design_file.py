@@ -21,8 +21,7 @@ from .sections import Sections
 
 
 def load_design(path: str | Path) -> Design:
-    """Read a design file and its scene. Raises SceneError, naming every mistake at once, before anything is
-    computed."""
+    """Read a design file and its scene. Raises SceneError, naming every mistake at once."""
     path = Path(path)
     text = text_of(path, "design")
     tree = parsed(text, str(path))
@@ -111,7 +110,6 @@ def _checked_ranges(design: Design, sections: Sections) -> Scene:
 
 
 def _middle(design: Design) -> dict[str, Any]:
-    """The middle of every range, and the first of words."""
     return {each.name: each.words[0] if each.words else 0.5 * (each.low + each.high) for each in design.variables}
 
 
@@ -134,8 +132,7 @@ def _try(
 
 
 def _with_class(design: Design, scene: Scene, tolerance_class: int | None) -> Design:
-    """The design with the scatter that a flank tolerance class allows slopes and forms of the profiles, and over a face
-    slopes of the helix."""
+    """The design with the scatter that a flank tolerance class allows."""
     if tolerance_class is None:
         return design
     pair, found = gear_pair(scene.gears), list(design.tolerances.scatters)

@@ -1,5 +1,4 @@
-"""Designs to numbers: their runs over operating points and samples, computed where they are not kept, and what they
-amount to."""
+"""Designs to numbers: their runs over operating points and samples, computed where they are not kept."""
 
 from __future__ import annotations
 
@@ -35,10 +34,9 @@ and more."""
 class Evaluation:
     """What a design amounts to.
 
-    `values`: of its variables; `goals`: by name, judged by the design file's statistic; `of_samples`: by name, the
-    values (samples,) behind it;
-    `at_points`: by name, the mean over the samples at each operating point; `violation`: of the constraints, 0 where
-    all hold; `failure`: why it has no numbers, empty where it has.
+    `values`: of its variables; `goals`: by name, as the design file judges; `of_samples`: by name, the values
+    (samples,) behind it; `at_points`: by name, the mean over the samples at each operating point; `violation`: of the
+    constraints, 0 where all hold; `failure`: why it has no numbers, empty where it has.
     """
 
     values: dict[str, float | str]
@@ -67,8 +65,7 @@ class Evaluation:
 class Evaluator:
     """Evaluates designs with the processes of a `team`; runs that are in `directory` are taken from there.
 
-    `designs`: how many of how many have been evaluated, for the progress; `others`: runs of versions with other numbers
-    beside those that are kept.
+    `designs`: how many of how many have been evaluated; `others`: kept runs of versions with other numbers.
     """
 
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
@@ -160,7 +157,6 @@ class Evaluator:
 
 
 def _violation(bound: Bound, of_points: Sequence[float]) -> float:
-    """The worst of the operating points."""
     return max(map(bound.violation, of_points))
 
 

@@ -1,5 +1,4 @@
-"""How many runs an optimisation takes, and how long they take: said before it starts, refused where it is a day's work
-that nobody has agreed to."""
+"""How many runs an optimisation takes, and how long: said before it starts, refused where it is a day's work."""
 
 from __future__ import annotations
 
@@ -39,7 +38,6 @@ class Work:
     seconds: float | None
 
     def words(self, processes: int) -> str:
-        """For people."""
         by = f" by {processes} processes" if processes > 1 else ""
         about = (
             ""

@@ -1,5 +1,4 @@
-"""The page of an optimisation: the chosen design, how it was found, its sensitivity, and Harris maps before and
-after."""
+"""The page of an optimisation."""
 
 from __future__ import annotations
 
@@ -40,7 +39,6 @@ def write_page(outcome: Outcome) -> Path:
 
 
 def optimization_page(outcome: Outcome) -> Page:
-    """The page of what an optimisation found."""
     design = outcome.design
     maps = harris_charts(outcome) or [Words("A run of the Harris maps failed.", warns=True)]
     sections = [

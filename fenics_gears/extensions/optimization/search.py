@@ -1,10 +1,8 @@
-"""The search for the best designs, by Optuna: which designs are tried next is asked of its samplers, what they amount
-to is told to them.
+"""The search for the best designs, by samplers of Optuna: for one goal over ranges CMA-ES (covariance matrix
+adaptation), else TPE (tree-structured Parzen estimators), which takes words and several goals too.
 
-For one goal over ranges CMA-ES (covariance matrix adaptation), else TPE (tree-structured Parzen estimators), which
-takes words and several goals too. Designs are asked for and told in whole populations and in order, so that the same
-seed tries the same designs whatever the number of processes. So a search that was stopped goes on by being run again:
-its finished runs are found on disk.
+Designs are asked for and told in whole populations and in order, so that the same seed tries the same designs whatever
+the number of processes, and a search that was stopped goes on by being run again: its runs are found on disk.
 """
 
 from __future__ import annotations

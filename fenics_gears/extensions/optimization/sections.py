@@ -42,7 +42,6 @@ class Sections:
         self.mistakes = Mistakes(str(path), lines)
 
     def table(self, name: str) -> Mapping[str, Any]:
-        """A section of the file; empty where there is none."""
         return self.tree.get(name, {})
 
     def wrong(self, table: str, name: str, value: Any, message: str) -> None:
@@ -89,7 +88,6 @@ class Sections:
         return tuple(found)
 
     def _range(self, path: fields.Path, name: str, written: list) -> list[Variable]:
-        """The variable between two ends; none, with a mistake noted, where they are wrong."""
         numbers, unit = self._numbers("variables", path, written)
         if not numbers:
             return []

@@ -32,7 +32,6 @@ _NUMBERS = {
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     from .finish import Finish
 
     defaults = {each.name: each.default for each in fields(Finish)}
@@ -54,7 +53,6 @@ def _option(name: str) -> str:
 
 
 def rate(options: argparse.Namespace) -> int:
-    """Print and write the table."""
     from fenics_gears import carried_scene
 
     from . import rating
@@ -79,7 +77,6 @@ def rate(options: argparse.Namespace) -> int:
 
 
 def _finish(options: argparse.Namespace, scene):
-    """Material, finish and oil of the options. Raises SceneError for values out of range."""
     from .finish import Finish
 
     given = {}

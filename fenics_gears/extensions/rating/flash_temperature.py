@@ -22,10 +22,7 @@ def flash_temperature(
     pair: GearPair, materials: tuple[Material, Material], positions, line_force, friction: float, pinion_speed: float
 ) -> np.ndarray:
     """Rise (n,), K, of a tooth pair at positions (n,) on the path of contact (mm from T1), under normal forces per face
-    width (n,), N/mm.
-
-    `friction`: coefficient; `pinion_speed`: 1/min. Spur pairs, and helical ones in the transverse section.
-    """
+    width (n,), N/mm; `pinion_speed`: 1/min. Spur pairs, and helical ones in the transverse section."""
     first = np.asarray(positions, dtype=float)
     second = pair.line_of_action_length - first
     line_force = np.asarray(line_force, dtype=float)

@@ -1,5 +1,5 @@
-"""Dynamic, face and transverse load factors of ISO 6336-1:2006: K_v and K_Halpha by method B, K_Hbeta by method C,
-of pairs on shafts that bend also by method B."""
+"""Dynamic, face and transverse load factors of ISO 6336-1:2006: K_v and K_Halpha by method B, K_Hbeta by method C, of
+pairs on shafts that bend also by method B."""
 
 from dataclasses import dataclass
 from math import cos, hypot, pi, sin, sqrt

@@ -1,5 +1,5 @@
-"""A run's load capacity, row by row: by the standard's own formulas from the nominal load, and from the loads and
-stresses that the run has computed."""
+"""A run's load capacity, row by row: by the standard's formulas from the nominal load, and by what the run has
+computed."""
 
 from dataclasses import dataclass
 from math import isnan, nan
@@ -25,8 +25,7 @@ POINTS = 201
 
 @dataclass(frozen=True)
 class Row:
-    """One quantity: symbol with its meaning, unit, value by the standard, and from the run; nan where one of them has
-    none."""
+    """One quantity: symbol with its meaning, unit, value by the standard, and from the run; NaN where one has none."""
 
     name: str
     unit: str
@@ -81,7 +80,6 @@ def _iterated(operation: Operation, finish: Finish, dynamic: float, face: float)
 
 
 def _operation(scene: Scene, result: xr.Dataset) -> Operation:
-    """What the standard rates: the steady load and the nominal speed of the scene, and how its shafts bend."""
     if scene.gears.materials is None:
         raise SceneError("a rating needs elastic teeth: the scene has no [gears.material].")
     if not scene.load.wheel_torque > 0.0:
@@ -127,8 +125,8 @@ def _misalignment(scene: Scene, pair: GearPair) -> float | None:
     """Misalignment (um) over the common face of the scene's axes and helix slopes, in the plane of action; None of a
     scene that names neither.
 
-    It is the straight part of the gap between the unloaded flanks along the face, in which crowning and end relief
-    have none."""
+    It is the straight part of the gap between the unloaded flanks along the face.
+    """
     leads = scene.lead_modifications
     sloped = leads is not None and any(own is not None and own.helix_slope for own in (leads.pinion, leads.wheel))
     if scene.misalignment is None and not sloped:
@@ -172,8 +170,7 @@ def _reduced_mass(scene: Scene, pair: GearPair) -> float:
 
 
 def _flash(operation: Operation, finish: Finish, result: xr.Dataset) -> list[Row]:
-    """The largest flash temperature of a run with friction, by the standard's load share and by the computed forces of
-    the tooth pairs."""
+    """The largest flash temperature of a run with friction, by the standard's load share and by the computed forces."""
     friction = result.attrs.get("friction_coefficient")
     if friction is None:
         return []

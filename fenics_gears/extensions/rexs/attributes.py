@@ -97,8 +97,7 @@ NO_PLACE_OF_RELIEFS = (
 
 
 class Reading:
-    """What was found wrong with a model (``problems``), and what a scene made of it leaves out (``left_out``), in
-    sentences."""
+    """What was found wrong with a model (``problems``), and what a scene made of it leaves out, in sentences."""
 
     def __init__(self) -> None:
         self.problems: list[str] = []

@@ -9,7 +9,6 @@ from fenics_gears.command_line import add_output_argument, file_to_write, write_
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("import", parents=[shared])
     command.add_argument("file", type=Path, metavar="FILE", help="a REXS file: .rexs, .rexsj or .rexsz")
     add_output_argument(command, "name of FILE with .toml, in the current folder", "scene file to write", "SCENE")
@@ -66,7 +65,6 @@ def _check_scene(imported, file: Path, output: Path) -> None:
 
 
 def _summary(imported, output: Path) -> str:
-    """What the user should look at, and what comes next."""
     parts = [(f"{output}: {imported.stage.pinion.gear} drives {imported.stage.wheel.gear}.", ())]
     parts += [
         (heading, listed)

@@ -1,5 +1,4 @@
-"""The gears of a stage: teeth, circles and material, given by the file, computed from it, or taken from the
-standard."""
+"""The gears of a stage: teeth, circles and material, given by the file, computed from it, or those of the standard."""
 
 from functools import partial
 from math import acos, atan, cos, isclose, tan
@@ -189,8 +188,7 @@ def _tip_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shi
 
 
 def _root_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shift: Value, tip: Value) -> Value:
-    """What the depth of the teeth gives, or what the rack cuts: its addendum deep, at the shift of its generating where
-    that is given."""
+    """What the depth of the teeth gives, or what the rack cuts at the shift of its generating, if that is given."""
     depth = first(part, "tooth_depth")
     if depth is not None:
         return computed(

@@ -88,8 +88,7 @@ def _check_all_found(reading: Reading, path: Path) -> None:
 
 
 def _loaded(model: Model, choice: Choice) -> Model:
-    """The model in the chosen load case; as it is where the call says all that a load case is asked for. Raises
-    ValueProblem."""
+    """The model in the chosen load case; as it is where the call says all that a load case is asked for."""
     if choice.load_case is None and choice.wheel_torque is not None and choice.pinion_speed is not None:
         return model
     return loaded_model(model, choice.load_case)
@@ -107,7 +106,7 @@ def _load_sections(
 
 
 def _error_sections(reading: Reading, stage: Stage, sections: Sections) -> Sections:
-    """The tolerance class, and with it or without it how long the run takes."""
+    """The tolerance class, and how long the run takes."""
     tolerance = reading.attempt(tolerance_class, reading, stage)
     if tolerance is None:
         cycles = Value(1, "1", "quasi-static, so that all mesh cycles are alike", assumed=True)

@@ -44,8 +44,7 @@ def wheel_torque(model: Model, stage: Stage, ratio: float) -> Value:
 
 
 def pinion_speed(stage: Stage, ratio: float) -> Value:
-    """The speed of the driving gear, against its carrier where it has one; a slow one where the file gives none. Raises
-    ValueProblem."""
+    """The speed of the driving gear, against its carrier where it has one; a slow one where the file gives none."""
     for part, factor in ((stage.pinion, 1.0), (stage.wheel, ratio)):
         speeds = every(part, "speed_in_mesh") + ([] if stage.in_planetary else every(part, "speed"))
         for speed in speeds:
@@ -61,7 +60,6 @@ def pinion_speed(stage: Stage, ratio: float) -> Value:
 
 
 def _scaled(value: Value, factor: float, unit: float, name: str, why: str) -> Value:
-    """The value without its sign, as written where it stays what it is."""
     if factor == 1.0 and value.number >= 0.0:
         return value
     return computed(

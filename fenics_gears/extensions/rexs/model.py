@@ -1,5 +1,4 @@
-"""A REXS file as components with attributes, relations between them, and load cases; values are texts as written, with
-units not yet converted."""
+"""A REXS file as components with attributes, relations between them, and load cases; values are texts as written."""
 
 from __future__ import annotations
 
@@ -14,8 +13,7 @@ class ModelError(ValueError):
 
 
 def readable(text: Any) -> Any:
-    """A name of the file in one line of characters that can be printed, so that it can stand in a message or a
-    comment."""
+    """A name of the file in one line of characters that can be printed."""
     return (
         " ".join("".join(each if each.isprintable() else " " for each in text).split())[:100]
         if isinstance(text, str)
@@ -55,8 +53,8 @@ class Attribute(_Node):
 
 
 def _by_name(attributes: list[Attribute]) -> dict[str, Attribute]:
-    """Attributes by their names, without those that are null or empty. Raises ValueError where one is there twice with
-    different values."""
+    """Attributes by their names, without those that are null or empty. Raises ValueError for two different values of
+    one."""
     found: dict[str, Attribute] = {}
     for each in attributes:
         first = found.setdefault(each.id, each) if each.value not in (None, "") else each

@@ -19,8 +19,7 @@ def scene_text(
     sections: Mapping[str, Mapping[str, Value]],
     notes: Mapping[str, Iterable[str]],
 ) -> str:
-    """The TOML text of a scene; ``file`` is the name of the REXS file it is made from, ``notes`` are lists under a
-    heading each."""
+    """The TOML text of a scene; ``file`` is the name of the REXS file, ``notes`` are lists under a heading each."""
     named = stage.stage.name or f"stage {stage.stage.id}"
     text = _head(file, model, stage, notes) + f"\ntitle = {toml_value(_one_line(f'{named} of {file}')[:500])}\n"
     for section, fields in sections.items():
@@ -58,5 +57,4 @@ def _line(name: str, value: Value) -> str:
 
 
 def _one_line(text: str) -> str:
-    """A comment may have no control characters, which a file's name might have."""
     return "".join(each if each.isprintable() else "?" for each in text)

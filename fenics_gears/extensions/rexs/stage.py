@@ -12,7 +12,7 @@ RACK_TOOL = "rack_shaped_tool"
 @dataclass(frozen=True)
 class GearParts:
     """The components of one gear of a stage: itself, its flanks by their side and what modifies them, its tools and how
-    they were set, bodies, materials and shafts, and its data in this stage. Lists are empty where the file has none."""
+    they were set, bodies, materials and shafts, and its data in this stage."""
 
     gear: Component
     flanks: dict[str, Component]

@@ -42,7 +42,6 @@ class Value:
 
     @property
     def words(self) -> str:
-        """As messages write it."""
         return self.written.strip('"')
 
 
@@ -53,10 +52,7 @@ def place(component: Component, name: str) -> str:
 
 def value_of(component: Component, name: str, unit: str, module: Value | None = None) -> Value:
     """The value of an attribute: a quantity of the kind of ``unit``, or one of the kinds above; ``module``: for lengths
-    in modules.
-
-    Raises ValueProblem.
-    """
+    in modules. Raises ValueProblem."""
     if unit == MODULES:
         length = value_of(component, name, "mm")
         return bare(length.number / module.number, f"{length.origin}, over the module")
@@ -140,7 +136,6 @@ def _decoded(component: Component, attribute: Attribute) -> list[str]:
 
 
 def bare(number: float, origin: str, *, assumed: bool = False) -> Value:
-    """A number without unit."""
     return Value(number, repr(float(number)), origin, assumed)
 
 
