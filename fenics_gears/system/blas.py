@@ -14,6 +14,7 @@ import subprocess
 import sys
 from dataclasses import asdict, dataclass
 from importlib.util import find_spec
+from itertools import takewhile
 from pathlib import Path
 
 VARIABLE = "OPENBLAS_CORETYPE"
@@ -58,12 +59,13 @@ def said(environment=os.environ) -> str:
 @functools.cache
 def choice() -> Choice:
     """What suits this processor and its libraries, from a file in the user's folder for caches or found out now."""
-    missing = INSTRUCTIONS - _instructions()
+    processor = _processor()
+    missing = INSTRUCTIONS - {*processor.get("flags", "").split()}
     if missing:
         return Choice("", f"chosen by OpenBLAS; the processor is not known to have {' and '.join(sorted(missing))}")
     # As `system.environment` has made sure that it can be written.
     folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "fenics_gears")
-    file, key = folder / "kernels.json", _key()
+    file, key = folder / "kernels.json", _key(processor)
     with contextlib.suppress(OSError, ValueError, TypeError, KeyError):
         known = json.loads(file.read_text(encoding="utf-8"))
         if known["key"] == key:
@@ -159,21 +161,19 @@ def _product(library: ctypes.CDLL):
     raise OSError("an OpenBLAS without DGEMM")
 
 
-def _instructions() -> set[str]:
+def _processor() -> dict[str, str]:
+    """What the system says of the first processor."""
     with contextlib.suppress(OSError), open(PROCESSORS, encoding="utf-8", errors="replace") as lines:
-        for line in lines:
-            if line.startswith("flags"):
-                return set(line.partition(":")[2].split())
-    return set()
+        pairs = (line.partition(":") for line in takewhile(str.strip, lines))
+        return {name.strip(): value.strip() for name, _, value in pairs}
+    return {}
 
 
-def _key() -> list:
-    with open(PROCESSORS, encoding="utf-8", errors="replace") as lines:
-        names = ("vendor_id", "cpu family", "model", "flags")
-        processor = [line.strip() for line in (lines.readline() for _ in range(30)) if line.startswith(names)]
+def _key(processor: dict[str, str]) -> list:
+    told = [processor.get(name) for name in ("vendor_id", "cpu family", "model", "model name", "flags")]
     files = [spec.origin for name in ("numpy", "scipy") if (spec := find_spec(name)) and spec.origin]
     files += [os.path.realpath(file) for each in SYSTEM_FOLDERS if os.path.exists(file := f"{each}/{SYSTEM_LIBRARY}")]
-    return [processor, sys.executable, *([file, os.stat(file).st_mtime_ns] for file in files)]
+    return [told, sys.executable, *([file, os.stat(file).st_mtime_ns] for file in files)]
 
 
 if __name__ == "__main__":

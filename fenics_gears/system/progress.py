@@ -35,19 +35,10 @@ class Progress(Protocol):
         """End the last stage."""
 
 
-class SilentProgress:
+class SilentProgress(Progress):
     """Reports nothing and measures nothing."""
 
     finished: Finished = []
-
-    def stage(self, name: str) -> None:
-        pass
-
-    def update(self, done: int, total: int, note: str = "") -> None:
-        pass
-
-    def close(self) -> None:
-        pass
 
 
 class LineProgress:
@@ -105,32 +96,19 @@ class BarProgress:
     """A bar with the time left for each stage, drawn by rich on a terminal."""
 
     def __init__(self, console):
-        from rich.progress import (
-            BarColumn,
-            MofNCompleteColumn,
-            Progress,
-            TextColumn,
-            TimeElapsedColumn,
-            TimeRemainingColumn,
-        )
+        from rich import progress
         from rich.text import Text
 
-        class Remaining(TimeRemainingColumn):
+        class Remaining(progress.TimeRemainingColumn):
             """Nothing before enough is known."""
 
             def render(self, task):
                 known = is_enough(task.completed, task.total or 0, task.elapsed or 0.0)
                 return super().render(task) if task.finished or known else Text("-:--:--", style="progress.remaining")
 
-        self._bars = Progress(
-            TextColumn("{task.description}"),
-            BarColumn(),
-            MofNCompleteColumn(),
-            TimeElapsedColumn(),
-            TextColumn("left"),
-            Remaining(),
-            console=console,
-        )
+        described, left = progress.TextColumn("{task.description}"), progress.TextColumn("left")
+        columns = (described, progress.BarColumn(), progress.MofNCompleteColumn(), progress.TimeElapsedColumn(), left)
+        self._bars = progress.Progress(*columns, Remaining(), console=console)
         self._task = None
         self._counted = False
         self.finished: Finished = []
@@ -155,14 +133,13 @@ class BarProgress:
 
     def _finish_stage(self) -> None:
         # A counted stage keeps its count: after an interruption the bar must not claim to be full.
-        if self._task is not None and not self._counted:
+        if self._task is None:
+            return
+        if not self._counted:
             self._bars.update(self._task, total=1, completed=1)
-        if self._task is not None:
-            self._bars.stop_task(self._task)
-            self.finished.append(
-                (self._name, self._bars.tasks[self._task].finished_time or self._bars.tasks[self._task].elapsed)
-            )
-        self._task = None
+        self._bars.stop_task(self._task)
+        task, self._task = self._bars.tasks[self._task], None
+        self.finished.append((self._name, task.finished_time or task.elapsed))
 
 
 def is_enough(done: float, total: float, elapsed: float) -> bool:
@@ -192,7 +169,7 @@ class Interruption:
         self._counting = self._asked = self._ignoring = False
 
     @property
-    def finished(self) -> list[tuple[str, float]]:
+    def finished(self) -> Finished:
         return self._progress.finished
 
     def __enter__(self) -> Interruption:

@@ -33,36 +33,17 @@ def load_design(path: str | Path) -> Design:
     sections = Sections(path, text, tree)
     sections.check_keys()
     base, directory = sections.scene()
-    variables, loads, goals, bounds, search = (
-        sections.variables(),
-        sections.loads(),
-        sections.goals(),
-        sections.bounds(),
-        sections.search(),
-    )
-    tolerances, tolerance_class = sections.tolerances()
+    parts = ("variables", "loads", "goals", "bounds", "search", "tolerances")
+    found: dict[str, Any] = {part: getattr(sections, part)() for part in parts}
     without, fixed = left_out(tree, sections.mistakes), dict(entries(tree, "set", sections.mistakes))
     sections.mistakes.check()
-    varied = {variable.path[0] for variable in variables}
+    varied = {variable.path[0] for variable in found["variables"]}
     before = {place: value for place, value in fixed.items() if place[0] not in varied}
     scene_tree, before_tree = (Changes(without, changes, (), "product").apply(base, ()) for changes in (fixed, before))
     name = name_of(path)
-    design = Design(
-        name,
-        tree.get("title", name),
-        scene_tree,
-        before_tree,
-        directory,
-        variables,
-        loads,
-        goals,
-        tolerances,
-        bounds,
-        search,
-        text,
-    )
+    design = Design(name, tree.get("title", name), scene_tree, before_tree, directory, text, **found)
     scene = _checked_ranges(design, sections)
-    design = _with_class(design, scene, tolerance_class)
+    design = _with_class(design, scene)
     _check_scatter(design, sections)
     return design
 
@@ -131,8 +112,9 @@ def _try(
     return None
 
 
-def _with_class(design: Design, scene: Scene, tolerance_class: int | None) -> Design:
+def _with_class(design: Design, scene: Scene) -> Design:
     """The design with the scatter that a flank tolerance class allows."""
+    tolerance_class = design.tolerances.tolerance_class
     if tolerance_class is None:
         return design
     pair, found = gear_pair(scene.gears), list(design.tolerances.scatters)

@@ -35,20 +35,20 @@ class Row:
 
 def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[Row]:
     """The rows of a run. Raises SceneError for a scene without speed, load or elastic teeth."""
-    operation = _operation(scene, result)
-    factors, found = load_factors(operation, finish), result.attrs
+    operation = _operation(scene, finish, result)
+    factors, found = load_factors(operation), result.attrs
     face = found.get("face_load_factor", nan)
-    flank, roots = flank_stress(operation, finish, factors), root_stresses(operation, finish, factors)
+    flank, roots = flank_stress(operation, factors), root_stresses(operation, factors)
     rows = [
         Row("K_v, dynamic factor", "1", factors.dynamic, found.get("dynamic_factor_by_force", nan)),
         Row(
             "F_betax, misalignment over the face",
             "um",
-            mesh_misalignment(operation, finish),
+            mesh_misalignment(operation),
             nan if isnan(face) else abs(operation.misalignment or 0.0),
         ),
         Row("K_Hbeta, face load factor", "1", factors.face, face),
-        *_iterated(operation, finish, factors.dynamic, face),
+        *_iterated(operation, factors.dynamic, face),
         Row("K_Halpha, transverse load factor", "1", factors.transverse, found.get("transverse_load_factor", nan)),
     ]
     pressure = found.get("peak_contact_pressure", nan)
@@ -68,18 +68,16 @@ def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[Row]:
                 root.limit / computed,
             )
         )
-    return rows + _flash(operation, finish, result)
+    return rows + _flash(operation, result)
 
 
-def _iterated(operation: Operation, finish: Finish, dynamic: float, face: float) -> list[Row]:
+def _iterated(operation: Operation, dynamic: float, face: float) -> list[Row]:
     if operation.shafts is None:
         return []
-    return [
-        Row("K_Hbeta, line load iterated over the shafts", "1", iterated_face_factor(operation, finish, dynamic), face)
-    ]
+    return [Row("K_Hbeta, line load iterated over the shafts", "1", iterated_face_factor(operation, dynamic), face)]
 
 
-def _operation(scene: Scene, result: xr.Dataset) -> Operation:
+def _operation(scene: Scene, finish: Finish, result: xr.Dataset) -> Operation:
     if scene.gears.materials is None:
         raise SceneError("a rating needs elastic teeth: the scene has no [gears.material].")
     if not scene.load.wheel_torque > 0.0:
@@ -95,6 +93,7 @@ def _operation(scene: Scene, result: xr.Dataset) -> Operation:
         tip_relief=_tip_relief(scene),
         reduced_mass=_reduced_mass(scene, pair),
         gears=scene.gears,
+        finish=finish,
         misalignment=_with_inclination(_misalignment(scene, pair), result),
         **_on_bent_shafts(scene, pair),
     )
@@ -169,14 +168,14 @@ def _reduced_mass(scene: Scene, pair: GearPair) -> float:
     return first * second / (first + second)
 
 
-def _flash(operation: Operation, finish: Finish, result: xr.Dataset) -> list[Row]:
+def _flash(operation: Operation, result: xr.Dataset) -> list[Row]:
     """The largest flash temperature of a run with friction, by the standard's load share and by the computed forces."""
     friction = result.attrs.get("friction_coefficient")
     if friction is None:
         return []
     pair, settled = operation.pair, of_settled(result)
     path = np.linspace(pair.path_start, pair.path_end, POINTS)
-    whole = finish.application_factor * transverse_line_force(pair, operation.tangential_force)
+    whole = operation.finish.application_factor * transverse_line_force(pair, operation.tangential_force)
     standard = flash_temperature(
         pair, operation.materials, path, whole * standard_share(pair, path), friction, operation.pinion_speed
     )

@@ -6,7 +6,6 @@ from math import acos, cos, degrees, pi, sin, sqrt, tan
 
 from fenics_gears import Gear, base_helix_angle, involute_function
 
-from .finish import Finish
 from .load_factors import LoadFactors
 from .operation import Operation
 
@@ -32,14 +31,14 @@ class RootStress:
     limit: float
 
 
-def root_stresses(operation: Operation, finish: Finish, factors: LoadFactors) -> tuple[RootStress, RootStress]:
+def root_stresses(operation: Operation, factors: LoadFactors) -> tuple[RootStress, RootStress]:
     """Of pinion and wheel: F_t / (b m_n) Y_F Y_S Y_beta, raised by the load factors; the limit by Y_delta_relT, Y_RrelT
     and Y_X of case-hardened steel."""
-    return tuple(_of_gear(operation, finish, factors, gear) for gear in (operation.pair.pinion, operation.pair.wheel))
+    return tuple(_of_gear(operation, factors, gear) for gear in (operation.pair.pinion, operation.pair.wheel))
 
 
-def _of_gear(operation: Operation, finish: Finish, factors: LoadFactors, gear: Gear) -> RootStress:
-    tooth = form_at_outer_point(gear, operation.pair.contact_ratio)
+def _of_gear(operation: Operation, factors: LoadFactors, gear: Gear) -> RootStress:
+    tooth, finish = form_at_outer_point(gear, operation.pair.contact_ratio), operation.finish
     nominal = (
         operation.tangential_force
         / (operation.face_width * gear.normal_module)

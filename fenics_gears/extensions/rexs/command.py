@@ -37,10 +37,11 @@ def import_rexs(options: argparse.Namespace) -> int:
         raise SceneError(
             f"{output} exists already; nothing was written. Name another file with --output SCENE, or remove it."
         )
-    from .imported import Choice, imported_scene
+    from .imported import imported_scene
 
-    choice = Choice(options.stage, options.load_case, options.wheel_torque, options.pinion_speed)
-    imported = imported_scene(options.file, choice)
+    imported = imported_scene(
+        options.file, options.stage, options.load_case, options.wheel_torque, options.pinion_speed
+    )
     _check_scene(imported, options.file, output)
     write_whole(output, lambda path: path.write_text(imported.text, encoding="utf-8"))
     if not options.quiet:

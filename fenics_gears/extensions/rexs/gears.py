@@ -27,49 +27,35 @@ def gear_sections(reading: Reading, stage: Stage) -> Sections:
     """``[gears]`` and the sections below it."""
     helix = reading.attempt(_helix, stage) or {}
     beta = helix["helix_angle"].number if helix else 0.0
-    module = reading.attempt(_of_both, stage, "module", "The gears have different modules")
+    module = reading.attempt(_module, stage)
     angle, distance = reading.attempt(_pressure_angle, stage), reading.attempt(needed, stage, "centre_distance")
-    teeth = [reading.attempt(needed, part, "teeth") for part in stage.gears]
+    parts = stage.named.values()
+    teeth = [reading.attempt(needed, part, "teeth") for part in parts]
     shifts = _profile_shifts(reading, stage, module, angle, distance, teeth, beta)
-    gears = [_gear_section(reading, part, beta, module, *own) for part, *own in zip(stage.gears, teeth, shifts)]
-    for part, count in zip(stage.gears, teeth):
+    gears = [_gear_section(reading, part, beta, module, *own) for part, *own in zip(parts, teeth, shifts)]
+    for part, count in zip(parts, teeth):
         reading.attempt(_check_reference_diameter, part, beta, module, count)
     reading.attempt(_check_sum_of_shifts, stage, *shifts)
-    pair, widths = (
-        {"module": module, "pressure_angle": angle, **helix, "centre_distance": distance},
-        reading.attempt(_face_widths, stage) or [None],
-    )
+    pair = {"module": module, "pressure_angle": angle, **helix, "centre_distance": distance}
+    widths = reading.attempt(_face_widths, stage) or [None]
     if len(widths) == 1:
         pair["face_width"] = widths[0]
     else:
         gears = [{**gear, "face_width": width} for gear, width in zip(gears, widths)]
-    rack = {
-        "profile": Value(
-            0.0,
-            f'"{STANDARD}"',
-            "no tip radius of the tool; that of ISO 53, or what has room on the rack's tip",
-            assumed=True,
-        )
-    }
-    racks = {
-        f"gears.{name}.rack": rack for name, gear in zip(("pinion", "wheel"), gears) if "rack_tip_radius" not in gear
-    }
-    return {
-        "gears": pair,
-        "gears.pinion": gears[0],
-        "gears.wheel": gears[1],
-        **racks,
-        **(reading.attempt(_materials, stage) or {}),
-    }
+    why = "no tip radius of the tool; that of ISO 53, or what has room on the rack's tip"
+    rack = {"profile": Value(0.0, f'"{STANDARD}"', why, assumed=True)}
+    named = {f"gears.{name}": gear for name, gear in zip(stage.named, gears)}
+    racks = {f"{name}.rack": rack for name, gear in named.items() if "rack_tip_radius" not in gear}
+    return {"gears": pair, **named, **racks, **(reading.attempt(_materials, stage) or {})}
 
 
-def _of_both(stage: Stage, asked: str, different: str) -> Value:
-    return agreed([needed(part, asked) for part in stage.gears], different)
+def _module(stage: Stage) -> Value:
+    return agreed([needed(part, "module") for part in stage.named.values()], "The gears have different modules")
 
 
 def _helix(stage: Stage) -> dict[str, Value | None]:
     """Helix angle and hand of the pinion; empty for spur gears. A positive angle is a right-hand helix (ISO 21771)."""
-    found = [first(part, "helix_angle") for part in stage.gears]
+    found = [first(part, "helix_angle") for part in stage.named.values()]
     there = [angle for angle in found if angle is not None]
     if not any(abs(angle.number) > NO_HELIX for angle in there):
         return {}
@@ -95,7 +81,7 @@ def transverse_angle(angle: float, beta: float) -> float:
 
 def _pressure_angle(stage: Stage) -> Value:
     angles = []
-    for part in stage.gears:
+    for part in stage.named.values():
         own = agreed(every(part, "pressure_angle"), "The flanks and tools of a gear have different pressure angles")
         angles.append(own or needed(part, "pressure_angle"))
     return agreed(angles, "The gears have different pressure angles")
@@ -105,7 +91,7 @@ def _face_widths(stage: Stage) -> list[Value]:
     common = first(stage, "common_face_width")
     if common is not None:
         return [common]
-    widths = [needed(part, "face_width") for part in stage.gears]
+    widths = [needed(part, "face_width") for part in stage.named.values()]
     return [agreed(widths, "")] if isclose(widths[0].number, widths[1].number) else widths
 
 
@@ -113,8 +99,9 @@ def _profile_shifts(
     reading: Reading, stage: Stage, module, angle, distance, teeth: list[Value | None], beta: float
 ) -> list[Value | None]:
     """The shift of both gears, as the file gives them, or as the centre distance leaves one of them."""
-    shifts = [reading.attempt(partial(_stated_shift, part, module)) for part in stage.gears]
-    unsaid = [number for number, part in enumerate(stage.gears) if not given(part, "profile_shift")]
+    parts = stage.named.values()
+    shifts = [reading.attempt(partial(_stated_shift, part, module)) for part in parts]
+    unsaid = [number for number, part in enumerate(parts) if not given(part, "profile_shift")]
     if len(unsaid) == 2:
         reading.attempt(_refuse_both_missing, stage)
     elif unsaid:
@@ -221,9 +208,7 @@ def _bore_diameter(part: GearParts, root: Value) -> Value:
 
 def _materials(stage: Stage) -> Sections:
     found = {
-        name: {asked: needed(part, asked) for asked in MATERIAL}
-        for name, part in zip(("pinion", "wheel"), stage.gears)
-        if part.material
+        name: {asked: needed(part, asked) for asked in MATERIAL} for name, part in stage.named.items() if part.material
     }
     if not found:
         why = "no material; that of steel (ISO 6336-1)"

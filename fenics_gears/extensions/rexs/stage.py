@@ -1,12 +1,15 @@
 """The pair that is meant in a REXS model, and the components that describe it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from .model import Component, Model, Relation
-from .values import COUNT, ValueProblem, value_of, word_of
+from .values import COUNT, Value, ValueProblem, value_of, word_of
 
 CYLINDRICAL, EXTERNAL, INTERNAL = "cylindrical_stage", "cylindrical_gear", "ring_gear"
 RACK_TOOL = "rack_shaped_tool"
+# Of a section of a scene.
+Fields = dict[str, Value]
 
 
 @dataclass(frozen=True)
@@ -42,6 +45,28 @@ class GearParts:
         ]
         return [side for side in self.flanks if not said or side == said[0]]
 
+    def modification(self, side: str, kind: str) -> Component | None:
+        """What modifies a flank in this way. Raises ValueProblem where there are two."""
+        found = [each for each in self.modifications[side] if each.type == kind]
+        if len(found) > 1:
+            raise ValueProblem(
+                f"{self.flanks[side]}: two components {kind}, {found[0].id} and {found[1].id}; a scene has one."
+            )
+        return found[0] if found else None
+
+    def of_loaded_sides(
+        self, fields_of: Callable[[str], Fields], same: Callable[[Value, Value], bool], what: str
+    ) -> Fields:
+        """The fields of all sides that may be loaded. Raises ValueProblem where they are not the same."""
+        one, *others = [fields_of(side) for side in self.loaded_sides] or [{}]
+        for other in others:
+            if one.keys() != other.keys() or not all(same(value, other[name]) for name, value in one.items()):
+                raise ValueProblem(
+                    f"{self.gear}: its left and its right flank have different {what}, and the file does not say which"
+                    " one is loaded. Allowed: loaded_tooth_flank (left or right) in the gear's stage data."
+                )
+        return one
+
 
 @dataclass(frozen=True)
 class Stage:
@@ -53,9 +78,9 @@ class Stage:
     in_planetary: bool
 
     @property
-    def gears(self) -> tuple[GearParts, GearParts]:
+    def named(self) -> dict[str, GearParts]:
         """The driving gear, and the one it drives."""
-        return self.pinion, self.wheel
+        return {"pinion": self.pinion, "wheel": self.wheel}
 
 
 def chosen_stage(model: Model, wanted: int | None) -> Stage:
@@ -64,7 +89,8 @@ def chosen_stage(model: Model, wanted: int | None) -> Stage:
     relations = {
         each.roles["stage"]: each
         for each in model.related("stage")
-        if {"stage", "gear_1", "gear_2"} <= set(each.roles) and _is_cylindrical(model, each)
+        if {"stage", "gear_1", "gear_2"} <= set(each.roles)
+        and model.components[each.roles["stage"]].type == CYLINDRICAL
     }
     if not relations:
         raise ValueProblem(_no_stage(model))
@@ -77,10 +103,6 @@ def chosen_stage(model: Model, wanted: int | None) -> Stage:
     if number not in relations:
         raise ValueProblem(f"has no stage of cylindrical gears with the number {number}. There are:\n{listed}")
     return _stage(model, relations[number])
-
-
-def _is_cylindrical(model: Model, relation: Relation) -> bool:
-    return model.components[relation.roles["stage"]].type == CYLINDRICAL
 
 
 def _no_stage(model: Model) -> str:

@@ -12,7 +12,6 @@ from tests.extensions.rexs.test_paper_pair import imported
 
 from fenics_gears import SceneError
 from fenics_gears.extensions.rexs import read
-from fenics_gears.extensions.rexs.imported import Choice
 
 P, W, FLANK, MATERIAL = rexs.PINION, rexs.WHEEL, rexs.PINION_FLANKS[0], rexs.MATERIAL
 
@@ -152,12 +151,8 @@ def test_pairs_that_are_none(tmp_path):
 
 def test_wrong_calls_are_refused(tmp_path):
     """What the call says in the file's place is a quantity of its kind."""
-    assert '--wheel-torque "437 N" is a force, not a torque' in refused(
-        tmp_path, rexs.paper_model(), wheel_torque="437 N"
-    )
-    assert '--pinion-speed "fast" does not begin with a number' in refused(
-        tmp_path, rexs.paper_model(), pinion_speed="fast"
-    )
+    assert '--wheel-torque "437 N" is a force, not a torque' in refused(tmp_path, rexs.paper_model(), torque="437 N")
+    assert '--pinion-speed "fast" does not begin with a number' in refused(tmp_path, rexs.paper_model(), speed="fast")
 
 
 def edited(old, new):
@@ -268,7 +263,7 @@ def test_damaged_files_end_in_a_scene_or_in_a_sentence(tmp_path_factory, data):
         )
         content = content[:start] + put + content[start + data.draw(st.integers(0, 12)) :]
     try:
-        imported(tmp_path_factory.mktemp("damaged"), content, choice=Choice(stage=4))
+        imported(tmp_path_factory.mktemp("damaged"), content, number=4)
     except SceneError as error:
         assert str(error).strip()
 
