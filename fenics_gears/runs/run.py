@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields
-from functools import partial
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from fenics_gears.elasticity.cache import as_json
-from fenics_gears.model.model import RELIEFS, WORDS, Model, differ_only, model_of, with_reliefs
+from fenics_gears.model.model import WORDS, Model
 from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.scene.data import Scene
 
@@ -50,8 +49,8 @@ class Run:
         return f"case {self.index} ({', '.join(f'{name} = {value}' for name, value in self.values.items())})"
 
     def __reduce__(self) -> tuple:
-        # To another process goes the scene; its model is made there.
-        return _received, (self.scene, self.key, self.index, self.values)
+        # To another process goes the model without what it has computed of itself.
+        return _received, (replace(self.model), self.key, self.index, self.values)
 
 
 def run_of(model: Model, index: int = 0, values: dict[str, str] | None = None, make: Any = None) -> Run:
@@ -63,23 +62,8 @@ def run_of(model: Model, index: int = 0, values: dict[str, str] | None = None, m
     return Run(scene_key(model.scene), sharing, make or (lambda: model), index, values or {})
 
 
-def _received(scene: Scene, key: str, index: int, values: dict[str, str]) -> Run:
-    return Run(key, (0, 0), partial(_made_here, scene), index, values)
-
-
-# Models that were made here last.
-_MODELS: list[Model] = []
-
-
-def _made_here(scene: Scene) -> Model:
-    """The model of a scene; a plane one that differs from one before in reliefs alone is that one with others."""
-    known = next((model for model in _MODELS if differ_only(model.scene, scene, RELIEFS)), None)
-    if known is not None:
-        return with_reliefs(known, scene)
-    model = model_of(scene)
-    if not scene.three_dimensional:
-        _MODELS[:] = [model, *_MODELS[:7]]
-    return model
+def _received(model: Model, key: str, index: int, values: dict[str, str]) -> Run:
+    return Run(key, (0, 0), lambda: model, index, values)
 
 
 def scene_key(scene: Scene) -> str:
