@@ -41,6 +41,7 @@ class Problem:
 
 # More mistakes than these are counted, not told: they are of a file that is no scene.
 MOST_TOLD = 20
+NOTHING_DONE = "Nothing was computed or written."
 
 
 def listed(problems: Sequence[Problem], lines: Mapping[Path, int], source: str) -> str:
@@ -50,7 +51,7 @@ def listed(problems: Sequence[Problem], lines: Mapping[Path, int], source: str) 
 
 def counted(entries: Sequence[str], count: int, source: str) -> str:
     more = [f"... and {count - MOST_TOLD} more"] if count > MOST_TOLD else []
-    total = f"{count} mistake{'s' if count > 1 else ''} in {source}. Nothing was computed or written."
+    total = f"{count} mistake{'s' if count > 1 else ''} in {source}. {NOTHING_DONE}"
     return "\n".join([*entries[:MOST_TOLD], *more, total])
 
 

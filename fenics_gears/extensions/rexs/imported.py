@@ -31,17 +31,17 @@ class ImportedScene:
 
 def imported_scene(
     path: Path,
-    number: int | None = None,
+    stage: int | None = None,
     load_case: str | None = None,
-    torque: str | None = None,
-    speed: str | None = None,
+    wheel_torque: str | None = None,
+    pinion_speed: str | None = None,
 ) -> ImportedScene:
     """A pair of a REXS file as the text of a scene. Raises SceneError with all that is wrong.
 
-    `number`, `load_case`: which stage and load case are meant, None for the only one; `torque` of the driven and
-    `speed` of the driving gear stand before those of the file.
+    `stage`, `load_case`: which stage and load case are meant, None for the only one; `wheel_torque`
+    and `pinion_speed`, of the driven and the driving gear, stand before those of the file.
     """
-    by_call = _by_call("--wheel-torque", torque, "437 N m"), _by_call("--pinion-speed", speed, "750 rpm")
+    by_call = _by_call("--wheel-torque", wheel_torque, "437 N m"), _by_call("--pinion-speed", pinion_speed, "750 rpm")
     model, reading = read_model(path), Reading()
     # A call that says all that a load case is asked for needs none.
     if load_case is None and None not in by_call:
@@ -49,16 +49,16 @@ def imported_scene(
     else:
         loaded = reading.attempt(lambda: loaded_model(model, load_case))
     try:
-        stage = chosen_stage(loaded or model, number)
+        chosen = chosen_stage(loaded or model, stage)
     except ValueProblem as problem:
         raise SceneError(f"{path}: {problem}\nNothing was written.") from None
-    sections = gear_sections(reading, stage)
-    sections |= relief_sections(reading, stage, sections)
-    sections |= lead_sections(reading, stage, sections)
-    sections |= _load_sections(reading, loaded, stage, sections, by_call)
-    sections |= _error_sections(reading, stage, sections)
-    densities = {name: reading.attempt(first, part, "density") for name, part in stage.named.items()}
-    note_what_is_left_out(reading, stage)
+    sections = gear_sections(reading, chosen)
+    sections |= relief_sections(reading, chosen, sections)
+    sections |= lead_sections(reading, chosen, sections)
+    sections |= _load_sections(reading, loaded, chosen, sections, by_call)
+    sections |= _error_sections(reading, chosen, sections)
+    densities = {name: reading.attempt(first, part, "density") for name, part in chosen.named.items()}
+    note_what_is_left_out(reading, chosen)
     _check_all_found(reading, path)
     assumed = [
         f"{section}.{name} = {value.words}: {value.origin}"
@@ -75,8 +75,8 @@ def imported_scene(
             if density is not None
         ],
     }
-    text = scene_text(path.name, model, stage, sections, notes)
-    return ImportedScene(text, stage, tuple(assumed), tuple(reading.left_out))
+    text = scene_text(path.name, model, chosen, sections, notes)
+    return ImportedScene(text, chosen, tuple(assumed), tuple(reading.left_out))
 
 
 def _check_all_found(reading: Reading, path: Path) -> None:

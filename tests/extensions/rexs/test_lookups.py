@@ -153,10 +153,10 @@ def test_several_stages_are_listed_and_one_is_chosen(paper_scene, tmp_path):
         "--stage 4    test stage: cylindrical_gear 5 (16 teeth) and cylindrical_gear 6 (24 teeth)" in words
         and "--stage 33    " in words
     )
-    assert "no stage of cylindrical gears with the number 5" in refused(tmp_path, two_stages(), number=5)
+    assert "no stage of cylindrical gears with the number 5" in refused(tmp_path, two_stages(), stage=5)
     # The output shaft bears two gears: its torque is not the mesh's.
-    assert "--wheel-torque" in refused(tmp_path, two_stages(), number=4)
-    assert scene_of(tmp_path, two_stages(), number=4, torque="437 N m")[0].gears == paper_scene.gears
+    assert "--wheel-torque" in refused(tmp_path, two_stages(), stage=4)
+    assert scene_of(tmp_path, two_stages(), stage=4, wheel_torque="437 N m")[0].gears == paper_scene.gears
 
 
 def test_torque_of_the_pinion_s_shaft_is_multiplied_and_of_the_stage_comes_first(tmp_path):
@@ -199,7 +199,7 @@ def test_load_cases(tmp_path, form):
         imported(tmp_path, form(with_load_cases(300.0, 200.0)), load_case="3")
     scene, _ = imported(tmp_path, form(with_load_cases(300.0, 200.0)), load_case="2")
     assert (scene.load.wheel_torque, scene.motion.mesh_frequency) == (200e3, pytest.approx(200 / 60 * 16))
-    scene, _ = imported(tmp_path, form(with_load_cases(300.0, 200.0)), torque="1 kN m", speed="10 rev/s")
+    scene, _ = imported(tmp_path, form(with_load_cases(300.0, 200.0)), wheel_torque="1 kN m", pinion_speed="10 rev/s")
     assert (scene.load.wheel_torque, scene.motion.mesh_frequency) == (1e6, pytest.approx(160.0))
 
 

@@ -151,8 +151,12 @@ def test_pairs_that_are_none(tmp_path):
 
 def test_wrong_calls_are_refused(tmp_path):
     """What the call says in the file's place is a quantity of its kind."""
-    assert '--wheel-torque "437 N" is a force, not a torque' in refused(tmp_path, rexs.paper_model(), torque="437 N")
-    assert '--pinion-speed "fast" does not begin with a number' in refused(tmp_path, rexs.paper_model(), speed="fast")
+    assert '--wheel-torque "437 N" is a force, not a torque' in refused(
+        tmp_path, rexs.paper_model(), wheel_torque="437 N"
+    )
+    assert '--pinion-speed "fast" does not begin with a number' in refused(
+        tmp_path, rexs.paper_model(), pinion_speed="fast"
+    )
 
 
 def edited(old, new):
@@ -263,7 +267,7 @@ def test_damaged_files_end_in_a_scene_or_in_a_sentence(tmp_path_factory, data):
         )
         content = content[:start] + put + content[start + data.draw(st.integers(0, 12)) :]
     try:
-        imported(tmp_path_factory.mktemp("damaged"), content, number=4)
+        imported(tmp_path_factory.mktemp("damaged"), content, stage=4)
     except SceneError as error:
         assert str(error).strip()
 
