@@ -7,7 +7,7 @@ import signal
 import sys
 import threading
 import time
-from typing import Protocol, TextIO
+from typing import TextIO
 
 SECONDS_BETWEEN_LINES = 5.0
 # A stage begins with what takes longest, such as compiling, or a first mesh cycle whose operators are made. The time
@@ -19,10 +19,10 @@ Finished = list[tuple[str, float]]
 """Names and seconds of stages that are over."""
 
 
-class Progress(Protocol):
+class Progress:
     """What a computation reports to; ``finished``: the stages that are over, with the seconds that are said of them."""
 
-    finished: Finished
+    finished: Finished = []
 
     def stage(self, name: str) -> None:
         """Begin the stage of that name, for instance "condense pinion"; the one before it is over."""
@@ -36,12 +36,10 @@ class Progress(Protocol):
 
 
 class SilentProgress(Progress):
-    """Reports nothing and measures nothing."""
-
-    finished: Finished = []
+    """Shows nothing and measures nothing."""
 
 
-class LineProgress:
+class LineProgress(Progress):
     """One plain line per finished stage, and one every few seconds while a stage goes on."""
 
     def __init__(self, stream: TextIO | None = None, interval: float = SECONDS_BETWEEN_LINES, clock=time.monotonic):
@@ -92,7 +90,7 @@ class LineProgress:
         print(line, file=self._stream, flush=True)
 
 
-class BarProgress:
+class BarProgress(Progress):
     """A bar with the time left for each stage, drawn by rich on a terminal."""
 
     def __init__(self, console):
@@ -156,7 +154,7 @@ def seconds_in_words(seconds: float) -> str:
     return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
 
 
-class Interruption:
+class Interruption(Progress):
     """A ``Progress`` that passes everything on and decides, as a context manager, when Ctrl-C becomes a
     KeyboardInterrupt.
 
