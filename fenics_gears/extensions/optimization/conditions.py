@@ -26,10 +26,8 @@ def samples(design: Design, fresh: bool = False) -> np.ndarray:
         return np.zeros((1, 0))
     from scipy.stats import qmc
 
-    sequence, number = (
-        qmc.Sobol(count, scramble=True, seed=design.search.seed + fresh),
-        design.tolerances.samples * (FRESH if fresh else 1),
-    )
+    sequence = qmc.Sobol(count, scramble=True, seed=design.search.seed + fresh)
+    number = design.tolerances.samples * (FRESH if fresh else 1)
     return 2.0 * sequence.random_base2(number.bit_length() - 1) - 1.0
 
 

@@ -53,35 +53,26 @@ def _checked_ranges(design: Design, sections: Sections) -> Scene:
     points or what is before make none, or where it has no such results as are wanted."""
     middle, mistakes = _middle(design), sections.mistakes
     _try(design, sections, design.before, ("scene",), "the scene before any change")
-    scene = _try(
-        design, sections, design.scene_tree(middle), ("variables",), "with all variables in the middle of their ranges"
-    )
+    where = "with all variables in the middle of their ranges"
+    scene = _try(design, sections, design.scene_tree(middle), ("variables",), where)
     mistakes.check()
     for variable in design.variables:
         for end in variable.words or (variable.low, variable.high):
             where = f"at {variable.written(end)}, the other variables in the middle of their ranges"
-            _try(
-                design, sections, design.scene_tree(middle | {variable.name: end}), ("variables", variable.name), where
-            )
+            tree = design.scene_tree(middle | {variable.name: end})
+            _try(design, sections, tree, ("variables", variable.name), where)
     for point in design.loads.points:
         tree = design.scene_tree(middle)
         for path, value in point.items():
             tree = fields.changed(tree, path, value)
             if path[0] == "motion" and "inertia" not in tree:
-                sections.wrong(
-                    "loads", ".".join(path), value, "has no effect on a scene without [inertia]. Leave it out."
-                )
+                message = "has no effect on a scene without [inertia]. Leave it out."
+                sections.wrong("loads", ".".join(path), value, message)
             if path in [each.path for each in design.variables]:
-                sections.wrong(
-                    "variables", ".".join(path), "", "is a field of the operating points too. Leave one out."
-                )
-        _try(
-            design,
-            sections,
-            tree,
-            ("loads",),
-            f"at {', '.join(f'{path[-1]} = {value}' for path, value in point.items())}",
-        )
+                message = "is a field of the operating points too. Leave one out."
+                sections.wrong("variables", ".".join(path), "", message)
+        where = ", ".join(f"{path[-1]} = {value}" for path, value in point.items())
+        _try(design, sections, tree, ("loads",), f"at {where}")
     for table, goals in (("goals", design.goals), ("constraints", [bound.goal for bound in design.bounds])):
         for goal in goals:
             if needs := lacking(goal.name, scene):
@@ -103,11 +94,8 @@ def _try(
     except NoScene as error:
         problems = error.problems
     for problem in problems:
-        said = (
-            f"{'.'.join(problem.path)} {problem.message}"
-            if problem.path and ".".join(problem.path) != place[-1]
-            else problem.message
-        )
+        name = ".".join(problem.path)
+        said = f"{name} {problem.message}" if name not in ("", place[-1]) else problem.message
         sections.mistakes.add(place, problem.written or "", f"{said} ({where})")
     return None
 
@@ -120,21 +108,18 @@ def _with_class(design: Design, scene: Scene) -> Design:
     pair, found = gear_pair(scene.gears), list(design.tolerances.scatters)
     for name, width in zip(GEARS, pair.face_widths):
         gear = getattr(pair, name)
-        limits = flank_tolerance(2.0 * gear.reference_radius, gear.normal_module, tolerance_class)
+        diameter, named = 2.0 * gear.reference_radius, {each.path for each in found}
+        limits = flank_tolerance(diameter, gear.normal_module, tolerance_class)
         amounts = {
             ("profile_modifications", name, "slope"): limits.profile_slope,
             ("profile_modifications", name, "crowning"): limits.profile_form,
         }
         if scene.three_dimensional:
-            amounts["lead_modifications", name, "helix_slope"] = helix_tolerance(
-                2.0 * gear.reference_radius, width, tolerance_class
-            ).slope
-        named = {each.path for each in found}
-        found += [
-            Scatter(path, 1e3 * amount, "um", *fields.allowed_at(path)[1:])
-            for path, amount in amounts.items()
-            if path not in named
-        ]
+            helix = helix_tolerance(diameter, width, tolerance_class)
+            amounts["lead_modifications", name, "helix_slope"] = helix.slope
+        for path, amount in amounts.items():
+            if path not in named:
+                found.append(Scatter(path, 1e3 * amount, "um", *fields.allowed_at(path)[1:]))
     return replace(design, tolerances=replace(design.tolerances, scatters=tuple(found)))
 
 
@@ -143,13 +128,9 @@ def _check_scatter(design: Design, sections: Sections) -> None:
     tree, scatters = design.scene_tree(_middle(design)), design.tolerances.scatters
     for scatter in scatters:
         if scatter.path[0] not in FROM_ZERO and value_of(tree, scatter.path) is None:
-            sections.wrong(
-                "tolerances",
-                scatter.name,
-                "",
-                'is not in the scene, so that it cannot scatter. Give it a value below [set], such as "0'
-                f' {scatter.unit}".',
-            )
+            remedy = f'Give it a value below [set], such as "0 {scatter.unit}".'
+            message = f"is not in the scene, so that it cannot scatter. {remedy}"
+            sections.wrong("tolerances", scatter.name, "", message)
     sections.mistakes.check()
     for sample in samples(design)[:2] if scatters else ():
         _try(design, sections, scattered(tree, scatters, sample), ("tolerances",), "at a sample of the tolerances")

@@ -22,7 +22,7 @@ from fenics_gears.studies.scenes import Models, NoScene
 from fenics_gears.system.progress import Interruption
 
 from .conditions import trees_of
-from .design import Bound, Design, Goal
+from .design import Design, Goal
 from .goals import ERROR, OVER_FACE
 
 UNUSABLE = 1e6
@@ -89,18 +89,13 @@ class Evaluator:
 
     def curves(self, trees: Sequence[Mapping[str, Any]]) -> list[np.ndarray | None]:
         """Mesh phase and transmission error (2, steps), rad, of parsed scenes; None where a run failed."""
-        cases = [
-            replace(case, key=f"{case.key} curve", values={"curve": ""})
-            for case in map(self._case, trees)
-            if isinstance(case, Run)
-        ]
+        runs = [case for case in map(self._case, trees) if isinstance(case, Run)]
+        cases = [replace(run, key=f"{run.key} curve", values={"curve": ""}) for run in runs]
         self._run(cases, len(trees))
-        lines = [self.runs.known[case.key] for case in cases]
-        return (
-            [np.array(line["curve"]) if not isinstance(line, Failure) else None for line in lines]
-            if len(lines) == len(trees)
-            else [None] * len(trees)
-        )
+        if len(cases) < len(trees):
+            return [None] * len(trees)
+        lines = (self.runs.known[case.key] for case in cases)
+        return [None if isinstance(line, Failure) else np.array(line["curve"]) for line in lines]
 
     def _case(self, tree: Mapping[str, Any]) -> Run | Failure:
         """The run of a parsed scene, or why it is no scene."""
@@ -131,33 +126,20 @@ class Evaluator:
     def _evaluation(self, values: dict[str, float | str], cases: list[Run | Failure], samples: int) -> Evaluation:
         lines = [case if isinstance(case, Failure) else self.runs.known[case.key] for case in cases]
         failures = [str(line) for line in lines if isinstance(line, Failure)]
-        lacking = [
-            f"the run has no {name}"
-            for line in lines
-            if not isinstance(line, Failure)
-            for name in self.design.asked
-            if name not in line["numbers"]
-        ]
-        if failures or lacking:
-            return Evaluation(values, failure=[*failures, *lacking][0])
-        points = len(self.design.loads.points)
-        found = {
-            name: np.array([line["numbers"][name] for line in lines]).reshape(points, samples)
-            for name in self.design.asked
-        }
+        if failures:
+            return Evaluation(values, failure=failures[0])
+        for name in self.design.asked:
+            if any(name not in line["numbers"] for line in lines):
+                return Evaluation(values, failure=f"the run has no {name}")
+        shape = len(self.design.loads.points), samples
+        every = ((name, [line["numbers"][name] for line in lines]) for name in self.design.asked)
+        found = {name: np.array(numbers).reshape(shape) for name, numbers in every}
         of_samples = {name: self.design.loads.combined(numbers) for name, numbers in found.items()}
         judge = self.design.tolerances.statistic
         goals = {goal.name: judge(of_samples[goal.name]) for goal in self.design.goals}
-        violation = sum(
-            _violation(bound, [judge(each) for each in found[bound.goal.name]]) for bound in self.design.bounds
-        )
-        return Evaluation(
-            values, goals, of_samples, {name: each.mean(axis=1) for name, each in found.items()}, violation
-        )
-
-
-def _violation(bound: Bound, of_points: Sequence[float]) -> float:
-    return max(map(bound.violation, of_points))
+        bounds, at_points = self.design.bounds, {name: each.mean(axis=1) for name, each in found.items()}
+        violation = sum(max(bound.violation(judge(each)) for each in found[bound.goal.name]) for bound in bounds)
+        return Evaluation(values, goals, of_samples, at_points, violation)
 
 
 def _curve(run: RunResult) -> list[list[float]]:

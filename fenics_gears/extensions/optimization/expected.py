@@ -39,12 +39,9 @@ class Work:
 
     def words(self, processes: int) -> str:
         by = f" by {processes} processes" if processes > 1 else ""
-        about = (
-            ""
-            if self.seconds is None
-            else f", about {seconds_in_words(self.seconds / processes)}{by} on an idle machine"
-        )
-        return f"up to {self.runs} runs{about}"
+        if self.seconds is None:
+            return f"up to {self.runs} runs"
+        return f"up to {self.runs} runs, about {seconds_in_words(self.seconds / processes)}{by} on an idle machine"
 
     def check(self, title: str, processes: int) -> None:
         """Raise SceneError where it takes too long."""

@@ -116,11 +116,8 @@ def _run(
 def _opening(design: Design, count: int, evaluator: Evaluator, work: Work, size: int) -> str:
     runs = len(design.loads.points) * count
     kept = f" {evaluator.runs.kept} runs are kept from before." if evaluator.runs.kept else ""
-    kept += (
-        f" {evaluator.others} runs of a version of the program with other numbers are not used."
-        if evaluator.others
-        else ""
-    )
+    if evaluator.others:
+        kept += f" {evaluator.others} runs of a version of the program with other numbers are not used."
     return (
         f"{design.title}: {design.search.evaluations} designs of {len(design.variables)} variables, {runs} runs each,"
         f" and around them; {work.words(size)}.{kept}"
@@ -132,11 +129,9 @@ def chosen(design: Design, before: Evaluation, tried: Sequence[Evaluation]) -> i
     allowed = [place for place, each in enumerate(tried) if each.allowed]
     if not allowed:
         failed = [each.failure for each in tried if each.failure]
-        why = (
-            f"{len(failed)} failed, the first since: {failed[0]}"
-            if failed
-            else f"the nearest one breaks the bounds by {min(each.violation for each in tried):.3g} of them"
-        )
+        why = f"the nearest one breaks the bounds by {min(each.violation for each in tried):.3g} of them"
+        if failed:
+            why = f"{len(failed)} failed, the first since: {failed[0]}"
         raise ComputationError(
             f"None of {len(tried)} designs keeps the constraints: {why}. Widen ranges or bounds; the runs are kept."
         )
@@ -158,13 +153,10 @@ def _look_around(outcome: Outcome, evaluator: Evaluator) -> None:
     count = len(design.tolerances.scatters)
     nominal = np.zeros((1, count))
     for variable in design.variables:
-        places = list(variable.words) or sorted(
-            {*map(variable.at, np.linspace(0.0, 1.0, VALUES)), values[variable.name]}
-        )
-        outcome.along[variable.name] = (
-            places,
-            evaluator.of_designs([values | {variable.name: place} for place in places], nominal),
-        )
+        evenly = {*map(variable.at, np.linspace(0.0, 1.0, VALUES)), values[variable.name]}
+        places = list(variable.words) or sorted(evenly)
+        designs = [values | {variable.name: place} for place in places]
+        outcome.along[variable.name] = places, evaluator.of_designs(designs, nominal)
     if not count:
         return
     trees = [design.before, design.scene_tree(values)]

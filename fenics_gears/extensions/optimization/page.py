@@ -15,7 +15,6 @@ from .charts import (
     called,
     front_chart,
     goal_words,
-    goals_of,
     harris_charts,
     no_gain,
     search_chart,
@@ -61,51 +60,30 @@ def optimization_page(outcome: Outcome) -> Page:
         scene_section(best_scene(outcome), f"Chosen design ({BEST})"),
         scene_section(design.text, "Design file", "design"),
     ]
-    numbers = (
-        counted(len(each), words)
-        for each, words in (
-            (outcome.tried, "design"),
-            (design.variables, "variable"),
-            (design.loads.points, "operating point"),
-        )
-    )
-    subtitle = "{} of {} at {}".format(*numbers)
+    designs, points = counted(len(outcome.tried), "design"), counted(len(design.loads.points), "operating point")
+    subtitle = f"{designs} of {counted(len(design.variables), 'variable')} at {points}"
     return Page("Gear pair: optimisation", design.title, subtitle, sections, made_by(), no_gain(outcome))
 
 
 def _summary(outcome: Outcome) -> Section:
-    tiles = []
-    for goal in outcome.design.goals:
+    tiles, goals = [], outcome.design.goals
+    for goal in goals:
+        value, unit = f"{outcome.chosen.goals[goal.name]:.4g}", goal.unit.replace("um", "µm").removeprefix("1")
         note = f"before: {goal_words(outcome, goal, outcome.before)}"
-        tiles.append(
-            Tile(
-                sentence(called(goal.name)),
-                f"{outcome.chosen.goals[goal.name]:.4g}",
-                goal.unit.replace("um", "µm").removeprefix("1"),
-                note,
-            )
-        )
-    # Goals before and after are on the tiles, where there are no tolerances, of which the rows have more.
-    said = (
-        set()
-        if outcome.design.tolerances.scatters
-        else {f"{called(goal.name)}, {words}" for goal in outcome.design.goals for words in (BEFORE, CHOSEN)}
-    )
-    return Section(
-        "summary", "Summary", [Tiles(tiles), Facts([row for row in summary_rows(outcome) if row[0] not in said])]
-    )
+        tiles.append(Tile(sentence(called(goal.name)), value, unit, note))
+    rows = summary_rows(outcome)
+    if not outcome.design.tolerances.scatters:
+        # Goals before and after are on the tiles; with tolerances the rows have more of them.
+        said = {f"{called(goal.name)}, {words}" for goal in goals for words in (BEFORE, CHOSEN)}
+        rows = [row for row in rows if row[0] not in said]
+    return Section("summary", "Summary", [Tiles(tiles), Facts(rows)])
 
 
 def _designs(outcome: Outcome) -> Section:
     design = outcome.design
     blocks: list[Block] = [search_chart(outcome, goal) for goal in design.goals]
-    listed, words = (
-        sorted(
-            (place for place, each in enumerate(outcome.tried) if each.allowed),
-            key=lambda place: goals_of([outcome.tried[place]], design.goals[0])[0],
-        ),
-        "best",
-    )
+    allowed = (place for place, each in enumerate(outcome.tried) if each.allowed)
+    listed, words = sorted(allowed, key=lambda place: outcome.tried[place].goals[design.goals[0].name]), "best"
     if len(design.goals) > 1:
         blocks.insert(0, front_chart(outcome))
         listed, words = [place for place in listed if place in outcome.front], "designs of the Pareto front"
@@ -116,41 +94,28 @@ def _designs(outcome: Outcome) -> Section:
     ]
     rows = []
     for place in listed[:MOST_ROWS]:
-        numbers = [outcome.tried[place].values[each.name] for each in design.variables] + [
-            outcome.tried[place].goals[goal.name] for goal in design.goals
+        tried = outcome.tried[place]
+        numbers = [
+            *(tried.values[each.name] for each in design.variables),
+            *(tried.goals[goal.name] for goal in design.goals),
         ]
-        rows.append(
-            [
-                Cell(f"{place}{' (chosen)' if place == outcome.best else ''}", float(place)),
-                *(Cell(each) if isinstance(each, str) else Cell(f"{each:.4g}", each) for each in numbers),
-            ]
-        )
-    failures = [
-        (str(place), Cell(each.failure, warns=True)) for place, each in enumerate(outcome.tried) if each.failure
-    ]
+        cells = (Cell(each) if isinstance(each, str) else Cell(f"{each:.4g}", each) for each in numbers)
+        rows.append([Cell(f"{place}{' (chosen)' if place == outcome.best else ''}", float(place)), *cells])
     blocks += [Words(f"The {len(rows)} {words}; `{TABLE}` has all designs."), Table(headings, rows, sortable=True)]
-    blocks += (
-        [Words(f"{len(failures)} designs failed."), Table(("Design", "Why"), failures[:MOST_ROWS], numbers=9)]
-        if failures
-        else []
-    )
+    failed = ((place, each.failure) for place, each in enumerate(outcome.tried) if each.failure)
+    if failures := [(f"{place}", Cell(why, warns=True)) for place, why in failed]:
+        table = Table(("Design", "Why"), failures[:MOST_ROWS], numbers=9)
+        blocks += [Words(f"{len(failures)} designs failed."), table]
     return Section("designs", "Designs", blocks)
 
 
 def _tolerances(outcome: Outcome) -> Section:
     blocks: list[Block] = []
+    heads = ("Tolerance", "Limit", "At the lower limit", "Without scatter", "At the upper limit")
     for goal in outcome.design.goals:
-        heads = ("Tolerance", "Limit", "At the lower limit", "Without scatter", "At the upper limit")
-        blocks.append(
-            Table(
-                heads,
-                tolerance_rows(outcome, goal),
-                f"{sentence(called(goal.name))} ({goal.unit.replace('um', 'µm')}) of the chosen design",
-            )
-        )
-    words = (
-        "One deviation at its limit, all others zero; the largest change first."
-        if outcome.limits
-        else "A run with a deviation at its limit failed."
-    )
+        caption = f"{sentence(called(goal.name))} ({goal.unit.replace('um', 'µm')}) of the chosen design"
+        blocks.append(Table(heads, tolerance_rows(outcome, goal), caption))
+    words = "One deviation at its limit, all others zero; the largest change first."
+    if not outcome.limits:
+        words = "A run with a deviation at its limit failed."
     return Section("tolerances", "Each tolerance alone", [Words(words, warns=not outcome.limits), *blocks])
