@@ -51,11 +51,8 @@ def add(commands, shared: argparse.ArgumentParser, called: str) -> None:
         except Exception as error:
             if label in CORE:
                 raise
-            print(
-                f"The extension {label} cannot be loaded and is left out: {type(error).__name__}: {error}. Mend, update"
-                " or uninstall it.",
-                file=sys.stderr,
-            )
+            why = f"{type(error).__name__}: {error}. Mend, update or uninstall it."
+            print(f"The extension {label} cannot be loaded and is left out: {why}", file=sys.stderr)
 
 
 def _of_the_core() -> Iterator[Found]:

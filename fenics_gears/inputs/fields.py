@@ -76,11 +76,12 @@ def quantities(
 
     ``examples``: of two entries, or one for both; ``count``: of the entries, where it is fixed.
     """
-    (kind, low, high), first, second = _limits(limits), examples[0], examples[-1]
+    kind, low, high = _limits(limits)
     many, sizes = (f"{count} quantities", {"shortest": count, "longest": count}) if count else ("quantities", {})
-    description = f'a list of {many}, each {kind} from {limits}, with its unit, such as ["{first}", "{second}"]'
+    listed = f'["{examples[0]}", "{examples[-1]}"]'
+    description = f"a list of {many}, each {kind} from {limits}, with its unit, such as {listed}"
     allowed = AllowedList(
-        description=description, meaning=meaning, otherwise=otherwise, kind=kind, unit=units.unit_of(first),
+        description=description, meaning=meaning, otherwise=otherwise, kind=kind, unit=units.unit_of(examples[0]),
         lowest=low, highest=high, **sizes, **marks,
     )  # fmt: skip
     return declared(allowed)
@@ -88,33 +89,24 @@ def quantities(
 
 def numbers(lowest: float, highest: float, example: float, *, meaning: str, otherwise: str) -> Any:
     """A list of bare numbers, optional; bounds of each entry, both included."""
-    description = (
-        f"a list of numbers, each from {lowest:g} to {highest:g}, without unit, such as [{example:g}, {example:g}]"
-    )
-    return declared(
-        AllowedList(description=description, meaning=meaning, otherwise=otherwise, lowest=lowest, highest=highest)
-    )
+    limits = f"each from {lowest:g} to {highest:g}, without unit"
+    description = f"a list of numbers, {limits}, such as [{example:g}, {example:g}]"
+    bounds = {"lowest": lowest, "highest": highest}
+    return declared(AllowedList(description=description, meaning=meaning, otherwise=otherwise, **bounds))
 
 
 def either(*ranges: tuple[str, str], words: tuple[str, ...], meaning: str, otherwise: str) -> Any:
     """A quantity of one of several kinds, each given by its limits and an example, or a word; optional."""
-    described = []
-    bounds, usual = {}, {}
+    described, bounds, usual = [], {}, {}
     for limits, example in ranges:
-        kind, low, high = _limits(limits)
+        kind, *bounds_of_kind = _limits(limits)
         described.append(f'{kind} from {limits}, such as "{example}"')
-        bounds[kind], usual[kind] = (low, high), units.unit_of(example)
-    first = next(iter(bounds))
+        bounds[kind], usual[kind] = bounds_of_kind, units.unit_of(example)
+    first, description = next(iter(bounds)), ", or ".join(described) + _or(words)
     allowed = AllowedEither(
-        description=", or ".join(described) + _or(words),
-        meaning=meaning,
-        otherwise=otherwise,
-        kind=first,
-        unit=usual[first],
-        ranges=bounds,
-        units=usual,
-        words=words,
-    )
+        description=description, meaning=meaning, otherwise=otherwise, kind=first, unit=usual[first],
+        ranges=bounds, units=usual, words=words,
+    )  # fmt: skip
     return declared(allowed)
 
 
@@ -147,11 +139,8 @@ def whole_number(
 def choice(*names: str, meaning: str, otherwise: str = "", default: str | None = None) -> Any:
     """One of a few names, optional."""
     listed = ", ".join(f'"{name}"' for name in names)
-    description = f"one of {listed}" if len(names) > 1 else f"only {listed}"
-    allowed = AllowedChoice(
-        description=description, meaning=meaning, otherwise=otherwise or f"`{default}`", names=names
-    )
-    return declared(allowed, default)
+    description, otherwise = f"{'one of' if len(names) > 1 else 'only'} {listed}", otherwise or f"`{default}`"
+    return declared(AllowedChoice(description=description, meaning=meaning, otherwise=otherwise, names=names), default)
 
 
 def text(longest: int, *, meaning: str, otherwise: str) -> Any:
@@ -164,12 +153,10 @@ def file_name(
     ending: str, example: str, *, meaning: str, otherwise: str, made: Callable[[str], Any] = str, **marks: bool
 ) -> Any:
     """The name of a file that ends in ``ending``, optional."""
-    description = (
-        f'the name of a file that ends in {ending}, of at most {LONGEST_FILE_NAME} characters, such as "{example}"'
-    )
-    return declared(
-        AllowedFile(description=description, meaning=meaning, otherwise=otherwise, ending=ending, made=made, **marks)
-    )
+    limits = f"that ends in {ending}, of at most {LONGEST_FILE_NAME} characters"
+    description = f'the name of a file {limits}, such as "{example}"'
+    marks |= {"ending": ending, "made": made}
+    return declared(AllowedFile(description=description, meaning=meaning, otherwise=otherwise, **marks))
 
 
 def switch(*, meaning: str) -> Any:

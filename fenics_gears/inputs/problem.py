@@ -121,7 +121,5 @@ def meant(section: Iterable[str], word: str, known: Iterable[str]) -> str | None
 
     section, known = tuple(section), tuple(known)
     homes = [section, *([section[:-1], (*section[:-1], "pinion")] if section[-1:] in (("pinion",), ("wheel",)) else [])]
-    found = (
-        name for home in homes for name in known if word.lower() in SYNONYMS.get(".".join((*home, name)), "").split()
-    )
-    return next(found, None)
+    pairs = ((name, ".".join((*home, name))) for home in homes for name in known)
+    return next((name for name, path in pairs if word.lower() in SYNONYMS.get(path, "").split()), None)

@@ -58,9 +58,8 @@ def _sections(section: type[Section]) -> dict[str, type[Section]]:
 
 
 def _section_of(hint: Any) -> type[Section] | None:
-    return next(
-        (each for each in (hint, *get_args(hint)) if isinstance(each, type) and issubclass(each, Section)), None
-    )
+    kinds = (each for each in (hint, *get_args(hint)) if isinstance(each, type))
+    return next((each for each in kinds if issubclass(each, Section)), None)
 
 
 class PartRefused(Refused):
@@ -90,8 +89,7 @@ def read(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> tu
             values[name], found = read(inner, written, place)
             problems += found
         else:
-            listed = ", ".join(names_in(inner))
-            message = f"is not a section. Write a line [{'.'.join(place)}], and below it its fields: {listed}."
+            message = f"is not a section. Write a line [{'.'.join(place)}], and below it {_fields_of(inner)}."
             problems.append(Problem(place, as_written(written), message))
     problems += _beside_another(section, tree, path)
     problems += (
@@ -126,8 +124,11 @@ def _missing(section: type[Section], name: str, place: Path) -> Iterator[Problem
     if allowed is not None:
         yield Problem(place, None, f"is missing. Allowed: {allowed.description}.")
     elif inner is not None:
-        listed = ", ".join(names_in(inner))
-        yield Problem(place, None, f"is missing. Add the section [{'.'.join(place)}] with its fields: {listed}.")
+        yield Problem(place, None, f"is missing. Add the section [{'.'.join(place)}] with {_fields_of(inner)}.")
+
+
+def _fields_of(section: type[Section]) -> str:
+    return f"its fields: {', '.join(names_in(section))}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,14 +156,12 @@ class AllowedTables(Allowed):
         found, problems = read(self.section, entry)
         # An unknown name first: it may be what is missing.
         for problem in sorted(problems, key=lambda each: not each.unknown):
-            name, said = ".".join(problem.path), problem.message
+            name, where = ".".join(problem.path), f"at place {place}"
             if problem.unknown:
-                raise Refused(
-                    f'has "{name}" at place {place}, which no {self.singular} has.{did_you_mean(name, names)}'
-                )
+                raise Refused(f'has "{name}" {where}, which no {self.singular} has.{did_you_mean(name, names)}')
             if problem.written is None:
-                raise Refused(f"has no {name} at place {place}.")
-            raise PartRefused(f"has {name} = {problem.written} at place {place}, which {said}")
+                raise Refused(f"has no {name} {where}.")
+            raise PartRefused(f"has {name} = {problem.written} {where}, which {problem.message}")
         return found
 
     def spelled(self, value: Any) -> list[dict[str, Any]]:

@@ -11,8 +11,7 @@ Tree = Mapping[str, Any]
 GEARS = ("pinion", "wheel")
 SHAFTS = ("input", "output")  # of pinion and wheel
 MOST_TEETH = 1000
-# In modules. Real errors of manufacture are far smaller; the model moves flanks by them but not their points of
-# contact.
+# In modules. The model moves flanks by errors of manufacture but not their points of contact.
 LARGEST_ERROR = 0.1
 
 
@@ -125,9 +124,8 @@ def dotted(path: Path) -> str:
 
 def over_the_face(tree: Tree) -> list[Path]:
     """What of a scene makes it three-dimensional; nothing of a plane one."""
-    return [
-        path for path in OVER_THE_FACE if (value_at(tree, *path) if len(path) > 1 else table(tree, path[0])) is not None
-    ]
+    found = ((path, value_at(tree, *path)) for path in OVER_THE_FACE)
+    return [path for path, value in found if isinstance(value, Mapping) or len(path) > 1 and value is not None]
 
 
 NOT_IN_THE_PLANE = (
@@ -138,9 +136,5 @@ NOT_IN_THE_PLANE = (
 
 def material_sections(tree: Tree) -> list[Path]:
     """Paths of the sections, misspelt ones too, that say what gears are made of; none of rigid gears."""
-    return [
-        (*path, name)
-        for path, home in with_gears(tree, "gears").items()
-        for name in home
-        if nearest(name, ["material"])
-    ]
+    homes = with_gears(tree, "gears").items()
+    return [(*path, name) for path, home in homes for name in home if nearest(name, ["material"])]

@@ -30,9 +30,8 @@ def as_written(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, int) and abs(value) >= 10**_LONGEST:
         return f"a number of more than {_LONGEST} digits"
-    text = (
-        json.dumps(value, ensure_ascii=False) if isinstance(value, str) else getattr(value, "text", None) or str(value)
-    )
+    said = getattr(value, "text", None) or str(value)
+    text = json.dumps(value, ensure_ascii=False) if isinstance(value, str) else said
     return text if len(text) <= _LONGEST else text[: _LONGEST - 3] + "..."
 
 

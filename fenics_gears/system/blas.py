@@ -19,8 +19,8 @@ from pathlib import Path
 
 VARIABLE = "OPENBLAS_CORETYPE"
 PROCESSORS = Path("/proc/cpuinfo")
-# Kernels that make use of the instructions without which none are quick. The oldest of them are the tried ones: those
-# for AVX-512 have been wrong in several releases.
+# Kernels that use these instructions are quick. The oldest are the tried ones: those for AVX-512 have been wrong in
+# several releases.
 INSTRUCTIONS = {"avx2", "fma"}
 QUICK = {"Haswell", "Excavator", "Zen", "SkylakeX", "Cooperlake", "SapphireRapids"}
 TRIED = "Haswell"
@@ -85,9 +85,8 @@ def _found() -> Choice:
     if not unsuitable:
         return Choice("", "chosen by OpenBLAS")
     one = unsuitable[0]
-    what = f"OpenBLAS {one['version']} by itself takes {one['kernels']}'s" + (
-        "" if one["exact"] else ", which are wrong"
-    )
+    wrong = "" if one["exact"] else ", which are wrong"
+    what = f"OpenBLAS {one['version']} by itself takes {one['kernels']}'s{wrong}"
     tried = in_another_process(TRIED)
     if tried and all(each["kernels"] == TRIED and each["exact"] for each in tried):
         return Choice(TRIED, f"{what}, but the processor has AVX2 and FMA; integer products are exact")
@@ -130,22 +129,18 @@ def exact(file: str) -> bool:
     for rows, columns, inner in SIZES:
         left, right = (numbers.integers(-9, 10, size) for size in ((rows, inner), (inner, columns)))
         for turned in ("NN", "NT", "TN", "TT"):
-            first, second = (
-                np.array(each.T if turn == "T" else each, dtype=float, order="F")
-                for each, turn in zip((left, right), turned)
-            )
+            given = (each.T if turn == "T" else each for each, turn in zip((left, right), turned))
+            first, second = (np.array(each, dtype=float, order="F") for each in given)
             found = np.full((rows, columns), np.nan, order="F")
             sizes = [ctypes.byref(integer(size)) for size in (rows, columns, inner)]
             one, nothing = (ctypes.byref(ctypes.c_double(value)) for value in (1.0, 0.0))
+            # Each array with its leading dimension.
             arrays = [
-                argument
-                for each in (first, second)
-                for argument in (each.ctypes.data_as(ctypes.c_void_p), ctypes.byref(integer(len(each))))
+                (each.ctypes.data_as(ctypes.c_void_p), ctypes.byref(integer(len(each))))
+                for each in (first, second, found)
             ]
-            product(
-                *(turn.encode() for turn in turned), *sizes, one, *arrays, nothing,
-                found.ctypes.data_as(ctypes.c_void_p), ctypes.byref(integer(rows)),
-            )  # fmt: skip
+            turns = (turn.encode() for turn in turned)
+            product(*turns, *sizes, one, *arrays[0], *arrays[1], nothing, *arrays[2])
             # NumPy multiplies integers without BLAS.
             if not np.array_equal(found, left @ right):
                 return False

@@ -50,25 +50,24 @@ def defaults(environment):
     if ranks == local_ranks(environment):
         # On one machine ranks meet in shared memory; TCP only warns about interfaces it cannot pair.
         values["OMPI_MCA_btl"] = "^tcp,ofi"
-    if ranks > 1 and "OMP_NUM_THREADS" not in environment:
-        # OpenBLAS and MKL follow OMP_NUM_THREADS unless each is set by itself.
+    if ranks > 1:
+        # OpenBLAS and MKL follow it unless each is set by itself.
         values["OMP_NUM_THREADS"] = "1"
     return values
 
 
 def started_ranks(environment=os.environ):
-    """How many processes were started together; 1 for a process that was started alone."""
+    """How many processes were started together, at least 1."""
     return _largest(environment, RANK_COUNTS)
 
 
 def local_ranks(environment=os.environ):
-    """How many of them are on this machine, or on the one that has most; 1 for a process that was started alone."""
+    """How many of them are on this machine, or on the one that has most."""
     return _largest(environment, LOCAL_COUNTS)
 
 
 def on_terminal_of_its_own():
-    """Whether this process's terminal is nobody's: Open MPI and MPICH start each process on a pseudo-terminal, whatever
-    mpirun itself writes to."""
+    """Whether this process's terminal is nobody's: Open MPI and MPICH start each process on a pseudo-terminal."""
     return any(name in os.environ for name in RANK_COUNTS[:2])
 
 
@@ -137,7 +136,7 @@ def _cache_elsewhere(environment: Environment, say: Callable[[str], None]) -> No
     if is_new:
         with contextlib.suppress(OSError):
             _copy_compiled(Path(folder, "numba"))
-        remedy = "to keep it for longer, let XDG_CACHE_HOME name a folder that you can write."
+        remedy = "let XDG_CACHE_HOME name a folder that you can write."
         say(f"your folder for caches cannot be written, so compiled code is kept in {folder}; {remedy}")
 
 

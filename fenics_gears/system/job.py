@@ -22,8 +22,7 @@ from . import environment
 
 LOGGER = logging.getLogger(__name__)
 
-# Seconds: for which a failed rank waits for the others, in case that they have failed too, and between looks for
-# messages.
+# Seconds for which a failed rank waits for the others, in case that they fail too, and between looks for messages.
 PATIENCE, BETWEEN_LOOKS = 5.0, 0.005
 END = None
 
@@ -44,10 +43,8 @@ def _joined(started: int) -> tuple[Any, int]:
     try:
         from mpi4py import MPI
     except ImportError as error:
-        raise ComputationError(
-            f"This is one of {started} processes, but mpi4py cannot be loaded ({error}). Install it, or start one"
-            " process."
-        ) from error
+        words = f"This is one of {started} processes, but mpi4py cannot be loaded ({error})."
+        raise ComputationError(f"{words} Install it, or start one process.") from error
     world = MPI.COMM_WORLD
     if world.size != started:
         raise ComputationError(

@@ -25,7 +25,7 @@ BYTES = {"MB": 1e6, "GB": 1e9, "TB": 1e12}
 SHARE = 0.6
 # Where neither the kernel nor a container says what is free.
 UNKNOWN = 8e9
-# Free bytes of the heap that stay in the process after a run: the next one needs them, and pages are dear to get again.
+# Free bytes of the heap that stay in the process after a run, for the next one.
 MOST_KEPT = 200e6
 
 
@@ -53,8 +53,7 @@ def pages(rows: int, columns: int) -> np.ndarray:
     import numpy as np
 
     held = mmap.mmap(-1, max(8 * rows * columns, 1), flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
-    # Pages of megabytes would hold much that is never written. Kernels without such pages refuse, other systems than
-    # Linux have no such call.
+    # Pages of megabytes would hold much that is never written. Kernels without them refuse; others have no such call.
     with suppress(OSError, AttributeError):
         held.madvise(mmap.MADV_NOHUGEPAGE)
     return np.frombuffer(held, count=rows * columns).reshape(rows, columns)

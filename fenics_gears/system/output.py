@@ -51,9 +51,9 @@ def check_writable(directory: Path, *names: str) -> None:
 def _check_directory(directory: Path) -> None:
     existing = next(parent for parent in (directory.absolute(), *directory.absolute().parents) if _is_there(parent))
     if not existing.is_dir():
-        raise SceneError(f"{existing} is a file; the result needs a directory. Choose another one with --output DIR.")
+        raise SceneError(f"{existing} is a file; the result needs a directory. To go on, {ANOTHER}")
     if not os.access(existing, os.W_OK | os.X_OK):
-        raise SceneError(f"{existing} cannot be written to. Choose another directory with --output DIR.")
+        raise SceneError(f"{existing} cannot be written to. To go on, {ANOTHER}")
 
 
 def _is_there(path: Path) -> bool:
@@ -135,8 +135,7 @@ def _is_alive(process: int) -> bool:
     except ProcessLookupError:
         return False
     except OSError:
-        # Somebody else's.
-        return True
+        pass  # it is somebody else's
     return True
 
 

@@ -10,8 +10,8 @@ import time
 from typing import TextIO
 
 SECONDS_BETWEEN_LINES = 5.0
-# A stage begins with what takes longest, such as compiling, or a first mesh cycle whose operators are made. The time
-# left is said once a tenth is done, or once a minute is over, by the pace of its later half.
+# A stage begins with what takes longest, such as compiling. The time left is said once a tenth is done, or once a
+# minute is over, by the pace of its later half.
 ENOUGH_DONE, ENOUGH_SECONDS = 0.1, 60.0
 
 
@@ -44,19 +44,19 @@ class LineProgress(Progress):
 
     def __init__(self, stream: TextIO | None = None, interval: float = SECONDS_BETWEEN_LINES, clock=time.monotonic):
         self._stream = stream if stream is not None else sys.stderr
-        self._interval = interval
-        self._clock = clock
-        self._name: str | None = None
-        self._begun = self._spoken = clock()
+        self._interval, self._clock = interval, clock
+        self.finished: Finished = []
+        self._begin(None)
+
+    def _begin(self, name: str | None) -> None:
+        self._name = name
+        self._begun = self._spoken = self._clock()
         # Times and counts of the lines.
         self._seen = [(self._begun, 0)]
-        self.finished: Finished = []
 
     def stage(self, name: str) -> None:
         self.close()
-        self._name = name
-        self._begun = self._spoken = self._clock()
-        self._seen = [(self._begun, 0)]
+        self._begin(name)
 
     def update(self, done: int, total: int, note: str = "") -> None:
         now = self._clock()

@@ -58,10 +58,9 @@ class SecondProcess:
                     pickle.dump((work, arguments), process.stdin)
                 failed, outcome = pickle.load(process.stdout)
             except (OSError, EOFError, pickle.UnpicklingError) as error:
-                raise ComputationError(
-                    f"the process that condenses the second gear ended without a result (code {process.wait()}). Memory"
-                    " may be short; OMP_NUM_THREADS=1 condenses one gear after the other."
-                ) from error
+                why = f"the process that condenses the second gear ended without a result (code {process.wait()})"
+                remedy = "Memory may be short; OMP_NUM_THREADS=1 condenses one gear after the other."
+                raise ComputationError(f"{why}. {remedy}") from error
         if failed:
             raise outcome
         return [outcome]

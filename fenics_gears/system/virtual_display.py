@@ -20,8 +20,8 @@ def ensure_display(vtk_version: tuple[int, ...]) -> None:
         return
     if shutil.which("Xvfb") is None:
         raise ComputationError(
-            f"VTK {'.'.join(map(str, vtk_version))} draws teeth in three dimensions on a display only, and there is"
-            " none. Install Xvfb (Debian: xvfb), or VTK 9.4 or later"
+            f"VTK {'.'.join(map(str, vtk_version))} draws on a display only, and there is none. Install Xvfb (Debian:"
+            " xvfb), or VTK 9.4 or later"
         )
     read, write = os.pipe()
     server = subprocess.Popen(

@@ -16,16 +16,10 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
         "--stage", type=int, metavar="ID", help="number of the component of the stage, if the file has several stages"
     )
     command.add_argument("--load-case", metavar="ID", help="number of the load case, if the file has several")
-    command.add_argument(
-        "--wheel-torque",
-        metavar="TORQUE",
-        help='torque on the driven gear in place of that of the file, such as "437 N m"',
-    )
-    command.add_argument(
-        "--pinion-speed",
-        metavar="SPEED",
-        help='speed of the driving gear in place of that of the file, such as "750 rpm"',
-    )
+    torque = 'torque on the driven gear in place of that of the file, such as "437 N m"'
+    command.add_argument("--wheel-torque", metavar="TORQUE", help=torque)
+    speed = 'speed of the driving gear in place of that of the file, such as "750 rpm"'
+    command.add_argument("--pinion-speed", metavar="SPEED", help=speed)
     command.set_defaults(command=import_rexs)
 
 
@@ -34,9 +28,7 @@ def import_rexs(options: argparse.Namespace) -> int:
     output = file_to_write(options, Path((options.file.stem.removesuffix(".rexs") or "scene") + ".toml"), "a scene")
     if output.exists():
         # A scene is the user's own work.
-        raise SceneError(
-            f"{output} exists already; nothing was written. Name another file with --output SCENE, or remove it."
-        )
+        raise SceneError(f"{output} exists already. Name another file with --output SCENE, or remove it.")
     from .imported import imported_scene
 
     imported = imported_scene(
@@ -66,11 +58,8 @@ def _check_scene(imported, file: Path, output: Path) -> None:
 
 
 def _summary(imported, output: Path) -> str:
-    parts = [(f"{output}: {imported.stage.pinion.gear} drives {imported.stage.wheel.gear}.", ())]
-    parts += [
-        (heading, listed)
-        for heading, listed in (("Assumed:", imported.assumed), ("Left out:", imported.left_out))
-        if listed
-    ]
-    lines = [line for heading, listed in parts for line in (heading, *(f"    {each}" for each in listed))]
+    lines = [f"{output}: {imported.stage.pinion.gear} drives {imported.stage.wheel.gear}."]
+    for heading, listed in (("Assumed:", imported.assumed), ("Left out:", imported.left_out)):
+        if listed:
+            lines += [heading, *(f"    {each}" for each in listed)]
     return "\n".join([*lines, f"Next: gears check {output}"])

@@ -1,5 +1,6 @@
 """Reliefs and tolerances of the loaded flanks, and what a file says of flanks that a scene has no field for."""
 
+from dataclasses import replace
 from math import cos, isclose, sqrt
 
 from .attributes import NO_PLACE, NO_PLACE_OF_RELIEFS, Reading, given, missing, positive, required, stated
@@ -34,16 +35,12 @@ def tolerance_class(reading: Reading, stage: Stage) -> Value | None:
     found = [value for part in stage.named.values() for value in _classes(reading, part)]
     if not found:
         return None
-    coarse = max(found, key=lambda value: value.number)
+    coarse, origin = max(found, key=lambda value: value.number), together(value.origin for value in found)
     if len({value.number for value in found}) > 1:
-        return Value(coarse.number, coarse.written, f"{coarse.origin}, the coarser of the two gears")
-    origin = together(value.origin for value in found)
-    return Value(
-        coarse.number,
-        coarse.written,
-        origin if len(found) == 2 else f"{origin}, of this gear only",
-        assumed=len(found) < 2,
-    )
+        origin = f"{coarse.origin}, the coarser of the two gears"
+    elif len(found) == 1:
+        origin = f"{origin}, of this gear only"
+    return replace(coarse, origin=origin, assumed=len(found) == 1)
 
 
 def note_what_is_left_out(reading: Reading, stage: Stage) -> None:

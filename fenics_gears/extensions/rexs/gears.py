@@ -55,22 +55,20 @@ def _module(stage: Stage) -> Value:
 
 def _helix(stage: Stage) -> dict[str, Value | None]:
     """Helix angle and hand of the pinion; empty for spur gears. A positive angle is a right-hand helix (ISO 21771)."""
-    found = [first(part, "helix_angle") for part in stage.named.values()]
-    there = [angle for angle in found if angle is not None]
+    pinion, wheel = (first(part, "helix_angle") for part in stage.named.values())
+    there = [angle for angle in (pinion, wheel) if angle is not None]
     if not any(abs(angle.number) > NO_HELIX for angle in there):
         return {}
-    if len(there) == 2 and abs(there[0].number + there[1].number) > ROUNDED * abs(there[0].number):
+    if len(there) == 2 and abs(pinion.number + wheel.number) > ROUNDED * abs(pinion.number):
         raise ValueProblem(
-            f"{stage.stage}: {there[0].origin} is {there[0].words}, {there[1].origin} is {there[1].words}. "
-            "Allowed on parallel axes: the same angle with opposite signs."
+            f"{stage.stage}: {pinion.origin} is {pinion.words}, {wheel.origin} is {wheel.words}. Allowed on parallel"
+            " axes: the same angle with opposite signs."
         )
-    pinion, wheel = found
-    angle = there[0]
-    right = pinion.number > 0.0 if pinion is not None else wheel is not None and wheel.number < 0.0
-    origin = together(each.origin for each in there)
+    angle, origin = there[0], together(each.origin for each in there)
+    hand = "right" if (angle.number > 0.0) == (pinion is not None) else "left"
     return {
         "helix_angle": Value(abs(angle.number), angle.written.replace('"-', '"'), origin),
-        "pinion_hand": Value(0.0, '"right"' if right else '"left"', f"the sign of {origin}"),
+        "pinion_hand": Value(0.0, f'"{hand}"', f"the sign of {origin}"),
     }
 
 
@@ -103,22 +101,17 @@ def _profile_shifts(
     shifts = [reading.attempt(partial(_stated_shift, part, module)) for part in parts]
     unsaid = [number for number, part in enumerate(parts) if not given(part, "profile_shift")]
     if len(unsaid) == 2:
-        reading.attempt(_refuse_both_missing, stage)
+        pinion, name = place(stage.pinion.gear, "addendum_modification_coefficient"), stage.wheel.gear.id
+        reading.problems.append(f"{pinion} is missing, for its flanks too, and so is that of component {name}.")
     elif unsaid:
-        shifts[unsaid[0]] = reading.attempt(
-            _remaining_shift, stage, beta, shifts[1 - unsaid[0]], module, angle, distance, *teeth
-        )
+        known = shifts[1 - unsaid[0]]
+        shifts[unsaid[0]] = reading.attempt(_remaining_shift, stage, beta, known, module, angle, distance, *teeth)
     return shifts
 
 
 def _stated_shift(part: GearParts, module: Value | None) -> Value | None:
     """The shift that the tooth's thickness follows from; the sides of a tooth have one each, which must agree."""
     return agreed(every(part, "profile_shift", module), f"{part.gear} has contradictory profile shifts")
-
-
-def _refuse_both_missing(stage: Stage) -> None:
-    pinion, name = place(stage.pinion.gear, "addendum_modification_coefficient"), stage.wheel.gear.id
-    raise ValueProblem(f"{pinion} is missing, for its flanks too, and so is that of component {name}.")
 
 
 def _remaining_shift(
@@ -134,10 +127,7 @@ def _remaining_shift(
         )
     operating = acos(cosine)
     total = 0.5 * count * (tan(operating) - operating - tan(transverse) + transverse) / tan(angle.number)
-    why = (
-        "no addendum_modification_coefficient; what that of the other gear and the centre distance leave it, without"
-        " backlash"
-    )
+    why = "no addendum_modification_coefficient; what that of the other gear and the centre distance leave it"
     return bare(round(total - known.number, 9), why, assumed=True)
 
 
@@ -164,30 +154,28 @@ def _gear_section(
 
 def _tip_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shift: Value) -> Value:
     addendum = first(part, "addendum")
-    modules = ADDENDUM if addendum is None else addendum.number
-    source = (
-        f"the addendum of ISO 53, {modules} modules" if addendum is None else f"{addendum.origin}, {modules} modules"
-    )
+    modules, source = _or_standard(addendum, "addendum", ADDENDUM)
     number = module.number * (teeth.number / cos(beta) + 2.0 * (shift.number + modules))
-    return computed(
-        number, 1.0, "mm", f"no tip_diameter; from teeth, profile shift and {source}", assumed=addendum is None
-    )
+    why = f"no tip_diameter; from teeth, profile shift and {source}"
+    return computed(number, 1.0, "mm", why, assumed=addendum is None)
+
+
+def _or_standard(stated: Value | None, name: str, standard: float) -> tuple[float, str]:
+    """Modules, and where they are from in words."""
+    number, origin = (standard, f"the {name} of ISO 53") if stated is None else (stated.number, stated.origin)
+    return number, f"{origin}, {number} modules"
 
 
 def _root_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shift: Value, tip: Value) -> Value:
     """What the depth of the teeth gives, or what the rack cuts at the shift of its generating, if that is given."""
     depth = first(part, "tooth_depth")
     if depth is not None:
-        return computed(
-            tip.number - 2.0 * depth.number, 1.0, "mm", f"no root_diameter; tip diameter less twice {depth.origin}"
-        )
+        why = f"no root_diameter; tip diameter less twice {depth.origin}"
+        return computed(tip.number - 2.0 * depth.number, 1.0, "mm", why)
     generated, addendum = first(part, "generated_shift"), _of_tool(part, module, "tool_addendum")
     at = "profile shift" if generated is None else generated.origin
-    modules = DEDENDUM if addendum is None else addendum.number
+    modules, source = _or_standard(addendum, "dedendum", DEDENDUM)
     number = module.number * (teeth.number / cos(beta) + 2.0 * ((generated or shift).number - modules))
-    source = (
-        f"the dedendum of ISO 53, {modules} modules" if addendum is None else f"{addendum.origin}, {modules} modules"
-    )
     return computed(number, 1.0, "mm", f"no root_diameter; from teeth, {at} and {source}", assumed=addendum is None)
 
 

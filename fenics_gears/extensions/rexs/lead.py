@@ -61,11 +61,8 @@ def _fields(part: GearParts, side: str, width: float) -> Fields:
     components = {kind: found for kind in LEAD_TYPES if (found := part.modification(side, kind)) is not None}
     for component in components.values():
         for name in NO_PLACE[component.type]:
-            if name in component.attributes and word_of(component, name) not in NOTHING:
-                raise ValueProblem(
-                    f"{place(component, name)} = {word_of(component, name)}. Allowed: 0 or false, for a scene has no"
-                    " other."
-                )
+            if name in component.attributes and (word := word_of(component, name)) not in NOTHING:
+                raise ValueProblem(f"{place(component, name)} = {word}. Allowed: 0 or false, for a scene has no other.")
     found = {}
     if CROWNING in components:
         found["crowning"] = _crowning(components[CROWNING], width)
@@ -98,12 +95,8 @@ def _crowning(component: Component, width: float) -> Value:
         )
     if isclose(places[0], 0.5 * width, rel_tol=SAME):
         return amounts[0]
-    return computed(
-        amounts[0].number * (0.5 * width / places[0]) ** 2,
-        1e-3,
-        "um",
-        f"{amounts[0].origin}, {amounts[0].words} {places[0]:g} mm from mid-width",
-    )
+    why = f"{amounts[0].origin}, {amounts[0].words} {places[0]:g} mm from mid-width"
+    return computed(amounts[0].number * (0.5 * width / places[0]) ** 2, 1e-3, "um", why)
 
 
 def _slope(component: Component, width: float, sign: float) -> Value:
@@ -154,15 +147,12 @@ def _both_ends(reliefs: dict[str, tuple[Value, Value, str]]) -> Value:
     """One end's relief, or that of both ends where they are alike, as a scene's inline table. Its number is the
     depth."""
     (side, (depth, length, shape)), *others = reliefs.items()
-    for _, other in others:
-        if not (
-            isclose(other[0].number, depth.number, rel_tol=SAME)
-            and isclose(other[1].number, length.number, rel_tol=SAME)
-            and other[2] == shape
-        ):
+    for _, (other, length_there, shape_there) in others:
+        pairs = (other.number, depth.number), (length_there.number, length.number)
+        if shape_there != shape or not all(isclose(*each, rel_tol=SAME) for each in pairs):
             raise ValueProblem(
-                f"{depth.origin} is {depth.words}, {other[0].origin} is {other[0].words}, or lengths or shapes differ. "
-                "Allowed: ends alike, or one end relieved."
+                f"{depth.origin} is {depth.words}, {other.origin} is {other.words}, or lengths or shapes differ."
+                " Allowed: ends alike, or one end relieved."
             )
     sides = "both" if others else side
     written = f'{{ depth = {depth.written}, length = {length.written}, sides = "{sides}", shape = "{shape}" }}'
