@@ -51,7 +51,8 @@ class Folder:
     def keep(self, run: Run, found: RunResult) -> Record:
         """Write the result and return its record; a note on an earlier failure goes."""
         result = found.dataset
-        results.save(result.assign_attrs(case_key=run.key, case_values=json.dumps(run.values)), self._file(run, ENDING))
+        said = {"case_key": run.key, "case_values": json.dumps(run.values)}
+        results.save(result.assign_attrs(said), self._file(run, ENDING))
         self._file(run, FAILED_ENDING).unlink(missing_ok=True)
         return replace(record_of(result), seconds=seconds_of(found))
 
@@ -100,10 +101,8 @@ def sole_writer(directory: Path, inside: str = "cases") -> Iterator[None]:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise ComputationError(
-                f"{directory}: another study is writing there. Wait for it, or choose another directory with --output"
-                " DIR."
-            ) from None
+            remedy = "Wait for it, or choose another directory with --output DIR."
+            raise ComputationError(f"{directory}: another study is writing there. {remedy}") from None
         except OSError as error:
             LOGGER.debug("%s: no locks on this file system: %s", directory, error)
         for written in (directory, directory / inside):

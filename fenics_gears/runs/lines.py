@@ -38,10 +38,8 @@ class Lines:
 
     def known(self, runs: Iterable[Run]) -> dict[str, Line | Failure]:
         """All whole lines with what is asked for by their keys, whichever runs are."""
-        lines = kept(self.directory)[0].items()
-        return {
-            key: _known(line) for key, line in lines if "failure" in line or {*self.asked} <= line["numbers"].keys()
-        }
+        asked, lines = {*self.asked}, kept(self.directory)[0].items()
+        return {key: _known(line) for key, line in lines if "failure" in line or asked <= line["numbers"].keys()}
 
     def keep(self, run: Run, result: RunResult | NumbersOfRun) -> Line | Failure:
         line = {"key": run.key, **self.line_of(run, result)}
@@ -74,11 +72,8 @@ def append(directory: Path, line: Mapping[str, Any]) -> None:
     try:
         with open(file, "ab+", buffering=0) as out:
             torn = out.seek(0, os.SEEK_END) and (out.seek(-1, os.SEEK_END), out.read(1))[1] != b"\n"
-            out.write(
-                (b"\n" if torn else b"")
-                + json.dumps({"numbers_version": NUMBERS_VERSION, **line}, ensure_ascii=False).encode()
-                + b"\n"
-            )
+            text = json.dumps({"numbers_version": NUMBERS_VERSION, **line}, ensure_ascii=False)
+            out.write((b"\n" if torn else b"") + text.encode() + b"\n")
     except OSError as error:
         raise NotKept(f"{file}: a run could not be kept: {error.strerror or error}") from error
 

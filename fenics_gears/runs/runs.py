@@ -120,9 +120,8 @@ def solved_at_once(models: Sequence[Model], asked: Collection[str]) -> bool:
     # Imported here, as in `_together`.
     from fenics_gears.simulation.together import can_be_solved_together
 
-    return len({operators_key(model) for model in models}) == 1 and all(
-        can_be_solved_together(model, asked) for model in models
-    )
+    alike = len({operators_key(model) for model in models}) == 1
+    return alike and all(can_be_solved_together(model, asked) for model in models)
 
 
 def in_order_of_sharing(runs: Iterable[Run]) -> list[Run]:

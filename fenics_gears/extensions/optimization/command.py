@@ -21,12 +21,8 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     command = commands.add_parser("optimize", parents=[shared])
     command.add_argument("design", type=Path, metavar="DESIGN", help="a design file (TOML)")
     add_output_argument(command, "results/<name of the design file>")
-    command.add_argument(
-        "-y",
-        "--yes",
-        action="store_true",
-        help="start whatever time is expected (else: refused where it is more than 8 h)",
-    )
+    yes = "start whatever time is expected (else: refused where it is more than 8 h)"
+    command.add_argument("-y", "--yes", action="store_true", help=yes)
     add_processes_argument(command)
     add_memory_argument(command)
     command.set_defaults(command=optimize)

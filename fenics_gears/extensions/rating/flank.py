@@ -21,21 +21,13 @@ def flank_stress(operation: Operation, factors: LoadFactors) -> FlankStress:
     """Stresses of both gears by Z_H, Z_E, Z_eps, Z_beta, Z_B and Z_D."""
     pair = operation.pair
     ratio = pair.wheel.teeth / pair.pinion.teeth
-    load = (
-        operation.tangential_force / (2.0 * pair.pinion.reference_radius * operation.face_width) * (ratio + 1.0) / ratio
-    )
-    nominal = (
-        zone_factor(operation)
-        * elasticity_factor(operation)
-        * contact_ratio_factor(operation)
-        * sqrt(load / cos(operation.helix_angle))
-    )
-    raised = nominal * sqrt(operation.finish.application_factor * factors.dynamic * factors.face * factors.transverse)
-    return FlankStress(
-        nominal,
-        tuple(raised * each for each in single_pair_factors(operation)),
-        operation.finish.flank_limit * _film(operation),
-    )
+    area, finish = 2.0 * pair.pinion.reference_radius * operation.face_width, operation.finish
+    load = operation.tangential_force / area * (ratio + 1.0) / ratio
+    by_shape = zone_factor(operation) * elasticity_factor(operation) * contact_ratio_factor(operation)
+    nominal = by_shape * sqrt(load / cos(operation.helix_angle))
+    raised = nominal * sqrt(finish.application_factor * factors.dynamic * factors.face * factors.transverse)
+    of_gears = tuple(raised * each for each in single_pair_factors(operation))
+    return FlankStress(nominal, of_gears, finish.flank_limit * _film(operation))
 
 
 def zone_factor(operation: Operation) -> float:

@@ -31,14 +31,8 @@ def flash_temperature(
     compliance = sum((1.0 - each.poissons_ratio**2) / each.youngs_modulus for each in materials)
     # Hertz: b_H^2 = 4 w rho / (pi E*), 1/E* the sum of (1 - nu^2)/E.
     half_width = np.sqrt(4.0 * np.maximum(line_force, 0.0) * first * second / (first + second) * compliance / pi)
-    heat = (
-        SEMI_ELLIPTIC
-        * _UNITS
-        * friction
-        * line_force
-        * np.abs(speeds[0] - speeds[1])
-        / (STEEL * (np.sqrt(speeds[0]) + np.sqrt(speeds[1])))
-    )
+    spread = STEEL * (np.sqrt(speeds[0]) + np.sqrt(speeds[1]))
+    heat = SEMI_ELLIPTIC * _UNITS * friction * line_force * np.abs(speeds[0] - speeds[1]) / spread
     return np.divide(heat, np.sqrt(half_width), out=np.zeros_like(heat), where=half_width > 0.0)
 
 

@@ -41,9 +41,8 @@ def load_factors(operation: Operation) -> LoadFactors:
     transverse = _transverse(operation, deviations, dynamic * face)
     total, alpha = operation.pair.total_contact_ratio, operation.pair.contact_ratio
     highest = total / (alpha * contact_ratio_factor(operation) ** 2), total / (0.25 * alpha + 0.75)
-    return LoadFactors(
-        dynamic, face, face ** (1.0 / (1.0 + part + part**2)), *(min(max(transverse, 1.0), most) for most in highest)
-    )
+    root = face ** (1.0 / (1.0 + part + part**2))
+    return LoadFactors(dynamic, face, root, *(min(max(transverse, 1.0), most) for most in highest))
 
 
 def _deviations(operation: Operation) -> _Deviations:
@@ -72,12 +71,8 @@ def _dynamic(operation: Operation, deviations: _Deviations) -> float:
     if total <= 2.0:
         c2, c3, c4, c6 = 0.34, 0.23, 0.90, 0.47
     else:
-        c2, c3, c4, c6 = (
-            0.57 / (total - 0.3),
-            0.096 / (total - 1.56),
-            (0.57 - 0.05 * total) / (total - 1.44),
-            0.12 / (total - 1.74),
-        )
+        c2, c3 = 0.57 / (total - 0.3), 0.096 / (total - 1.56)
+        c4, c6 = (0.57 - 0.05 * total) / (total - 1.44), 0.12 / (total - 1.74)
     c7 = 0.75 if total <= 1.5 else 0.125 * sin(pi * (total - 2.0)) + 0.875 if total <= 2.5 else 1.0
     resonance = 30e3 / (pi * operation.pair.pinion.teeth) * sqrt(operation.mesh_stiffness / operation.reduced_mass)
     ratio = operation.pinion_speed / resonance
@@ -103,9 +98,8 @@ def iterated_face_factor(operation: Operation, dynamic: float) -> float:
     """K_Hbeta by method B (annex E): the largest line load over the mean one, on shafts that bend and a foundation of
     0.85 c_gamma_alpha, where flanks can part. Without running-in."""
     slices, force = len(operation.opening), operation.finish.application_factor * dynamic * operation.base_force
-    yielding = operation.shafts + np.eye(slices) * slices / (
-        1e3 * 0.85 * operation.mesh_stiffness * operation.face_width
-    )
+    foundation = 1e3 * 0.85 * operation.mesh_stiffness * operation.face_width
+    yielding = operation.shafts + np.eye(slices) * slices / foundation
     loaded = np.full(slices, True)
     for _ in range(slices):
         # Approach and loads: gaps of loaded slices close, loads add up to the force.

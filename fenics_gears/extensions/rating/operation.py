@@ -80,9 +80,8 @@ class Operation:
     @property
     def reduced_radius(self) -> float:
         """Reduced radius of curvature (mm) at the pitch point, in the transverse section."""
-        first, second = (
-            gear.base_radius * tan(self.pair.operating_pressure_angle) for gear in (self.pair.pinion, self.pair.wheel)
-        )
+        gears, angle = (self.pair.pinion, self.pair.wheel), self.pair.operating_pressure_angle
+        first, second = (gear.base_radius * tan(angle) for gear in gears)
         return first * second / (first + second)
 
 

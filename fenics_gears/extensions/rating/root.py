@@ -39,13 +39,8 @@ def root_stresses(operation: Operation, factors: LoadFactors) -> tuple[RootStres
 
 def _of_gear(operation: Operation, factors: LoadFactors, gear: Gear) -> RootStress:
     tooth, finish = form_at_outer_point(gear, operation.pair.contact_ratio), operation.finish
-    nominal = (
-        operation.tangential_force
-        / (operation.face_width * gear.normal_module)
-        * tooth.form
-        * tooth.stress_correction
-        * helix_angle_factor(operation)
-    )
+    load = operation.tangential_force / (operation.face_width * gear.normal_module)
+    nominal = load * tooth.form * tooth.stress_correction * helix_angle_factor(operation)
     stress = nominal * finish.application_factor * factors.dynamic * factors.face_root * factors.transverse_root
     notch = 0.9434 + 0.0231 * sqrt(1.0 + 2.0 * tooth.notch)
     surface = 1.120 if finish.root_roughness < 1.0 else 1.674 - 0.529 * (finish.root_roughness + 1.0) ** 0.1
