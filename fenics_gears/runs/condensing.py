@@ -1,7 +1,5 @@
 """The gears of many runs, each condensed once, a process a gear, before the runs that share them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Runs in a folder: a NetCDF file for each, or a text on why it failed."""
 
-from __future__ import annotations
-
 import contextlib
 import fcntl
 import json

@@ -1,7 +1,5 @@
 """What runs of one process share in memory: the gears condensed last, and contact operators."""
 
-from __future__ import annotations
-
 import functools
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """What is kept of a run in memory: its numbers, curves and warnings."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

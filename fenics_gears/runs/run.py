@@ -1,7 +1,5 @@
 """One run of many: its scene, made when it is asked for, and what its result is known by."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace

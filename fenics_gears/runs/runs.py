@@ -1,8 +1,6 @@
 """Runs that are asked for by their scenes: what a store has is taken from there, the others are computed by a team of
 processes."""
 
-from __future__ import annotations
-
 import contextlib
 import functools
 import logging

@@ -1,7 +1,5 @@
 """What computing runs took: how many a second, and what limits them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 

@@ -5,8 +5,6 @@ Ranks 1 to N-1 are workers of mpi4py.futures; rank 0 hands out tasks from the fi
 itself takes back and computes tasks from the last on.
 """
 
-from __future__ import annotations
-
 import contextlib
 import importlib
 import queue

@@ -1,7 +1,5 @@
 """Pictures and the summary of an optimisation."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

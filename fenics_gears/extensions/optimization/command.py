@@ -1,8 +1,6 @@
 """``gears optimize DESIGN``: search the best modification of a pair over loads and tolerances, alone or under mpirun; a
 stopped search is continued."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The scenes of a design: one for each operating point and each sample of what scatters."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 

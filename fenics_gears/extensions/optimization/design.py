@@ -1,7 +1,5 @@
 """An optimisation: what may vary, at which operating points, within which tolerances, for which goals."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property

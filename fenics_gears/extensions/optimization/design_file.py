@@ -1,7 +1,5 @@
 """Reads a design file into a `Design` and refuses, before anything is computed, what no design of it could have."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -67,10 +65,10 @@ def _checked_ranges(design: Design, sections: Sections) -> Scene:
             tree = fields.changed(tree, path, value)
             if path[0] == "motion" and "inertia" not in tree:
                 message = "has no effect on a scene without [inertia]. Leave it out."
-                sections.wrong("loads", ".".join(path), value, message)
+                sections.wrong("loads", path, value, message)
             if path in [each.path for each in design.variables]:
                 message = "is a field of the operating points too. Leave one out."
-                sections.wrong("variables", ".".join(path), "", message)
+                sections.wrong("variables", path, "", message)
         where = ", ".join(f"{path[-1]} = {value}" for path, value in point.items())
         _try(design, sections, tree, ("loads",), f"at {where}")
     for table, goals in (("goals", design.goals), ("constraints", [bound.goal for bound in design.bounds])):

@@ -1,7 +1,5 @@
 """Designs to numbers: their runs over operating points and samples, computed where they are not kept."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace

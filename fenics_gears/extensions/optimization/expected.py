@@ -1,7 +1,5 @@
 """How many runs an optimisation takes, and how long: said before it starts, refused where it is a day's work."""
 
-from __future__ import annotations
-
 from contextlib import suppress
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """An optimisation from its design file to its result: the stages, in order."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, field

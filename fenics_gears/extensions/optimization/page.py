@@ -1,7 +1,5 @@
 """The page of an optimisation."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from fenics_gears.command_line import write_whole
@@ -10,20 +8,7 @@ from fenics_gears.show.report.overview import counted
 from fenics_gears.show.report.page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words
 from fenics_gears.show.report.rendering import rendered
 
-from .charts import (
-    BEFORE,
-    called,
-    front_chart,
-    goal_words,
-    harris_charts,
-    no_gain,
-    search_chart,
-    sentence,
-    summary_rows,
-    tolerance_rows,
-    variable_chart,
-)
-from .charts import BEST as CHOSEN
+from . import charts
 from .optimize import Outcome
 from .result import BEST, TABLE, best_scene
 
@@ -39,7 +24,7 @@ def write_page(outcome: Outcome) -> Path:
 
 def optimization_page(outcome: Outcome) -> Page:
     design = outcome.design
-    maps = harris_charts(outcome) or [Words("A run of the Harris maps failed.", warns=True)]
+    maps = charts.harris_charts(outcome) or [Words("A run of the Harris maps failed.", warns=True)]
     sections = [
         _summary(outcome),
         Section(
@@ -50,7 +35,7 @@ def optimization_page(outcome: Outcome) -> Page:
         Section(
             "variables",
             "Each variable alone",
-            [variable_chart(outcome, variable, goal) for variable in design.variables for goal in design.goals],
+            [charts.variable_chart(outcome, variable, goal) for variable in design.variables for goal in design.goals],
         ),
         _designs(outcome),
     ]
@@ -62,35 +47,38 @@ def optimization_page(outcome: Outcome) -> Page:
     ]
     designs, points = counted(len(outcome.tried), "design"), counted(len(design.loads.points), "operating point")
     subtitle = f"{designs} of {counted(len(design.variables), 'variable')} at {points}"
-    return Page("Gear pair: optimisation", design.title, subtitle, sections, made_by(), no_gain(outcome))
+    return Page("Gear pair: optimisation", design.title, subtitle, sections, made_by(), charts.no_gain(outcome))
 
 
 def _summary(outcome: Outcome) -> Section:
     tiles, goals = [], outcome.design.goals
     for goal in goals:
         value, unit = f"{outcome.chosen.goals[goal.name]:.4g}", goal.unit.replace("um", "µm").removeprefix("1")
-        note = f"before: {goal_words(outcome, goal, outcome.before)}"
-        tiles.append(Tile(sentence(called(goal.name)), value, unit, note))
-    rows = summary_rows(outcome)
+        note = f"before: {charts.goal_words(outcome, goal, outcome.before)}"
+        tiles.append(Tile(charts.sentence(charts.called(goal.name)), value, unit, note))
+    rows = charts.summary_rows(outcome)
     if not outcome.design.tolerances.scatters:
         # Goals before and after are on the tiles; with tolerances the rows have more of them.
-        said = {f"{called(goal.name)}, {words}" for goal in goals for words in (BEFORE, CHOSEN)}
+        said = {f"{charts.called(goal.name)}, {words}" for goal in goals for words in (charts.BEFORE, charts.BEST)}
         rows = [row for row in rows if row[0] not in said]
     return Section("summary", "Summary", [Tiles(tiles), Facts(rows)])
 
 
 def _designs(outcome: Outcome) -> Section:
     design = outcome.design
-    blocks: list[Block] = [search_chart(outcome, goal) for goal in design.goals]
+    blocks: list[Block] = [charts.search_chart(outcome, goal) for goal in design.goals]
     allowed = (place for place, each in enumerate(outcome.tried) if each.allowed)
     listed, words = sorted(allowed, key=lambda place: outcome.tried[place].goals[design.goals[0].name]), "best"
     if len(design.goals) > 1:
-        blocks.insert(0, front_chart(outcome))
+        blocks.insert(0, charts.front_chart(outcome))
         listed, words = [place for place in listed if place in outcome.front], "designs of the Pareto front"
     headings = [
         "Design",
-        *(f"{called(each.name)} ({each.unit})" if each.unit else called(each.name) for each in design.variables),
-        *(f"{called(goal.name)} ({goal.unit})" for goal in design.goals),
+        *(
+            f"{charts.called(each.name)} ({each.unit})" if each.unit else charts.called(each.name)
+            for each in design.variables
+        ),
+        *(f"{charts.called(goal.name)} ({goal.unit})" for goal in design.goals),
     ]
     rows = []
     for place in listed[:MOST_ROWS]:
@@ -113,8 +101,8 @@ def _tolerances(outcome: Outcome) -> Section:
     blocks: list[Block] = []
     heads = ("Tolerance", "Limit", "At the lower limit", "Without scatter", "At the upper limit")
     for goal in outcome.design.goals:
-        caption = f"{sentence(called(goal.name))} ({goal.unit.replace('um', 'µm')}) of the chosen design"
-        blocks.append(Table(heads, tolerance_rows(outcome, goal), caption))
+        caption = f"{charts.sentence(charts.called(goal.name))} ({goal.unit.replace('um', 'µm')}) of the chosen design"
+        blocks.append(Table(heads, charts.tolerance_rows(outcome, goal), caption))
     words = "One deviation at its limit, all others zero; the largest change first."
     if not outcome.limits:
         words = "A run with a deviation at its limit failed."

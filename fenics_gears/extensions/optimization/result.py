@@ -1,7 +1,5 @@
 """The files of an optimisation: all designs as a dataset and as a table, and the chosen one as a scene."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

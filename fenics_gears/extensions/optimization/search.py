@@ -5,8 +5,6 @@ Designs are asked for and told in whole populations and in order, so that the sa
 the number of processes, and a search that was stopped goes on by being run again: its runs are found on disk.
 """
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable, Sequence
 

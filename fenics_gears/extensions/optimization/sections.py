@@ -1,7 +1,5 @@
 """The sections of a design file, read one by one; mistakes are noted by their names."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import replace
@@ -37,8 +35,9 @@ class Sections:
     def table(self, name: str) -> Mapping[str, Any]:
         return self.tree.get(name, {})
 
-    def wrong(self, table: str, name: str, value: Any, message: str) -> None:
+    def wrong(self, table: str, field: str | fields.Path, value: Any, message: str) -> None:
         """Note a mistake in a field of a section; `value`: "" to leave it out."""
+        name = field if isinstance(field, str) else ".".join(field)
         self.mistakes.add((table, name), as_written(value) if value != "" else "", message)
 
     def check_keys(self) -> None:
@@ -73,14 +72,14 @@ class Sections:
         found = []
         for path, written in entries(self.tree, "variables", self.mistakes):
             if mistake := _not_variable(path, written):
-                self.wrong("variables", ".".join(path), written, mistake)
+                self.wrong("variables", path, written, mistake)
             elif fields.is_numeric(path):
-                found += self._range(path, ".".join(path), written)
+                found += self._range(path, written)
             else:
                 found.append(Variable(path, words=tuple(written)))
         return tuple(found)
 
-    def _range(self, path: fields.Path, name: str, written: list) -> list[Variable]:
+    def _range(self, path: fields.Path, written: list) -> list[Variable]:
         numbers, unit = self._numbers("variables", path, written)
         if not numbers:
             return []
@@ -89,9 +88,9 @@ class Sections:
         # A depth of exactly nothing is no relief; the least depth is as good.
         low, high = lowest / factor_of(unit) if numbers[0] == 0.0 < lowest else numbers[0], numbers[-1]
         if len(numbers) > 2 or not low < high:
-            self.wrong("variables", name, written, f"{ends} Allowed: two ends, the lower one first.")
+            self.wrong("variables", path, written, f"{ends} Allowed: two ends, the lower one first.")
         elif not lowest <= low * factor_of(unit) * (1 + 1e-12) or not high * factor_of(unit) <= highest:
-            self.wrong("variables", name, written, f"{ends} Allowed for this field: {allowed.description}.")
+            self.wrong("variables", path, written, f"{ends} Allowed for this field: {allowed.description}.")
         else:
             return [Variable(path, low, high, unit)]
         return []
@@ -107,15 +106,12 @@ class Sections:
                 units.of_kind(each, *kinds)[1] if isinstance(each, str) and allowed.kind else None for each in written
             ]
         except units.QuantityError as error:
-            self.wrong(table, ".".join(path), shown, f"has an entry that {error} Allowed: {allowed.description}.")
+            self.wrong(table, path, shown, f"has an entry that {error} Allowed: {allowed.description}.")
             return [], ""
         numbers = [number_in(each, unit) for each in written]
-        if (
-            len({*found}) > 1
-            or (found[0] is None) != (allowed.kind is None)
-            or not all(each is not None and math.isfinite(each) for each in numbers)
-        ):
-            self.wrong(table, ".".join(path), shown, f"is not of this field. Allowed: {allowed.description}.")
+        finite = all(each is not None and math.isfinite(each) for each in numbers)
+        if len({*found}) > 1 or (found[0] is None) != (allowed.kind is None) or not finite:
+            self.wrong(table, path, shown, f"is not of this field. Allowed: {allowed.description}.")
             return [], ""
         return numbers, unit
 
@@ -126,7 +122,7 @@ class Sections:
             try:
                 swept[path] = values_of(path, written)
             except AxisError as error:
-                self.wrong("loads", ".".join(path), written, str(error))
+                self.wrong("loads", path, written, str(error))
         lengths = {len(values) for values in swept.values()} or {1}
         if len(lengths) > 1:
             listed = ", ".join(f"{'.'.join(path)} has {len(values)}" for path, values in swept.items())
@@ -140,9 +136,8 @@ class Sections:
             self.wrong("loads", "weights", weights, message)
         numbers = isinstance(weights, list) and all(is_number(each) and each >= 0 for each in weights)
         if not (numbers and len(weights) in lengths and sum(weights) > 0):
-            message = (
-                f"is not a list of {max(lengths)} numbers of 0 and above. Allowed: a weight for each operating point."
-            )
+            kind = f"is not a list of {max(lengths)} numbers of 0 and above"
+            message = f"{kind}. Allowed: a weight for each operating point."
             self.wrong("loads", "weights", weights, message)
             return found
         return replace(found, weights=tuple(map(float, weights)))
@@ -171,12 +166,9 @@ class Sections:
             if not self._is_result("constraints", name, written):
                 continue
             unit, words = unit_and_words(name)
-            ends = (
-                {key: _in_unit(value, unit) for key, value in written.items() if key in ("at_least", "at_most")}
-                if isinstance(written, Mapping)
-                else {}
-            )
-            if not ends or None in ends.values() or len(ends) != len(written):
+            given = written if isinstance(written, Mapping) else {}
+            ends = {key: _in_unit(value, unit) for key, value in given.items() if key in ("at_least", "at_most")}
+            if not ends or None in ends.values() or len(ends) != len(given):
                 example = "1.2" if unit == "1" else f'"20 {unit}"'
                 message = f"is no bound. Allowed: {{ at_most = {example} }}, and at_least likewise."
                 self.wrong("constraints", name, written, message)
@@ -189,12 +181,12 @@ class Sections:
         table, found, own = self.table("tolerances"), [], self._own("tolerances", Tolerances)
         for path, written in entries(self.tree, "tolerances", self.mistakes, names_in(Tolerances)):
             if fields.is_section(path) or not fields.is_numeric(path):
-                self.wrong("tolerances", ".".join(path), written, "is no field of a number that could scatter.")
+                self.wrong("tolerances", path, written, "is no field of a number that could scatter.")
                 continue
             numbers, unit = self._numbers("tolerances", path, [written])
             if numbers and not numbers[0] > 0.0:
                 message = "is not above zero. Allowed: the limit of the scatter on either side."
-                self.wrong("tolerances", ".".join(path), written, message)
+                self.wrong("tolerances", path, written, message)
             elif numbers:
                 found.append(Scatter(path, numbers[0], unit, *fields.allowed_at(path)[1:]))
         if table and not found and "tolerance_class" not in table:
