@@ -8,7 +8,6 @@ from .shared import add_memory_argument, add_output_argument, add_scene_argument
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("accuracy", parents=[shared])
     add_scene_argument(command)
     add_output_argument(command)
@@ -18,7 +17,6 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def accuracy(options: argparse.Namespace) -> int:
-    """Measure the settings of a scene, print and write the report."""
     scene, directory = scene_to_measure(options, "accuracy")
     from fenics_gears.show.work_precision import work_precision
     from fenics_gears.studies.accuracy.report import measure

@@ -5,7 +5,6 @@ from datetime import datetime
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("cache", parents=[shared])
     command.add_argument(
         "--clear", action="store_true", help="remove all entries; gears are condensed again when they are needed"
@@ -14,7 +13,6 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def cache(options: argparse.Namespace) -> int:
-    """Print the state of the cache, or empty it and print what was removed."""
     from fenics_gears.elasticity.cache import user_cache
     from fenics_gears.system.console import print_rows
 

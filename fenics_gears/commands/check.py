@@ -9,7 +9,6 @@ from .shared import add_memory_argument, add_scene_argument, checked_model
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("check", parents=[shared])
     add_scene_argument(command)
     add_memory_argument(command)
@@ -17,8 +16,8 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def check(options: argparse.Namespace) -> int:
-    """Print the description of a scene and its effects. Raises ComputationError, as a run of it would, where memory
-    does not hold it."""
+    """Print the description of a scene and its effects. Raises ComputationError, as a run would, where memory does not
+    hold it."""
     from fenics_gears.model.cost import expected_cost, too_large
     from fenics_gears.system.console import print_rows
 

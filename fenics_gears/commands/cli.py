@@ -13,6 +13,7 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from importlib import import_module
 
 from fenics_gears import __version__
 from fenics_gears.errors import GearsError
@@ -42,11 +43,10 @@ def _command(arguments: list[str]) -> int:
 
 @contextmanager
 def _settings_of_a_command() -> Iterator[None]:
-    """Look for garbage rarely; afterwards, since a notebook or a test suite goes on in the same process,
-    put back what this changes, what the command freezes and what it sets FENICS_GEARS_MEMORY to."""
+    """Look for garbage rarely; afterwards, since a notebook goes on in the same process, put back this and what the
+    command freezes and sets FENICS_GEARS_MEMORY to."""
     thresholds, frozen, memory = gc.get_threshold(), gc.get_freeze_count(), os.environ.get(MEMORY_VARIABLE)
-    # Libraries make a million objects that stay; Python's usual search for garbage among them takes a tenth of a short
-    # run.
+    # Python's usual search for garbage among a million objects that stay takes a tenth of a short run.
     gc.set_threshold(200_000, 50, 100)
     try:
         yield
@@ -65,13 +65,9 @@ def _carried_out(arguments: Sequence[str]) -> int:
         return _print_versions()
     called = next((word for word in arguments if not word.startswith("-")), "")
     if called in found.UNPARSED:
-        before, rest = arguments[: arguments.index(called) + 1], arguments[arguments.index(called) + 1 :]
-        _parser().parse_args(before)
-        if called == "test":
-            from .test import run_tests as carry_out
-        else:
-            from .python import run_python as carry_out
-        return carry_out(rest)
+        after = arguments.index(called) + 1
+        _parser().parse_args(arguments[:after])
+        return import_module(f"{__package__}.{called}").carry_out(arguments[after:])
     options = _parser(called).parse_args(arguments)
     _configure_logging(options.verbose)
     if "memory" in options:
@@ -83,7 +79,6 @@ def _carried_out(arguments: Sequence[str]) -> int:
 
 
 def _print_versions() -> int:
-    """Print the version, those of the libraries that compute, and the kernels of each OpenBLAS."""
     from fenics_gears.studies.machine import processor, versions
     from fenics_gears.system import blas
 
@@ -97,7 +92,6 @@ def _print_versions() -> int:
 
 
 def _in_words(command: Callable[[], int]) -> int:
-    """The command's exit code, with errors said in words."""
     try:
         return command()
     except GearsError as error:

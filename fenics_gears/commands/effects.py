@@ -8,7 +8,6 @@ from .shared import add_memory_argument, add_output_argument, add_scene_argument
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("effects", parents=[shared])
     add_scene_argument(command)
     add_output_argument(command)
@@ -17,7 +16,6 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def effects(options: argparse.Namespace) -> int:
-    """Measure the subsets of a scene's effects, print and write the report."""
     scene, directory = scene_to_measure(options, "effects")
     from fenics_gears.show.effect_costs import effect_costs
     from fenics_gears.studies.effect_costs.measured import measure

@@ -8,7 +8,6 @@ CURVES_FILE = "curves.csv"
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("export", parents=[shared])
     add_run_argument(command)
     add_output_argument(command, f"{CURVES_FILE} beside run.nc", "file to write", "FILE")
@@ -16,7 +15,6 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def export(options: argparse.Namespace) -> int:
-    """Write a run's table of curves."""
     file = run_file(options.run)
     output = file_to_write(options, file.parent / CURVES_FILE, "the table")
     from fenics_gears.results.curves_table import save_curves

@@ -1,4 +1,4 @@
-"""What the commands share that measure times of a scene's variants: they write a report as table and picture."""
+"""What the commands share that measure times of a scene's variants."""
 
 from collections.abc import Callable
 from contextlib import closing
@@ -9,23 +9,21 @@ from fenics_gears.system.job import communicator
 
 from .shared import checked_model_and_directory, shown_progress
 
+NO_TIMES = "measures times, which mean nothing while processes share the machine. Start gears without mpirun."
+
 
 def scene_to_measure(options, command: str):
     """The scene and the directory of a command that measures times. Raises SceneError under mpirun, and as
     `checked_model` does."""
     model, directory = checked_model_and_directory(options, f"{command}.csv", f"{command}.png")
     if communicator() is not None:
-        raise SceneError(
-            f"gears {command} measures times, which mean nothing while processes share the machine. Start it without"
-            " mpirun."
-        )
+        raise SceneError(f"gears {command} {NO_TIMES}")
     if model.scene.accuracy.target is not None:
         raise SceneError(f"gears {command} takes settings as they stand: leave accuracy.target out.")
     return model.scene, directory
 
 
 def measured(measure: Callable, quiet: bool):
-    """The report that `measure(progress)` gives."""
     with closing(shown_progress(quiet)) as progress:
         return measure(progress)
 

@@ -13,22 +13,14 @@ PICTURE_FILE, ANIMATION_FILE = "stress.png", "stress.gif"
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("picture", parents=[shared])
     add_run_argument(command)
+    help_of_phase = "mesh cycles after the first step with contact fields (default: 0)"
+    command.add_argument("--at", type=float, default=0.0, metavar="PHASE", help=help_of_phase)
     command.add_argument(
-        "--at",
-        type=float,
-        default=0.0,
-        metavar="PHASE",
-        help="mesh cycles after the first step with contact fields (default: 0)",
-    )
-    command.add_argument(
-        "--scale",
-        type=_scale,
-        metavar="N",
+        "--scale", type=_scale, metavar="N",
         help="displacements are drawn N times as large (default: the largest suitable scale; in three dimensions 1)",
-    )
+    )  # fmt: skip
     add_output_argument(command, f"{PICTURE_FILE} or {ANIMATION_FILE} beside run.nc", "file to write", "FILE")
     command.add_argument(
         "--animate",
@@ -80,14 +72,12 @@ def _written(options, dataset, scene, index: int, output: Path | None, progress)
             written.append(write_whole(options.pvd, lambda path: save_series(runs, dataset, path, progress.update)))
         if output is not None:
             progress.stage("draw")
+            scale = options.scale
             if options.animate:
-                written.append(
-                    write_whole(output, lambda path: animate(runs, dataset, path, options.scale, progress.update))
-                )
+                written.append(write_whole(output, lambda path: animate(runs, dataset, path, scale, progress.update)))
             else:
-                written.append(
-                    write_whole(output, lambda path: save_picture(still(runs.at(index), dataset, options.scale), path))
-                )
+                drawn = still(runs.at(index), dataset, scale)
+                written.append(write_whole(output, lambda path: save_picture(drawn, path)))
     return written
 
 
@@ -113,7 +103,7 @@ def _check_outputs(options, output: Path | None) -> None:
         if path is not None and path.suffix != suffix:
             raise SceneError(f"{path}: --{suffix[1:]} writes a {suffix} file; give it such a name")
         if path is not None and printable(str(path)) != str(path):
-            raise SceneError(f"{path}: VTK writes only files whose names are text in UTF-8; give it such a name")
+            raise SceneError(f"{path}: VTK writes only names in UTF-8; give it such a name")
     if output is None:
         return
     if options.animate:
@@ -122,12 +112,11 @@ def _check_outputs(options, output: Path | None) -> None:
         check_suffix(output)
     elif output.suffix != ".png":
         raise SceneError(
-            f"{output}: a picture is a .png file; give --output such a name, or ask for a moving one with --animate"
+            f"{output}: a picture is a .png file; give --output such a name, or --animate for a moving one"
         )
 
 
 def _scale(text: str) -> float:
-    """A finite number from zero, for argparse."""
     try:
         value = float(text)
     except ValueError:

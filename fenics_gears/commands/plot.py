@@ -8,7 +8,6 @@ from .shared import add_output_argument, add_run_argument, loaded_run, plots, pr
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("plot", parents=[shared])
     add_run_argument(command)
     add_output_argument(command, "beside run.nc")
@@ -16,7 +15,6 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def plot(options: argparse.Namespace) -> int:
-    """Draw a run's pictures."""
     from fenics_gears.system.output import check_writable
 
     file = run_file(options.run)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 
-def run_python(options: Sequence[str]) -> NoReturn:
+def carry_out(options: Sequence[str]) -> NoReturn:
     """Become Python with these arguments, in the folder of the call; ./gears has set the path to the checkout."""
     sys.stdout.flush()
     os.execv(sys.executable, [sys.executable, *options])

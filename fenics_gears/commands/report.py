@@ -24,7 +24,6 @@ ENDINGS = (".html", ".htm")
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("report", parents=[shared])
     command.add_argument(
         "run",
@@ -37,24 +36,16 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
         "--at",
         type=float,
         metavar="PHASE",
-        help=(
-            "position of the stress picture: mesh cycles after the first step with contact fields (default: where the"
-            " force is largest)"
-        ),
+        help="mesh cycles of the stress picture after the first with contact fields (default: at the largest force)",
     )
     command.add_argument(
         "--no-stress", action="store_true", help="leave out the stress picture, which takes some seconds"
     )
-    command.add_argument(
-        "--effects",
-        action="store_true",
-        help="measure first the time each effect takes and how it changes the result, as `gears effects` does",
-    )
+    command.add_argument("--effects", action="store_true", help="measure its effects first, as `gears effects` does")
     command.set_defaults(command=report)
 
 
 def report(options: argparse.Namespace) -> int:
-    """Write the page of a run or a study."""
     file, is_study = found_file(options.run)
     output = output_file(options.output, file, is_study)
     _check(options, output, is_study)
@@ -73,17 +64,11 @@ def found_file(path: Path) -> tuple[Path, bool]:
         if (path / STUDY_FILE).is_file():
             return path / STUDY_FILE, True
         if (path / CASES).is_dir():
-            raise SceneError(
-                f"{path}: there is no {STUDY_FILE} yet beside its cases; run the study again, it writes the file from"
-                " what there is."
-            )
-        raise SceneError(
-            f"{path}: there is neither {RUN_FILE} nor {STUDY_FILE} in it. A report is on a directory that `gears run`"
-            " or `gears study` wrote."
-        )
-    raise SceneError(
-        f"{path}: there is no such file or directory. A report is on what `gears run` or `gears study` wrote."
-    )
+            raise SceneError(f"{path}: there is no {STUDY_FILE} yet beside its cases; run the study again.")
+        missing = f"there is neither {RUN_FILE} nor {STUDY_FILE} in it"
+    else:
+        missing = "there is no such file or directory"
+    raise SceneError(f"{path}: {missing}. A report is on what `gears run` or `gears study` wrote.")
 
 
 def output_file(asked: Path | None, file: Path, is_study: bool) -> Path:
@@ -105,9 +90,7 @@ def _check(options: argparse.Namespace, output: Path, is_study: bool) -> None:
 
     check_writable(output.parent, output.name)
     if is_study and (options.effects or options.at is not None):
-        raise SceneError(
-            "--effects and --at are for the report on a run; this is a study. Leave them out, or name one of its cases."
-        )
+        raise SceneError("--effects and --at are for a run; this is a study. Leave them out, or name one of its cases.")
 
 
 def _run(options: argparse.Namespace, file: Path, output: Path, progress) -> list[Path]:
@@ -138,18 +121,12 @@ def _measure_effects(run, progress) -> list[Path]:
     from fenics_gears.studies.effect_costs.table import write_csv
     from fenics_gears.system.job import communicator
 
-    from .measuring import write_report
+    from .measuring import NO_TIMES, write_report
 
     if run.scene is None:
-        raise SceneError(
-            f"{run.file}: the scene in it is none of this version, so that its effects cannot be measured. Run the"
-            " scene again."
-        )
+        raise SceneError(f"{run.file}: the scene in it is none of this version. Run the scene again.")
     if communicator() is not None:
-        raise SceneError(
-            "--effects measures times, which mean nothing while processes share the machine. Start gears without"
-            " mpirun."
-        )
+        raise SceneError(f"--effects {NO_TIMES}")
     return write_report(measure(run.scene, progress), run.file.parent, "effects", write_csv, effect_costs)
 
 

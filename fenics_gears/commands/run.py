@@ -26,7 +26,6 @@ from .shared import (
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("run", parents=[shared])
     add_scene_argument(command)
     add_output_argument(command)
@@ -38,7 +37,6 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Run a scene."""
     return led(lambda job: _run(options, job))
 
 
@@ -47,7 +45,7 @@ def _run(options: argparse.Namespace, job: Job | None) -> int:
     from fenics_gears.results.journal import Place
     from fenics_gears.simulation.simulate import simulate
 
-    # The quarter of a million objects that imports have made stay: the search for garbage need not look at them.
+    # What imports have made stays: the search for garbage need not look at it.
     gc.freeze()
     journal = Place(directory / JOURNAL, options.scene.parent)
     with Interruption(shown_progress(options.quiet)) as interruption:
@@ -68,10 +66,8 @@ def _run(options: argparse.Namespace, job: Job | None) -> int:
                 interruption.stage("draw pictures")
                 files += plots().draw_run(dataset, directory)
             except KeyboardInterrupt:
-                last_words = (
-                    f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; `gears plot"
-                    f" {directory}` draws them."
-                )
+                draws = f"`gears plot {directory}` draws them"
+                last_words = f"Interrupted while the pictures were drawn. The result is whole: {files[0]}; {draws}."
     if not options.quiet:
         _print_summary(model.scene.title, dataset, files, interruption.finished)
     if last_words:

@@ -18,8 +18,7 @@ from fenics_gears.system.console import on_terminal, printable
 from fenics_gears.system.memory import size_in_bytes
 from fenics_gears.system.progress import BarProgress, LineProgress, Progress, SilentProgress
 
-# Exit codes that no error carries itself (`errors` has those). The run came to its end, but jammed or came apart: its
-# numbers mean nothing.
+# Exit codes that no error carries itself. The run came to its end, but jammed or came apart.
 NO_MEANING = 4
 INTERRUPTED = 130
 # 128 + SIGPIPE, as a shell has it.
@@ -63,13 +62,10 @@ def add_processes_argument(command) -> None:
 
 
 def under_mpirun(options: argparse.Namespace, arguments: list[str]) -> int:
-    """The command of these arguments under mpirun, with --output and --quiet as they are; it finds its settings (as
-    root, say) in the environment that `prepare` has completed."""
+    """The command of these arguments under mpirun, with --output and --quiet as they are."""
     mpirun = shutil.which("mpirun")
     if mpirun is None:
-        raise SceneError(
-            "There is no mpirun on PATH. Install Open MPI or MPICH, or leave --processes out to run alone."
-        )
+        raise SceneError("There is no mpirun on PATH. Install Open MPI or MPICH, or leave --processes out.")
     command = [mpirun, "-n", str(options.processes)]
     if options.processes > (os.cpu_count() or 1):
         command.append("--oversubscribe")
@@ -77,8 +73,8 @@ def under_mpirun(options: argparse.Namespace, arguments: list[str]) -> int:
     command += ["--output", str(options.output)] if options.output is not None else []
     command += ["--quiet"] if options.quiet else []
     interrupted: list[int] = []
-    # Ctrl-C is mpirun's as well, which ends its processes and itself with a code of its own; to kill it meanwhile would
-    # leave them behind. It takes Ctrl-C even where a shell has this process ignore it, as in the background.
+    # Ctrl-C reaches mpirun too, which ends its processes and itself; to kill it meanwhile would leave them behind. It
+    # takes Ctrl-C even where a shell has this process ignore it.
     before = signal.signal(signal.SIGINT, lambda number, frame: interrupted.append(number))
     try:
         code = subprocess.Popen(command).wait()
@@ -106,11 +102,8 @@ def _size(text: str) -> str:
 
 
 def number_of_option(option: str, text: str, unit: str, low: float = 0.0, high: float = inf) -> float:
-    """The number, in `unit`, of a quantity that an option gives in any unit of its kind.
-
-    Raises SceneError, naming the option, for another kind and for a number beyond `low` to `high`; without `high` it
-    must be greater than zero.
-    """
+    """The number, in `unit`, of a quantity that an option gives in any unit of its kind. Raises SceneError for another
+    kind and for a number beyond `low` to `high`; without `high` it must be greater than zero."""
     from fenics_gears.inputs import units
 
     try:
@@ -143,10 +136,8 @@ def checked_model(path: Path):
 
 
 def checked_model_and_directory(options, *names: str):
-    """The model of a command's scene, found right, and the directory to write into, which takes files of these names.
-
-    Raises as `checked_model` does, and SceneError for the directory.
-    """
+    """The model of a command's scene, and the directory to write into, which takes files of these names. Raises as
+    `checked_model` does, and SceneError for the directory."""
     from fenics_gears.system.output import check_writable
 
     model = checked_model(options.scene)
@@ -162,18 +153,14 @@ def run_file(path: Path) -> Path:
     if path.name == STUDY_FILE or has_cases and not (path / RUN_FILE).is_file():
         directory = path if isdir(path) else path.parent
         raise SceneError(
-            f"{path} is a study, of many runs. `gears report {directory}` writes a page of pictures on all of them; "
-            f"of a single case this command takes the file, {directory / CASES}/NAME.nc."
+            f"{path} is a study. `gears report {directory}` writes a page on all its runs; of a single case this"
+            f" command takes the file, {directory / CASES}/NAME.nc."
         )
     file = run_or_journal(path)
     if not exists(file):
-        raise SceneError(
-            f"{file}: there is no such file. A run is the directory that `gears run` wrote, or the {RUN_FILE} in it."
-        )
+        raise SceneError(f"{file}: there is no such file. A run is the directory that `gears run` wrote.")
     if file.suffix == ".toml":
-        raise SceneError(
-            f"{file} is a scene, this command takes a run: `gears run {file}` writes the directory to be given here."
-        )
+        raise SceneError(f"{file} is a scene, this command takes a run: `gears run {file}` makes one.")
     return file
 
 
@@ -188,11 +175,8 @@ def run_or_journal(path: Path) -> Path:
 
 
 def loaded_run(file: Path, load: Callable | None = None):
-    """The dataset of a run's file, by `load` where it is another kind of result. Raises SceneError where it cannot be
-    read: the call is wrong.
-
-    Of a run that has not ended, its journal is read, and it is said on the standard error what is missing.
-    """
+    """The dataset of a run's file, by `load` where it is another kind of result; of a run that has not ended that of
+    its journal, and the standard error says what is missing. Raises SceneError where it cannot be read."""
     from fenics_gears import results
 
     try:
@@ -220,8 +204,8 @@ def shown_progress(quiet: bool) -> Progress:
 
 
 def plots() -> ModuleType:
-    """The module `show.plots`; matplotlib is imported without the lists of properties in its docstrings, whose making
-    is a quarter of that time."""
+    """The module `show.plots`; matplotlib is imported without the lists of properties in its docstrings, which take a
+    quarter of that time."""
     from matplotlib import artist
 
     properties, artist.kwdoc = artist.kwdoc, lambda kind: ""
@@ -232,8 +216,8 @@ def plots() -> ModuleType:
 
 
 def file_to_write(options: argparse.Namespace, default: Path, what: str) -> Path:
-    """The file of --output, or the default, which can be written; `what`: "the table", say. Raises SceneError for one
-    of another ending than the default's, or that cannot be written."""
+    """The file of --output, or the default, which can be written; `what`: "the table", say. Raises SceneError for
+    another ending than the default's, or where it cannot be written."""
     from fenics_gears.system.output import check_writable
 
     output = options.output or default

@@ -18,7 +18,6 @@ from .shared import (
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("study", parents=[shared])
     command.add_argument("study", type=Path, metavar="STUDY", help="a study file (TOML)")
     add_output_argument(command, "results/<name of the study file>")
@@ -28,7 +27,6 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 
 
 def study(options: argparse.Namespace) -> int:
-    """Run a study."""
     if options.processes is not None:
         return under_mpirun(options, ["study", str(options.study)])
     from fenics_gears.studies.run_study import run_study

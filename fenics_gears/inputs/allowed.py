@@ -26,8 +26,7 @@ class Allowed:
 
     ``meaning`` and ``otherwise`` (what is taken where it is left out) are for the documentation. ``kind``: of quantity
     ("a length"), None without unit; ``unit``: a usual one. ``lowest``, ``highest``: bounds of a number or of a list's
-    entries, in N, mm, s, rad. ``over_face``: in three-dimensional scenes alone; ``small``: against the module, as an
-    error of manufacture is.
+    entries, in N, mm, s, rad. ``over_face``: in three dimensions alone; ``small``: against the module.
     """
 
     description: str
@@ -66,13 +65,10 @@ class AllowedNumber(Allowed):
     def convert(self, value: Any) -> Any:
         if isinstance(value, str) and value in self.words:
             return self.words[value]
-        if self.kind is None:
-            number = _bare(value, self.whole)
-        else:
-            number = _quantity(value, self.unit, self.words, self.kind)[0]
+        number = _quantity(value, self.unit, self.words, self.kind)[0] if self.kind else _bare(value, self.whole)
         reason = out_of_range(number, self.lowest, self.highest, self.above_lowest, self.below_highest)
         if reason:
-            raise Refused(reason if reason in NOT_TOO_LOW else f"{reason} {self.below}".rstrip())
+            raise Refused(reason if reason in (TOO_LARGE, NOT_FINITE) else f"{reason} {self.below}".rstrip())
         return number
 
     def spelled(self, value: Any) -> Any:
@@ -96,17 +92,13 @@ class AllowedList(Allowed):
         if not isinstance(value, list):
             raise Refused("is not a list.")
         if not self.shortest <= len(value) <= self.longest:
-            raise Refused(
-                "is empty." if not value else f"has {len(value)} {'entry' if len(value) == 1 else 'entries'}."
-            )
+            entries = "1 entry" if len(value) == 1 else f"{len(value)} entries"
+            raise Refused(f"has {entries}." if value else "is empty.")
         return tuple(self._entry(number, entry) for number, entry in enumerate(value, 1))
 
     def _entry(self, number: int, entry: Any) -> float:
         try:
-            if self.kind is not None:
-                converted = _quantity(entry, self.unit, (), self.kind)[0]
-            else:
-                converted = _bare(entry, whole=False)
+            converted = _quantity(entry, self.unit, (), self.kind)[0] if self.kind else _bare(entry, whole=False)
             reason = out_of_range(converted, self.lowest, self.highest)
         except Refused as error:
             reason = str(error)
@@ -168,7 +160,7 @@ class AllowedText(Allowed):
 
 @dataclass(frozen=True, kw_only=True)
 class AllowedFile(AllowedText):
-    """The name of a file with a certain ``ending``, such as ".msh"; ``made``: what it becomes, which has its name as
+    """The name of a file with a certain ``ending``, such as ".msh"; ``made``: makes what has the name as its
     ``path``."""
 
     longest: int = LONGEST_FILE_NAME
@@ -209,7 +201,7 @@ class AllowedSwitch(Allowed):
         return value
 
 
-NOT_TOO_LOW = ("is too large.", "is not a finite number.")
+TOO_LARGE, NOT_FINITE = "is too large.", "is not a finite number."
 
 
 def out_of_range(
@@ -217,9 +209,9 @@ def out_of_range(
 ) -> str:
     """What is wrong with a number outside its bounds, both included unless told; empty for one within."""
     if isinstance(number, float) and not isfinite(number):
-        return "is not a finite number."
+        return NOT_FINITE
     if number > highest or (below_highest and number == highest):
-        return "is too large."
+        return TOO_LARGE
     if number > lowest or (not above_lowest and number == lowest):
         return ""
     if lowest < 0 or number > 0:
@@ -240,11 +232,10 @@ def _bare(value: Any, whole: bool) -> float:
         # A float leaves its spelling behind.
         return value if whole else float(value)
     except OverflowError:
-        raise Refused("is too large.") from None
+        raise Refused(TOO_LARGE) from None
 
 
 def _quantity(value: Any, unit: str, words: Any, *kinds: str) -> tuple[float, str]:
-    """A quantity's number and its kind, one of some."""
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         raise Refused("is not a text with a number and its unit.")
     if not isinstance(value, str):

@@ -1,8 +1,8 @@
-"""The kinds of fields that a section has (``inputs.section``): quantities with units, bare numbers, choices.
+"""The kinds of fields that a section has (``inputs.section``).
 
-Each function declares a field of a frozen dataclass: its range and unit, its meaning in one sentence, and what holds
-where a scene leaves it out (``default``, and ``otherwise`` in words; a field with neither is required). Reading,
-messages, writing and the documentation follow from what a field is ``Allowed``.
+Each function declares a field of a frozen dataclass: range and unit, meaning in one sentence, and what holds where a
+scene leaves it out (``default``, and ``otherwise`` in words; a field with neither is required). ``marks``: further
+fields of ``Allowed``.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -26,8 +26,7 @@ from .allowed import (
 def quantity(
     limits: str, example: str, *, meaning: str, otherwise: str = "", default: str = "", below: str = "", **marks: bool
 ) -> Any:
-    """A quantity with a unit; its limits, both included, are written with units too ("0 mm to 1 m"), and so is a
-    default. ``marks``: as ``Allowed`` has them."""
+    """A quantity; its limits, both included, are written with units ("0 mm to 1 m"), and so is a default."""
     kind, lowest, highest = _limits(limits)
     allowed = AllowedNumber(
         description=f'{kind} from {limits}, with its unit, such as "{example}"',
@@ -73,16 +72,16 @@ def number(
 def quantities(
     limits: str, *examples: str, meaning: str, otherwise: str, count: int | None = None, **marks: bool
 ) -> Any:
-    """A list of quantities with units, optional; limits of each entry as those of a quantity.
+    """A list of quantities, optional; limits of each entry as those of a quantity.
 
-    ``examples``: of two entries, or one for both; ``count``: of the entries, where it is fixed; ``marks``: as
-    ``Allowed`` has them.
+    ``examples``: of two entries, or one for both; ``count``: of the entries, where it is fixed.
     """
-    (kind, low, high), first, second = _limits(limits), examples[0], examples[-1]
+    kind, low, high = _limits(limits)
     many, sizes = (f"{count} quantities", {"shortest": count, "longest": count}) if count else ("quantities", {})
-    description = f'a list of {many}, each {kind} from {limits}, with its unit, such as ["{first}", "{second}"]'
+    listed = f'["{examples[0]}", "{examples[-1]}"]'
+    description = f"a list of {many}, each {kind} from {limits}, with its unit, such as {listed}"
     allowed = AllowedList(
-        description=description, meaning=meaning, otherwise=otherwise, kind=kind, unit=units.unit_of(first),
+        description=description, meaning=meaning, otherwise=otherwise, kind=kind, unit=units.unit_of(examples[0]),
         lowest=low, highest=high, **sizes, **marks,
     )  # fmt: skip
     return declared(allowed)
@@ -90,33 +89,24 @@ def quantities(
 
 def numbers(lowest: float, highest: float, example: float, *, meaning: str, otherwise: str) -> Any:
     """A list of bare numbers, optional; bounds of each entry, both included."""
-    description = (
-        f"a list of numbers, each from {lowest:g} to {highest:g}, without unit, such as [{example:g}, {example:g}]"
-    )
-    return declared(
-        AllowedList(description=description, meaning=meaning, otherwise=otherwise, lowest=lowest, highest=highest)
-    )
+    limits = f"each from {lowest:g} to {highest:g}, without unit"
+    description = f"a list of numbers, {limits}, such as [{example:g}, {example:g}]"
+    bounds = {"lowest": lowest, "highest": highest}
+    return declared(AllowedList(description=description, meaning=meaning, otherwise=otherwise, **bounds))
 
 
 def either(*ranges: tuple[str, str], words: tuple[str, ...], meaning: str, otherwise: str) -> Any:
     """A quantity of one of several kinds, each given by its limits and an example, or a word; optional."""
-    described = []
-    bounds, usual = {}, {}
+    described, bounds, usual = [], {}, {}
     for limits, example in ranges:
-        kind, low, high = _limits(limits)
+        kind, *bounds_of_kind = _limits(limits)
         described.append(f'{kind} from {limits}, such as "{example}"')
-        bounds[kind], usual[kind] = (low, high), units.unit_of(example)
-    first = next(iter(bounds))
+        bounds[kind], usual[kind] = bounds_of_kind, units.unit_of(example)
+    first, description = next(iter(bounds)), ", or ".join(described) + _or(words)
     allowed = AllowedEither(
-        description=", or ".join(described) + _or(words),
-        meaning=meaning,
-        otherwise=otherwise,
-        kind=first,
-        unit=usual[first],
-        ranges=bounds,
-        units=usual,
-        words=words,
-    )
+        description=description, meaning=meaning, otherwise=otherwise, kind=first, unit=usual[first],
+        ranges=bounds, units=usual, words=words,
+    )  # fmt: skip
     return declared(allowed)
 
 
@@ -131,7 +121,7 @@ def whole_number(
     words: Mapping[str, Any] | None = None,
     **marks: bool,
 ) -> Any:
-    """A bare whole number, bounds included; ``marks``: as ``Allowed`` has them."""
+    """A bare whole number, bounds included."""
     words = words or {}
     allowed = AllowedNumber(
         description=f"a whole number from {lowest} to {highest}, without unit, such as {example}{_or(words)}",
@@ -149,11 +139,8 @@ def whole_number(
 def choice(*names: str, meaning: str, otherwise: str = "", default: str | None = None) -> Any:
     """One of a few names, optional."""
     listed = ", ".join(f'"{name}"' for name in names)
-    description = f"one of {listed}" if len(names) > 1 else f"only {listed}"
-    allowed = AllowedChoice(
-        description=description, meaning=meaning, otherwise=otherwise or f"`{default}`", names=names
-    )
-    return declared(allowed, default)
+    description, otherwise = f"{'one of' if len(names) > 1 else 'only'} {listed}", otherwise or f"`{default}`"
+    return declared(AllowedChoice(description=description, meaning=meaning, otherwise=otherwise, names=names), default)
 
 
 def text(longest: int, *, meaning: str, otherwise: str) -> Any:
@@ -165,13 +152,11 @@ def text(longest: int, *, meaning: str, otherwise: str) -> Any:
 def file_name(
     ending: str, example: str, *, meaning: str, otherwise: str, made: Callable[[str], Any] = str, **marks: bool
 ) -> Any:
-    """The name of a file that ends in ``ending``, optional; ``marks``: as ``Allowed`` has them."""
-    description = (
-        f'the name of a file that ends in {ending}, of at most {LONGEST_FILE_NAME} characters, such as "{example}"'
-    )
-    return declared(
-        AllowedFile(description=description, meaning=meaning, otherwise=otherwise, ending=ending, made=made, **marks)
-    )
+    """The name of a file that ends in ``ending``, optional."""
+    limits = f"that ends in {ending}, of at most {LONGEST_FILE_NAME} characters"
+    description = f'the name of a file {limits}, such as "{example}"'
+    marks |= {"ending": ending, "made": made}
+    return declared(AllowedFile(description=description, meaning=meaning, otherwise=otherwise, **marks))
 
 
 def switch(*, meaning: str) -> Any:

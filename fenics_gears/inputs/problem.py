@@ -1,6 +1,4 @@
-"""A mistake in a scene file, the line where it stands, and the known name that a misspelt one is nearest to or stands
-for.
-"""
+"""A mistake in a scene file, its line, and the known name that a misspelt one is nearest to or stands for."""
 
 import difflib
 import re
@@ -43,18 +41,17 @@ class Problem:
 
 # More mistakes than these are counted, not told: they are of a file that is no scene.
 MOST_TOLD = 20
+NOTHING_DONE = "Nothing was computed or written."
 
 
 def listed(problems: Sequence[Problem], lines: Mapping[Path, int], source: str) -> str:
-    """The first mistakes of a file in the order of their lines, and how many there are."""
     first = sorted(problems, key=lambda each: each.line(lines))[:MOST_TOLD]
     return counted([problem.describe(source, lines) for problem in first], len(problems), source)
 
 
 def counted(entries: Sequence[str], count: int, source: str) -> str:
-    """The first of `count` mistakes in words, and how many there are."""
     more = [f"... and {count - MOST_TOLD} more"] if count > MOST_TOLD else []
-    total = f"{count} mistake{'s' if count > 1 else ''} in {source}. Nothing was computed or written."
+    total = f"{count} mistake{'s' if count > 1 else ''} in {source}. {NOTHING_DONE}"
     return "\n".join([*entries[:MOST_TOLD], *more, total])
 
 
@@ -124,7 +121,5 @@ def meant(section: Iterable[str], word: str, known: Iterable[str]) -> str | None
 
     section, known = tuple(section), tuple(known)
     homes = [section, *([section[:-1], (*section[:-1], "pinion")] if section[-1:] in (("pinion",), ("wheel",)) else [])]
-    found = (
-        name for home in homes for name in known if word.lower() in SYNONYMS.get(".".join((*home, name)), "").split()
-    )
-    return next(found, None)
+    pairs = ((name, ".".join((*home, name))) for home in homes for name in known)
+    return next((name for name, path in pairs if word.lower() in SYNONYMS.get(path, "").split()), None)

@@ -1,7 +1,6 @@
 """A section of a scene, declared once: a frozen dataclass whose fields say what they allow (``inputs.fields``).
 
-``read`` makes one of a parsed file and tells what is wrong; its values, in N, mm, s, rad, are the data that physics
-gets. ``tree_of`` is the way back, bit for bit.
+``read`` makes one of a parsed file and tells what is wrong; ``tree_of`` is the way back, bit for bit.
 """
 
 import functools
@@ -37,15 +36,12 @@ def section_within(section: type[Section], name: str) -> type[Section] | None:
 
 @functools.cache
 def names_in(section: type[Section]) -> tuple[str, ...]:
-    """Names of all that a section may have in a file, in the order of their declaration; a field that declares nothing
-    is of the data alone.
-    """
+    """Names of all that a section may have in a file; a field that declares nothing is of the data alone."""
     return tuple(each.name for each in fields(section) if {each.name} & {*_allowed(section), *_sections(section)})
 
 
 @functools.cache
 def required_in(section: type[Section]) -> frozenset[str]:
-    """Names of what a section cannot leave out."""
     return frozenset(each.name for each in fields(section) if _default(each) is MISSING)
 
 
@@ -62,9 +58,8 @@ def _sections(section: type[Section]) -> dict[str, type[Section]]:
 
 
 def _section_of(hint: Any) -> type[Section] | None:
-    return next(
-        (each for each in (hint, *get_args(hint)) if isinstance(each, type) and issubclass(each, Section)), None
-    )
+    kinds = (each for each in (hint, *get_args(hint)) if isinstance(each, type))
+    return next((each for each in kinds if issubclass(each, Section)), None)
 
 
 class PartRefused(Refused):
@@ -94,8 +89,7 @@ def read(section: type[Section], tree: Mapping[str, Any], path: Path = ()) -> tu
             values[name], found = read(inner, written, place)
             problems += found
         else:
-            listed = ", ".join(names_in(inner))
-            message = f"is not a section. Write a line [{'.'.join(place)}], and below it its fields: {listed}."
+            message = f"is not a section. Write a line [{'.'.join(place)}], and below it {_fields_of(inner)}."
             problems.append(Problem(place, as_written(written), message))
     problems += _beside_another(section, tree, path)
     problems += (
@@ -130,14 +124,17 @@ def _missing(section: type[Section], name: str, place: Path) -> Iterator[Problem
     if allowed is not None:
         yield Problem(place, None, f"is missing. Allowed: {allowed.description}.")
     elif inner is not None:
-        listed = ", ".join(names_in(inner))
-        yield Problem(place, None, f"is missing. Add the section [{'.'.join(place)}] with its fields: {listed}.")
+        yield Problem(place, None, f"is missing. Add the section [{'.'.join(place)}] with {_fields_of(inner)}.")
+
+
+def _fields_of(section: type[Section]) -> str:
+    return f"its fields: {', '.join(names_in(section))}"
 
 
 @dataclass(frozen=True, kw_only=True)
 class AllowedTables(Allowed):
-    """A list of tables, each of them a ``section``, which is called ``singular``; ``empty``: what to do instead of
-    giving none."""
+    """A list of tables, each a ``section`` that is called ``singular``; ``empty``: what to do instead of giving
+    none."""
 
     section: type[Section]
     singular: str
@@ -159,14 +156,12 @@ class AllowedTables(Allowed):
         found, problems = read(self.section, entry)
         # An unknown name first: it may be what is missing.
         for problem in sorted(problems, key=lambda each: not each.unknown):
-            name, said = ".".join(problem.path), problem.message
+            name, where = ".".join(problem.path), f"at place {place}"
             if problem.unknown:
-                raise Refused(
-                    f'has "{name}" at place {place}, which no {self.singular} has.{did_you_mean(name, names)}'
-                )
+                raise Refused(f'has "{name}" {where}, which no {self.singular} has.{did_you_mean(name, names)}')
             if problem.written is None:
-                raise Refused(f"has no {name} at place {place}.")
-            raise PartRefused(f"has {name} = {problem.written} at place {place}, which {said}")
+                raise Refused(f"has no {name} {where}.")
+            raise PartRefused(f"has {name} = {problem.written} {where}, which {problem.message}")
         return found
 
     def spelled(self, value: Any) -> list[dict[str, Any]]:
@@ -201,5 +196,4 @@ def field_of(section: type[Section], name: str, value: Any) -> Any:
 
 
 def _default(each: Field) -> Any:
-    """MISSING for a required field."""
     return each.default if each.default_factory is MISSING else each.default_factory()

@@ -1,8 +1,5 @@
-"""Symbols and other words that engineers use for sections and fields: looked up only for an unknown name, to suggest
-the right one.
-
-Only what no likeness of spelling finds: the standards' symbols, and the commonest other word.
-"""
+"""Symbols and other words that engineers use for sections and fields, by which an unknown name suggests the right one.
+Only what no likeness of spelling finds."""
 
 # A gear's own section also has the names of the section above.
 SYNONYMS = {

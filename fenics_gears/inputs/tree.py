@@ -11,8 +11,7 @@ Tree = Mapping[str, Any]
 GEARS = ("pinion", "wheel")
 SHAFTS = ("input", "output")  # of pinion and wheel
 MOST_TEETH = 1000
-# In modules. Real errors of manufacture are far smaller; the model moves flanks by them but not their points of
-# contact.
+# In modules. The model moves flanks by errors of manufacture but not their points of contact.
 LARGEST_ERROR = 0.1
 
 
@@ -23,8 +22,7 @@ def table(tree: Tree, name: str) -> Tree | None:
 
 
 def value_at(tree: Tree, *path: str) -> Any:
-    """What a parsed scene has at a path, in which tables that are listed have numbers from 1; None where there is
-    nothing."""
+    """What a parsed scene has at a path, in which listed tables have numbers from 1; None where there is nothing."""
     found: Any = tree
     for name in path:
         if name.isdigit():
@@ -42,7 +40,7 @@ def with_gears(tree: Tree, name: str) -> dict[Path, Tree]:
 
 
 def given_for(both: Tree, gear: str) -> set[str]:
-    """Names that a section gives for the "pinion" or the "wheel": those for both gears, and those of the gear's own
+    """Names that a section gives for the "pinion" or the "wheel": those for both, and those of the gear's own
     section."""
     return {*both, *(table(both, gear) or {})}
 
@@ -53,9 +51,8 @@ def shafts_with_sections(tree: Tree) -> list[str]:
 
 
 def written_out(tree: dict[str, Any]) -> dict[str, Any]:
-    """A parsed file with its short forms written out: ``material = "steel"`` is a section with that name, listed
-    bearings, ``[[bearings.pinion]]``, are in the gear's section.
-    """
+    """A parsed file with its short forms written out: ``material = "steel"`` is a section with that name, and listed
+    bearings, ``[[bearings.pinion]]``, are in the gear's section."""
     gears, shafts, bearings = (table(tree, name) or {} for name in ("gears", "shafts", "bearings"))
     homes = (gears, *(table(gears, gear) for gear in GEARS), *(table(shafts, shaft) for shaft in SHAFTS))
     for home in homes:
@@ -127,9 +124,8 @@ def dotted(path: Path) -> str:
 
 def over_the_face(tree: Tree) -> list[Path]:
     """What of a scene makes it three-dimensional; nothing of a plane one."""
-    return [
-        path for path in OVER_THE_FACE if (value_at(tree, *path) if len(path) > 1 else table(tree, path[0])) is not None
-    ]
+    found = ((path, value_at(tree, *path)) for path in OVER_THE_FACE)
+    return [path for path, value in found if isinstance(value, Mapping) or len(path) > 1 and value is not None]
 
 
 NOT_IN_THE_PLANE = (
@@ -140,9 +136,5 @@ NOT_IN_THE_PLANE = (
 
 def material_sections(tree: Tree) -> list[Path]:
     """Paths of the sections, misspelt ones too, that say what gears are made of; none of rigid gears."""
-    return [
-        (*path, name)
-        for path, home in with_gears(tree, "gears").items()
-        for name in home
-        if nearest(name, ["material"])
-    ]
+    homes = with_gears(tree, "gears").items()
+    return [(*path, name) for path, home in homes for name in home if nearest(name, ["material"])]

@@ -1,7 +1,7 @@
 """Quantities with units, converted once to N, mm, s and rad.
 
-The list of units is closed: no prefix is guessed, so that "Mm" is a mistake and not a megametre. An angle has a
-dimension of its own, so that "N m" is no torsional stiffness and "Hz" no angular speed.
+The list of units is closed: no prefix is guessed, so that "Mm" is a mistake. An angle has a dimension of its own, so
+that "N m" is no torsional stiffness and "Hz" no angular speed.
 """
 
 import functools

@@ -30,15 +30,14 @@ def as_written(value: Any) -> str:
         return "true" if value else "false"
     if isinstance(value, int) and abs(value) >= 10**_LONGEST:
         return f"a number of more than {_LONGEST} digits"
-    text = (
-        json.dumps(value, ensure_ascii=False) if isinstance(value, str) else getattr(value, "text", None) or str(value)
-    )
+    said = getattr(value, "text", None) or str(value)
+    text = json.dumps(value, ensure_ascii=False) if isinstance(value, str) else said
     return text if len(text) <= _LONGEST else text[: _LONGEST - 3] + "..."
 
 
 def as_toml(tree: Mapping[str, Any]) -> str:
-    """A parsed scene as the text of a scene file; entries that are None are left out. Raises TypeError for what no file
-    can hold.
+    """A parsed scene as the text of a scene file, without entries that are None. Raises TypeError for what no file can
+    hold.
 
     >>> print(as_toml({"load": {"wheel_torque": "437 N m"}}), end="")
     [load]

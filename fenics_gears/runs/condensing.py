@@ -1,7 +1,5 @@
 """The gears of many runs, each condensed once, a process a gear, before the runs that share them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
@@ -24,7 +22,7 @@ BODY, ROOT_STRESS = "body", "root stress"
 
 @dataclass(frozen=True)
 class GearTask:
-    """A gear to be condensed: the "pinion" or the "wheel" of a scene; its body, or its root stress."""
+    """A gear of a scene, "pinion" or "wheel", of which a part is to be condensed: its body, or its root stress."""
 
     scene: Scene
     name: str
@@ -49,7 +47,6 @@ def gear_tasks(runs: Iterable[Run]) -> list[GearTask]:
 
 
 def _keys(model: Model, name: str) -> Iterator[tuple[str, tuple]]:
-    """What is to be condensed of a gear, and what that depends on."""
     key = body_key(model, name)
     yield BODY, key
     if model.scene.output.root_stress and route_of(model).stresses:

@@ -1,7 +1,5 @@
 """Runs in a folder: a NetCDF file for each, or a text on why it failed."""
 
-from __future__ import annotations
-
 import contextlib
 import fcntl
 import json
@@ -51,12 +49,12 @@ class Folder:
     def keep(self, run: Run, found: RunResult) -> Record:
         """Write the result and return its record; a note on an earlier failure goes."""
         result = found.dataset
-        results.save(result.assign_attrs(case_key=run.key, case_values=json.dumps(run.values)), self._file(run, ENDING))
+        said = {"case_key": run.key, "case_values": json.dumps(run.values)}
+        results.save(result.assign_attrs(said), self._file(run, ENDING))
         self._file(run, FAILED_ENDING).unlink(missing_ok=True)
         return replace(record_of(result), seconds=seconds_of(found))
 
     def seconds(self, known: Record) -> tuple[float, ...]:
-        """Those of a record."""
         return known.seconds
 
     def keep_failure(self, run: Run, error: Exception) -> Failure:
@@ -87,8 +85,8 @@ def _undamaged(path: Path, run: Run) -> Record | None:
 
 @contextlib.contextmanager
 def sole_writer(directory: Path, inside: str = "cases") -> Iterator[None]:
-    """Lock the study's directory for this process, make the folder `inside` it, and remove half-written files of a
-    study that was killed.
+    """Lock the study's directory for this process, make the folder `inside` it, and remove what a killed study left
+    half-written.
 
     Raises ComputationError where another study is writing there, or nothing can be written.
     """
@@ -101,10 +99,8 @@ def sole_writer(directory: Path, inside: str = "cases") -> Iterator[None]:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
-            raise ComputationError(
-                f"{directory}: another study is writing there. Wait for it, or choose another directory with --output"
-                " DIR."
-            ) from None
+            remedy = "Wait for it, or choose another directory with --output DIR."
+            raise ComputationError(f"{directory}: another study is writing there. {remedy}") from None
         except OSError as error:
             LOGGER.debug("%s: no locks on this file system: %s", directory, error)
         for written in (directory, directory / inside):

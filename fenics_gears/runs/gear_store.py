@@ -1,7 +1,4 @@
-"""What runs of one process share in memory: the gears condensed last, and the contact operators of the last mesh
-cycles."""
-
-from __future__ import annotations
+"""What runs of one process share in memory: the gears condensed last, and contact operators."""
 
 import functools
 from dataclasses import replace
@@ -25,15 +22,13 @@ NO_TIME = {"time_mesh": 0.0, "time_compile": 0.0, "time_condense": 0.0}
 
 
 class GearStore:
-    """Keeps the gears used last and, with `cycles`, their last mesh cycles, so that a frequency sweep builds its
-    operators once.
+    """Keeps the gears used last, `most` of them (None: all) beside those of mesh cycles, and with `cycles` the last
+    mesh cycles, so that a frequency sweep builds its operators once.
 
-    Two runs share gears that are the same bodies at the same resolution, and a mesh cycle when gears, flanks, contact
-    grid, steps, moving coordinates and the presence of friction are the same: speed, masses, springs, torque and
-    coefficient may differ. Where only gaps differ (reliefs, lead modifications, misalignment, errors of teeth) they
-    share its operators, and each has gaps of its own.
-    Shared gears keep the times that condensing them took; with a shared mesh cycle these times are zero. `most`: how
-    many gears are kept beside those of mesh cycles, None for all.
+    Two runs share a mesh cycle when gears, flanks, contact grid, steps, moving coordinates and the presence of friction
+    are the same: speed, masses, springs, torque and coefficient may differ. Where only gaps differ (reliefs, lead
+    modifications, misalignment, errors of teeth) each has gaps of its own. Shared gears keep the times that condensing
+    them took; with a shared mesh cycle these times are zero.
     """
 
     def __init__(self, most: int | None = 2, cycles: bool = True):
@@ -72,7 +67,6 @@ class GearStore:
         return sum(cycle.kept.taken + _bytes_of(bodies) for bodies, cycle in self._operators.values())
 
     def _make_room(self) -> None:
-        """Give up the oldest contact operators where there are many or they take much."""
         while self._operators and (
             len(self._operators) >= MOST_CYCLES
             or self._taken > SHARE_OF_OTHERS * min(cycle.kept.most for _, cycle in self._operators.values())
@@ -88,7 +82,7 @@ class GearStore:
         return found
 
     def bodies(self, model: Model, progress: Progress, cache: Cache | None) -> Bodies:
-        """Pinion and wheel; where neither is kept, both are condensed as for a single run: at once where that pays."""
+        """Pinion and wheel; where neither is kept, both are condensed at once where that pays."""
         keys = [body_key(model, name) for name in GEARS]
         if keys[0] != keys[1] and not self._gears.keys() & set(keys):
             self._gears.update(zip(keys, gear_bodies(model, progress, cache)))
@@ -149,8 +143,8 @@ def _divisions(model: Model, gear: int) -> tuple:
 
 
 def cycle_key(model: Model, of_operators: tuple | None = None) -> tuple:
-    """What the contact equations of a mesh cycle depend on; `of_operators`: what its operators do, where it is known
-    already."""
+    """What the contact equations of a mesh cycle depend on; `of_operators`: what its operators do, where that is
+    known."""
     of_gaps = (getattr(model.scene, section) for section in sections_of_gaps(model))
     return *(of_operators or operators_key(model)), *of_gaps
 

@@ -1,7 +1,6 @@
-"""Runs as lines of JSON, in a file of its own for each process, so that a kill loses no finished run.
+"""Runs as lines of JSON, in a file for each process, so that a kill loses no finished run.
 
-A line is written at once when its run has ended. One that a kill or a full disk cut short is none: it is not read, and
-the next one begins below it.
+A line is written as soon as its run has ended. One that was cut short is not read, and the next one begins below it.
 """
 
 from __future__ import annotations
@@ -30,8 +29,8 @@ Line = dict[str, Any]
 
 @dataclass(frozen=True)
 class Lines:
-    """A folder of lines, each with what `line_of` makes of a run and its result, the `numbers` that are `asked` for at
-    least; with `failure` why there is nothing, also of a result that has no meaning."""
+    """A folder of lines, each what `line_of` makes of a run and its result, with at least the `numbers` that are
+    `asked` for; with `failure` why there is nothing, also of a result that has no meaning."""
 
     directory: Path
     line_of: Callable[[Run, RunResult | NumbersOfRun], Line]
@@ -39,19 +38,15 @@ class Lines:
 
     def known(self, runs: Iterable[Run]) -> dict[str, Line | Failure]:
         """All whole lines with what is asked for by their keys, whichever runs are."""
-        lines = kept(self.directory)[0].items()
-        return {
-            key: _known(line) for key, line in lines if "failure" in line or {*self.asked} <= line["numbers"].keys()
-        }
+        asked, lines = {*self.asked}, kept(self.directory)[0].items()
+        return {key: _known(line) for key, line in lines if "failure" in line or asked <= line["numbers"].keys()}
 
     def keep(self, run: Run, result: RunResult | NumbersOfRun) -> Line | Failure:
-        """Write the line of a result."""
         line = {"key": run.key, **self.line_of(run, result)}
         append(self.directory, line)
         return _known(line)
 
     def seconds(self, known: Line) -> list[float]:
-        """Those of a line."""
         return known["seconds"]
 
     def keep_failure(self, run: Run, error: Exception) -> Failure:
@@ -77,11 +72,8 @@ def append(directory: Path, line: Mapping[str, Any]) -> None:
     try:
         with open(file, "ab+", buffering=0) as out:
             torn = out.seek(0, os.SEEK_END) and (out.seek(-1, os.SEEK_END), out.read(1))[1] != b"\n"
-            out.write(
-                (b"\n" if torn else b"")
-                + json.dumps({"numbers_version": NUMBERS_VERSION, **line}, ensure_ascii=False).encode()
-                + b"\n"
-            )
+            text = json.dumps({"numbers_version": NUMBERS_VERSION, **line}, ensure_ascii=False)
+            out.write((b"\n" if torn else b"") + text.encode() + b"\n")
     except OSError as error:
         raise NotKept(f"{file}: a run could not be kept: {error.strerror or error}") from error
 

@@ -1,7 +1,5 @@
 """What is kept of a run in memory: its numbers, curves and warnings."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -27,7 +25,7 @@ CURVES = (
     "transmission_error", "centre_x", "centre_y", "axial_position", "tilt_x", "tilt_y", "shaft_end_rotation",
     "normal_force", "friction_force", "mesh_stiffness",
 )  # fmt: skip
-# What a record is made of besides attributes: a twentieth of a result, which takes so much less time to read.
+# What a record is made of besides attributes: a twentieth of a result.
 VARIABLES = ("time", "mesh_phase", "coast_normal_force", *CURVES)
 
 
@@ -37,8 +35,7 @@ class Record:
 
     `numbers`: by name, also those of `STUDIED` that the run has; `curves`: (steps,) or (steps, 2), in the units of the
     run; `mesh_phase` (steps,): mesh cycles since the first recorded step; `base_radius`: of the wheel, mm; `labels`:
-    units and long name of each curve; `warnings`: those of the run;
-    `seconds`: as of `spent.seconds_of`, of a run that was computed here.
+    units and long name of each curve; `seconds`: as of `spent.seconds_of`, of a run that was computed here.
     """
 
     numbers: dict[str, float]
@@ -52,15 +49,12 @@ class Record:
 
 def numbers_of(run: RunResult | xr.Dataset) -> dict[str, float]:
     """The numbers of a complete run; the wall time is the attribute `wall_time`, s."""
-    numbers = {
-        "peak_to_peak_transmission_error": float(run.attrs["peak_to_peak_transmission_error"]),
-        "mean_transmission_error": float(run.attrs["mean_transmission_error"]),
+    said = run.attrs | {
         "max_normal_force": largest_normal_force(run, settled_steps(run)),
-        "newton_iterations": float(run.attrs["newton_iterations_total"]),
-        "steps_per_mesh_cycle": float(run.attrs["steps_per_mesh_cycle"]),
-        "wall_time": float(run.attrs["wall_time"]),
+        "newton_iterations": run.attrs["newton_iterations_total"],
     }
-    return numbers | {name: float(run.attrs[name]) for name in STUDIED if name in run.attrs}
+    names = (*NUMBERS, *(name for name in STUDIED if name in said))
+    return {name: float(said[name]) for name in names}
 
 
 def record_of(run: xr.Dataset) -> Record:

@@ -1,15 +1,12 @@
 """One run of many: its scene, made when it is asked for, and what its result is known by."""
 
-from __future__ import annotations
-
 import hashlib
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields
-from functools import partial
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from fenics_gears.elasticity.cache import as_json
-from fenics_gears.model.model import RELIEFS, WORDS, Model, differ_only, model_of, with_reliefs
+from fenics_gears.model.model import WORDS, Model
 from fenics_gears.numbers_version import NUMBERS_VERSION
 from fenics_gears.scene.data import Scene
 
@@ -23,8 +20,8 @@ class Run:
     """A scene that is to be run.
 
     `key`: hash of all that its result depends on; `sharing`: equal numbers of runs that share contact operators, and of
-    these of runs with the same gaps; `make`: makes its model; `index`: its place among the cases of a study, `values`:
-    of the swept fields, in words.
+    these of runs with the same gaps; `make`: makes its model; `index`: its place in a study; `values`: of the swept
+    fields, in words.
     """
 
     key: str
@@ -35,12 +32,10 @@ class Run:
 
     @property
     def model(self) -> Model:
-        """The model of its scene."""
         return self.make()
 
     @property
     def scene(self) -> Scene:
-        """Its scene."""
         return self.model.scene
 
     @property
@@ -49,12 +44,11 @@ class Run:
         return f"{self.index:04d}-{self.key[:16]}"
 
     def __str__(self) -> str:
-        """The run in words."""
         return f"case {self.index} ({', '.join(f'{name} = {value}' for name, value in self.values.items())})"
 
     def __reduce__(self) -> tuple:
-        # To another process goes the scene; its model is made there.
-        return _received, (self.scene, self.key, self.index, self.values)
+        # To another process goes the model without what it has computed of itself.
+        return _received, (replace(self.model), self.key, self.index, self.values)
 
 
 def run_of(model: Model, index: int = 0, values: dict[str, str] | None = None, make: Any = None) -> Run:
@@ -66,23 +60,8 @@ def run_of(model: Model, index: int = 0, values: dict[str, str] | None = None, m
     return Run(scene_key(model.scene), sharing, make or (lambda: model), index, values or {})
 
 
-def _received(scene: Scene, key: str, index: int, values: dict[str, str]) -> Run:
-    return Run(key, (0, 0), partial(_made_here, scene), index, values)
-
-
-# Models that were made here last.
-_MODELS: list[Model] = []
-
-
-def _made_here(scene: Scene) -> Model:
-    """The model of a scene; a plane one that differs from one before in reliefs alone is that one with others."""
-    known = next((model for model in _MODELS if differ_only(model.scene, scene, RELIEFS)), None)
-    if known is not None:
-        return with_reliefs(known, scene)
-    model = model_of(scene)
-    if not scene.three_dimensional:
-        _MODELS[:] = [model, *_MODELS[:7]]
-    return model
+def _received(model: Model, key: str, index: int, values: dict[str, str]) -> Run:
+    return Run(key, (0, 0), lambda: model, index, values)
 
 
 def scene_key(scene: Scene) -> str:

@@ -1,7 +1,5 @@
-"""Runs that are asked for by their scenes: what a store has of them is taken from there, the others are computed by a
-team of processes, those that share gears and contact operators one after the other."""
-
-from __future__ import annotations
+"""Runs that are asked for by their scenes: what a store has is taken from there, the others are computed by a team of
+processes."""
 
 import contextlib
 import functools
@@ -89,8 +87,8 @@ class Runs:
         progress.update(done, len(tasks))
 
     def compute(self, missing: list[Run], tick: Tick, finished: Finished = lambda run, found: None) -> None:
-        """Compute runs in this order; each is `known` when `finished` is called with it and what is known of it. `tick`
-        is called often and may raise KeyboardInterrupt."""
+        """Compute runs in this order; each is `known` when `finished` is called. `tick` is called often and may raise
+        KeyboardInterrupt."""
 
         together = 1 if self._store.asked is None else most_together(len(missing), self._team.size)
         tasks = in_tasks(missing, together)
@@ -120,9 +118,8 @@ def solved_at_once(models: Sequence[Model], asked: Collection[str]) -> bool:
     # Imported here, as in `_together`.
     from fenics_gears.simulation.together import can_be_solved_together
 
-    return len({operators_key(model) for model in models}) == 1 and all(
-        can_be_solved_together(model, asked) for model in models
-    )
+    alike = len({operators_key(model) for model in models}) == 1
+    return alike and all(can_be_solved_together(model, asked) for model in models)
 
 
 def in_order_of_sharing(runs: Iterable[Run]) -> list[Run]:
@@ -147,8 +144,8 @@ def in_tasks(runs: Iterable[Run], most: int) -> list[list[Run]]:
 
 
 def computed(store: Store, runs: Sequence[Run], tick: Tick | None = None) -> list[Any]:
-    """Compute runs and keep them, or why they failed; return what is known of each. Raises KeyboardInterrupt where
-    Ctrl-C ended them."""
+    """Compute runs and keep them, or why they failed; return what is known of each. Raises KeyboardInterrupt on
+    Ctrl-C."""
     found, ticking = {} if store.asked is None else _together(runs, store.asked), Ticking(tick)
     return [_kept(store, run, found.get(run.key), ticking) for run in runs]
 
@@ -186,7 +183,7 @@ def _together(runs: Sequence[Run], asked: Collection[str]) -> dict[str, Any]:
 
 
 def completed(scene: Scene | Model, preparation: Preparation, progress: Progress | None = None) -> RunResult:
-    """The whole result of a run and its `wall_time`, s. Raises KeyboardInterrupt where Ctrl-C ended it."""
+    """The whole result of a run and its `wall_time`, s. Raises KeyboardInterrupt on Ctrl-C."""
     begun = time.perf_counter()
     result = solved(scene, progress=progress, preparation=preparation)
     if not result.attrs["complete"]:
@@ -196,7 +193,6 @@ def completed(scene: Scene | Model, preparation: Preparation, progress: Progress
 
 
 def failure_of(error: Exception) -> Failure:
-    """An error in words."""
     return Failure(error if isinstance(error, GearsError) else f"{type(error).__name__}: {error}")
 
 
@@ -207,6 +203,5 @@ class Ticking(SilentProgress):
         self._tick = tick
 
     def update(self, done: int, total: int, note: str = "") -> None:
-        """Call ``tick``."""
         if self._tick is not None:
             self._tick()

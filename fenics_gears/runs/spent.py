@@ -1,6 +1,4 @@
-"""What computing runs took: how many a second, and what limits them, as each search says at its end."""
-
-from __future__ import annotations
+"""What computing runs took: how many a second, and what limits them."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -16,7 +14,7 @@ def seconds_of(result: RunResult) -> tuple[float, float, float]:
 @dataclass
 class Spent:
     """How many runs were `computed`, in how many `seconds` by the clock on so many `processes`; `of_runs`: seconds of
-    all, each by itself, as of `seconds_of`."""
+    all, as of `seconds_of`."""
 
     processes: int = 1
     computed: int = 0
@@ -37,8 +35,8 @@ class Spent:
         if whole and self.seconds:
             beside = max(1.0 - whole / (self.processes * self.seconds), 0.0)
             words = (
-                f"{1e3 * whole / self.computed:.3g} ms: march {march / whole:.0%}, extremes between steps and other"
-                f" numbers {numbers / whole:.0%}, contact equations the rest; {beside:.0%} of the time is beside runs"
+                f"{1e3 * whole / self.computed:.3g} ms: march {march / whole:.0%}, numbers {numbers / whole:.0%},"
+                f" contact equations the rest; {beside:.0%} of the time is beside runs"
             )
             rows.append(("a run", words, ""))
         return rows

@@ -1,11 +1,9 @@
-"""Many tasks over the processes of one MPI job, or one after another in a process that runs alone.
+"""Many tasks over the processes of one MPI job, or one after another in a process that runs alone, which never touches
+MPI.
 
-Alone, MPI is never touched. Under `mpirun -n N`, ranks 1 to N-1 are workers of mpi4py.futures; rank 0 hands out tasks
-from the first on by mpi4py's own thread, and itself takes back and computes tasks from the last on, so that all N
-processes compute.
+Ranks 1 to N-1 are workers of mpi4py.futures; rank 0 hands out tasks from the first on by mpi4py's own thread, and
+itself takes back and computes tasks from the last on.
 """
-
-from __future__ import annotations
 
 import contextlib
 import importlib
@@ -31,8 +29,6 @@ the end, where they wait, is that much shorter."""
 
 
 class Alone:
-    """One process."""
-
     size = 1
 
     def run(self, function: Task, tasks: Sequence[Any], finished: Finished, tick: Callable[[], None]) -> None:

@@ -1,4 +1,4 @@
-"""Runs without the cache that may share gears, and their times: the median of several rounds, stage by stage."""
+"""Runs without the cache that may share gears, and their times by stages."""
 
 from __future__ import annotations
 
@@ -34,7 +34,6 @@ class Times:
 
     @property
     def rounds(self) -> int:
-        """How many runs."""
         return len(self.march)
 
     @property
@@ -44,11 +43,9 @@ class Times:
 
     @property
     def total(self) -> float:
-        """The median run."""
         return statistics.median(self.totals)
 
     def median(self, stage: str) -> float:
-        """Median seconds of one stage."""
         return statistics.median(getattr(self, stage))
 
 

@@ -1,7 +1,6 @@
 """``[accuracy]`` and ``[output]``: how a scene is computed, and results besides those of every run.
 
-None: the program chooses (``model.resolution``, ``model.face_resolution``) by the numbers that stand first here, from
-which the reference of scenes says what defaults are.
+None: the program chooses (``model.resolution``, ``model.face_resolution``) by the numbers that stand first here.
 """
 
 import re
@@ -25,7 +24,7 @@ class Fineness(NamedTuple):
 
 # Three elements: the paper's pair is within 0.15 % of its limit in the transmission error, 0.1 % in the peak pressure;
 # two would do, but for rounded edges of a sixtieth of the module (2 %). Between steps curves are straight lines, 0.4 %
-# off in L2; extremes are located between them. Over a face a step costs more, and helical pairs are smoother.
+# off in L2. Over a face a step costs more, and helical pairs are smoother.
 IN_THE_PLANE, OVER_THE_FACE = Fineness(3.0, 200), Fineness(2.0, 100)
 # Flank elements stay between these parts of the module, whatever the load: a vanishing load has no half-width.
 FINEST_ELEMENT, COARSEST_ELEMENT = 1.0 / 200.0, 1.0 / 25.0
@@ -52,18 +51,16 @@ MOST_CONTACT_NODES = 1000
 
 @dataclass(frozen=True, kw_only=True)
 class Accuracy(Section):
-    """``[accuracy]``: element sizes, contact nodes, time steps and the model of the mesh. Fields that are left out are
-    derived from the scene."""
+    """``[accuracy]``: element sizes, contact nodes, time steps and the model of the mesh."""
 
     target: float | None = quantity(
         "0.05 % to 50 %",
         "1 %",
         meaning=(
-            "largest numerical error allowed in the curve and in the peak-to-peak value of the transmission error, in"
-            " three dimensions also in line load and load factors; test runs find the cheapest settings of this section"
-            " that keep it"
+            "largest numerical error of the transmission error, as a curve and peak to peak, in three dimensions also"
+            " of line load and load factors; test runs find the cheapest settings that keep it"
         ),
-        otherwise="no test runs; each setting has its given or default value",
+        otherwise="each setting has its given or default value",
     )
     element: str | None = choice(
         *ELEMENTS,
@@ -78,29 +75,22 @@ class Accuracy(Section):
         "0.08 mm",
         meaning="size of the elements on the flank",
         otherwise=(
-            f"1/{IN_THE_PLANE.elements_per_half_width:g} of the smallest Hertz half-width of one pair under"
-            " the whole load,"
-            f" 1/{OVER_THE_FACE.elements_per_half_width:g} of it in three-dimensional scenes, but at least"
-            f" 1/{1.0 / FINEST_ELEMENT:g} and at most 1/{1.0 / COARSEST_ELEMENT:g} of the module"
+            f"1/{IN_THE_PLANE.elements_per_half_width:g} of the smallest Hertz half-width of one pair under the whole"
+            f" load, 1/{OVER_THE_FACE.elements_per_half_width:g} of it in three-dimensional scenes, but"
+            f" 1/{1.0 / FINEST_ELEMENT:g} to 1/{1.0 / COARSEST_ELEMENT:g} of the module"
         ),
     )
     body_element_size: float | None = quantity(
         "1e-6 mm to 10 m",
         "1.3 mm",
-        meaning=(
-            "size of the largest elements in tooth and rim; the elements of fillets, coast flank and bore are scaled"
-            " with it"
-        ),
-        otherwise=(
-            "a fixed fraction of the module for each order of element, in three-dimensional scenes"
-            f" {SECTION_SIZE:g} modules"
-        ),
+        meaning="size of the largest elements in tooth and rim; those of fillets, coast flank and bore scale with it",
+        otherwise=f"a part of the module for each order of element, in three-dimensional scenes {SECTION_SIZE:g}",
     )
     contact_length: float | None = quantity(
         "1e-6 mm to 10 m",
         "1.5 mm",
         meaning="length, across the line of action, over which the contact nodes of a tooth pair are spread",
-        otherwise="so long that beyond it the gap is larger than the deflection of the teeth",
+        otherwise="beyond it the gap is larger than the deflection of the teeth",
     )
     contact_nodes: int | None = whole_number(
         2,
@@ -112,10 +102,7 @@ class Accuracy(Section):
     interpolation: str | None = choice(
         "averaged",
         "collocated",
-        meaning=(
-            "displacement of the flank at a contact node: averaged with the node's own function, or taken at the node"
-            " alone (collocation)"
-        ),
+        meaning="displacement of the flank at a contact node: averaged with the node's function, or that of the node",
         otherwise="`averaged`",
     )
     elastic_teeth: int | None = whole_number(
@@ -131,11 +118,9 @@ class Accuracy(Section):
         100,
         meaning="time steps of a mesh cycle",
         otherwise=(
-            f"{IN_THE_PLANE.steps_per_mesh_cycle}, in three-dimensional scenes"
-            f" {OVER_THE_FACE.steps_per_mesh_cycle};"
-            f" with `[inertia]` as many as give the highest natural frequency {STEPS_PER_PERIOD} steps per"
-            f" period, at most {MOST_STEPS_PER_MESH_CYCLE}; with `[inertia]` and rigid flanks"
-            f" {MOST_STEPS_PER_MESH_CYCLE}"
+            f"{IN_THE_PLANE.steps_per_mesh_cycle}, in three-dimensional scenes {OVER_THE_FACE.steps_per_mesh_cycle};"
+            f" with `[inertia]` {STEPS_PER_PERIOD} per period of the highest natural frequency, at most"
+            f" {MOST_STEPS_PER_MESH_CYCLE}; with `[inertia]` and rigid flanks {MOST_STEPS_PER_MESH_CYCLE}"
         ),
     )
     slices: int | None = whole_number(
@@ -143,13 +128,10 @@ class Accuracy(Section):
         1000,
         40,
         meaning=(
-            "slices of the common face in which contact is resolved, best a multiple of `layers`; the"
-            " outermost of helical pairs are cut in two, if there are 8 or more; of three-dimensional scenes"
+            "slices of the common face in which contact is resolved, best a multiple of `layers`; of 8 or more, helical"
+            " pairs have the outermost cut in two"
         ),
-        otherwise=(
-            f"{SLICES_OF_A_LAYER} for each of the default layers; with `layers`, the multiple of it"
-            " nearest to that number"
-        ),
+        otherwise=f"{SLICES_OF_A_LAYER} for each of the default layers; with `layers`, the nearest multiple of it",
         over_face=True,
     )
     layers: int | None = whole_number(
@@ -157,16 +139,14 @@ class Accuracy(Section):
         1000,
         12,
         meaning=(
-            "layers of elements of either gear over the common face, of which four or more have the outermost"
-            " cut in two; a gear that is wider has more beyond it; of three-dimensional scenes"
+            "layers of elements of either gear over the common face, of four or more the outermost cut in two; a wider"
+            " gear has more beyond it"
         ),
         otherwise=(
-            f"a thickness of {LAYER_THICKNESS:g} modules, in helical pairs at most so thick that the"
-            " line of"
-            f" contact moves by {LAYER_TURN:g} of the base pitch along the path of contact within a layer,"
-            f" {LAYER_TURN_RELIEVED:g} where both gears have tip relief; at least {FEWEST_LAYERS}"
-            f" layers. With `slices`, {SLICES_OF_A_LAYER} slices to a layer or fewer, if possible so that"
-            " slices end where layers do"
+            f"{LAYER_THICKNESS:g} modules thick, in helical pairs at most so that the line of contact moves by"
+            f" {LAYER_TURN:g} of the base pitch along the path of contact within a layer, {LAYER_TURN_RELIEVED:g} where"
+            f" both gears have tip relief; at least {FEWEST_LAYERS} layers. With `slices`, at most {SLICES_OF_A_LAYER}"
+            " of them to a layer, if possible ending where layers do"
         ),
         over_face=True,
     )
@@ -174,8 +154,8 @@ class Accuracy(Section):
         "once",
         "every step",
         meaning=(
-            "`once`: each gear is meshed and condensed once; `every step`: both gears are meshed anew at every"
-            " position, as in the paper, which is slow and serves for comparison"
+            "each gear is meshed and condensed once; or both at every position, as in the paper, which is slow and"
+            " serves for comparison"
         ),
         otherwise="`once`",
     )
@@ -209,8 +189,8 @@ class AllowedContactFields(Allowed):
 _CONTACT_FIELDS = AllowedContactFields(
     description='true, false, or "last N cycles", such as "last 3 cycles"',
     meaning=(
-        "steps at which pressure, traction and place of every contact node are stored: all, none, or those of the last"
-        " mesh cycles. Stress pictures and pressure maps need them. Replaces `motion.recorded_cycles`"
+        "steps at which pressure, traction and place of contact nodes are stored, which stress pictures and pressure"
+        " maps need: all, none, or those of the last mesh cycles. Replaces `motion.recorded_cycles`"
     ),
     otherwise="the last `motion.recorded_cycles`",
 )
@@ -221,10 +201,7 @@ class Output(Section):
     """``[output]``: results that take additional time or storage."""
 
     root_stress: bool = switch(
-        meaning=(
-            "stress along the fillets of the loaded teeth over time, and dynamic factors by force and by stress; see"
-            " [stress](stress.md)"
-        )
+        meaning="stress along the fillets of the loaded teeth, and dynamic factors; see [stress](stress.md)"
     )
     # Of a scene that was read: whether there are any; how many cycles is in its motion.
     contact_fields: bool | float = declared(_CONTACT_FIELDS, True)

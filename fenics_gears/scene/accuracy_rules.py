@@ -30,22 +30,15 @@ def _resolution_fits_the_teeth(tree: Tree) -> Broken:
         if size > largest:
             yield ("accuracy", name), f"is too large for a module of {module:g} mm. Allowed: up to {largest:g} mm."
         elif 0 < size < smallest:
-            message = (
-                f"is too small for a module of {module:g} mm: no memory holds such a mesh. Allowed: from"
-                f" {smallest:g} mm."
-            )
-            yield ("accuracy", name), message
+            yield ("accuracy", name), f"is too small for a module of {module:g} mm. Allowed: from {smallest:g} mm."
 
 
 def _body_is_no_finer_than_the_flank(tree: Tree) -> Broken:
     accuracy = table(tree, "accuracy") or {}
     body, flank = (quantity_in(accuracy.get(name)) for name in ("body_element_size", "flank_element_size"))
     if body is not None and flank is not None and 0 < body < flank:
-        message = (
-            f"is smaller than flank_element_size = {as_written(accuracy['flank_element_size'])}. Allowed: from that"
-            " size on."
-        )
-        yield ("accuracy", "body_element_size"), message
+        least = f"flank_element_size = {as_written(accuracy['flank_element_size'])}"
+        yield ("accuracy", "body_element_size"), f"is smaller than {least}. Allowed: from that size on."
 
 
 def _remeshing_has_its_own_nodes(tree: Tree) -> Broken:
@@ -54,11 +47,7 @@ def _remeshing_has_its_own_nodes(tree: Tree) -> Broken:
         return
     for name in ("interpolation", "elastic_teeth"):
         if name in accuracy:
-            message = (
-                f'has no meaning beside condensation = "{EVERY_STEP}", where flank nodes meet and the whole gear is'
-                " meshed. Leave one of the two out."
-            )
-            yield ("accuracy", name), message
+            yield ("accuracy", name), f'has no meaning beside condensation = "{EVERY_STEP}". Leave one of the two out.'
 
 
 def _cheaper_models_have_what_they_need(tree: Tree) -> Broken:
@@ -98,7 +87,7 @@ def _a_target_chooses_alone(tree: Tree) -> Broken:
     load = load_in(tree)
     if load is not None and load[1] == 0.0:
         home = ".".join(load[0])
-        yield place, f"has no meaning without a load: nothing gives way then. Give {home}, or leave the target out."
+        yield place, f"has no meaning without a load. Give {home}, or leave the target out."
     if "body_meshes" in tree:
         yield place, "cannot refine the meshes of [body_meshes]. Leave one of the two out."
 

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import chain
 from math import cos, tan
+from typing import Any
 
 from fenics_gears.effects.tooth_elasticity import material_of
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES
@@ -35,8 +36,7 @@ def gear_pair_data(gears: Gears) -> tuple[GearPairData, list[Derived]]:
     distance, drawn, derived = completed(gears)
     widths = [own.face_width or gears.face_width for own in both]
     offsets = tuple(float(own.axial_offset or 0.0) for own in both)
-    # Where both ends are apart by as much, and so where there is no offset, the smaller width is the common one, to the
-    # last digit.
+    # Without offset the smaller width is the common one, to the last digit.
     apart = abs(offsets[0] - offsets[1])
     common = min(*widths, 0.5 * (widths[0] + widths[1]) - apart) if apart else min(widths)
     alike = widths[0] == widths[1] == common
@@ -151,10 +151,8 @@ def _centre_distance(pair: Gears, shifts: Sequence[float], cut: Sequence[float])
         return float(pair.centre_distance), []
     opened = pair.backlash is not None and pair.pinion.measure is not None
     rack_pair = _rack_pair(pair, cut if opened else shifts, 1.0)
-    distance, words = (
-        rack_pair.centre_distance_without_backlash,
-        "inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2), without backlash",
-    )
+    distance = rack_pair.centre_distance_without_backlash
+    words = "inv(alpha_wt) = inv(alpha_t) + 2 (x1 + x2) tan(alpha_n)/(z1 + z2), without backlash"
     if opened:
         # Imported here: hardly a scene needs it.
         from scipy.optimize import brentq
@@ -181,8 +179,8 @@ def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequen
         refuse(
             "pair",
             f"gears.backlash = {pair.backlash:.4g} mm, but teeth with these profile shifts already have"
-            f" {rack_pair.circumferential_backlash:.4g} mm at centre distance {distance:.6g} mm, and backlash is made"
-            " by thinner teeth: lower gears.centre_distance or raise the profile shifts",
+            f" {rack_pair.circumferential_backlash:.4g} mm at centre distance {distance:.6g} mm: lower"
+            " gears.centre_distance or raise the profile shifts",
         )
     # Thickness along the line of action, 2 r_b psi_b, per unit of x: 2 m_t cos(alpha_t) tan(alpha_n).
     each = (
@@ -198,7 +196,7 @@ def _thinned(pair: Gears, cut: Sequence[float], distance: float) -> tuple[Sequen
     if overlap > NOTABLE_OVERLAP * pair.module:
         words = (
             f"half by each gear of the backlash and of {overlap:.4g} mm by which teeth with the given profile shifts"
-            " would overlap at this centre distance"
+            " would overlap"
         )
     from . import unusual
 
@@ -226,7 +224,7 @@ def _tip_shortening(
             "pair",
             f"centre distance {distance:.6g} mm, where the gears without profile shift have {reference:.6g} mm: no"
             f" teeth are left when tips are {shortening:.3g} modules shorter: raise gears.centre_distance, or lower"
-            " gears.helix_angle, gears.module or the teeth",
+            " gears.module or the teeth",
         )
     formula = "k m_n = a - a_d - (x1 + x2) m_n, not above 0"
     return shortening, [Derived("tip shortening -k", shortening, "modules", formula, unusual.of_shortening(shortening))]
@@ -237,18 +235,10 @@ def _gear_data(
 ) -> tuple[GearData, list[Derived]]:
     found = []
     reference = pair.module * drawn.teeth / cos(pair.helix_angle or 0.0)
-    standard = RACKS[
-        next(
-            (each.profile for each in (drawn.rack, pair.rack) if each is not None and each.profile is not None),
-            "ISO 53 A",
-        )
-    ]
+    standard = RACKS[_of_rack(pair, drawn, "profile") or "ISO 53 A"]
     addendum, dedendum, radius = (_of_rack(pair, drawn, figure) for figure in ("addendum", "dedendum", "tip_radius"))
-    tip, root, radius = (
-        drawn.tip_diameter,
-        drawn.root_diameter,
-        radius if drawn.rack_tip_radius is None else drawn.rack_tip_radius,
-    )
+    tip, root = drawn.tip_diameter, drawn.root_diameter
+    radius = radius if drawn.rack_tip_radius is None else drawn.rack_tip_radius
     if tip is None:
         tip = reference + 2.0 * pair.module * (shift + (standard[0] if addendum is None else addendum) - shortening)
         found.append(Derived(f"{name} tip diameter", tip, "mm", "d_a = d + 2 m_n (x + h_aP + k)"))
@@ -257,14 +247,10 @@ def _gear_data(
         found.append(Derived(f"{name} root diameter", root, "mm", "d_f = d + 2 m_n (x_E - h_fP)"))
     beyond, angle = _protuberance(pair, drawn)
     if radius is None:
-        radius = min(
-            standard[2], tip_radius_with_room(replace(pair.rack_gear(drawn.teeth, cut, root), protuberance=beyond))
-        )
-        why = (
-            f"what has room on the rack's tip, less than the usual {standard[2]:g}"
-            if radius < standard[2]
-            else "that of the rack"
-        )
+        room = tip_radius_with_room(replace(pair.rack_gear(drawn.teeth, cut, root), protuberance=beyond))
+        less = f"what has room on the rack's tip, less than the usual {standard[2]:g}"
+        why = less if room < standard[2] else "that of the rack"
+        radius = min(standard[2], room)
         found.append(Derived(f"{name} tip radius of the rack", radius, "modules", why))
     # Bare numbers leave their spelling behind.
     data = GearData(
@@ -279,7 +265,7 @@ def _gear_data(
     return data, found
 
 
-def _of_rack(pair: Gears, drawn: GearText, figure: str) -> float | None:
+def _of_rack(pair: Gears, drawn: GearText, figure: str) -> Any:
     """A figure of the gear's own rack, else of both; None where a profile stands before it, or nothing."""
     for section in (drawn.rack, pair.rack):
         if section is not None and (getattr(section, figure) is not None or section.profile is not None):
@@ -289,10 +275,10 @@ def _of_rack(pair: Gears, drawn: GearText, figure: str) -> float | None:
 
 def _protuberance(pair: Gears, own: GearText) -> tuple[float, float]:
     """Protuberance left beyond the finished flank, mm, and its angle, rad; of the gear's own rack, else of both."""
-    sections = [each for each in (own.rack, pair.rack) if each is not None]
-    amount, angle, stock = (
-        next((float(getattr(each, field)) for each in sections if getattr(each, field) is not None), None)
-        for field in ("protuberance", "protuberance_angle", "finishing_stock")
-    )
-    beyond = (amount or 0.0) - (stock or 0.0)
-    return beyond, (0.5 * float(pair.pressure_angle) if angle is None else angle) if beyond else 0.0
+
+    def given(figure: str, otherwise: float) -> float:
+        found = (getattr(each, figure) for each in (own.rack, pair.rack) if each is not None)
+        return float(next((each for each in found if each is not None), otherwise))
+
+    beyond = given("protuberance", 0.0) - given("finishing_stock", 0.0)
+    return beyond, given("protuberance_angle", 0.5 * pair.pressure_angle) if beyond else 0.0

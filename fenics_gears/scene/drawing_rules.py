@@ -23,10 +23,8 @@ def _thickness_is_given_once(tree: Tree) -> Broken:
         for name in measures:
             beside = MEASURES[name]
             if beside is not None and beside not in own:
-                message = (
-                    f"is missing. Allowed: {allowed_in(Gear, beside).description}; {name} has no meaning without it."
-                )
-                yield ("gears", gear, beside), message
+                allowed = allowed_in(Gear, beside).description
+                yield ("gears", gear, beside), f"is missing. Allowed: {allowed}; {name} has no meaning without it."
 
 
 def _backlash_has_its_place(tree: Tree) -> Broken:
@@ -39,7 +37,7 @@ def _backlash_has_its_place(tree: Tree) -> Broken:
         beside = measured[0] if "centre_distance" not in gears else f"{measured[0]} and gears.centre_distance"
         message = (
             f"stands beside {beside}, of which it follows. Allowed: profile shifts of both gears alone, or measured"
-            " tooth thicknesses of both without centre_distance. Leave one out."
+            " tooth thicknesses of both without centre_distance."
         )
         yield ("gears", "backlash"), message
 
@@ -63,8 +61,7 @@ def _no_figure_is_given_twice(tree: Tree) -> Broken:
 
 
 def _protuberance_is_more_than_the_stock(tree: Tree) -> Broken:
-    """Finishing takes no more than the protuberance has cut free, or it leaves a step in the root; the angle belongs to
-    a protuberance."""
+    """Finishing takes no more than the protuberance has cut free, or it leaves a step in the root."""
     gears = table(tree, "gears") or {}
     found, pressure_angle = {}, quantity_at(tree, "gears", "pressure_angle")
     for gear in GEARS:
@@ -73,17 +70,13 @@ def _protuberance_is_more_than_the_stock(tree: Tree) -> Broken:
         )
         cut = amount[1] if amount else 0.0
         if stock and stock[1] > cut:
-            message = (
-                f"is more than the protuberance of the {gear}'s rack, {cut:.4g} mm: finishing would leave a step in the"
-                " root."
-            )
-            found[stock[0]] = f"{message} Allowed: up to {cut:.4g} mm. Raise protuberance, or lower finishing_stock."
+            why = f"is more than the protuberance of the {gear}'s rack: finishing would leave a step in the root"
+            found[stock[0]] = f"{why}. Allowed: up to {cut:.4g} mm."
         if angle and not cut:
             found[angle[0]] = "has no meaning without a protuberance. Give protuberance, or leave both out."
         elif angle and pressure_angle and angle[1] >= pressure_angle:
             found[angle[0]] = f"must be less than gears.pressure_angle = {gears['pressure_angle']}. Lower it."
-    for path, message in found.items():
-        yield path, message
+    yield from found.items()
 
 
 def _of_rack(gears: Tree, gear: str, figure: str) -> tuple[tuple[str, ...], float] | None:

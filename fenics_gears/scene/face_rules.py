@@ -24,8 +24,7 @@ INSTEAD = {"element": "P2", "condensation": "once", "model": "elastic"}
 
 
 def rules_over_the_face(tree: Tree, reasons: Sequence[Path]) -> Broken:
-    """All of a scene that `reasons` make three-dimensional: elastic teeth in full contact, of equal sectors, condensed
-    once, layers that have a thickness, errors of a class that is for such a face."""
+    """All of a scene that `reasons` make three-dimensional."""
     yield from _faces_are_resolved_by_elastic_contact(tree, reasons)
     yield from _layers_are_no_needles(tree)
     yield from _class_is_for_the_faces(tree)
@@ -41,11 +40,8 @@ def _faces_are_resolved_by_elastic_contact(tree: Tree, reasons: Sequence[Path]) 
     if of_scene is None:
         return
     if "body_meshes" in tree:
-        message = (
-            f"{why.replace(dotted(reasons[0]), dotted(of_scene))}, and the mesh of a plane section is not. Leave one of"
-            " the two out."
-        )
-        yield ("body_meshes",), message
+        beside = f"cannot stand beside {dotted(of_scene)}: flanks are then resolved over the face"
+        yield ("body_meshes",), f"{beside}, and the mesh of a plane section is not. Leave one of the two out."
     if not material_sections(tree):
         yield of_scene, "needs teeth that give way. Add [gears.material], or leave it out."
 
@@ -55,11 +51,8 @@ def _class_is_for_the_faces(tree: Tree) -> Broken:
     for gear in GEARS if drawn is not None else ():
         width = quantity_at(tree, "gears", gear, "face_width") or quantity_at(tree, "gears", "face_width")
         if width is not None and not WIDTHS[0] <= width <= WIDTHS[1]:
-            message = (
-                f"is for face widths from {WIDTHS[0]:g} mm to {WIDTHS[1]:g} mm (ISO 1328-1), not {width:g} mm. Allowed:"
-                " lists of errors instead."
-            )
-            yield ("flank_errors", "tolerance_class"), message
+            limits = f"{WIDTHS[0]:g} mm to {WIDTHS[1]:g} mm (ISO 1328-1), not {width:g} mm"
+            yield ("flank_errors", "tolerance_class"), f"is for face widths from {limits}. Allowed: lists of errors."
 
 
 def _layers_are_no_needles(tree: Tree) -> Broken:
@@ -73,11 +66,7 @@ def _layers_are_no_needles(tree: Tree) -> Broken:
     path = min(widths, key=lambda each: widths[each])
     thinnest, width = THINNEST_LAYER * module, widths[path]
     if width < thinnest:
-        message = (
-            "is less than a layer of elements. Allowed in three-dimensional scenes of this module: from"
-            f" {thinnest:g} mm."
-        )
-        yield path, message
+        yield path, f"is less than a layer of elements. Allowed in three dimensions: from {thinnest:g} mm."
     elif type(layers) is int and (count := min(layers, MOST_LAYERS)) * thinnest > width:
         message = (
             f"is too many for a face of {width:g} mm: layers would be {width / count:.3g} mm thin. Allowed: up to"

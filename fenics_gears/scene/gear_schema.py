@@ -32,7 +32,7 @@ class RackText(Section):
         *RACKS,
         meaning=(
             "addendum, dedendum and tip radius by ISO 53:1998, Annex A: A 1/1.25/0.38, B 1/1.25/0.3, C 1/1.25/0.25, D"
-            " 1/1.4/0.39; the same as types A to D of GOST 13755-2015, and A as DIN 867"
+            " 1/1.4/0.39; GOST 13755-2015 has the same, and DIN 867 A"
         ),
         otherwise="`ISO 53 A`",
     )
@@ -54,9 +54,9 @@ class RackText(Section):
         "0.15 mm",
         meaning=(
             "amount pr_P0 by which the rounding of the rack's tip stands out beyond its flank, normal to it, so that"
-            " the root is cut free of the finished flank"
+            " the root is cut free"
         ),
-        otherwise="0 mm, a rack without protuberance",
+        otherwise="0 mm",
     )
     protuberance_angle: float | None = quantity(
         "1 deg to 34 deg",
@@ -67,10 +67,7 @@ class RackText(Section):
     finishing_stock: float | None = quantity(
         "0 mm to 1 m",
         "0.1 mm",
-        meaning=(
-            "stock q on the flanks that finishing takes off, normal to them and not in the root; no more than"
-            " `protuberance`"
-        ),
+        meaning="stock q, normal to the flanks, that finishing takes off these alone; no more than `protuberance`",
         otherwise="0 mm",
     )
 
@@ -97,10 +94,10 @@ class WebText(Section):
 
 @dataclass(frozen=True, kw_only=True)
 class Gear(Section):
-    """``[gears.pinion]`` and ``[gears.wheel]``: the pinion drives, the wheel is driven; both are external gears. The
-    tooth thickness is given by `profile_shift`, or measured (`tooth_thickness`, `base_tangent_length` or
-    `dimension_over_balls`). With both, the measured thickness holds, and root circle with it, since one rack cuts both;
-    tip circle and centre distance go by `profile_shift`."""
+    """``[gears.pinion]`` and ``[gears.wheel]``: the pinion drives; both are external gears. The tooth thickness is
+    given by `profile_shift`, or measured (`tooth_thickness`, `base_tangent_length` or `dimension_over_balls`). With
+    both, the measured thickness holds, and root circle with it, since one rack cuts both; tip circle and centre
+    distance go by `profile_shift`."""
 
     alternatives = (tuple(MEASURES),)
 
@@ -163,8 +160,8 @@ class Gear(Section):
         "-100 m to 100 m",
         "2 mm",
         meaning=(
-            "mid-width of this gear along the axis, from a place common to both gears, positive to the right, the end"
-            " from which the pinion is seen to turn counter-clockwise"
+            "mid-width along the axis, from a place common to both gears, positive to the right, the end from which the"
+            " pinion is seen to turn counter-clockwise"
         ),
         otherwise="0 mm",
     )
@@ -195,10 +192,7 @@ class Gears(Section):
     helix_angle: float | None = quantity(
         "1e-3 deg to 45 deg",
         "15 deg",
-        meaning=(
-            "helix angle at the reference cylinder, without sign; what is given in modules then counts in normal"
-            " modules (ISO 21771)"
-        ),
+        meaning=("helix angle at the reference cylinder, without sign; modules are then normal modules (ISO 21771)"),
         otherwise="spur gears",
         below="For spur gears, leave it out.",
     )
@@ -218,30 +212,23 @@ class Gears(Section):
         "0 mm to 1 m",
         "0.1 mm",
         meaning=(
-            "circumferential backlash j_wt at the pitch circles. Beside `profile_shift` of both gears it is made by"
-            " thinner teeth, half by each gear; beside measured thicknesses of both it gives the centre distance"
+            "circumferential backlash j_wt at the pitch circles. Beside both `profile_shift` thinner teeth make it,"
+            " half by each gear; beside both measured thicknesses it gives the centre distance"
         ),
         otherwise="what centre distance and tooth thicknesses leave",
     )
     tip_shortening: float | None = number(
         0.05,
-        meaning=(
-            "how much shorter the addendum of both gears is, in modules: -k of DIN 3960 and ISO 21771, where k of"
-            " shorter tips is negative"
-        ),
+        meaning="how much shorter the addendum of both gears is, in modules: -k of DIN 3960 and ISO 21771",
         lowest=0,
         highest=1,
         too_low="It is -k: write the amount by which the tips are shorter, without sign.",
-        otherwise=(
-            "what keeps the tip clearance of the rack: k m_n = a - a_d - (x1 + x2) m_n, and 0 where that is not"
-            " negative"
-        ),
+        otherwise="what keeps the tip clearance of the rack: k m_n = a - a_d - (x1 + x2) m_n, not above 0",
     )
     face_width: float | None = _length(
         "15 mm",
-        "face width of both gears; gears of unequal width mesh over the smaller one, centred unless they have an"
-        " `axial_offset`; in the plane one to three modules of what stands out help to carry (`gears check` says which"
-        " width counts)",
+        "face width of both gears; unequal ones mesh over the smaller, centred unless they have an `axial_offset`; in"
+        " the plane one to three modules of what stands out help to carry (`gears check` says how much)",
         "each gear has its own `face_width`",
     )
     pinion: Gear

@@ -10,7 +10,7 @@ from typing import Any
 
 from fenics_gears.effects import effects_on
 from fenics_gears.errors import GeometryError, SceneError
-from fenics_gears.inputs.problem import Problem, did_you_mean, line_numbers, listed
+from fenics_gears.inputs.problem import NOTHING_DONE, Problem, did_you_mean, line_numbers, listed
 from fenics_gears.inputs.tree import written_out
 from fenics_gears.inputs.written import WrittenFloat, as_toml, as_written
 from fenics_gears.system import user_file
@@ -60,9 +60,7 @@ def parsed(text: str, source: str) -> dict[str, Any]:
     try:
         tree = written_out(tomllib.loads(text, parse_float=WrittenFloat))
     except (ValueError, RecursionError) as error:
-        raise SceneError(
-            f"{source}: is not valid TOML: {_why_no_toml(error)}\nNothing was computed or written."
-        ) from None
+        raise SceneError(f"{source}: is not valid TOML: {_why_no_toml(error)}\n{NOTHING_DONE}") from None
     if problems := list(_unprintable((), tree)):
         raise SceneError(listed(problems, line_numbers(text), source))
     return tree
@@ -99,10 +97,8 @@ def build_scene(sections: Mapping[str, Any], name: str = "scene", *, directory: 
     try:
         text = as_toml(sections)
     except (TypeError, ValueError, RecursionError) as error:
-        raise SceneError(
-            f"{name}: is no scene: {error}. Allowed: dictionaries of what a scene file has.\nNothing was computed or"
-            " written."
-        ) from None
+        allowed = "Allowed: dictionaries of what a scene file has."
+        raise SceneError(f"{name}: is no scene: {error}. {allowed}\n{NOTHING_DONE}") from None
     return scene_from_text(text, name, directory=Path(directory), with_lines=False)
 
 
@@ -124,13 +120,11 @@ def scene_from_text(
     source = source or name
     tree = parsed(text, source)
     if "sweep" in tree and "gears" not in tree:
-        raise SceneError(
-            f"{source}: is a study, not a scene; `gears study {source}` runs it. Nothing was computed or written."
-        )
+        raise SceneError(f"{source}: is a study, not a scene; `gears study {source}` runs it. {NOTHING_DONE}")
     try:
         scene, problems = scene_of(tree, text, name, directory)
     except GeometryError as error:
-        raise GeometryError(f"{source}: {error}\nNothing was computed or written.") from error
+        raise GeometryError(f"{source}: {error}\n{NOTHING_DONE}") from error
     if scene is None:
         raise SceneError(listed(problems, line_numbers(text) if with_lines else {}, source))
     return scene
@@ -184,11 +178,12 @@ def _motion(checked) -> data.Motion:
     settling time. Cycles that are recorded, unless given: the last two; of a speed ramp or a whole period all that fit.
     """
     motion, gears = checked.motion, checked.gears
-    frequency, speed_given = motion.mesh_frequency, True
-    if frequency is None and motion.pinion_speed is None:
-        frequency, speed_given = data.NOMINAL_FREQUENCY, False
-    elif frequency is None:
+    frequency = motion.mesh_frequency
+    if motion.pinion_speed is not None:
         frequency = motion.pinion_speed / (2 * math.pi) * gears.pinion.teeth
+    speed_given = frequency is not None
+    if not speed_given:
+        frequency = data.NOMINAL_FREQUENCY
     whole_period = math.lcm(gears.pinion.teeth, gears.wheel.teeth)
     recorded = None if motion.recorded_cycles is None else motion.recorded_cycles or whole_period
     stored = checked.output.contact_fields
@@ -201,10 +196,10 @@ def _motion(checked) -> data.Motion:
         # Rounded, so that 25 ms at 40 Hz are one cycle in spite of round-off.
         settling = math.ceil(round((motion.settling_time or 0.0) * frequency, 9))
         cycles = settling + max(whole_period if whole else 1, wanted)
+    fewer = False
     if asked is not None:
-        return data.Motion(frequency, cycles, min(cycles, asked), speed_given=speed_given)
-    if recorded is not None:
-        return data.Motion(frequency, cycles, recorded, speed_given=speed_given)
-    if checked.speed_ramp is not None or whole:
-        return data.Motion(frequency, cycles, cycles, fewer_where_too_large=True, speed_given=speed_given)
-    return data.Motion(frequency, cycles, min(data.LAST_CYCLES, cycles), speed_given=speed_given)
+        recorded = min(cycles, asked)
+    elif recorded is None:
+        fewer = checked.speed_ramp is not None or whole
+        recorded = cycles if fewer else min(data.LAST_CYCLES, cycles)
+    return data.Motion(frequency, cycles, recorded, fewer, speed_given)

@@ -69,11 +69,9 @@ def _effects_fit_together(tree: Tree) -> Broken:
         sections.add(TEETH)
     for effect, need in effects.missing_needs(sections):
         if effect.section in tree:
-            missing = effects.effect_named(need).written
-            message = (
-                f"needs the section [{missing}], which is missing. Add [{missing}], or leave [{effect.section}] out."
-            )
-            yield (effect.section,), message
+            missing = f"[{effects.effect_named(need).written}]"
+            remedy = f"Add {missing}, or leave [{effect.section}] out."
+            yield (effect.section,), f"needs the section {missing}, which is missing. {remedy}"
     for effect, other in effects.conflicts(sections):
         yield (effect.section,), f"cannot stand beside [{other}]. Leave one of the two out."
 
@@ -95,26 +93,16 @@ def _a_speed_where_time_matters(tree: Tree) -> Broken:
     if needing is None or not isinstance(tree.get("motion", {}), Mapping):
         return
     if "motion" not in tree:
-        message = (
-            f"is missing. Add the section [motion] with its fields: {', '.join(names_in(MotionText))};"
-            f" [{needing}] needs a speed."
-        )
-        yield ("motion",), message
+        listed = ", ".join(names_in(MotionText))
+        yield ("motion",), f"is missing. Add the section [motion] with its fields: {listed}; [{needing}] needs a speed."
         return
     names = ("mesh_frequency", "pinion_speed")
-    if not any(name in motion for name in names) and not any(
-        nearest(name, names) or meant(("motion",), name, names) for name in motion
-    ):
-        message = (
-            f'is missing. Allowed: mesh_frequency, such as "200 Hz", or pinion_speed, such as "750 rpm"; [{needing}]'
-            " needs one."
-        )
-        yield ("motion", "mesh_frequency"), message
+    if not any(nearest(name, names) or meant(("motion",), name, names) for name in motion):
+        either = 'mesh_frequency, such as "200 Hz", or pinion_speed, such as "750 rpm"'
+        yield ("motion", "mesh_frequency"), f"is missing. Allowed: {either}; [{needing}] needs one."
     if "mesh_cycles" not in motion and "settling_time" not in motion:
-        message = (
-            f"is missing. Allowed: {allowed_in(MotionText, 'mesh_cycles').description}; [{needing}] needs it, or"
-            ' settling_time, such as "25 ms".'
-        )
+        allowed = allowed_in(MotionText, "mesh_cycles").description
+        message = f'is missing. Allowed: {allowed}; [{needing}] needs it, or settling_time, such as "25 ms".'
         yield ("motion", "mesh_cycles"), message
 
 
@@ -122,11 +110,8 @@ def _a_wheel_that_drives_has_coast_flanks(tree: Tree) -> Broken:
     load = load_in(tree)
     if load is not None and load[1] < 0.0 and "coast_flanks" not in tree:
         unit = "kW" if load[0][-1] == "power" else "N m"
-        message = (
-            "is negative: it drives the pair from the wheel, on its coast flanks. Allowed: with the section"
-            f" [coast_flanks] any sign, without it 0 {unit} and above."
-        )
-        yield load[0], message
+        why = "is negative: it drives the pair from the wheel"
+        yield load[0], f"{why}. Allowed: with the section [coast_flanks] any sign, without it 0 {unit} and above."
 
 
 def _settling_is_of_vibrations(tree: Tree) -> Broken:
@@ -145,11 +130,8 @@ def _recorded_cycles_are_run(tree: Tree) -> Broken:
     recorded, run = (_cycles(tree, motion.get(name)) for name in ("recorded_cycles", "mesh_cycles"))
     if type(recorded) is int and type(run) is int and recorded > run > 0:
         count = "" if motion["recorded_cycles"] == recorded else f"({recorded} mesh cycles) "
-        message = (
-            f"{count}is more than mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most as many cycles as"
-            " are run."
-        )
-        yield ("motion", "recorded_cycles"), message
+        more = f"{count}is more than mesh_cycles = {as_written(motion['mesh_cycles'])}"
+        yield ("motion", "recorded_cycles"), f"{more}. Allowed: at most that."
 
 
 def _contact_fields_are_of_cycles_that_run(tree: Tree) -> Broken:
@@ -160,11 +142,7 @@ def _contact_fields_are_of_cycles_that_run(tree: Tree) -> Broken:
     asked = re.fullmatch(r"last (\d{1,7}) cycles?", written) if isinstance(written, str) else None
     run = _cycles(tree, motion.get("mesh_cycles"))
     if asked and type(run) is int and int(asked[1]) > run > 0:
-        message = (
-            f"is more than motion.mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most as many cycles as"
-            " are run, or true."
-        )
-        yield place, message
+        yield place, f"is more than motion.mesh_cycles = {as_written(motion['mesh_cycles'])}. Allowed: at most that."
 
 
 def _cycles(tree: Tree, written) -> object:
@@ -199,11 +177,7 @@ def _flanks_are_resolved_over_the_face(tree: Tree) -> Broken:
         yield from _remeshed_gears_have_one_width(tree)
     gears = table(tree, "gears") or {}
     if "pinion_hand" in gears and "helix_angle" not in gears:
-        message = (
-            'is missing. Allowed: such as "15 deg"; pinion_hand has no meaning without it. Add it, or leave pinion_hand'
-            " out."
-        )
-        yield ("gears", "helix_angle"), message
+        yield ("gears", "helix_angle"), 'is missing, beside pinion_hand. Add it, such as "15 deg", or leave both out.'
 
 
 def _remeshed_gears_have_one_width(tree: Tree) -> Broken:
@@ -213,9 +187,8 @@ def _remeshed_gears_have_one_width(tree: Tree) -> Broken:
     widths = {quantity_at(tree, "gears", gear, "face_width") or common for gear in GEARS}
     offsets = {quantity_at(tree, "gears", gear, "axial_offset") or 0.0 for gear in GEARS}
     if asked == EVERY_STEP and (len(widths) > 1 or len(offsets) > 1):
-        remedy = 'Give both gears the width that they have in common, or take condensation = "once".'
-        message = f"is for gears of one face width without axial_offset. {remedy}"
-        yield ("accuracy", "condensation"), message
+        remedy = 'Give both gears their common width, or take condensation = "once".'
+        yield ("accuracy", "condensation"), f"is for gears of one face width without axial_offset. {remedy}"
 
 
 _RULES = (

@@ -1,7 +1,5 @@
-"""The sections that every scene has, with what each field allows, as they are written; those of an effect are in its
-own module. Mistakes against them in sentences that say what to do.
-
-Ranges are generous: ``geometry`` checks whether teeth and diameters make a gear.
+"""The sections that every scene has, with what each field allows, and mistakes against them in words; an effect's are
+in its own module. Ranges are generous: ``geometry`` checks whether teeth and diameters make a gear.
 """
 
 import functools
@@ -30,10 +28,7 @@ class LoadText(Section):
     wheel_torque: float | None = quantity(
         "-1e12 N m to 1e12 N m",
         "437 N m",
-        meaning=(
-            "torque that resists the wheel's rotation; where it is negative, the wheel drives, which needs"
-            " `[coast_flanks]`"
-        ),
+        meaning="torque that resists the wheel's rotation; if negative, the wheel drives, which needs `[coast_flanks]`",
         otherwise="from `pinion_torque` or `power`",
     )
     pinion_torque: float | None = quantity(
@@ -78,19 +73,15 @@ class MotionText(Section):
         1_000_000,
         30,
         meaning="number of mesh cycles of the run",
-        otherwise=(
-            'required with `[inertia]`, or `settling_time` in its place; without it 1, or `"hunting tooth period"`'
-            " where mesh cycles differ"
-        ),
+        otherwise='required with `[inertia]`, or `settling_time`; else 1, or `"hunting tooth period"` if cycles differ',
         words=WHOLE_PERIOD,
     )
     settling_time: float | None = quantity(
         "0 s to 1e6 s",
         "25 ms",
         meaning=(
-            "time for the start to die down, in place of `mesh_cycles`: as many mesh cycles as it has at the mesh"
-            " frequency are run, rounded up, and the recorded ones after them; a sweep of the speed then runs no longer"
-            " than each speed needs"
+            "time for the start to die down, in place of `mesh_cycles`: its mesh cycles are run, rounded up, and the"
+            " recorded ones after them; a sweep of the speed runs no longer than each speed needs"
         ),
         otherwise="`mesh_cycles` says how long",
     )
@@ -98,14 +89,8 @@ class MotionText(Section):
         1,
         1_000_000,
         2,
-        meaning=(
-            "number of mesh cycles at the end of the run whose contact fields are stored and which pictures show;"
-            " curves are stored for the whole run"
-        ),
-        otherwise=(
-            '2; all with `[speed_ramp]` or `mesh_cycles = "hunting tooth period"`, but contact fields of no more than'
-            " 1 GB"
-        ),
+        meaning="mesh cycles at the end of the run whose contact fields are stored and which pictures show",
+        otherwise='2; all with `[speed_ramp]` or `mesh_cycles = "hunting tooth period"`, but fields of at most 1 GB',
         words=WHOLE_PERIOD,
     )
 

@@ -12,12 +12,9 @@ from .data import Derived
 from .gear_schema import MEASURES, Gears
 from .gear_schema import Gear as GearText
 
-# Largest difference, in modules, of the profile shift of a thickness from that of the drawing: more is another number
-# of spanned teeth or another gear.
-LARGEST_ALLOWANCE = 0.5
-# Largest profile shift that a thickness alone may stand for: one spanned tooth more or less is a shift of pi/(2
-# tan(alpha_n)), 4.3 at 20 deg.
-LARGEST_SHIFT = 2.0
+# Largest difference, in modules, of the profile shift of a thickness from that of the drawing, and largest profile
+# shift that a thickness alone may stand for: one spanned tooth more or less is a shift of 4.3 at 20 deg.
+LARGEST_ALLOWANCE, LARGEST_SHIFT = 0.5, 2.0
 
 
 def shift_of_thickness(pair: Gears, drawn: GearText, name: str) -> tuple[float, list[Derived]]:
@@ -43,10 +40,10 @@ def shift_of_thickness(pair: Gears, drawn: GearText, name: str) -> tuple[float, 
             f"{written} is that of a profile shift of {shift:.4g}; allowed are {allowed:g} modules more or less than"
             f" {than}: check both, and gears.module",
         )
-    words = "profile shift" if drawn.profile_shift is None else "profile shift of its tooth thickness"
     if drawn.profile_shift is None:
-        odd = unusual.of_profile_shift(name, shift)
+        words, odd = "profile shift", unusual.of_profile_shift(name, shift)
     else:
+        words = "profile shift of its tooth thickness"
         odd = unusual.of_allowance(pair, name, shift - nominal, pair.centre_distance or 0.0)
     return shift, [Derived(f"{name} {words}", shift, "modules", f"of its {measure.replace('_', ' ')}", odd)]
 
@@ -57,15 +54,11 @@ def check_measure(drawn: GearText, name: str, gear: Gear) -> None:
     if measure == "tooth_thickness":
         return
     if measure == "base_tangent_length":
-        touched, better = (
-            tooth_thickness.tangent_contact_radius(gear, drawn.base_tangent_length),
-            tooth_thickness.spanned_teeth(gear),
-        )
+        touched = tooth_thickness.tangent_contact_radius(gear, drawn.base_tangent_length)
+        better = f"{tooth_thickness.spanned_teeth(gear)}"
     else:
-        touched, better = (
-            tooth_thickness.ball_contact_radius(gear, drawn.ball_diameter),
-            f"about {tooth_thickness.ball_diameter(gear):.4g} mm",
-        )
+        touched = tooth_thickness.ball_contact_radius(gear, drawn.ball_diameter)
+        better = f"about {tooth_thickness.ball_diameter(gear):.4g} mm"
         centre, radius = tooth_thickness.ball_centre(gear, drawn.ball_diameter), 0.5 * drawn.ball_diameter
         if centre + radius < gear.tip_radius:
             refuse(
@@ -87,17 +80,9 @@ def asked_measures(pair: Gears, drawn: GearText, name: str, cut: float) -> Itera
     gear = pair.rack_gear(drawn.teeth, cut)
     if drawn.spanned_teeth is not None and drawn.base_tangent_length is None:
         length = tooth_thickness.base_tangent_length(gear, drawn.spanned_teeth)
-        yield Derived(
-            f"{name} base tangent length over {drawn.spanned_teeth} teeth",
-            length,
-            "mm",
-            "W_k = m_n cos(alpha_n) [pi (k - 1/2) + z inv(alpha_t) + 2 x tan(alpha_n)]",
-        )
+        formula = "W_k = m_n cos(alpha_n) [pi (k - 1/2) + z inv(alpha_t) + 2 x tan(alpha_n)]"
+        yield Derived(f"{name} base tangent length over {drawn.spanned_teeth} teeth", length, "mm", formula)
     if drawn.ball_diameter is not None and drawn.dimension_over_balls is None:
         dimension = tooth_thickness.dimension_over_balls(gear, drawn.ball_diameter)
-        yield Derived(
-            f"{name} dimension over balls of {drawn.ball_diameter:g} mm",
-            dimension,
-            "mm",
-            "M_d by inv(alpha_K) = D_M/(d_b cos(beta_b)) + psi_b - pi/z",
-        )
+        formula = "M_d by inv(alpha_K) = D_M/(d_b cos(beta_b)) + psi_b - pi/z"
+        yield Derived(f"{name} dimension over balls of {drawn.ball_diameter:g} mm", dimension, "mm", formula)

@@ -23,25 +23,21 @@ def of_profile_shift(name: str, shift: float) -> str:
         return ""
     return (
         f"{name}: the profile shift that follows from its tooth thickness is {shift:.3g} modules; usual are {low:g} "
-        f"to {high:g}: check the measure, "
-        f"gears.{name}.teeth and gears.module"
+        f"to {high:g}: check the measure, gears.{name}.teeth and gears.module"
     )
 
 
 def of_allowance(pair: Gears, name: str, allowance: float, distance: float) -> str:
     """Of a measured tooth thickness that departs from that of the profile shift by `allowance`, modules of profile
     shift."""
-    thickness, usual = (
-        2.0 * allowance * pair.module * tan(pair.pressure_angle),
-        recommended_backlash(pair.module, distance),
-    )
+    thickness = 2.0 * allowance * pair.module * tan(pair.pressure_angle)
+    usual = recommended_backlash(pair.module, distance)
     if abs(thickness) <= usual:
         return ""
     return (
         f"{name}: the measured tooth thickness is {abs(thickness):.3g} mm {'more' if thickness > 0.0 else 'less'} "
-        "than that of profile_shift; allowances are usually less than "
-        f"{usual:.2g} mm (2/3 (0.06 + 0.0005 a + 0.03 m_n) of ISO/TR 10064-2): check the measure and "
-        f"gears.{name}.profile_shift"
+        f"than that of profile_shift; allowances are usually less than {usual:.2g} mm (2/3 (0.06 + 0.0005 a + 0.03 "
+        f"m_n) of ISO/TR 10064-2): check the measure and gears.{name}.profile_shift"
     )
 
 
@@ -53,10 +49,9 @@ def of_thinning(pair: Gears, overlap: float, distance: float, nominal_distance: 
         return ""
     return (
         f"gears.centre_distance = {distance:.6g} mm is {nominal_distance - distance:.3g} mm less than that of both "
-        f"profile shifts without backlash, {nominal_distance:.6g} mm: their teeth would "
-        f"overlap by {overlap:.3g} mm and were made {thinner:.3g} mm thinner on each gear to fit with gears.backlash "
-        f"= {pair.backlash:.4g} mm; usual is an overlap of less than {usual:.2g} mm, "
-        "the smallest backlash that ISO/TR 10064-2 recommends: check gears.centre_distance and both profile shifts"
+        f"profile shifts without backlash: their teeth would overlap by {overlap:.3g} mm and were made {thinner:.3g} "
+        f"mm thinner on each gear to fit with gears.backlash = {pair.backlash:.4g} mm; usual is an overlap of less "
+        f"than {usual:.2g} mm (ISO/TR 10064-2): check gears.centre_distance and both profile shifts"
     )
 
 
@@ -66,6 +61,5 @@ def of_shortening(shortening: float) -> str:
         return ""
     return (
         f"both tips were shortened by {shortening:.3g} modules to keep the tip clearance; usual are "
-        f"{LARGEST_SHORTENING:g} at most: check gears.centre_distance and both profile "
-        "shifts, or give gears.tip_shortening or the tip diameters"
+        f"{LARGEST_SHORTENING:g} at most: check gears.centre_distance and both profile shifts"
     )

@@ -1,9 +1,7 @@
-"""From a scene's data to a scene file that gives the same data, bit for bit, the way back of ``scene.read``; and to a
-table for notebooks.
-"""
+"""From a scene's data to a scene file that gives the same data, bit for bit; and to a table for notebooks."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields
 from html import escape
 from pathlib import Path
@@ -26,10 +24,7 @@ WORDS = ("title", "name", "derived", "written", "folder")
 
 def text_of(scene: data.Scene) -> str:
     """The text of a scene file that gives a scene's data: sections as they were read where they give them, else written
-    from the data.
-
-    What no file gives, as where a mesh file was overwritten since, has a text that says so and is no scene.
-    """
+    from the data. What no file gives, as where a mesh file was overwritten since, has a text that says so."""
     sections = section_trees(scene)
     # As read, a section may follow from another one, as a load by its power does from the speed: then all are written.
     why = ""
@@ -62,30 +57,23 @@ def section_trees(scene: data.Scene) -> dict[str, Any]:
         "gears": _gears(scene.gears),
         "load": tree_of(scene.load, schema.LoadText),
         "motion": _motion(scene),
+        "accuracy": tree_of(scene.accuracy) or None,
+        "output": tree_of(scene.output) or None,
     }
-    found["accuracy"] = tree_of(scene.accuracy) or None
-    found["output"] = tree_of(scene.output) or None
-    own = {
-        effect.section: effect.as_section(getattr(scene, effect.section))
-        for effect in effects_on(scene)
-        if not effect.within
-    }
-    return {name: tree for name, tree in (found | own).items() if tree is not None}
+    own = (effect for effect in effects_on(scene) if not effect.within)
+    found |= {effect.section: effect.as_section(getattr(scene, effect.section)) for effect in own}
+    return {name: tree for name, tree in found.items() if tree is not None}
 
 
 def _as_read_where_the_same(scene: data.Scene, sections: dict[str, Any]) -> dict[str, Any]:
-    read = scene_from_text(scene.written, scene.name, directory=Path(scene.folder))
-    kept = {
-        name: tree
-        for name, tree in parsed(scene.written, scene.name).items()
-        if getattr(read, name) == getattr(scene, name)
-    }
-    # Left out then, and still.
-    return {
-        name: kept.get(name, tree)
-        for name, tree in (kept | sections).items()
-        if name in kept or getattr(read, name) != getattr(scene, name)
-    }
+    read, written = scene_from_text(scene.written, scene.name, directory=Path(scene.folder)), parsed(scene.written, "")
+    found = {}
+    for name in written | sections:
+        if getattr(read, name) != getattr(scene, name):
+            found[name] = sections.get(name)
+        elif name in written:
+            found[name] = written[name]
+    return found
 
 
 def _gears(pair: GearPairData) -> dict[str, Any]:
@@ -143,17 +131,18 @@ def _motion(scene: data.Scene) -> dict[str, Any]:
 
 
 MOST_LETTERS = 80
-CELL = '<td style="text-align: left">{}</td>'
 
 
 def html(scene: data.Scene) -> str:
     """The fields that are not at their defaults, as a scene file has them, and what each of them is."""
-    rows = "".join(
-        f"<tr>{''.join(CELL.format(escape(cell)) for cell in row)}</tr>"
-        for row in rows_of(section_trees(scene), scene_text())
-    )
-    head = "".join(f'<th style="text-align: left">{word}</th>' for word in ("field", "value", "meaning"))
-    return f"<table><caption>{escape(scene.title)}</caption><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
+
+    def row(kind: str, cells: Iterable[str]) -> str:
+        inner = "".join(f'<{kind} style="text-align: left">{escape(cell)}</{kind}>' for cell in cells)
+        return f"<tr>{inner}</tr>"
+
+    rows = "".join(row("td", cells) for cells in rows_of(section_trees(scene), scene_text()))
+    head = row("th", ("field", "value", "meaning"))
+    return f"<table><caption>{escape(scene.title)}</caption><thead>{head}</thead><tbody>{rows}</tbody></table>"
 
 
 def rows_of(tree: Mapping[str, Any], section: Any, home: str = "") -> Iterator[tuple[str, str, str]]:

@@ -1,8 +1,8 @@
 """Kernels of OpenBLAS that suit the processor.
 
 An OpenBLAS that is older than the processor takes kernels of 2004, which condense at half the speed. It reads
-OPENBLAS_CORETYPE when it is loaded. Which kernels it takes by itself, and whether others are right, a process of its
-own finds out, once for a processor and its libraries; run as a script, this file is that process.
+OPENBLAS_CORETYPE when it is loaded. Which kernels suit, a process of its own finds out once for a processor and its
+libraries; run as a script, this file is that process.
 """
 
 import contextlib
@@ -14,12 +14,13 @@ import subprocess
 import sys
 from dataclasses import asdict, dataclass
 from importlib.util import find_spec
+from itertools import takewhile
 from pathlib import Path
 
 VARIABLE = "OPENBLAS_CORETYPE"
 PROCESSORS = Path("/proc/cpuinfo")
-# Kernels that make use of the instructions without which none are quick. The oldest of them are the tried ones: those
-# for AVX-512 have been wrong in several releases.
+# Kernels that use these instructions are quick. The oldest are the tried ones: those for AVX-512 have been wrong in
+# several releases.
 INSTRUCTIONS = {"avx2", "fma"}
 QUICK = {"Haswell", "Excavator", "Zen", "SkylakeX", "Cooperlake", "SapphireRapids"}
 TRIED = "Haswell"
@@ -39,8 +40,8 @@ class Choice:
 
 
 def choose(environment) -> None:
-    """Set OPENBLAS_CORETYPE where OpenBLAS would take slow or wrong kernels, the user has not set it and NumPy is not
-    loaded yet."""
+    """Set OPENBLAS_CORETYPE where OpenBLAS would take slow or wrong kernels, unless the user has set it or NumPy is
+    loaded."""
     if VARIABLE in environment or "numpy" in sys.modules:
         return
     if kernels := choice().kernels:
@@ -58,12 +59,13 @@ def said(environment=os.environ) -> str:
 @functools.cache
 def choice() -> Choice:
     """What suits this processor and its libraries, from a file in the user's folder for caches or found out now."""
-    missing = INSTRUCTIONS - _instructions()
+    processor = _processor()
+    missing = INSTRUCTIONS - {*processor.get("flags", "").split()}
     if missing:
         return Choice("", f"chosen by OpenBLAS; the processor is not known to have {' and '.join(sorted(missing))}")
     # As `system.environment` has made sure that it can be written.
     folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "fenics_gears")
-    file, key = folder / "kernels.json", _key()
+    file, key = folder / "kernels.json", _key(processor)
     with contextlib.suppress(OSError, ValueError, TypeError, KeyError):
         known = json.loads(file.read_text(encoding="utf-8"))
         if known["key"] == key:
@@ -83,9 +85,8 @@ def _found() -> Choice:
     if not unsuitable:
         return Choice("", "chosen by OpenBLAS")
     one = unsuitable[0]
-    what = f"OpenBLAS {one['version']} by itself takes {one['kernels']}'s" + (
-        "" if one["exact"] else ", which are wrong"
-    )
+    wrong = "" if one["exact"] else ", which are wrong"
+    what = f"OpenBLAS {one['version']} by itself takes {one['kernels']}'s{wrong}"
     tried = in_another_process(TRIED)
     if tried and all(each["kernels"] == TRIED and each["exact"] for each in tried):
         return Choice(TRIED, f"{what}, but the processor has AVX2 and FMA; integer products are exact")
@@ -104,8 +105,7 @@ def in_another_process(kernels: str | None) -> list[dict]:
 
 
 def libraries() -> list[dict]:
-    """Every OpenBLAS that this program loads: its file, version, kernels, threads, and whether its products are
-    exact."""
+    """Every OpenBLAS that this program loads: file, version, kernels, threads, and whether its products are exact."""
     import scipy.linalg  # noqa: F401 - may have a library of its own
     from threadpoolctl import ThreadpoolController
 
@@ -129,22 +129,18 @@ def exact(file: str) -> bool:
     for rows, columns, inner in SIZES:
         left, right = (numbers.integers(-9, 10, size) for size in ((rows, inner), (inner, columns)))
         for turned in ("NN", "NT", "TN", "TT"):
-            first, second = (
-                np.array(each.T if turn == "T" else each, dtype=float, order="F")
-                for each, turn in zip((left, right), turned)
-            )
+            given = (each.T if turn == "T" else each for each, turn in zip((left, right), turned))
+            first, second = (np.array(each, dtype=float, order="F") for each in given)
             found = np.full((rows, columns), np.nan, order="F")
             sizes = [ctypes.byref(integer(size)) for size in (rows, columns, inner)]
             one, nothing = (ctypes.byref(ctypes.c_double(value)) for value in (1.0, 0.0))
+            # Each array with its leading dimension.
             arrays = [
-                argument
-                for each in (first, second)
-                for argument in (each.ctypes.data_as(ctypes.c_void_p), ctypes.byref(integer(len(each))))
+                (each.ctypes.data_as(ctypes.c_void_p), ctypes.byref(integer(len(each))))
+                for each in (first, second, found)
             ]
-            product(
-                *(turn.encode() for turn in turned), *sizes, one, *arrays, nothing,
-                found.ctypes.data_as(ctypes.c_void_p), ctypes.byref(integer(rows)),
-            )  # fmt: skip
+            turns = (turn.encode() for turn in turned)
+            product(*turns, *sizes, one, *arrays[0], *arrays[1], nothing, *arrays[2])
             # NumPy multiplies integers without BLAS.
             if not np.array_equal(found, left @ right):
                 return False
@@ -160,22 +156,19 @@ def _product(library: ctypes.CDLL):
     raise OSError("an OpenBLAS without DGEMM")
 
 
-def _instructions() -> set[str]:
-    """What the first processor can do; nothing where the system does not say."""
+def _processor() -> dict[str, str]:
+    """What the system says of the first processor."""
     with contextlib.suppress(OSError), open(PROCESSORS, encoding="utf-8", errors="replace") as lines:
-        for line in lines:
-            if line.startswith("flags"):
-                return set(line.partition(":")[2].split())
-    return set()
+        pairs = (line.partition(":") for line in takewhile(str.strip, lines))
+        return {name.strip(): value.strip() for name, _, value in pairs}
+    return {}
 
 
-def _key() -> list:
-    with open(PROCESSORS, encoding="utf-8", errors="replace") as lines:
-        names = ("vendor_id", "cpu family", "model", "flags")
-        processor = [line.strip() for line in (lines.readline() for _ in range(30)) if line.startswith(names)]
+def _key(processor: dict[str, str]) -> list:
+    told = [processor.get(name) for name in ("vendor_id", "cpu family", "model", "model name", "flags")]
     files = [spec.origin for name in ("numpy", "scipy") if (spec := find_spec(name)) and spec.origin]
     files += [os.path.realpath(file) for each in SYSTEM_FOLDERS if os.path.exists(file := f"{each}/{SYSTEM_LIBRARY}")]
-    return [processor, sys.executable, *([file, os.stat(file).st_mtime_ns] for file in files)]
+    return [told, sys.executable, *([file, os.stat(file).st_mtime_ns] for file in files)]
 
 
 if __name__ == "__main__":

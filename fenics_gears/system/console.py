@@ -1,5 +1,5 @@
-"""Tables for people: drawn by rich on a terminal, plain aligned lines elsewhere; and streams that take any text,
-and text that a terminal and a file of results can take."""
+"""Tables for people, drawn by rich on a terminal, plain lines elsewhere; streams that take any text; text that a
+terminal and a file of results can take."""
 
 import io
 import os
@@ -34,7 +34,6 @@ class NeverFull(io.FileIO):
     """A stream for words about a computation, which goes on where they cannot be written."""
 
     def write(self, content) -> int:
-        """Write what there is room for; say that it was all."""
         try:
             super().write(content)
         except BrokenPipeError:
@@ -68,7 +67,7 @@ def _open_nowhere(number: int, name: str) -> None:
 
 
 def on_terminal(stream: TextIO) -> bool:
-    """Whether colours and bars reach a person by a stream: they do not by a pipe or a file, also behind mpirun."""
+    """Whether colours and bars reach a person by a stream."""
     return stream.isatty() and not on_terminal_of_its_own()
 
 

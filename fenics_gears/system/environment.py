@@ -1,8 +1,8 @@
 """What MPI, PETSc and BLAS read from the process environment, set before they are loaded.
 
-A variable the user has set is never changed, unless it names a folder for temporary files or caches that this user
-cannot write. numba and DOLFINx keep compiled code in the user's folder for caches, matplotlib its list of fonts; where
-they cannot, a command fails or takes a minute more. MPI ends the process where temporary files have no room.
+What the user has set is never changed, unless it names a folder for temporary files or caches that cannot be written:
+numba and DOLFINx keep compiled code there, matplotlib its list of fonts, and MPI ends the process where temporary files
+have no room.
 """
 
 import contextlib
@@ -29,8 +29,6 @@ LOCAL_COUNTS = ("OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "SLURM_STEP_TAS
 def prepare(environment=os.environ):
     """Give MPI, PETSc and BLAS the settings this program needs; call it before NumPy or mpi4py is imported.
 
-    environment: the mapping to complete, the process's own unless a test passes another.
-
     Raises SceneError where compiled code can be kept nowhere.
     """
     for name, value in defaults(environment).items():
@@ -54,25 +52,24 @@ def defaults(environment):
     if ranks == local_ranks(environment):
         # On one machine ranks meet in shared memory; TCP only warns about interfaces it cannot pair.
         values["OMPI_MCA_btl"] = "^tcp,ofi"
-    if ranks > 1 and "OMP_NUM_THREADS" not in environment:
-        # OpenBLAS and MKL follow OMP_NUM_THREADS unless each is set by itself.
+    if ranks > 1:
+        # OpenBLAS and MKL follow it unless each is set by itself.
         values["OMP_NUM_THREADS"] = "1"
     return values
 
 
 def started_ranks(environment=os.environ):
-    """How many processes were started together; 1 for a process that was started alone."""
+    """How many processes were started together, at least 1."""
     return _largest(environment, RANK_COUNTS)
 
 
 def local_ranks(environment=os.environ):
-    """How many of them are on this machine, or on the one that has most; 1 for a process that was started alone."""
+    """How many of them are on this machine, or on the one that has most."""
     return _largest(environment, LOCAL_COUNTS)
 
 
 def on_terminal_of_its_own():
-    """Whether this process's terminal is nobody's: Open MPI and MPICH start each process on a pseudo-terminal, whatever
-    mpirun itself writes to."""
+    """Whether this process's terminal is nobody's: Open MPI and MPICH start each process on a pseudo-terminal."""
     return any(name in os.environ for name in RANK_COUNTS[:2])
 
 
@@ -90,9 +87,8 @@ CACHES = ("numba", "fenics", "matplotlib", "fenics_gears")
 
 
 def have_folders(environment: Environment, aloud: bool) -> None:
-    """Set TMPDIR, XDG_CACHE_HOME and MPLCONFIGDIR where what stands there cannot be used.
-
-    aloud: whether to say so on the standard error.
+    """Set TMPDIR, XDG_CACHE_HOME and MPLCONFIGDIR where what stands there cannot be used; `aloud`: say so on the
+    standard error.
 
     Raises SceneError where compiled code can be kept nowhere.
     """
@@ -134,7 +130,6 @@ def _can_be_written(folder: Path) -> bool:
 
 
 def _cache_elsewhere(environment: Environment, say: Callable[[str], None]) -> None:
-    """Have compiled code kept in a folder for temporary files: as long as that stays, nothing is said again."""
     folder, is_new = _own_temporary_folder()
     environment["XDG_CACHE_HOME"] = environment["MPLCONFIGDIR"] = folder
     if not os.path.isabs(environment.get("HOME") or os.path.expanduser("~")):
@@ -143,7 +138,7 @@ def _cache_elsewhere(environment: Environment, say: Callable[[str], None]) -> No
     if is_new:
         with contextlib.suppress(OSError):
             _copy_compiled(Path(folder, "numba"))
-        remedy = "to keep it for longer, let XDG_CACHE_HOME name a folder that you can write."
+        remedy = "let XDG_CACHE_HOME name a folder that you can write."
         say(f"your folder for caches cannot be written, so compiled code is kept in {folder}; {remedy}")
 
 

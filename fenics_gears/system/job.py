@@ -1,8 +1,8 @@
 """The MPI job that this process belongs to, if any: rank 0 leads, the others carry out together with it what it asks
 for.
 
-An error of any rank is an error of all. A rank that fails while others wait for it inside a library, as MUMPS does, can
-reach them no other way than by MPI's Abort. A process that runs alone never touches MPI.
+An error of any rank is an error of all. A rank that fails while others wait for it inside a library, as MUMPS does,
+reaches them by MPI's Abort alone. A process that runs alone never touches MPI.
 """
 
 import contextlib
@@ -22,8 +22,7 @@ from . import environment
 
 LOGGER = logging.getLogger(__name__)
 
-# Seconds: for which a failed rank waits for the others, in case that they have failed too, and between looks for
-# messages.
+# Seconds for which a failed rank waits for the others, in case that they fail too, and between looks for messages.
 PATIENCE, BETWEEN_LOOKS = 5.0, 0.005
 END = None
 
@@ -44,10 +43,8 @@ def _joined(started: int) -> tuple[Any, int]:
     try:
         from mpi4py import MPI
     except ImportError as error:
-        raise ComputationError(
-            f"This is one of {started} processes, but mpi4py cannot be loaded ({error}). Install it, or start one"
-            " process."
-        ) from error
+        words = f"This is one of {started} processes, but mpi4py cannot be loaded ({error})."
+        raise ComputationError(f"{words} Install it, or start one process.") from error
     world = MPI.COMM_WORLD
     if world.size != started:
         raise ComputationError(
@@ -61,8 +58,7 @@ def _joined(started: int) -> tuple[Any, int]:
 
 
 def ranks_on_machine() -> int:
-    """Processes of the job on this machine: as MPI counts them once the job has been joined, before as the environment
-    says."""
+    """Processes of the job on this machine: as MPI counts them once it is joined, before as the environment says."""
     return _joined(environment.started_ranks())[1] if _joined.cache_info().currsize else environment.local_ranks()
 
 
@@ -75,8 +71,8 @@ class Job:
         self._talk = world.Dup()
 
     def together(self, work: Callable[..., Any], *arguments: Any, **here: Any) -> list[Any]:
-        """What `work(*arguments, communicator)` returns on each rank, all of them carrying it out at the same time;
-        `here` is given to rank 0's call alone.
+        """What `work(*arguments, communicator)` returns on each rank, all of them at the same time; `here` is given to
+        rank 0's call alone.
 
         Raises the error of rank 0, else that of another, with its number.
         """
@@ -157,8 +153,7 @@ def led(command: Callable[[Job | None], int]) -> int:
 
 @contextlib.contextmanager
 def ending_all(world, kind: type[BaseException] = BaseException) -> Iterator[None]:
-    """An error of this kind, in a rank for which others may wait, ends all ranks of the job with its words and its exit
-    code."""
+    """An error of this kind, in a rank for which others may wait, ends all ranks with its words and its exit code."""
     try:
         yield
     except kind as error:
@@ -178,7 +173,6 @@ def _end_all(world, error: BaseException) -> NoReturn:
 
 
 def _told(error: BaseException | None, rank: int) -> GearsError | None:
-    """An error as one that can be sent, with the rank's number."""
     if error is None:
         return None
     if not isinstance(error, GearsError):

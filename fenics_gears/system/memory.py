@@ -1,5 +1,5 @@
-"""Memory that a run may take, as much as `--memory` or FENICS_GEARS_MEMORY says, else a share of what the machine has
-free; and giving it back."""
+"""Memory that a run may take, by `--memory` or FENICS_GEARS_MEMORY, else a share of what is free; and giving it
+back."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ BYTES = {"MB": 1e6, "GB": 1e9, "TB": 1e12}
 SHARE = 0.6
 # Where neither the kernel nor a container says what is free.
 UNKNOWN = 8e9
-# Free bytes of the heap that stay in the process after a run: the next one needs them, and pages are dear to get again.
+# Free bytes of the heap that stay in the process after a run, for the next one.
 MOST_KEPT = 200e6
 
 
@@ -40,32 +40,27 @@ def size_in_bytes(size: str, name: str, example: str) -> float:
 
 
 def allowed_memory() -> float:
-    """Bytes that a run may take; processes of an MPI job on one machine share what is free. Raises SceneError for a
-    size that is none."""
+    """Bytes that a run may take; processes of a job on one machine share what is free. Raises SceneError for a wrong
+    size."""
     given = os.environ.get(MEMORY_VARIABLE)
     return size_in_bytes(given, MEMORY_VARIABLE, "8 GB") if given else SHARE * free_memory() / ranks_on_machine()
 
 
 def pages(rows: int, columns: int) -> np.ndarray:
-    """A matrix of zeros that takes memory where it is written, by pages of a few kilobytes, and gives it back as soon
-    as nobody holds it."""
+    """A matrix of zeros that takes memory page by page where it is written, and gives it back as soon as nobody holds
+    it."""
     # Imported here: help does without.
     import numpy as np
 
     held = mmap.mmap(-1, max(8 * rows * columns, 1), flags=mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
-    # Pages of megabytes would hold much that is never written. Kernels without such pages refuse, other systems than
-    # Linux have no such call.
+    # Pages of megabytes would hold much that is never written. Kernels without them refuse; others have no such call.
     with suppress(OSError, AttributeError):
         held.madvise(mmap.MADV_NOHUGEPAGE)
     return np.frombuffer(held, count=rows * columns).reshape(rows, columns)
 
 
 def give_back() -> None:
-    """Give memory that was freed, but that the C library keeps, back to the system where it is much.
-
-    Libraries free arrays of all sizes in the middle of glibc's heap, which shrinks from its end alone. Other C
-    libraries have no such call, nor need it.
-    """
+    """Give memory that was freed back to the system where it is much: glibc's heap shrinks from its end alone."""
     library = _c_library()
     if library is not None and library.mallinfo2().fordblks > MOST_KEPT:
         library.malloc_trim(0)

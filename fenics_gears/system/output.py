@@ -1,4 +1,4 @@
-"""The directory a run writes to: every file is written aside and then renamed, so that a final name never holds half a
+"""The directory a run writes to: a file is written aside and then renamed, so that a final name never holds half a
 file.
 
 Sealed files end with a digest of all bytes before it, which is checked first: HDF5 can end the whole process at one
@@ -38,10 +38,7 @@ def check_working_folder() -> None:
 
 
 def check_writable(directory: Path, *names: str) -> None:
-    """Refuse before the computation a directory in which no result of these names could be written; creates nothing.
-
-    Raises SceneError.
-    """
+    """Raise SceneError where no result of these names could be written into a directory; creates nothing."""
     try:
         _check_directory(directory)
         for name in names:
@@ -54,9 +51,9 @@ def check_writable(directory: Path, *names: str) -> None:
 def _check_directory(directory: Path) -> None:
     existing = next(parent for parent in (directory.absolute(), *directory.absolute().parents) if _is_there(parent))
     if not existing.is_dir():
-        raise SceneError(f"{existing} is a file; the result needs a directory. Choose another one with --output DIR.")
+        raise SceneError(f"{existing} is a file; the result needs a directory. To go on, {ANOTHER}")
     if not os.access(existing, os.W_OK | os.X_OK):
-        raise SceneError(f"{existing} cannot be written to. Choose another directory with --output DIR.")
+        raise SceneError(f"{existing} cannot be written to. To go on, {ANOTHER}")
 
 
 def _is_there(path: Path) -> bool:
@@ -72,8 +69,8 @@ def _is_there(path: Path) -> bool:
 
 @contextlib.contextmanager
 def whole_file(path: Path, buffering: int = -1) -> Iterator[BinaryIO]:
-    """A new file, open to be written and read, which takes its name at the end, instead of a file that had it, and goes
-    where an exception ends the block. Raises OSError where the disk is full or the directory cannot be written."""
+    """A new file, open to be written and read, which takes its name, also from a file that had it, at the end, and goes
+    where an exception ends the block. Raises OSError where it cannot be written."""
     path.parent.mkdir(parents=True, exist_ok=True)
     # Beside the final name, because a rename is atomic only within a file system; each writer has a file of its own.
     aside = path.with_name(f"{_unfinished()}{threading.get_ident()}")
@@ -89,10 +86,9 @@ def whole_file(path: Path, buffering: int = -1) -> Iterator[BinaryIO]:
 
 @contextlib.contextmanager
 def written_aside(directory: Path, written: list[Path]) -> Iterator[Path]:
-    """A directory to write files into; at the end they move to ``directory``, and their final names are added to
-    ``written``.
+    """A directory to write files into; at the end they move to ``directory``, replacing others, and their final names
+    are added to ``written``. After an exception none is moved.
 
-    Files that exist under these names are replaced. What was written before an exception is not moved.
     Raises ComputationError where the disk is full or the directory cannot be written.
     """
     try:
@@ -109,8 +105,7 @@ def written_aside(directory: Path, written: list[Path]) -> Iterator[Path]:
 
 def remove_left_over(directory: Path) -> None:
     """Remove from a directory, not from those in it, what killed processes were writing: of this machine those that are
-    no more, else those of more than a day ago.
-    """
+    no more, else those of more than a day ago."""
     own = f"{UNFINISHED}{_machine()}-"
     for left in directory.glob(f"{UNFINISHED}*"):
         # Another run may remove it at the same time.
@@ -122,7 +117,6 @@ def remove_left_over(directory: Path) -> None:
 
 
 def _unfinished() -> str:
-    """The beginning of the name of what this process is writing."""
     return f"{UNFINISHED}{_machine()}-{os.getpid()}-"
 
 
@@ -141,8 +135,7 @@ def _is_alive(process: int) -> bool:
     except ProcessLookupError:
         return False
     except OSError:
-        # Somebody else's.
-        return True
+        pass  # it is somebody else's
     return True
 
 

@@ -1,9 +1,5 @@
-"""Progress of a computation: a bar on a terminal, timed lines elsewhere, nothing when asked to be quiet;
-and when Ctrl-C takes effect.
-
-The computation calls ``stage`` once per stage and ``update`` as often as is cheap; the display decides how often to
-show it.
-"""
+"""Progress of a computation: a bar on a terminal, timed lines elsewhere, nothing when asked to be quiet; and when
+Ctrl-C takes effect."""
 
 from __future__ import annotations
 
@@ -11,11 +7,11 @@ import signal
 import sys
 import threading
 import time
-from typing import Protocol, TextIO
+from typing import TextIO
 
 SECONDS_BETWEEN_LINES = 5.0
-# A stage begins with what takes longest, such as compiling, or a first mesh cycle whose operators are made. The time
-# left is said once a tenth is done, or once a minute is over, by the pace of its later half.
+# A stage begins with what takes longest, such as compiling. The time left is said once a tenth is done, or once a
+# minute is over, by the pace of its later half.
 ENOUGH_DONE, ENOUGH_SECONDS = 0.1, 60.0
 
 
@@ -23,10 +19,10 @@ Finished = list[tuple[str, float]]
 """Names and seconds of stages that are over."""
 
 
-class Progress(Protocol):
+class Progress:
     """What a computation reports to; ``finished``: the stages that are over, with the seconds that are said of them."""
 
-    finished: Finished
+    finished: Finished = []
 
     def stage(self, name: str) -> None:
         """Begin the stage of that name, for instance "condense pinion"; the one before it is over."""
@@ -39,43 +35,30 @@ class Progress(Protocol):
         """End the last stage."""
 
 
-class SilentProgress:
-    """Reports nothing and measures nothing."""
-
-    finished: Finished = []
-
-    def stage(self, name: str) -> None:
-        pass
-
-    def update(self, done: int, total: int, note: str = "") -> None:
-        pass
-
-    def close(self) -> None:
-        pass
+class SilentProgress(Progress):
+    """Shows nothing and measures nothing."""
 
 
-class LineProgress:
+class LineProgress(Progress):
     """One plain line per finished stage, and one every few seconds while a stage goes on."""
 
     def __init__(self, stream: TextIO | None = None, interval: float = SECONDS_BETWEEN_LINES, clock=time.monotonic):
         self._stream = stream if stream is not None else sys.stderr
-        self._interval = interval
-        self._clock = clock
-        self._name: str | None = None
-        self._begun = self._spoken = clock()
-        # Times and counts of the lines.
-        self._seen = [(self._begun, 0)]
+        self._interval, self._clock = interval, clock
         self.finished: Finished = []
+        self._begin(None)
 
-    def stage(self, name: str) -> None:
-        """Close the stage before, begin this one."""
-        self.close()
+    def _begin(self, name: str | None) -> None:
         self._name = name
         self._begun = self._spoken = self._clock()
+        # Times and counts of the lines.
         self._seen = [(self._begun, 0)]
 
+    def stage(self, name: str) -> None:
+        self.close()
+        self._begin(name)
+
     def update(self, done: int, total: int, note: str = "") -> None:
-        """Print a line when the last one is old enough."""
         now = self._clock()
         if now - self._spoken < self._interval or total <= 0:
             return
@@ -87,7 +70,6 @@ class LineProgress:
         )
 
     def _left(self, now: float, done: int, total: int) -> str:
-        """The time left in words; nothing where it is not known."""
         then, before = next((each for each in reversed(self._seen) if 2 * each[1] <= done), self._seen[0])
         if done != self._seen[-1][1]:
             self._seen.append((now, done))
@@ -99,7 +81,6 @@ class LineProgress:
         return f", about {seconds_in_words(left)} left" if left > 0.0 else ""
 
     def close(self) -> None:
-        """Print how long the stage took."""
         if self._name is not None:
             self.finished.append((self._name, self._clock() - self._begun))
             self._print(f"{self._name}: {seconds_in_words(self.finished[-1][1])}")
@@ -109,36 +90,23 @@ class LineProgress:
         print(line, file=self._stream, flush=True)
 
 
-class BarProgress:
+class BarProgress(Progress):
     """A bar with the time left for each stage, drawn by rich on a terminal."""
 
     def __init__(self, console):
-        from rich.progress import (
-            BarColumn,
-            MofNCompleteColumn,
-            Progress,
-            TextColumn,
-            TimeElapsedColumn,
-            TimeRemainingColumn,
-        )
+        from rich import progress
         from rich.text import Text
 
-        class Remaining(TimeRemainingColumn):
+        class Remaining(progress.TimeRemainingColumn):
             """Nothing before enough is known."""
 
             def render(self, task):
                 known = is_enough(task.completed, task.total or 0, task.elapsed or 0.0)
                 return super().render(task) if task.finished or known else Text("-:--:--", style="progress.remaining")
 
-        self._bars = Progress(
-            TextColumn("{task.description}"),
-            BarColumn(),
-            MofNCompleteColumn(),
-            TimeElapsedColumn(),
-            TextColumn("left"),
-            Remaining(),
-            console=console,
-        )
+        described, left = progress.TextColumn("{task.description}"), progress.TextColumn("left")
+        columns = (described, progress.BarColumn(), progress.MofNCompleteColumn(), progress.TimeElapsedColumn(), left)
+        self._bars = progress.Progress(*columns, Remaining(), console=console)
         self._task = None
         self._counted = False
         self.finished: Finished = []
@@ -163,14 +131,13 @@ class BarProgress:
 
     def _finish_stage(self) -> None:
         # A counted stage keeps its count: after an interruption the bar must not claim to be full.
-        if self._task is not None and not self._counted:
+        if self._task is None:
+            return
+        if not self._counted:
             self._bars.update(self._task, total=1, completed=1)
-        if self._task is not None:
-            self._bars.stop_task(self._task)
-            self.finished.append(
-                (self._name, self._bars.tasks[self._task].finished_time or self._bars.tasks[self._task].elapsed)
-            )
-        self._task = None
+        self._bars.stop_task(self._task)
+        task, self._task = self._bars.tasks[self._task], None
+        self.finished.append((self._name, task.finished_time or task.elapsed))
 
 
 def is_enough(done: float, total: float, elapsed: float) -> bool:
@@ -187,11 +154,12 @@ def seconds_in_words(seconds: float) -> str:
     return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
 
 
-class Interruption:
-    """A ``Progress`` that passes everything on and decides when Ctrl-C becomes a KeyboardInterrupt.
+class Interruption(Progress):
+    """A ``Progress`` that passes everything on and decides, as a context manager, when Ctrl-C becomes a
+    KeyboardInterrupt.
 
     Within a counted stage it waits for the next ``update``: compiled code that it hit in the middle would end in a
-    SystemError, a step in the middle would be half done. A second Ctrl-C does not wait. Use it as a context manager.
+    SystemError, a step in the middle would be half done. A second Ctrl-C does not wait.
     """
 
     def __init__(self, progress: Progress):
@@ -199,8 +167,7 @@ class Interruption:
         self._counting = self._asked = self._ignoring = False
 
     @property
-    def finished(self) -> list[tuple[str, float]]:
-        """Names and seconds of the stages that are over."""
+    def finished(self) -> Finished:
         return self._progress.finished
 
     def __enter__(self) -> Interruption:

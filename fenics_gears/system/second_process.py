@@ -1,7 +1,7 @@
 """A second process that computes one thing while this one computes another: libraries under MPI and gmsh hold no two
-threads, and half of the cores go further with each of two gears than all with one after the other.
+threads, and two gears on half of the cores each are quicker than one after the other on all.
 
-It is started anew, not a copy: a copy of a process that has loaded MPI, or that has threads, may hang.
+It is started anew: a copy of a process that has loaded MPI, or that has threads, may hang.
 """
 
 import os
@@ -23,8 +23,7 @@ PROGRAM = "from fenics_gears.system.second_process import serve; serve()"
 
 
 def threads() -> int:
-    """Threads that this process may have at work: as many as the user says, else as it has cores. One in a job of
-    MPI's, where ranks share the work."""
+    """Threads that this process may have at work: as the user says, else as it has cores; one in an MPI job."""
     if any(name in os.environ for name in RANK_COUNTS):
         return 1
     given = [int(value) for name in THREADS if (value := os.environ.get(name, "")).isdecimal()]
@@ -59,10 +58,9 @@ class SecondProcess:
                     pickle.dump((work, arguments), process.stdin)
                 failed, outcome = pickle.load(process.stdout)
             except (OSError, EOFError, pickle.UnpicklingError) as error:
-                raise ComputationError(
-                    f"the process that condenses the second gear ended without a result (code {process.wait()}). Memory"
-                    " may be short; OMP_NUM_THREADS=1 condenses one gear after the other."
-                ) from error
+                why = f"the process that condenses the second gear ended without a result (code {process.wait()})"
+                remedy = "Memory may be short; OMP_NUM_THREADS=1 condenses one gear after the other."
+                raise ComputationError(f"{why}. {remedy}") from error
         if failed:
             raise outcome
         return [outcome]

@@ -1,7 +1,5 @@
-"""Files that users name: their content, or in words why it is not read.
-
-What would fill the memory, or be waited for, is refused before it is read.
-"""
+"""Files that users name: their content, or in words why it is not read; what would fill the memory is refused
+before."""
 
 import os
 import stat

@@ -12,8 +12,7 @@ FIRST_WITHOUT_DISPLAY = (9, 4)
 
 
 def ensure_display(vtk_version: tuple[int, ...]) -> None:
-    """Nothing where VTK of this version needs no display or there is one; else Xvfb is started, which ends with this
-    process.
+    """Start Xvfb, which ends with this process, where VTK of this version needs a display and there is none.
 
     Raises ComputationError where Xvfb is missing or does not start: VTK would abort the process.
     """
@@ -21,8 +20,8 @@ def ensure_display(vtk_version: tuple[int, ...]) -> None:
         return
     if shutil.which("Xvfb") is None:
         raise ComputationError(
-            f"VTK {'.'.join(map(str, vtk_version))} draws teeth in three dimensions on a display only, and there is"
-            " none. Install Xvfb (Debian: xvfb), or VTK 9.4 or later"
+            f"VTK {'.'.join(map(str, vtk_version))} draws on a display only, and there is none. Install Xvfb (Debian:"
+            " xvfb), or VTK 9.4 or later"
         )
     read, write = os.pipe()
     server = subprocess.Popen(

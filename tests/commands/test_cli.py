@@ -181,7 +181,7 @@ def test_a_command_leaves_no_settings_behind(monkeypatch, capsys):
         os.environ["FENICS_GEARS_MEMORY"] = "3 GB"
         seen.update(thresholds=gc.get_threshold())
 
-    monkeypatch.setattr("fenics_gears.commands.python.run_python", run_python)
+    monkeypatch.setattr("fenics_gears.commands.python.carry_out", run_python)
     before = gc.get_threshold(), gc.get_freeze_count(), os.environ.get("FENICS_GEARS_MEMORY")
     main(["python"])
     assert seen["thresholds"] != before[0]

@@ -52,13 +52,14 @@ def roots(_: str) -> Numbers:
 def example(_: str) -> Numbers:
     """ISO/TR 6336-30:2017, example 1."""
     scene = load_scene(cited.CITED / "iso_tr_6336_30.toml")
-    found, finish = operation(scene.gears, 9e6, 360.0, 70.0), Finish(320.0, 6.0, tolerance_class=5)
-    flank = flank_stress(found, finish, LoadFactors(1.003, 1.16, 1.128, 1.0, 1.0))
+    finish = Finish(viscosity_grade=320.0, flank_roughness=6.0, tolerance_class=5)
+    found = replace(operation(scene.gears, 9e6, 360.0, 70.0), finish=finish)
+    flank = flank_stress(found, LoadFactors(1.003, 1.16, 1.128, 1.0, 1.0))
     theoretical, single = single_stiffness(scene.gears)
     return {
         "zone": (2.39533, zone_factor(found)),
         "nominal": (1206.58207, flank.nominal),
-        "dynamic": (1.003, load_factors(found, finish).dynamic),
+        "dynamic": (1.003, load_factors(found).dynamic),
         "theoretical": (17.85584, theoretical),
         "single": (12.37047, single),
         "mesh": (17.46485, single * mesh_factor(found.pair.contact_ratio)),

@@ -60,7 +60,7 @@ MUTATIONS = [
     ('"20 deg"', '"20 rad"', 'gears.pressure_angle = "20 rad"', ["is too large", "from 10 deg to 35 deg"]),
     ("poissons_ratio = 0.3", "poissons_ratio = 0.5", "gears.material.poissons_ratio = 0.5", ["is too large",
      "above -1 and below 0.5"]),
-    ('"437 N m"', '"-437 N m"', 'load.wheel_torque = "-437 N m"', ["is negative", "coast flanks",
+    ('"437 N m"', '"-437 N m"', 'load.wheel_torque = "-437 N m"', ["is negative", "from the wheel",
      "with the section [coast_flanks] any sign"]),
     ('mesh_frequency = "200 Hz"', 'mesh_frequency = "200 rpm"', 'motion.mesh_frequency = "200 rpm"',
      ["is an angular speed", '"200 Hz"']),

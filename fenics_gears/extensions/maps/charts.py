@@ -41,21 +41,15 @@ MOST_DAMPED = 0.5**0.5
 
 
 def map_pictures(found: xr.Dataset) -> dict[str, tuple[str, list[Chart]]]:
-    """Subject and charts of each picture of a map (`map_results`), by file name; those for which it has
-    data."""
+    """Subject and charts of each picture for which a map (`map_results`) has data, by file name."""
     several = found.sizes["load"] > 1
     pictures: dict[str, tuple[str, list[Chart]]] = {}
     if "transmission_error" in found:
         error = found["transmission_error"]
-        captions = (
-            f"Transmission error by {found['load'].attrs['long_name']}",
-            "The same, each curve without its mean",
-        )
-        both = zip(captions, (error, error - error.mean("mesh_phase")))
-        pictures["harris_map.png"] = (
-            "Harris map",
-            [harris_map(each.assign_attrs(error.attrs), caption) for caption, each in both],
-        )
+        without_mean = (error - error.mean("mesh_phase")).assign_attrs(error.attrs)
+        whole = harris_map(error, f"Transmission error by {found['load'].attrs['long_name']}")
+        charts = [whole, harris_map(without_mean, "The same, each curve without its mean")]
+        pictures["harris_map.png"] = ("Harris map", charts)
     if several:
         pictures["over_load.png"] = ("Quasi-static, over the load", over_load(found))
     if "mesh_frequency" in found.coords:
@@ -64,10 +58,8 @@ def map_pictures(found: xr.Dataset) -> dict[str, tuple[str, list[Chart]]]:
         pictures["campbell.png"] = ("Campbell diagram", [campbell(found)])
         unit = found["load"].attrs["units"]
         for load in found["load"].values if found.sizes["mesh_frequency"] > 1 else ():
-            pictures[f"waterfall_{load:g}_{unit.replace(' ', '_')}.png"] = (
-                f"Waterfall at {load:g} {unit}",
-                waterfall(found.sel(load=load)),
-            )
+            name, charts = f"waterfall_{load:g}_{unit.replace(' ', '_')}.png", waterfall(found.sel(load=load))
+            pictures[name] = (f"Waterfall at {load:g} {unit}", charts)
     return pictures
 
 
@@ -128,14 +120,12 @@ def _curves(
 
 
 def _speed(found: xr.Dataset) -> str:
-    return (
-        f"{SPEED}; 100 Hz are {100.0 * float(found['pinion_speed'][0] / found['mesh_frequency'][0]):.4g} rpm of the"
-        " pinion"
-    )
+    of_pinion = 100.0 * float(found["pinion_speed"][0] / found["mesh_frequency"][0])
+    return f"{SPEED}; 100 Hz are {of_pinion:.4g} rpm of the pinion"
 
 
 def campbell(found: xr.Dataset) -> Chart:
-    """Frequency over speed: the mesh orders as lines from the origin, natural frequencies level, marked where an order
+    """Frequency over speed: mesh orders as lines from the origin, natural frequencies level, marked where an order
     meets one that contact excites."""
     fastest, largest = float(found["mesh_frequency"].max()), float(np.nanmax(found["natural_frequency"], initial=0.0))
     top, orders = max(1.1 * fastest, min(MESH_ORDERS * fastest, 1.2 * largest)), np.arange(1, MESH_ORDERS + 1)
@@ -146,12 +136,9 @@ def campbell(found: xr.Dataset) -> Chart:
     ]
     named = [f"{order} ×" for order in orders]
     curves.append(Curve("orders", ends, orders * ends, DARK, mode=WORDS, listed=False, words=named, beside="right"))
-    modes = (
-        found[["natural_frequency", "damping_ratio", "excited", "motion"]]
-        .dropna("load")
-        .isel(mode=found["natural_frequency"].min("load").values < top)
-    )
-    low, high = (end.values for end in (modes["natural_frequency"].min("load"), modes["natural_frequency"].max("load")))
+    modes = found[["natural_frequency", "damping_ratio", "excited", "motion"]].dropna("load")
+    modes = modes.isel(mode=found["natural_frequency"].min("load").values < top)
+    low, high = modes["natural_frequency"].min("load").values, modes["natural_frequency"].max("load").values
     curves += _natural_frequencies(low, high, modes, fastest, top)
     middle = 0.5 * (low + high)
     resonant = middle[modes["excited"].values.astype(bool) & (modes["damping_ratio"].min("load").values < MOST_DAMPED)]
@@ -181,16 +168,12 @@ def _natural_frequencies(low: np.ndarray, high: np.ndarray, modes: xr.Dataset, f
 
 def waterfall(found: xr.Dataset) -> list[Chart]:
     """Spectra of transmission error and mesh force one above the other by speed, at one load."""
-    signals = {
-        "transmission_error_amplitude": ("Transmission error", "1 µm"),
-        "mesh_force_amplitude": ("Mesh force", "1 N"),
-    }
+    signals = (("transmission_error", "Transmission error", "1 µm"), ("mesh_force", "Mesh force", "1 N"))
     found = found.sortby("mesh_frequency")
-    return [
-        _waterfall(found, found[name].transpose("mesh_frequency", "order").values, *words)
-        for name, words in signals.items()
-        if np.nanmax(found[name], initial=0.0) > 0.0
-    ]
+    amplitudes = (
+        (found[f"{name}_amplitude"].transpose("mesh_frequency", "order").values, *words) for name, *words in signals
+    )
+    return [_waterfall(found, *each) for each in amplitudes if np.nanmax(each[0], initial=0.0) > 0.0]
 
 
 def _waterfall(found: xr.Dataset, amplitudes: np.ndarray, signal: str, reference: str) -> Chart:
@@ -209,41 +192,14 @@ def _waterfall(found: xr.Dataset, amplitudes: np.ndarray, signal: str, reference
         curves.append(Curve(f"{speed:g} Hz", x, y, colour, width=1.2, listed=False))
     for natural in np.unique(np.round(np.nan_to_num(found["natural_frequency"].values), 1)):
         if 0.0 < natural < widest:
-            curves.append(
-                Curve(
-                    "natural frequencies",
-                    np.full(2, natural),
-                    np.array([0.0, speeds[-1] + high]),
-                    PALETTE[1],
-                    "dash",
-                    1.0,
-                    listed=False,
-                )
-            )
-    rays = np.arange(1, MESH_ORDERS + 1)
-    top = speeds[-1] + 1.1 * high
-    curves.append(
-        Curve(
-            "orders",
-            rays * speeds[-1],
-            np.full(len(rays), top),
-            DARK,
-            mode=WORDS,
-            listed=False,
-            words=[f"{ray} × mesh" for ray in rays],
-            beside="top left",
-        )
-    )
+            x, y = np.full(2, natural), np.array([0.0, speeds[-1] + high])
+            curves.append(Curve("natural frequencies", x, y, PALETTE[1], "dash", 1.0, listed=False))
+    rays, top = np.arange(1, MESH_ORDERS + 1), speeds[-1] + 1.1 * high
+    x, y, words = rays * speeds[-1], np.full(len(rays), top), [f"{ray} × mesh" for ray in rays]
+    curves.append(Curve("orders", x, y, DARK, mode=WORDS, listed=False, words=words, beside="top left"))
     caption = (
         f"{signal}: base lines stand at their speed; height is the level of the amplitude, {DECIBELS:g} dB up to the"
         f" highest line, {highest:.1f} dB re {reference}; dashed: natural frequencies"
     )
-    return Chart(
-        caption,
-        curves,
-        FREQUENCY,
-        SPEED,
-        height=480,
-        x_range=(0.0, widest),
-        y_range=(max(0.0, speeds[0] - 0.3 * high), top + 0.5 * high),
-    )
+    ranges = {"x_range": (0.0, widest), "y_range": (max(0.0, speeds[0] - 0.3 * high), top + 0.5 * high)}
+    return Chart(caption, curves, FREQUENCY, SPEED, height=480, **ranges)

@@ -26,7 +26,6 @@ MOST_RUNS = 1000
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("map", parents=[shared])
     add_scene_argument(command)
     command.add_argument(
@@ -41,13 +40,8 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
             'in 24, logarithmic"; needs [inertia] (default: quasi-static only)',
     )  # fmt: skip
     add_output_argument(command, "results/<name of the scene file>_map")
-    command.add_argument(
-        "--most-runs",
-        type=positive_count,
-        metavar="N",
-        default=MOST_RUNS,
-        help=f"number of runs that are allowed (default: {MOST_RUNS})",
-    )
+    most = f"number of runs that are allowed (default: {MOST_RUNS})"
+    command.add_argument("--most-runs", type=positive_count, metavar="N", default=MOST_RUNS, help=most)
     add_processes_argument(command)
     add_memory_argument(command)
     command.set_defaults(command=draw_map)
@@ -56,12 +50,8 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
 def draw_map(options: argparse.Namespace) -> int:
     """Run what is missing of a map and draw it."""
     if options.processes is not None:
-        values = [
-            word
-            for name in ("loads", "speeds")
-            if getattr(options, name)
-            for word in (f"--{name}", *getattr(options, name))
-        ]
+        given = (("--loads", options.loads), ("--speeds", options.speeds))
+        values = [word for name, words in given if words for word in (name, *words)]
         return under_mpirun(options, ["map", str(options.scene), *values, "--most-runs", str(options.most_runs)])
     from fenics_gears.runs.team import ranks
 
@@ -81,12 +71,8 @@ def _run(options: argparse.Namespace, team) -> int:
     check_writable(directory, "map.nc", "harris_map.png", "over_load.png", "over_speed.png", "campbell.png")
     studies = wanted.studies
     if not options.quiet:
-        print(
-            f"{scene.title}: {wanted.count} runs, about {seconds_in_words(wanted.expected_seconds)} on one core of an"
-            " idle machine.",
-            file=sys.stderr,
-            flush=True,
-        )
+        time = f"about {seconds_in_words(wanted.expected_seconds)} on one core of an idle machine"
+        print(f"{scene.title}: {wanted.count} runs, {time}.", file=sys.stderr, flush=True)
     for name, study in studies.items():
         outcome = outcomes[name] = run_with(team, study, directory / name, shown_progress(options.quiet), options.quiet)
         if not options.quiet:

@@ -11,6 +11,7 @@ from typing import Any
 from fenics_gears import Load, Scene, SceneError, as_toml, expected_cost, model_of, units
 from fenics_gears.command_line import seconds_in_words
 from fenics_gears.effects import common_period, effects_on
+from fenics_gears.inputs.problem import NOTHING_DONE
 from fenics_gears.inputs.tree import wheel_torque
 from fenics_gears.results.settled import settling_time
 from fenics_gears.scene.data import LOAD_WORDS
@@ -23,13 +24,12 @@ QUASI_STATIC, OVER_SPEED = "quasi_static", "over_speed"
 LOADS, SPEEDS = "--loads", "--speeds"
 FREQUENCY, PINION_SPEED = "motion.mesh_frequency", "motion.pinion_speed"
 SPEED_KINDS = (units.A_FREQUENCY, units.AN_ANGULAR_SPEED)
-NOTHING_DONE = "Nothing was computed or written."
 
 
 @dataclass(frozen=True)
 class LoadMap:
-    """A scene's file with the scene, loads and speeds as they are written ("437 N m", "15 kW"; "200 Hz" or "750 rpm";
-    none: no speeds).
+    """A scene's file with the scene, and loads and speeds as they are written ("437 N m", "15 kW"; "200 Hz" or "750
+    rpm").
 
     Loads are what the scene gives: torques on the wheel, torques on the pinion, or powers, which go through the pair at
     every speed.
@@ -48,10 +48,8 @@ class LoadMap:
     @property
     def numbers(self) -> list[float]:
         """The loads as numbers in the unit of their pictures."""
-        return [
-            units.quantity(each)[0] / units.quantity(f"1 {LOAD_WORDS[self.scene.load.given][0]}")[0]
-            for each in self.loads
-        ]
+        unit = units.quantity(f"1 {LOAD_WORDS[self.scene.load.given][0]}")[0]
+        return [units.quantity(each)[0] / unit for each in self.loads]
 
     def wheel_torque(self, load: str, mesh_frequency: float | None = None) -> float:
         """Torque (N mm) on the wheel at a load, a power at a mesh frequency (Hz), the scene's unless given."""
@@ -64,7 +62,6 @@ class LoadMap:
 
     @property
     def count(self) -> int:
-        """Runs of both studies."""
         return len(self.loads) * (1 + len(self.speeds))
 
     @property
@@ -87,17 +84,13 @@ class LoadMap:
 
     def _study(self, name: str, changes: dict[str, Any]) -> Study:
         tree = {"title": f"{self.scene.title}: {name.replace('_', ' ')}", "scene": self.file.name, **changes}
-        return study_of(
-            tree, self.file.with_name(f"{self.file.stem}_{name}.toml"), as_toml(tree), f"gears map {self.file}", {}
-        )
+        file = self.file.with_name(f"{self.file.stem}_{name}.toml")
+        return study_of(tree, file, as_toml(tree), f"gears map {self.file}", {})
 
 
 def load_map(file: Path, scene: Scene, loads: Sequence[str], speeds: Sequence[str], most: int) -> LoadMap:
-    """The map of a scene over loads and speeds as a user writes them, values and ranges. Raises SceneError for what
-    cannot be computed.
-
-    loads: none for the scene's own. most: runs that are allowed.
-    """
+    """The map of a scene over loads (none: its own) and speeds as a user writes them, values and ranges. Raises
+    SceneError for what cannot be computed, and for more runs than `most`."""
     if not loads and not speeds:
         raise SceneError(
             f'gears map: neither {LOADS} nor {SPEEDS} is given. Allowed: such as {LOADS} "100 N m" "200 N m" or {LOADS}'
@@ -111,8 +104,8 @@ def load_map(file: Path, scene: Scene, loads: Sequence[str], speeds: Sequence[st
     backwards = [each for each in torques if units.quantity(each)[0] < 0.0]
     if backwards and scene.coast_flanks is None:
         raise SceneError(
-            f"{LOADS} {backwards[0]}: a negative {kind} drives the pair from the wheel, on its coast flanks, and {file}"
-            f" has no section [coast_flanks]. Add it, or leave negative loads out. {NOTHING_DONE}"
+            f"{LOADS} {backwards[0]}: a negative {kind} drives the pair from the wheel, and {file} has no section"
+            f" [coast_flanks]. Add it, or leave negative loads out. {NOTHING_DONE}"
         )
     if written and scene.inertia is None:
         raise SceneError(
@@ -146,20 +139,14 @@ def _values(option: str, written: Sequence[str], *kinds: str, why: str = "") -> 
                 f'{option} "{word}" {error} Each value stands in quotes with its unit. {why}{NOTHING_DONE}'
             ) from None
     numbers = [units.of_kind(each, *kinds)[0] for each in found]
-    if len(set(numbers)) < len(numbers) or not all(map(isfinite, numbers)):
-        again = next(
-            each
-            for place, each in enumerate(found)
-            if not isfinite(numbers[place]) or numbers[place] in numbers[:place]
-        )
-        raise SceneError(
-            f'{option} "{again}" is given twice or is not a finite number. Allowed: each value once. {NOTHING_DONE}'
-        )
+    for place, number in enumerate(numbers):
+        if not isfinite(number) or number in numbers[:place]:
+            why = "is given twice or is not a finite number. Allowed: each value once."
+            raise SceneError(f'{option} "{found[place]}" {why} {NOTHING_DONE}')
     return tuple(found)
 
 
 def _by_pinion(speed: str) -> bool:
-    """Whether a speed is the pinion's, else a mesh frequency."""
     return units.of_kind(speed, *SPEED_KINDS)[1] == units.AN_ANGULAR_SPEED
 
 
@@ -178,27 +165,17 @@ def _ends(values: tuple[str, ...]) -> tuple[str, ...]:
 
 def _quasi_static(wanted: LoadMap) -> dict[str, Any]:
     """Changes of the scene: without inertia, two mesh cycles, or all where they differ."""
-    scene = wanted.scene
-    left = {effect.section for effect in effects_on(scene)} - {
-        effect.section for effect in effects_on(quasi_static(scene))
-    }
-    alike = common_period(quasi_static(scene)) == 1
-    without = [
-        *sorted(left),
-        "motion.settling_time",
-        *(("motion.recorded_cycles", "output.contact_fields") if alike else ()),
-    ]
-    fixed = {"motion.mesh_cycles": 2} if alike else {}
-    return {
-        "without": without,
-        "set": {**fixed, **shared_accuracy(wanted)},
-        "sweep": {wanted.load_field: list(wanted.loads)},
-    }
+    still = quasi_static(wanted.scene)
+    before, after = ({effect.section for effect in effects_on(each)} for each in (wanted.scene, still))
+    without, fixed = [*sorted(before - after), "motion.settling_time"], shared_accuracy(wanted)
+    if common_period(still) == 1:
+        without += ["motion.recorded_cycles", "output.contact_fields"]
+        fixed = {"motion.mesh_cycles": 2, **fixed}
+    return {"without": without, "set": fixed, "sweep": {wanted.load_field: list(wanted.loads)}}
 
 
 def _over_speed(wanted: LoadMap) -> dict[str, Any]:
-    """Changes of the scene: steady speeds, each run until its start has died down, and no contact fields, which would
-    take most of the room."""
+    """Changes of the scene: steady speeds, each run until its start has died down, without contact fields."""
     by_pinion = _by_pinion(wanted.speeds[0])
     without = ["speed_ramp", FREQUENCY if by_pinion else PINION_SPEED, "motion.recorded_cycles"]
     fixed: dict[str, Any] = {"output.contact_fields": False, **shared_accuracy(wanted)}
@@ -207,26 +184,17 @@ def _over_speed(wanted: LoadMap) -> dict[str, Any]:
     if isfinite(seconds) and "settling_time" not in tomllib.loads(wanted.scene.text).get("motion", {}):
         without.append("motion.mesh_cycles")
         fixed["motion.settling_time"] = f"{seconds:.4g} s"
-    return {
-        "without": without,
-        "set": fixed,
-        "sweep": {wanted.load_field: list(wanted.loads), PINION_SPEED if by_pinion else FREQUENCY: list(wanted.speeds)},
-    }
+    sweep = {wanted.load_field: list(wanted.loads), PINION_SPEED if by_pinion else FREQUENCY: list(wanted.speeds)}
+    return {"without": without, "set": fixed, "sweep": sweep}
 
 
 def shared_accuracy(wanted: LoadMap) -> dict[str, Any]:
     """Settings that the scene leaves to the program and that depend on the load: the same for all, so that all loads
-    share gears and contact operators.
-
-    Flank elements are those of the geometric mean of the loads, the contact length is that of the largest.
-    """
+    share gears and contact operators. Flank elements are those of the geometric mean of the loads, the contact length
+    is that of the largest."""
     scene, given = wanted.scene, wanted.scene.accuracy
-    torques = [
-        abs(torque)
-        for each in wanted.loads
-        for speed in _frequencies(wanted)
-        if (torque := wanted.wheel_torque(each, speed))
-    ]
+    every = (wanted.wheel_torque(each, speed) for each in wanted.loads for speed in _frequencies(wanted))
+    torques = [abs(torque) for torque in every if torque]
     if not scene.resolves_contact or given.target is not None or not torques:
         return {}
     middle, largest = (

@@ -47,7 +47,7 @@ Columns = dict[str, tuple[tuple[str, ...], np.ndarray, dict[str, str]]]
 
 
 def map_dataset(wanted: LoadMap, at_rest: Outcome, over_speed: Outcome | None) -> xr.Dataset:
-    """Everything of a map over `load` (N m); with speeds also over `mesh_frequency` (Hz).
+    """Everything of a map over `load` (N m or kW); with speeds also over `mesh_frequency` (Hz).
 
     Transmission errors are in um along the line of action. A case without a result has not a number.
     """
@@ -60,28 +60,23 @@ def map_dataset(wanted: LoadMap, at_rest: Outcome, over_speed: Outcome | None) -
             _taken(study, CURVES, ("load", "mesh_phase"), length)
         )
     if scene.inertia is not None:
-        found = found.assign(
-            frequencies_over_load(
-                scene,
-                np.array([1e-3 * wanted.wheel_torque(each) for each in wanted.loads]),
-                found.get("mean_mesh_stiffness_tangent"),
-                pair,
-            )
-        ).set_coords(["excited", "motion"])
+        torques, tangents = (
+            [wanted.wheel_torque(each) for each in wanted.loads],
+            found.get("mean_mesh_stiffness_tangent"),
+        )
+        frequencies = frequencies_over_load(scene, 1e-3 * np.array(torques), tangents, pair)
+        found = found.assign(frequencies).set_coords(["excited", "motion"])
     if over_speed is not None:
         study, dimensions = load_combined(over_speed.file), ("load", "mesh_frequency")
         found = found.assign(_spectra(over_speed, pair, found.sizes["load"])).set_coords("pinion_speed")
-        found = found.assign(
-            _taken(study, WITH_INERTIA, dimensions, length, DYNAMIC)
-            | _taken(study, ("dynamic_factor_by_force",), dimensions, length)
-        )
-    said = {
-        "title": scene.title,
-        "scene": scene.text,
-        "fenics_gears_version": fenics_gears.__version__,
-        "base_radius_wheel": pair.wheel.base_radius,
-    }
-    return found.assign_attrs(said)
+        found = found.assign(_taken(study, WITH_INERTIA, dimensions, length, DYNAMIC))
+        found = found.assign(_taken(study, ("dynamic_factor_by_force",), dimensions, length))
+    return found.assign_attrs(
+        title=scene.title,
+        scene=scene.text,
+        fenics_gears_version=fenics_gears.__version__,
+        base_radius_wheel=pair.wheel.base_radius,
+    )
 
 
 def _labels(units: str, name: str) -> dict[str, str]:
@@ -108,34 +103,24 @@ def frequencies_over_load(scene: Scene, loads: np.ndarray, tangents: xr.DataArra
         rough = mesh_stiffness(scene)
         stiffness = rough if tangents is None else float(tangents.values[place]) * pair.face_width / MICROMETRE
         drivetrain = model_of(replace(scene, load=Load(1e3 * torque))).drivetrain
-        every.append(
-            vibrations(drivetrain, stiffness, scene.friction is not None)
-            if np.isfinite(stiffness) or stiffness == rough
-            else None
-        )
+        known = np.isfinite(stiffness) or stiffness == rough
+        every.append(vibrations(drivetrain, stiffness, scene.friction is not None) if known else None)
     # Of shafts that bend the highest frequency that counts may be beyond the limit at one load alone.
     fewest = min((len(each) for each in every if each), default=0)
     every = [each and each[:fewest] for each in every]
     modes = next((each for each in every if each), [])
     nothing = [Vibration(np.nan, np.nan, False)] * len(modes)
-    values = np.array([[(mode.frequency, mode.damping_ratio) for mode in each or nothing] for each in every]).reshape(
-        len(loads), len(modes), 2
-    )
+    values = np.array([[(mode.frequency, mode.damping_ratio) for mode in each or nothing] for each in every])
+    frequency, damping = np.moveaxis(values.reshape(len(loads), len(modes), 2), 2, 0)
+    excited = np.array([int(mode.excited) for mode in modes], dtype=int)
+    motion, what = np.array([mode.motion for mode in modes], dtype=object), "what moves, where a gear tilts or moves"
     note = _labels("Hz", "natural frequency with the mean tangent mesh stiffness")
     return {
         "mode": (("mode",), np.arange(1, len(modes) + 1), _labels("1", "number of the mode")),
-        "natural_frequency": (("load", "mode"), values[..., 0], note),
-        "damping_ratio": (("load", "mode"), values[..., 1], _labels("1", "part of the critical damping of the mode")),
-        "excited": (
-            ("mode",),
-            np.array([int(mode.excited) for mode in modes], dtype=int),
-            _labels("1", "1 where contact forces excite the mode"),
-        ),
-        "motion": (
-            ("mode",),
-            np.array([mode.motion for mode in modes], dtype=object),
-            {"long_name": "what moves, where a gear tilts or moves along its axis"},
-        ),
+        "natural_frequency": (("load", "mode"), frequency, note),
+        "damping_ratio": (("load", "mode"), damping, _labels("1", "part of the critical damping of the mode")),
+        "excited": (("mode",), excited, _labels("1", "1 where contact forces excite the mode")),
+        "motion": (("mode",), motion, {"long_name": f"{what} along its axis"}),
     }
 
 
@@ -146,32 +131,23 @@ def _spectra(outcome: Outcome, pair: GearPair, loads: int) -> Columns:
     amplitudes = np.full((len(cases), 2, len(ORDERS)), np.nan)
     for index in outcome.records:
         run = of_settled(load(outcome.file.parent / "cases" / f"{cases[index].name}.nc"))
-        amplitudes[index] = [
-            _orders(run, curve)
-            for curve in (run["transmission_error"].values * pair.wheel.base_radius / MICROMETRE, mesh_force(run))
-        ]
-    dimensions = ("load", "mesh_frequency", "order")
+        error = run["transmission_error"].values * pair.wheel.base_radius / MICROMETRE
+        amplitudes[index] = [_orders(run, error), _orders(run, mesh_force(run))]
+    dimensions, speeds = ("load", "mesh_frequency", "order"), 60.0 * frequencies / pair.pinion.teeth
     error, force = np.moveaxis(amplitudes.reshape(loads, len(frequencies), 2, len(ORDERS)), 2, 0)
+    words = "amplitude of the transmission error along the line of action, with inertia"
     return {
         "mesh_frequency": (dimensions[1:2], frequencies, _labels("Hz", "mesh frequency")),
-        "pinion_speed": (
-            dimensions[1:2],
-            60.0 * frequencies / pair.pinion.teeth,
-            _labels("rpm", "speed of the pinion"),
-        ),
+        "pinion_speed": (dimensions[1:2], speeds, _labels("rpm", "speed of the pinion")),
         "order": (dimensions[2:], ORDERS, _labels("1", "mesh order")),
-        "transmission_error_amplitude": (
-            dimensions,
-            error,
-            _labels("um", "amplitude of the transmission error along the line of action, with inertia"),
-        ),
+        "transmission_error_amplitude": (dimensions, error, _labels("um", words)),
         "mesh_force_amplitude": (dimensions, force, _labels("N", "amplitude of the mesh force")),
     }
 
 
 def _orders(run: xr.Dataset, values: np.ndarray) -> np.ndarray:
-    """Amplitudes at ORDERS of the last settled mesh cycles, an even number of them so that half orders stand alone; not
-    a number of what the steps do not sample."""
+    """Amplitudes at ORDERS of the last settled mesh cycles, an even number of them so that half orders stand alone; NaN
+    for what the steps do not sample."""
     phase = run["mesh_phase"].values
     steps, cycles = round(1.0 / (phase[1] - phase[0])), int((phase[-1] - phase[0]) * (1.0 + 1e-9))
     whole = cycles - cycles % 2 or cycles

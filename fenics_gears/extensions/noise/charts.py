@@ -1,5 +1,4 @@
-"""Charts of noise figures (`figures`): levels over mesh orders with their sidebands, mesh orders over a speed
-ramp."""
+"""Charts of noise figures: levels over mesh orders with their sidebands, mesh orders over a speed ramp."""
 
 import numpy as np
 import xarray as xr
@@ -14,7 +13,6 @@ LEAST_RATIO = 1e-8
 
 
 def noise_charts(found: xr.Dataset) -> list[Chart]:
-    """A chart for each signal."""
     return [
         _followed(found, name) if "part" in found.dims else _levels(found, name)
         for name in SIGNALS
@@ -31,7 +29,8 @@ def _levels(found: xr.Dataset, name: str) -> Chart:
     orders = found["order"].values[found["order"].values <= ORDERS_SHOWN]
     levels = found[f"{name}_level"].values[: len(orders)]
     mesh, top = np.abs(orders - np.round(orders)) < 1e-6, float(levels.max())
-    shown, foot = levels > top - DECIBELS, top - DECIBELS
+    foot = top - DECIBELS
+    between, whole = ((orders[shown], levels[shown]) for shown in (~mesh & (levels > foot), mesh & (levels > foot)))
     caption, title = _titles(name)
     if f"{name}_sideband_ratio" in found:
         ratios = found[f"{name}_sideband_ratio"].sel(harmonic=slice(1, ORDERS_SHOWN))
@@ -42,27 +41,13 @@ def _levels(found: xr.Dataset, name: str) -> Chart:
         ]
         caption += f"; energy of the sidebands over that of their mesh order: {', '.join(beside)}" if beside else ""
     curves = [
-        Curve("between mesh orders", *stems(orders[shown & ~mesh], levels[shown & ~mesh], foot - 1.0), GREY, width=0.8),
-        Curve("mesh orders", *stems(orders[shown & mesh], levels[shown & mesh], foot - 1.0), PALETTE[0], width=2.6),
-        Curve(
-            "levels",
-            orders[shown & mesh],
-            levels[shown & mesh],
-            DARK,
-            mode=WORDS,
-            listed=False,
-            words=[f"{each:.1f} dB" for each in levels[shown & mesh]],
-        ),
+        Curve("between mesh orders", *stems(*between, foot - 1.0), GREY, width=0.8),
+        Curve("mesh orders", *stems(*whole, foot - 1.0), PALETTE[0], width=2.6),
+        Curve("levels", *whole, DARK, mode=WORDS, listed=False, words=[f"{each:.1f} dB" for each in whole[1]]),
     ]
-    return Chart(
-        caption,
-        [curve for curve in curves if len(curve.x)],
-        "Mesh order",
-        title,
-        height=420,
-        x_range=(0.0, ORDERS_SHOWN),
-        y_range=(foot, top + 5.0),
-    )
+    drawn = [curve for curve in curves if len(curve.x)]
+    ranges = {"x_range": (0.0, ORDERS_SHOWN), "y_range": (foot, top + 5.0)}
+    return Chart(caption, drawn, "Mesh order", title, height=420, **ranges)
 
 
 def _followed(found: xr.Dataset, name: str) -> Chart:

@@ -27,35 +27,19 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
     """Add the command to the parser, and an option to the core's ``plot``."""
     command = commands.add_parser("listen", parents=[shared])
     add_run_argument(command)
-    command.add_argument(
-        "--curve",
-        default="normal_force",
-        metavar="NAME",
-        help="variable over time to hear (default: normal_force, the mesh force)",
-    )
-    command.add_argument(
-        "--seconds",
-        type=float,
-        default=SECONDS,
-        metavar="N",
-        help=f"length of a steady run's sound (default: {SECONDS:g}); a speed ramp is heard once",
-    )
-    command.add_argument(
-        "--full-scale",
-        metavar="VALUE",
-        help=(
-            'value of the curve at which the file is full, such as "500 N", so that two runs can be compared by ear'
-            " (default: from the loudest sample)"
-        ),
-    )
+    curve = "variable over time to hear (default: normal_force, the mesh force)"
+    command.add_argument("--curve", default="normal_force", metavar="NAME", help=curve)
+    seconds = f"length of a steady run's sound (default: {SECONDS:g}); a speed ramp is heard once"
+    command.add_argument("--seconds", type=float, default=SECONDS, metavar="N", help=seconds)
+    full = 'value of the curve at which the file is full, such as "500 N" (default: from the loudest sample)'
+    command.add_argument("--full-scale", metavar="VALUE", help=full)
     add_output_argument(command, "CURVE.wav beside run.nc", "file to write", "FILE")
     command.set_defaults(command=listen)
     pictures = commands.choices["plot"]
     pictures.add_argument(
         "--spectrum", nargs="?", choices=WINDOWS, const=AUTOMATIC, metavar="WINDOW",
         help="draw and write levels in dB over mesh orders with the energy of their sidebands, of a speed ramp over "
-            "the speed: noise.png, noise.nc and tables; "
-        "WINDOW is none, hann or flat-top (default: none for whole mesh cycles, flat-top for a ramp)",
+            "the speed; WINDOW is none, hann or flat-top (default: none for whole mesh cycles, flat-top for a ramp)",
     )  # fmt: skip
     pictures.set_defaults(command=partial(plot, pictures.get_default("command")))
 
@@ -73,10 +57,8 @@ def listen(options: argparse.Namespace) -> int:
     try:
         heard = sound(result, options.curve, options.seconds, full_scale)
     except ValueError as error:
-        raise SceneError(
-            f"--curve {options.curve}: {error} in this run, so there is nothing to hear. A quasi-static run without"
-            " friction has a constant force; its transmission error is heard with --curve transmission_error."
-        ) from None
+        why = f"{error} in this run. Without inertia and friction the force is constant"
+        raise SceneError(f"--curve {options.curve}: {why}: take --curve transmission_error.") from None
     print_files([write_whole(output, lambda path: save_sound(heard, path))], options.quiet)
     if not options.quiet:
         print(f"full scale {heard.full_scale:.4g} {result[options.curve].attrs['units']}")
@@ -94,10 +76,8 @@ def _checked(result, options: argparse.Namespace) -> float | None:
     phase, time = result["mesh_phase"].values, result["time"].values
     fastest = abs(phase[-1] - phase[0]) / (time[-1] - time[0]) if len(time) > 1 else 0.0
     if fastest < LOWEST_HEARD:
-        raise SceneError(
-            f"{options.run}: has a mesh frequency of {fastest:.3g} Hz, too low to hear (from {LOWEST_HEARD:g} Hz). Give"
-            " the scene a motion.mesh_frequency or motion.pinion_speed."
-        )
+        low = f"has a mesh frequency of {fastest:.3g} Hz, too low to hear (from {LOWEST_HEARD:g} Hz)"
+        raise SceneError(f"{options.run}: {low}. Give the scene a higher motion.mesh_frequency or motion.pinion_speed.")
     unit = result[options.curve].attrs["units"]
     return None if options.full_scale is None else number_of_option("--full-scale", options.full_scale, unit)
 

@@ -22,8 +22,8 @@ def noise_figures(result: xr.Dataset, window: str | None = None) -> xr.Dataset:
     `mesh_frequency` and `order` of a ramp.
 
     `..._sideband_energy` over `harmonic` and `gear`: sum of squares of the sidebands of a mesh harmonic at whole turns
-    of a gear; `..._sideband_ratio`: of those of both gears, each once, to the square of the harmonic; not a number
-    where the record cannot tell them apart. window: one of `WINDOWS`; None: none, over whole hunting tooth periods or
+    of a gear; `..._sideband_ratio`: of those of both gears, each once, to the square of the harmonic; NaN where the
+    record cannot tell them apart. window: one of `spectrum.WINDOWS`; None: none, over whole hunting tooth periods or
     else whole mesh cycles, and the flat top for a ramp. Raises ComputationError for a record too short to have mesh
     orders apart.
     """
@@ -60,15 +60,16 @@ def window_cycles(window: str) -> int:
     return 2 * len(spectrum.WINDOWS[window])
 
 
+def _labels(units: str, name: str) -> dict[str, str]:
+    return {"units": units, "long_name": name}
+
+
 def _levels(name: str, dimensions: tuple[str, ...], amplitudes: np.ndarray) -> dict[str, tuple]:
     unit, words = SIGNALS[name]
+    words, levels = f"amplitude of the {words}", spectrum.level(amplitudes)
     return {
-        f"{name}_amplitude": (dimensions, amplitudes, {"units": unit, "long_name": f"amplitude of the {words}"}),
-        f"{name}_level": (
-            dimensions,
-            spectrum.level(amplitudes),
-            {"units": f"dB re 1 {unit}", "long_name": f"level of the amplitude of the {words}"},
-        ),
+        f"{name}_amplitude": (dimensions, amplitudes, _labels(unit, words)),
+        f"{name}_level": (dimensions, levels, _labels(f"dB re 1 {unit}", f"level of the {words}")),
     }
 
 
@@ -79,10 +80,8 @@ def _steady(
     if lines is None or not lines.exact and window is None:
         # Whole mesh cycles have exact mesh orders, though nothing that turns with a gear.
         lines, known = spectrum.order_lines(values, cycles, (1, 1), window), False
-    found = {
-        "order": (("order",), lines.orders / (teeth[0] if known else 1), {"units": "1", "long_name": "mesh order"}),
-        **_levels(name, ("order",), lines.amplitudes),
-    }
+    orders = lines.orders / (teeth[0] if known else 1)
+    found = {"order": (("order",), orders, _labels("1", "mesh order")), **_levels(name, ("order",), lines.amplitudes)}
     return found | (_beside(name, lines, teeth) if known else {})
 
 
@@ -90,19 +89,13 @@ def _beside(name: str, lines: spectrum.OrderLines, teeth: tuple[int, int]) -> di
     each = [spectrum.sidebands(lines, teeth, int(harmonic)) for harmonic in HARMONICS]
     energy = np.array([[np.nan, np.nan] if one is None else [one.pinion, one.wheel] for one in each])
     ratio = np.array([np.nan if one is None else one.ratio for one in each])
+    of_energy = _labels(f"{SIGNALS[name][0]}^2", "sum of squares of the sidebands' amplitudes")
+    of_ratio = _labels("1", "sidebands' sum of squares over the square of the mesh order's amplitude")
     return {
-        "harmonic": (("harmonic",), HARMONICS, {"units": "1", "long_name": "multiple of the mesh frequency"}),
+        "harmonic": (("harmonic",), HARMONICS, _labels("1", "multiple of the mesh frequency")),
         "gear": (("gear",), np.array(GEARS, dtype=object), {"long_name": "gear"}),
-        f"{name}_sideband_energy": (
-            ("harmonic", "gear"),
-            energy,
-            {"units": f"{SIGNALS[name][0]}^2", "long_name": "sum of squares of the sidebands' amplitudes"},
-        ),
-        f"{name}_sideband_ratio": (
-            ("harmonic",),
-            ratio,
-            {"units": "1", "long_name": "sidebands' sum of squares over the square of the mesh order's amplitude"},
-        ),
+        f"{name}_sideband_energy": (("harmonic", "gear"), energy, of_energy),
+        f"{name}_sideband_ratio": (("harmonic",), ratio, of_ratio),
     }
 
 
@@ -111,17 +104,12 @@ def _followed(name: str, values: np.ndarray, run: xr.Dataset, window: str) -> di
     phase, length = run["mesh_phase"].values, window_cycles(window)
     steps = round(1.0 / (phase[1] - phase[0]))
     starts = np.arange(0, len(values) - length * steps, length * steps // 2)
-    parts = [
-        spectrum.order_lines(values[start : start + length * steps + 1], length, (1, 1), window) for start in starts
-    ]
+    records = [slice(start, start + length * steps + 1) for start in starts]
+    parts = [spectrum.order_lines(values[record], length, (1, 1), window) for record in records]
     orders = HARMONICS[HARMONICS <= parts[0].orders[-1]]
-    speed = np.array([run["mesh_frequency"].values[start : start + length * steps + 1].mean() for start in starts])
+    speed = np.array([run["mesh_frequency"].values[record].mean() for record in records])
     return {
-        "order": (("order",), orders, {"units": "1", "long_name": "mesh order"}),
-        "mesh_frequency": (
-            ("part",),
-            speed,
-            {"units": "Hz", "long_name": "mean mesh frequency of a part of the record"},
-        ),
+        "order": (("order",), orders, _labels("1", "mesh order")),
+        "mesh_frequency": (("part",), speed, _labels("Hz", "mean mesh frequency of a part of the record")),
         **_levels(name, ("part", "order"), np.array([[part.at(order) for order in orders] for part in parts])),
     }

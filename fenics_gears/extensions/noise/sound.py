@@ -55,23 +55,19 @@ def sound(result: xr.Dataset, name: str, seconds: float, full_scale: float | Non
 def _samples(time: np.ndarray, values: np.ndarray, seconds: float | None) -> np.ndarray:
     """The curve (n,) at the rate of the file; repeated for so many seconds where they are given.
 
-    It is read between steps by a cubic spline, at a multiple of the rate that has all its steps, and what the file's
-    rate cannot hold is filtered out.
+    It is read between steps by a cubic spline, at a multiple of the rate that has all its steps; what the file's rate
+    cannot hold is filtered out.
     """
     times = max(ceil(1.0 / (np.diff(time).min() * SAMPLE_RATE) - 1e-9), 1)
     if seconds is None:
         spline, at = CubicSpline(time, values), np.arange(0.0, time[-1], 1.0 / (times * SAMPLE_RATE))
     else:
-        closed = np.append(values[:-1], values[0])
-        spline, at = (
-            CubicSpline(time, closed, bc_type="periodic"),
-            np.arange(round(seconds * SAMPLE_RATE) * times) / (times * SAMPLE_RATE) % time[-1],
-        )
+        spline = CubicSpline(time, np.append(values[:-1], values[0]), bc_type="periodic")
+        at = np.arange(round(seconds * SAMPLE_RATE) * times) / (times * SAMPLE_RATE) % time[-1]
     return resample_poly(spline(at), 1, times) if times > 1 else spline(at)
 
 
 def save_sound(found: Sound, path: Path) -> None:
     """Write a WAV file, 16 bit, one channel; louder samples than the full scale are cut off."""
-    wavfile.write(
-        path, SAMPLE_RATE, np.round(np.clip(found.samples / found.full_scale, -1.0, 1.0) * _FULL).astype(np.int16)
-    )
+    samples = np.clip(found.samples / found.full_scale, -1.0, 1.0) * _FULL
+    wavfile.write(path, SAMPLE_RATE, np.round(samples).astype(np.int16))

@@ -1,7 +1,4 @@
-"""Pictures and the summary of an optimisation: how the search went, the Pareto front, each variable and each tolerance,
-Harris maps."""
-
-from __future__ import annotations
+"""Pictures and the summary of an optimisation."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -22,33 +19,27 @@ MOST_TIMES = 3.0
 
 
 def called(name: str) -> str:
-    """A variable or goal in words."""
     return name.replace(".", " ").replace("_", " ")
 
 
 def title(name: str, unit: str) -> str:
-    """That with its unit, for an axis."""
+    """A variable or goal in words with its unit, for an axis."""
     words, unit = sentence(called(name)), unit.replace("um", "µm")
     return f"{words} ({unit})" if unit not in ("", "1") else words
 
 
 def sentence(words: str) -> str:
-    """The words with a capital."""
     return words[:1].upper() + words[1:]
 
 
 def goals_of(evaluations, goal: Goal) -> np.ndarray:
-    """A goal of evaluations (n,), not a number where one failed."""
+    """A goal of evaluations (n,), NaN where one failed."""
     return np.array([each.goals.get(goal.name, np.nan) for each in evaluations])
 
 
 def _shown(outcome: Outcome, goal: Goal, values: np.ndarray) -> np.ndarray:
-    ends = [
-        each
-        for each in (outcome.before.goals.get(goal.name, np.nan), outcome.chosen.goals[goal.name])
-        if np.isfinite(each)
-    ]
-    return np.where(values <= MOST_TIMES * max(ends), values, np.nan)
+    largest = np.nanmax([outcome.before.goals.get(goal.name, np.nan), outcome.chosen.goals[goal.name]])
+    return np.where(values <= MOST_TIMES * largest, values, np.nan)
 
 
 def search_chart(outcome: Outcome, goal: Goal) -> Chart:
@@ -59,22 +50,11 @@ def search_chart(outcome: Outcome, goal: Goal) -> Chart:
     curves = [
         Curve("designs", numbers, _shown(outcome, goal, every), GREY, mode=MARKERS),
         Curve("least so far", numbers, _shown(outcome, goal, least), PALETTE[0], width=2.2),
-        *_before_line(outcome, goal, numbers[[0, -1]]),
     ]
-    return Chart(
-        f"{sentence(called(goal.name))} of the designs",
-        curves,
-        "Design, in the order in which they were tried",
-        title(goal.name, goal.unit),
-        _note(outcome),
-    )
-
-
-def _before_line(outcome: Outcome, goal: Goal, ends) -> list[Curve]:
-    value = outcome.before.goals.get(goal.name)
-    return (
-        [] if value is None else [Curve(BEFORE, np.asarray(ends, dtype=float), np.full(2, value), PALETTE[1], "dash")]
-    )
+    if (before := outcome.before.goals.get(goal.name)) is not None:
+        curves.append(Curve(BEFORE, numbers[[0, -1]].astype(float), np.full(2, before), PALETTE[1], "dash"))
+    axes = "Design, in the order in which they were tried", title(goal.name, goal.unit)
+    return Chart(f"{sentence(called(goal.name))} of the designs", curves, *axes, _note(outcome))
 
 
 def _note(outcome: Outcome) -> str:
@@ -107,15 +87,10 @@ def variable_chart(outcome: Outcome, variable: Variable, goal: Goal) -> Chart:
     places, evaluations = outcome.along[variable.name]
     x = np.array([each.values[variable.name] for each in outcome.tried])
     scatters = " without scatter" if outcome.design.tolerances.scatters else ""
+    alone, mode = f"{BEST}{scatters}, this variable alone changed", MARKERS if variable.words else MARKED_LINES
     curves = [
         Curve("designs", x, _shown(outcome, goal, goals_of(outcome.tried, goal)), GREY, mode=MARKERS),
-        Curve(
-            f"{BEST}{scatters}, this variable alone changed",
-            np.array(places),
-            goals_of(evaluations, goal),
-            PALETTE[0],
-            mode=MARKERS if variable.words else MARKED_LINES,
-        ),
+        Curve(alone, np.array(places), goals_of(evaluations, goal), PALETTE[0], mode=mode),
         _mark(BEST, outcome.chosen.values[variable.name], outcome.chosen.goals[goal.name], PALETTE[2]),
     ]
     axes = title(variable.name, variable.unit), title(goal.name, goal.unit)
@@ -123,23 +98,17 @@ def variable_chart(outcome: Outcome, variable: Variable, goal: Goal) -> Chart:
 
 
 def tolerance_rows(outcome: Outcome, goal: Goal) -> list[tuple[str, str, str, str, str]]:
-    """Of each scatter its limit, and the goal of the chosen design at the lower limit, without scatter, at the upper
-    one; the largest change first."""
+    """Of each scatter its limit, and the chosen design's goal at the lower limit, without scatter, at the upper limit;
+    the largest change first."""
     rows = []
     for scatter in outcome.design.tolerances.scatters if outcome.limits else ():
-        low, nominal, high = outcome.limits[scatter.name][goal.name]
-        rows.append(
-            (
-                max(abs(low - nominal), abs(high - nominal)),
-                (
-                    called(scatter.name),
-                    f"± {scatter.limit:.4g} {scatter.unit}".strip(),
-                    f"{low:.4g}",
-                    f"{nominal:.4g}",
-                    f"{high:.4g}",
-                ),
-            )
+        low, nominal, high = numbers = outcome.limits[scatter.name][goal.name]
+        row = (
+            called(scatter.name),
+            f"± {scatter.limit:.4g} {scatter.unit}".strip(),
+            *(f"{each:.4g}" for each in numbers),
         )
+        rows.append((max(abs(low - nominal), abs(high - nominal)), row))
     return [row for _, row in sorted(rows, key=lambda each: -each[0])]
 
 
@@ -160,12 +129,11 @@ def harris_charts(outcome: Outcome) -> list[Chart]:
 
 
 def write_pictures(outcome: Outcome) -> list[Path]:
-    """Draw the search or the Pareto front, the variables and the Harris maps as PNG, and return the files."""
+    """Draw all charts as PNG, and return the files."""
     design, first = outcome.design, outcome.design.goals[0]
-    charts = {"search": [search_chart(outcome, goal) for goal in design.goals]} | (
-        {"pareto_front": [front_chart(outcome)]} if len(design.goals) > 1 else {}
-    )
-    charts |= {
+    charts = {
+        "search": [search_chart(outcome, goal) for goal in design.goals],
+        "pareto_front": [front_chart(outcome)] if len(design.goals) > 1 else [],
         "variables": [variable_chart(outcome, variable, first) for variable in design.variables],
         "harris_map": harris_charts(outcome),
     }
@@ -181,11 +149,9 @@ def goal_words(outcome: Outcome, goal: Goal, evaluation: Evaluation) -> str:
     if not tolerances.scatters:
         return f"{evaluation.goals[goal.name]:.4g}"
     values = evaluation.of_samples[goal.name]
-    mean, quantile = (
-        f"mean {np.mean(values):.4g}",
-        f"{100 * tolerances.quantile:g} % below {np.quantile(values, tolerances.quantile):.4g}",
-    )
-    return ", ".join((quantile, mean) if tolerances.judged == QUANTILE else (mean, quantile))
+    quantile = f"{100 * tolerances.quantile:g} % below {np.quantile(values, tolerances.quantile):.4g}"
+    words = f"mean {np.mean(values):.4g}", quantile
+    return ", ".join(words[::-1] if tolerances.judged == QUANTILE else words)
 
 
 def no_gain(outcome: Outcome) -> str:
@@ -197,26 +163,20 @@ def no_gain(outcome: Outcome) -> str:
 
 
 def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
-    """Rows of label, value, unit: what was tried and computed, the goals before and after, and the chosen values."""
+    """Rows of label, value, unit: what was tried and computed, goals before and after, and the chosen values."""
     failed = sum(bool(each.failure) for each in outcome.tried)
     rows = [
         ("designs", f"{len(outcome.tried)}" + (f", {failed} failed" if failed else ""), ""),
         *outcome.spent.rows(outcome.kept),
     ]
-    compared = {f", {BEFORE}": outcome.before, f", {BEST}": outcome.chosen} | dict(
-        zip((f" under new samples, {BEFORE}", f" under new samples, {BEST}"), outcome.fresh)
-    )
+    compared = {f", {BEFORE}": outcome.before, f", {BEST}": outcome.chosen}
+    compared |= {f" under new samples{words}": each for words, each in zip(compared, outcome.fresh)}
     rows += [
         (f"{called(goal.name)}{words}", goal_words(outcome, goal, each), goal.unit.removeprefix("1"))
         for goal in outcome.design.goals
         for words, each in compared.items()
     ]
-    rows += [
-        (
-            called(each.name),
-            f"{outcome.chosen.values[each.name]}" if each.words else f"{outcome.chosen.values[each.name]:.4g}",
-            each.unit,
-        )
-        for each in outcome.design.variables
-    ]
+    for variable in outcome.design.variables:
+        value = outcome.chosen.values[variable.name]
+        rows.append((called(variable.name), value if variable.words else f"{value:.4g}", variable.unit))
     return [*rows, ("remark", no_gain(outcome), "")] if no_gain(outcome) else rows

@@ -1,8 +1,6 @@
 """``gears optimize DESIGN``: search the best modification of a pair over loads and tolerances, alone or under mpirun; a
 stopped search is continued."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path
@@ -18,23 +16,17 @@ from fenics_gears.command_line import (
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("optimize", parents=[shared])
     command.add_argument("design", type=Path, metavar="DESIGN", help="a design file (TOML)")
     add_output_argument(command, "results/<name of the design file>")
-    command.add_argument(
-        "-y",
-        "--yes",
-        action="store_true",
-        help="start whatever time is expected (else: refused where it is more than 8 h)",
-    )
+    yes = "start whatever time is expected (else: refused where it is more than 8 h)"
+    command.add_argument("-y", "--yes", action="store_true", help=yes)
     add_processes_argument(command)
     add_memory_argument(command)
     command.set_defaults(command=optimize)
 
 
 def optimize(options: argparse.Namespace) -> int:
-    """Search, write and draw."""
     if options.processes is not None:
         return under_mpirun(options, ["optimize", str(options.design), *(["--yes"] if options.yes else [])])
     from .optimize import optimize

@@ -1,7 +1,5 @@
 """The scenes of a design: one for each operating point and each sample of what scatters."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -19,17 +17,15 @@ FROM_ZERO = ("profile_modifications", "lead_modifications")
 
 def samples(design: Design, fresh: bool = False) -> np.ndarray:
     """Deviations (samples, scatters) in parts of their limits, -1 to 1, by Sobol's scrambled sequence: the same for all
-    designs, so that these are compared under the same deviations. Without tolerances one sample of none. `fresh`: other
-    ones, and `FRESH` times as many."""
+    designs, so that these can be compared. Without tolerances one sample of none. `fresh`: others, `FRESH` times as
+    many."""
     count = len(design.tolerances.scatters)
     if not count:
         return np.zeros((1, 0))
     from scipy.stats import qmc
 
-    sequence, number = (
-        qmc.Sobol(count, scramble=True, seed=design.search.seed + fresh),
-        design.tolerances.samples * (FRESH if fresh else 1),
-    )
+    sequence = qmc.Sobol(count, scramble=True, seed=design.search.seed + fresh)
+    number = design.tolerances.samples * (FRESH if fresh else 1)
     return 2.0 * sequence.random_base2(number.bit_length() - 1) - 1.0
 
 

@@ -1,7 +1,4 @@
-"""An optimisation as frozen dataclasses: what may vary, at which operating points, within which tolerances, for which
-goals."""
-
-from __future__ import annotations
+"""An optimisation: what may vary, at which operating points, within which tolerances, for which goals."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,10 +8,20 @@ from typing import Any
 
 import numpy as np
 
+from fenics_gears.inputs.allowed import AllowedNumber
+from fenics_gears.inputs.fields import choice, declared, whole_number
+from fenics_gears.inputs.section import Section
 from fenics_gears.studies import fields
 
 MEAN, WORST, QUANTILE = "mean", "worst", "quantile"
 Tree = Mapping[str, Any]
+_QUANTILE = AllowedNumber(
+    description="a number from 0.5 to below 1, such as 0.9",
+    otherwise="0.9",
+    lowest=0.5,
+    highest=1.0,
+    below_highest=True,
+)
 
 
 @dataclass(frozen=True)
@@ -63,7 +70,7 @@ class Scatter:
 
 @dataclass(frozen=True)
 class Goal:
-    """A number of the result to be made small. `weight`: of its ratio to what it is before, in the choice of one
+    """A number of the result to be made small; `weight`: of its ratio to what it is before, in the choice of one
     design."""
 
     name: str
@@ -74,7 +81,7 @@ class Goal:
 
 @dataclass(frozen=True)
 class Bound:
-    """A number of the result that must not pass its bounds, in the result's unit, at any operating point."""
+    """A number of the result that must keep its bounds, in the result's unit, at every operating point."""
 
     goal: Goal
     at_least: float = -np.inf
@@ -89,13 +96,13 @@ class Bound:
 
 
 @dataclass(frozen=True)
-class Loads:
+class Loads(Section):
     """Operating points: the values of scene fields at each, their weights, and whether goals are their mean or the
-    worst of them."""
+    worst."""
 
     points: tuple[dict[fields.Path, Any], ...] = ({},)
     weights: tuple[float, ...] = (1.0,)
-    combine: str = MEAN
+    combine: str = choice(MEAN, WORST, meaning="what goals are of all operating points", default=MEAN)
 
     def combined(self, values: np.ndarray) -> np.ndarray:
         """One value (...) of those of all points (points, ...)."""
@@ -103,14 +110,14 @@ class Loads:
 
 
 @dataclass(frozen=True)
-class Tolerances:
-    """What scatters, the number of samples (a power of two), the quantile, and by which of mean and quantile designs
-    are judged."""
+class Tolerances(Section):
+    """What scatters, also by a class; how many samples are taken, and what designs are judged by."""
 
     scatters: tuple[Scatter, ...] = ()
-    samples: int = 1
-    quantile: float = 0.9
-    judged: str = MEAN
+    samples: int = whole_number(1, 4096, 32, meaning="number of samples, a power of two", default=32)
+    quantile: float = declared(_QUANTILE, 0.9)
+    judged: str = choice(MEAN, QUANTILE, meaning="what designs are judged by", default=MEAN)
+    tolerance_class: int | None = whole_number(1, 11, 6, meaning="flank tolerance class", otherwise="none")
 
     def statistic(self, values: np.ndarray) -> float:
         """What designs are judged by, of the values (samples,)."""
@@ -118,12 +125,12 @@ class Tolerances:
 
 
 @dataclass(frozen=True)
-class Search:
-    """Number of designs that are tried, how many of them at a time, and the seed of all random numbers."""
+class Search(Section):
+    """How long is searched."""
 
-    evaluations: int = 200
-    population: int = 8
-    seed: int = 1
+    evaluations: int = whole_number(1, 100_000, 200, meaning="designs that are tried", default=200)
+    population: int = whole_number(4, 1000, 8, meaning="designs that are chosen at once", default=8)
+    seed: int = whole_number(0, 2**31 - 1, 1, meaning="seed of all random numbers", default=1)
 
 
 @dataclass(frozen=True)
@@ -139,13 +146,13 @@ class Design:
     tree: Tree
     before: Tree
     directory: Path
+    text: str
     variables: tuple[Variable, ...]
     loads: Loads
     goals: tuple[Goal, ...]
     tolerances: Tolerances
     bounds: tuple[Bound, ...]
     search: Search
-    text: str
 
     @cached_property
     def asked(self) -> tuple[str, ...]:

@@ -1,7 +1,5 @@
 """Reads a design file into a `Design` and refuses, before anything is computed, what no design of it could have."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -21,8 +19,7 @@ from .sections import Sections
 
 
 def load_design(path: str | Path) -> Design:
-    """Read a design file and its scene. Raises SceneError, naming every mistake at once, before anything is
-    computed."""
+    """Read a design file and its scene. Raises SceneError, naming every mistake at once."""
     path = Path(path)
     text = text_of(path, "design")
     tree = parsed(text, str(path))
@@ -34,36 +31,17 @@ def load_design(path: str | Path) -> Design:
     sections = Sections(path, text, tree)
     sections.check_keys()
     base, directory = sections.scene()
-    variables, loads, goals, bounds, search = (
-        sections.variables(),
-        sections.loads(),
-        sections.goals(),
-        sections.bounds(),
-        sections.search(),
-    )
-    tolerances, tolerance_class = sections.tolerances()
+    parts = ("variables", "loads", "goals", "bounds", "search", "tolerances")
+    found: dict[str, Any] = {part: getattr(sections, part)() for part in parts}
     without, fixed = left_out(tree, sections.mistakes), dict(entries(tree, "set", sections.mistakes))
     sections.mistakes.check()
-    varied = {variable.path[0] for variable in variables}
+    varied = {variable.path[0] for variable in found["variables"]}
     before = {place: value for place, value in fixed.items() if place[0] not in varied}
     scene_tree, before_tree = (Changes(without, changes, (), "product").apply(base, ()) for changes in (fixed, before))
     name = name_of(path)
-    design = Design(
-        name,
-        tree.get("title", name),
-        scene_tree,
-        before_tree,
-        directory,
-        variables,
-        loads,
-        goals,
-        tolerances,
-        bounds,
-        search,
-        text,
-    )
+    design = Design(name, tree.get("title", name), scene_tree, before_tree, directory, text, **found)
     scene = _checked_ranges(design, sections)
-    design = _with_class(design, scene, tolerance_class)
+    design = _with_class(design, scene)
     _check_scatter(design, sections)
     return design
 
@@ -73,35 +51,26 @@ def _checked_ranges(design: Design, sections: Sections) -> Scene:
     points or what is before make none, or where it has no such results as are wanted."""
     middle, mistakes = _middle(design), sections.mistakes
     _try(design, sections, design.before, ("scene",), "the scene before any change")
-    scene = _try(
-        design, sections, design.scene_tree(middle), ("variables",), "with all variables in the middle of their ranges"
-    )
+    where = "with all variables in the middle of their ranges"
+    scene = _try(design, sections, design.scene_tree(middle), ("variables",), where)
     mistakes.check()
     for variable in design.variables:
         for end in variable.words or (variable.low, variable.high):
             where = f"at {variable.written(end)}, the other variables in the middle of their ranges"
-            _try(
-                design, sections, design.scene_tree(middle | {variable.name: end}), ("variables", variable.name), where
-            )
+            tree = design.scene_tree(middle | {variable.name: end})
+            _try(design, sections, tree, ("variables", variable.name), where)
     for point in design.loads.points:
         tree = design.scene_tree(middle)
         for path, value in point.items():
             tree = fields.changed(tree, path, value)
             if path[0] == "motion" and "inertia" not in tree:
-                sections.wrong(
-                    "loads", ".".join(path), value, "has no effect on a scene without [inertia]. Leave it out."
-                )
+                message = "has no effect on a scene without [inertia]. Leave it out."
+                sections.wrong("loads", path, value, message)
             if path in [each.path for each in design.variables]:
-                sections.wrong(
-                    "variables", ".".join(path), "", "is a field of the operating points too. Leave one out."
-                )
-        _try(
-            design,
-            sections,
-            tree,
-            ("loads",),
-            f"at {', '.join(f'{path[-1]} = {value}' for path, value in point.items())}",
-        )
+                message = "is a field of the operating points too. Leave one out."
+                sections.wrong("variables", path, "", message)
+        where = ", ".join(f"{path[-1]} = {value}" for path, value in point.items())
+        _try(design, sections, tree, ("loads",), f"at {where}")
     for table, goals in (("goals", design.goals), ("constraints", [bound.goal for bound in design.bounds])):
         for goal in goals:
             if needs := lacking(goal.name, scene):
@@ -111,7 +80,6 @@ def _checked_ranges(design: Design, sections: Sections) -> Scene:
 
 
 def _middle(design: Design) -> dict[str, Any]:
-    """The middle of every range, and the first of words."""
     return {each.name: each.words[0] if each.words else 0.5 * (each.low + each.high) for each in design.variables}
 
 
@@ -124,38 +92,32 @@ def _try(
     except NoScene as error:
         problems = error.problems
     for problem in problems:
-        said = (
-            f"{'.'.join(problem.path)} {problem.message}"
-            if problem.path and ".".join(problem.path) != place[-1]
-            else problem.message
-        )
+        name = ".".join(problem.path)
+        said = f"{name} {problem.message}" if name not in ("", place[-1]) else problem.message
         sections.mistakes.add(place, problem.written or "", f"{said} ({where})")
     return None
 
 
-def _with_class(design: Design, scene: Scene, tolerance_class: int | None) -> Design:
-    """The design with the scatter that a flank tolerance class allows slopes and forms of the profiles, and over a face
-    slopes of the helix."""
+def _with_class(design: Design, scene: Scene) -> Design:
+    """The design with the scatter that a flank tolerance class allows."""
+    tolerance_class = design.tolerances.tolerance_class
     if tolerance_class is None:
         return design
     pair, found = gear_pair(scene.gears), list(design.tolerances.scatters)
     for name, width in zip(GEARS, pair.face_widths):
         gear = getattr(pair, name)
-        limits = flank_tolerance(2.0 * gear.reference_radius, gear.normal_module, tolerance_class)
+        diameter, named = 2.0 * gear.reference_radius, {each.path for each in found}
+        limits = flank_tolerance(diameter, gear.normal_module, tolerance_class)
         amounts = {
             ("profile_modifications", name, "slope"): limits.profile_slope,
             ("profile_modifications", name, "crowning"): limits.profile_form,
         }
         if scene.three_dimensional:
-            amounts["lead_modifications", name, "helix_slope"] = helix_tolerance(
-                2.0 * gear.reference_radius, width, tolerance_class
-            ).slope
-        named = {each.path for each in found}
-        found += [
-            Scatter(path, 1e3 * amount, "um", *fields.allowed_at(path)[1:])
-            for path, amount in amounts.items()
-            if path not in named
-        ]
+            helix = helix_tolerance(diameter, width, tolerance_class)
+            amounts["lead_modifications", name, "helix_slope"] = helix.slope
+        for path, amount in amounts.items():
+            if path not in named:
+                found.append(Scatter(path, 1e3 * amount, "um", *fields.allowed_at(path)[1:]))
     return replace(design, tolerances=replace(design.tolerances, scatters=tuple(found)))
 
 
@@ -164,13 +126,9 @@ def _check_scatter(design: Design, sections: Sections) -> None:
     tree, scatters = design.scene_tree(_middle(design)), design.tolerances.scatters
     for scatter in scatters:
         if scatter.path[0] not in FROM_ZERO and value_of(tree, scatter.path) is None:
-            sections.wrong(
-                "tolerances",
-                scatter.name,
-                "",
-                'is not in the scene, so that it cannot scatter. Give it a value below [set], such as "0'
-                f' {scatter.unit}".',
-            )
+            remedy = f'Give it a value below [set], such as "0 {scatter.unit}".'
+            message = f"is not in the scene, so that it cannot scatter. {remedy}"
+            sections.wrong("tolerances", scatter.name, "", message)
     sections.mistakes.check()
     for sample in samples(design)[:2] if scatters else ():
         _try(design, sections, scattered(tree, scatters, sample), ("tolerances",), "at a sample of the tolerances")

@@ -1,7 +1,4 @@
-"""Designs to numbers: their runs over operating points and samples, computed where they are not kept, and what they
-amount to."""
-
-from __future__ import annotations
+"""Designs to numbers: their runs over operating points and samples, computed where they are not kept."""
 
 import time
 from collections.abc import Mapping, Sequence
@@ -23,7 +20,7 @@ from fenics_gears.studies.scenes import Models, NoScene
 from fenics_gears.system.progress import Interruption
 
 from .conditions import trees_of
-from .design import Bound, Design, Goal
+from .design import Design, Goal
 from .goals import ERROR, OVER_FACE
 
 UNUSABLE = 1e6
@@ -35,10 +32,9 @@ and more."""
 class Evaluation:
     """What a design amounts to.
 
-    `values`: of its variables; `goals`: by name, judged by the design file's statistic; `of_samples`: by name, the
-    values (samples,) behind it;
-    `at_points`: by name, the mean over the samples at each operating point; `violation`: of the constraints, 0 where
-    all hold; `failure`: why it has no numbers, empty where it has.
+    `values`: of its variables; `goals`: by name, as the design file judges; `of_samples`: by name, the values
+    (samples,) behind it; `at_points`: by name, the mean over the samples at each operating point; `violation`: of the
+    constraints, 0 where all hold; `failure`: why it has no numbers, empty where it has.
     """
 
     values: dict[str, float | str]
@@ -67,8 +63,7 @@ class Evaluation:
 class Evaluator:
     """Evaluates designs with the processes of a `team`; runs that are in `directory` are taken from there.
 
-    `designs`: how many of how many have been evaluated, for the progress; `others`: runs of versions with other numbers
-    beside those that are kept.
+    `designs`: how many of how many have been evaluated; `others`: kept runs of versions with other numbers.
     """
 
     def __init__(self, design: Design, directory: Path, team: Alone | Together, progress: Interruption):
@@ -92,18 +87,13 @@ class Evaluator:
 
     def curves(self, trees: Sequence[Mapping[str, Any]]) -> list[np.ndarray | None]:
         """Mesh phase and transmission error (2, steps), rad, of parsed scenes; None where a run failed."""
-        cases = [
-            replace(case, key=f"{case.key} curve", values={"curve": ""})
-            for case in map(self._case, trees)
-            if isinstance(case, Run)
-        ]
+        runs = [case for case in map(self._case, trees) if isinstance(case, Run)]
+        cases = [replace(run, key=f"{run.key} curve", values={"curve": ""}) for run in runs]
         self._run(cases, len(trees))
-        lines = [self.runs.known[case.key] for case in cases]
-        return (
-            [np.array(line["curve"]) if not isinstance(line, Failure) else None for line in lines]
-            if len(lines) == len(trees)
-            else [None] * len(trees)
-        )
+        if len(cases) < len(trees):
+            return [None] * len(trees)
+        lines = (self.runs.known[case.key] for case in cases)
+        return [None if isinstance(line, Failure) else np.array(line["curve"]) for line in lines]
 
     def _case(self, tree: Mapping[str, Any]) -> Run | Failure:
         """The run of a parsed scene, or why it is no scene."""
@@ -134,34 +124,20 @@ class Evaluator:
     def _evaluation(self, values: dict[str, float | str], cases: list[Run | Failure], samples: int) -> Evaluation:
         lines = [case if isinstance(case, Failure) else self.runs.known[case.key] for case in cases]
         failures = [str(line) for line in lines if isinstance(line, Failure)]
-        lacking = [
-            f"the run has no {name}"
-            for line in lines
-            if not isinstance(line, Failure)
-            for name in self.design.asked
-            if name not in line["numbers"]
-        ]
-        if failures or lacking:
-            return Evaluation(values, failure=[*failures, *lacking][0])
-        points = len(self.design.loads.points)
-        found = {
-            name: np.array([line["numbers"][name] for line in lines]).reshape(points, samples)
-            for name in self.design.asked
-        }
+        if failures:
+            return Evaluation(values, failure=failures[0])
+        for name in self.design.asked:
+            if any(name not in line["numbers"] for line in lines):
+                return Evaluation(values, failure=f"the run has no {name}")
+        shape = len(self.design.loads.points), samples
+        every = ((name, [line["numbers"][name] for line in lines]) for name in self.design.asked)
+        found = {name: np.array(numbers).reshape(shape) for name, numbers in every}
         of_samples = {name: self.design.loads.combined(numbers) for name, numbers in found.items()}
         judge = self.design.tolerances.statistic
         goals = {goal.name: judge(of_samples[goal.name]) for goal in self.design.goals}
-        violation = sum(
-            _violation(bound, [judge(each) for each in found[bound.goal.name]]) for bound in self.design.bounds
-        )
-        return Evaluation(
-            values, goals, of_samples, {name: each.mean(axis=1) for name, each in found.items()}, violation
-        )
-
-
-def _violation(bound: Bound, of_points: Sequence[float]) -> float:
-    """The worst of the operating points."""
-    return max(map(bound.violation, of_points))
+        bounds, at_points = self.design.bounds, {name: each.mean(axis=1) for name, each in found.items()}
+        violation = sum(max(bound.violation(judge(each)) for each in found[bound.goal.name]) for bound in bounds)
+        return Evaluation(values, goals, of_samples, at_points, violation)
 
 
 def _curve(run: RunResult) -> list[list[float]]:

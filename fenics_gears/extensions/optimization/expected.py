@@ -1,7 +1,4 @@
-"""How many runs an optimisation takes, and how long they take: said before it starts, refused where it is a day's work
-that nobody has agreed to."""
-
-from __future__ import annotations
+"""How many runs an optimisation takes, and how long: said before it starts, refused where it is a day's work."""
 
 from contextlib import suppress
 from dataclasses import dataclass
@@ -39,14 +36,10 @@ class Work:
     seconds: float | None
 
     def words(self, processes: int) -> str:
-        """For people."""
         by = f" by {processes} processes" if processes > 1 else ""
-        about = (
-            ""
-            if self.seconds is None
-            else f", about {seconds_in_words(self.seconds / processes)}{by} on an idle machine"
-        )
-        return f"up to {self.runs} runs{about}"
+        if self.seconds is None:
+            return f"up to {self.runs} runs"
+        return f"up to {self.runs} runs, about {seconds_in_words(self.seconds / processes)}{by} on an idle machine"
 
     def check(self, title: str, processes: int) -> None:
         """Raise SceneError where it takes too long."""

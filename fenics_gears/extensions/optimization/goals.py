@@ -1,7 +1,5 @@
 """The numbers of a result that goals and constraints may name, and what a scene needs to have them."""
 
-from __future__ import annotations
-
 from fenics_gears import HARMONIC_NAMES, Scene
 from fenics_gears.results.attributes import RESULT_ATTRIBUTES
 from fenics_gears.runs.record import NUMBERS

@@ -1,7 +1,5 @@
 """An optimisation from its design file to its result: the stages, in order."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -37,13 +35,11 @@ class Outcome:
     """What an optimisation found.
 
     `before`: the scene before, `tried`: all designs in their order, `best`: the place of the chosen one, `front`:
-    places of the Pareto front.
-    `fresh`: the scene before and the chosen design under samples that the search did not know, where there are
-    tolerances.
-    `along`: by variable its values and the chosen design's evaluations there, without scatter; `limits`: by scatter the
-    evaluations of the chosen design at the lower limit, without scatter and at the upper limit; nothing where one
-    failed. `harris`: torques (loads,), N m, and of the scene before and the chosen one curves (2, steps) of mesh phase
-    and transmission error, rad. `spent`: on the runs that were not `kept` from before.
+    places of the Pareto front. `fresh`: the scene before and the chosen design under samples that the search did not
+    know, where there are tolerances. `along`: by variable its values and the chosen design's evaluations there, without
+    scatter; `limits`: by scatter the evaluations of the chosen design at the lower limit, without scatter and at the
+    upper limit; nothing where one failed. `harris`: torques (loads,), N m, and of the scene before and the chosen one
+    curves (2, steps) of mesh phase and transmission error, rad. `spent`: on the runs that were not `kept` from before.
     """
 
     design: Design
@@ -61,7 +57,6 @@ class Outcome:
 
     @property
     def chosen(self) -> Evaluation:
-        """The chosen design."""
         return self.tried[self.best]
 
 
@@ -69,12 +64,11 @@ def optimize(
     path: Path, output: Path | None, progress: Progress, quiet: bool = False, any_time: bool = False
 ) -> Outcome | None:
     """Search the best design and look at it from all sides; None on every rank of an MPI job but 0. Finished runs are
-    kept in `runs` of the directory.
+    kept in `runs` of the directory, `results/<name of the design file>` unless `output`.
 
-    output: the directory, `results/<name of the design file>` where None. Raises SceneError, before anything is
-    computed or written, where the design file is wrong or the work takes more than `expected.MOST_HOURS`, unless
-    `any_time`; ComputationError where the directory cannot be used or no design keeps the constraints;
-    KeyboardInterrupt at Ctrl-C.
+    Raises SceneError, before anything is computed, where the design file is wrong or the work takes more than
+    `expected.MOST_HOURS`, unless `any_time`; ComputationError where the directory cannot be used or no design keeps the
+    constraints; KeyboardInterrupt at Ctrl-C.
     """
     with ranks() as team:
         if team is None:
@@ -118,14 +112,10 @@ def _run(
 
 
 def _opening(design: Design, count: int, evaluator: Evaluator, work: Work, size: int) -> str:
-    """One line on how much there is to do."""
     runs = len(design.loads.points) * count
     kept = f" {evaluator.runs.kept} runs are kept from before." if evaluator.runs.kept else ""
-    kept += (
-        f" {evaluator.others} runs of a version of the program with other numbers are not used."
-        if evaluator.others
-        else ""
-    )
+    if evaluator.others:
+        kept += f" {evaluator.others} runs of a version of the program with other numbers are not used."
     return (
         f"{design.title}: {design.search.evaluations} designs of {len(design.variables)} variables, {runs} runs each,"
         f" and around them; {work.words(size)}.{kept}"
@@ -133,16 +123,13 @@ def _opening(design: Design, count: int, evaluator: Evaluator, work: Work, size:
 
 
 def chosen(design: Design, before: Evaluation, tried: Sequence[Evaluation]) -> int:
-    """The place of the design with the least weighted sum of its goals, each in parts of what it is before. Raises
-    ComputationError without any allowed one."""
+    """The place of the design with the least `score`. Raises ComputationError where none keeps the constraints."""
     allowed = [place for place, each in enumerate(tried) if each.allowed]
     if not allowed:
         failed = [each.failure for each in tried if each.failure]
-        why = (
-            f"{len(failed)} failed, the first since: {failed[0]}"
-            if failed
-            else f"the nearest one breaks the bounds by {min(each.violation for each in tried):.3g} of them"
-        )
+        why = f"the nearest one breaks the bounds by {min(each.violation for each in tried):.3g} of them"
+        if failed:
+            why = f"{len(failed)} failed, the first since: {failed[0]}"
         raise ComputationError(
             f"None of {len(tried)} designs keeps the constraints: {why}. Widen ranges or bounds; the runs are kept."
         )
@@ -164,13 +151,10 @@ def _look_around(outcome: Outcome, evaluator: Evaluator) -> None:
     count = len(design.tolerances.scatters)
     nominal = np.zeros((1, count))
     for variable in design.variables:
-        places = list(variable.words) or sorted(
-            {*map(variable.at, np.linspace(0.0, 1.0, VALUES)), values[variable.name]}
-        )
-        outcome.along[variable.name] = (
-            places,
-            evaluator.of_designs([values | {variable.name: place} for place in places], nominal),
-        )
+        evenly = {*map(variable.at, np.linspace(0.0, 1.0, VALUES)), values[variable.name]}
+        places = list(variable.words) or sorted(evenly)
+        designs = [values | {variable.name: place} for place in places]
+        outcome.along[variable.name] = places, evaluator.of_designs(designs, nominal)
     if not count:
         return
     trees = [design.before, design.scene_tree(values)]
@@ -183,7 +167,7 @@ def _look_around(outcome: Outcome, evaluator: Evaluator) -> None:
 
 
 def _torque_of(design: Design, tree: Tree) -> float:
-    """The torque (N m) on the wheel of a scene that names it, the pinion's or a power."""
+    """The torque (N m) on the wheel of a parsed scene."""
     return 1e-3 * model_of_tree(design.name, tree, design.directory).scene.load.wheel_torque
 
 

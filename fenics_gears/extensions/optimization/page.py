@@ -1,7 +1,4 @@
-"""The page of an optimisation: the chosen design, how it was found, its sensitivity, and Harris maps before and
-after."""
-
-from __future__ import annotations
+"""The page of an optimisation."""
 
 from pathlib import Path
 
@@ -11,21 +8,7 @@ from fenics_gears.show.report.overview import counted
 from fenics_gears.show.report.page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words
 from fenics_gears.show.report.rendering import rendered
 
-from .charts import (
-    BEFORE,
-    called,
-    front_chart,
-    goal_words,
-    goals_of,
-    harris_charts,
-    no_gain,
-    search_chart,
-    sentence,
-    summary_rows,
-    tolerance_rows,
-    variable_chart,
-)
-from .charts import BEST as CHOSEN
+from . import charts
 from .optimize import Outcome
 from .result import BEST, TABLE, best_scene
 
@@ -40,9 +23,8 @@ def write_page(outcome: Outcome) -> Path:
 
 
 def optimization_page(outcome: Outcome) -> Page:
-    """The page of what an optimisation found."""
     design = outcome.design
-    maps = harris_charts(outcome) or [Words("A run of the Harris maps failed.", warns=True)]
+    maps = charts.harris_charts(outcome) or [Words("A run of the Harris maps failed.", warns=True)]
     sections = [
         _summary(outcome),
         Section(
@@ -53,7 +35,7 @@ def optimization_page(outcome: Outcome) -> Page:
         Section(
             "variables",
             "Each variable alone",
-            [variable_chart(outcome, variable, goal) for variable in design.variables for goal in design.goals],
+            [charts.variable_chart(outcome, variable, goal) for variable in design.variables for goal in design.goals],
         ),
         _designs(outcome),
     ]
@@ -63,96 +45,65 @@ def optimization_page(outcome: Outcome) -> Page:
         scene_section(best_scene(outcome), f"Chosen design ({BEST})"),
         scene_section(design.text, "Design file", "design"),
     ]
-    numbers = (
-        counted(len(each), words)
-        for each, words in (
-            (outcome.tried, "design"),
-            (design.variables, "variable"),
-            (design.loads.points, "operating point"),
-        )
-    )
-    subtitle = "{} of {} at {}".format(*numbers)
-    return Page("Gear pair: optimisation", design.title, subtitle, sections, made_by(), no_gain(outcome))
+    designs, points = counted(len(outcome.tried), "design"), counted(len(design.loads.points), "operating point")
+    subtitle = f"{designs} of {counted(len(design.variables), 'variable')} at {points}"
+    return Page("Gear pair: optimisation", design.title, subtitle, sections, made_by(), charts.no_gain(outcome))
 
 
 def _summary(outcome: Outcome) -> Section:
-    tiles = []
-    for goal in outcome.design.goals:
-        note = f"before: {goal_words(outcome, goal, outcome.before)}"
-        tiles.append(
-            Tile(
-                sentence(called(goal.name)),
-                f"{outcome.chosen.goals[goal.name]:.4g}",
-                goal.unit.replace("um", "µm").removeprefix("1"),
-                note,
-            )
-        )
-    # Goals before and after are on the tiles, where there are no tolerances, of which the rows have more.
-    said = (
-        set()
-        if outcome.design.tolerances.scatters
-        else {f"{called(goal.name)}, {words}" for goal in outcome.design.goals for words in (BEFORE, CHOSEN)}
-    )
-    return Section(
-        "summary", "Summary", [Tiles(tiles), Facts([row for row in summary_rows(outcome) if row[0] not in said])]
-    )
+    tiles, goals = [], outcome.design.goals
+    for goal in goals:
+        value, unit = f"{outcome.chosen.goals[goal.name]:.4g}", goal.unit.replace("um", "µm").removeprefix("1")
+        note = f"before: {charts.goal_words(outcome, goal, outcome.before)}"
+        tiles.append(Tile(charts.sentence(charts.called(goal.name)), value, unit, note))
+    rows = charts.summary_rows(outcome)
+    if not outcome.design.tolerances.scatters:
+        # Goals before and after are on the tiles; with tolerances the rows have more of them.
+        said = {f"{charts.called(goal.name)}, {words}" for goal in goals for words in (charts.BEFORE, charts.BEST)}
+        rows = [row for row in rows if row[0] not in said]
+    return Section("summary", "Summary", [Tiles(tiles), Facts(rows)])
 
 
 def _designs(outcome: Outcome) -> Section:
     design = outcome.design
-    blocks: list[Block] = [search_chart(outcome, goal) for goal in design.goals]
-    listed, words = (
-        sorted(
-            (place for place, each in enumerate(outcome.tried) if each.allowed),
-            key=lambda place: goals_of([outcome.tried[place]], design.goals[0])[0],
-        ),
-        "best",
-    )
+    blocks: list[Block] = [charts.search_chart(outcome, goal) for goal in design.goals]
+    allowed = (place for place, each in enumerate(outcome.tried) if each.allowed)
+    listed, words = sorted(allowed, key=lambda place: outcome.tried[place].goals[design.goals[0].name]), "best"
     if len(design.goals) > 1:
-        blocks.insert(0, front_chart(outcome))
+        blocks.insert(0, charts.front_chart(outcome))
         listed, words = [place for place in listed if place in outcome.front], "designs of the Pareto front"
     headings = [
         "Design",
-        *(f"{called(each.name)} ({each.unit})" if each.unit else called(each.name) for each in design.variables),
-        *(f"{called(goal.name)} ({goal.unit})" for goal in design.goals),
+        *(
+            f"{charts.called(each.name)} ({each.unit})" if each.unit else charts.called(each.name)
+            for each in design.variables
+        ),
+        *(f"{charts.called(goal.name)} ({goal.unit})" for goal in design.goals),
     ]
     rows = []
     for place in listed[:MOST_ROWS]:
-        numbers = [outcome.tried[place].values[each.name] for each in design.variables] + [
-            outcome.tried[place].goals[goal.name] for goal in design.goals
+        tried = outcome.tried[place]
+        numbers = [
+            *(tried.values[each.name] for each in design.variables),
+            *(tried.goals[goal.name] for goal in design.goals),
         ]
-        rows.append(
-            [
-                Cell(f"{place}{' (chosen)' if place == outcome.best else ''}", float(place)),
-                *(Cell(each) if isinstance(each, str) else Cell(f"{each:.4g}", each) for each in numbers),
-            ]
-        )
-    failures = [
-        (str(place), Cell(each.failure, warns=True)) for place, each in enumerate(outcome.tried) if each.failure
-    ]
+        cells = (Cell(each) if isinstance(each, str) else Cell(f"{each:.4g}", each) for each in numbers)
+        rows.append([Cell(f"{place}{' (chosen)' if place == outcome.best else ''}", float(place)), *cells])
     blocks += [Words(f"The {len(rows)} {words}; `{TABLE}` has all designs."), Table(headings, rows, sortable=True)]
-    blocks += (
-        [Words(f"{len(failures)} designs failed."), Table(("Design", "Why"), failures[:MOST_ROWS], numbers=9)]
-        if failures
-        else []
-    )
+    failed = ((place, each.failure) for place, each in enumerate(outcome.tried) if each.failure)
+    if failures := [(f"{place}", Cell(why, warns=True)) for place, why in failed]:
+        table = Table(("Design", "Why"), failures[:MOST_ROWS], numbers=9)
+        blocks += [Words(f"{len(failures)} designs failed."), table]
     return Section("designs", "Designs", blocks)
 
 
 def _tolerances(outcome: Outcome) -> Section:
     blocks: list[Block] = []
+    heads = ("Tolerance", "Limit", "At the lower limit", "Without scatter", "At the upper limit")
     for goal in outcome.design.goals:
-        heads = ("Tolerance", "Limit", "At the lower limit", "Without scatter", "At the upper limit")
-        blocks.append(
-            Table(
-                heads,
-                tolerance_rows(outcome, goal),
-                f"{sentence(called(goal.name))} ({goal.unit.replace('um', 'µm')}) of the chosen design",
-            )
-        )
-    words = (
-        "One deviation at its limit, all others zero; the largest change first."
-        if outcome.limits
-        else "A run with a deviation at its limit failed."
-    )
+        caption = f"{charts.sentence(charts.called(goal.name))} ({goal.unit.replace('um', 'µm')}) of the chosen design"
+        blocks.append(Table(heads, charts.tolerance_rows(outcome, goal), caption))
+    words = "One deviation at its limit, all others zero; the largest change first."
+    if not outcome.limits:
+        words = "A run with a deviation at its limit failed."
     return Section("tolerances", "Each tolerance alone", [Words(words, warns=not outcome.limits), *blocks])

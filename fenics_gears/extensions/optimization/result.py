@@ -1,7 +1,5 @@
 """The files of an optimisation: all designs as a dataset and as a table, and the chosen one as a scene."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 
@@ -105,11 +103,8 @@ def best_scene(outcome: Outcome) -> str:
     for path, is_section in known_paths().items():
         name = None if is_section else value_at(tree, *path)
         if isinstance(name, str) and isinstance(fields.allowed_at(path)[0], AllowedFile):
-            tree = fields.changed(
-                tree, path, os.path.relpath((outcome.design.directory / name).resolve(), outcome.directory.resolve())
-            )
+            file = (outcome.design.directory / name).resolve()
+            tree = fields.changed(tree, path, os.path.relpath(file, outcome.directory.resolve()))
     goals = ", ".join(f"{name} = {value:.5g}" for name, value in outcome.chosen.goals.items())
-    return (
-        f"# Chosen by `gears optimize` from {len(outcome.tried)} designs of {outcome.design.name}:"
-        f" {goals}.\n\n{as_toml(tree)}"
-    )
+    head = f"# Chosen by `gears optimize` from {len(outcome.tried)} designs of {outcome.design.name}: {goals}."
+    return f"{head}\n\n{as_toml(tree)}"

@@ -1,13 +1,9 @@
-"""The search for the best designs, by Optuna: which designs are tried next is asked of its samplers, what they amount
-to is told to them.
+"""The search for the best designs, by samplers of Optuna: for one goal over ranges CMA-ES (covariance matrix
+adaptation), else TPE (tree-structured Parzen estimators), which takes words and several goals too.
 
-For one goal over ranges CMA-ES (covariance matrix adaptation), else TPE (tree-structured Parzen estimators), which
-takes words and several goals too. Designs are asked for and told in whole populations and in order, so that the same
-seed tries the same designs whatever the number of processes. So a search that was stopped goes on by being run again:
-its finished runs are found on disk.
+Designs are asked for and told in whole populations and in order, so that the same seed tries the same designs whatever
+the number of processes, and a search that was stopped goes on by being run again: its runs are found on disk.
 """
-
-from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
@@ -26,10 +22,8 @@ def optimiser():
         import cmaes  # noqa: F401
         import optuna
     except ImportError as error:
-        raise ComputationError(
-            f"`gears optimize` needs Optuna and cmaes, which cannot be loaded ({error}). Install them: pip install"
-            " 'fenics_gears[optimize]' (Debian: python3-optuna)."
-        ) from error
+        missing = f"`gears optimize` needs Optuna and cmaes, which cannot be loaded ({error})"
+        raise ComputationError(f"{missing}. Install them: pip install 'fenics_gears[optimize]'.") from error
     optuna.logging.set_verbosity(optuna.logging.ERROR)
     return optuna
 
@@ -48,9 +42,8 @@ def search(
         report(len(tried))
         count = min(design.search.population, design.search.evaluations - len(tried))
         trials = [study.ask(_distributions(optuna, design)) for _ in range(count)]
-        found = evaluate(
-            [{each.name: each.at(trial.params[each.name]) for each in design.variables} for trial in trials]
-        )
+        values = [{each.name: each.at(trial.params[each.name]) for each in design.variables} for trial in trials]
+        found = evaluate(values)
         for trial, evaluation in zip(trials, found):
             study.tell(trial, evaluation.told(design.goals))
         tried += found
@@ -71,10 +64,8 @@ def _sampler(optuna, design: Design):
     seed, population, samplers = design.search.seed, design.search.population, optuna.samplers
     if len(design.goals) > 1 or len(design.variables) == 1 or any(each.words for each in design.variables):
         return samplers.TPESampler(seed=seed, multivariate=True, n_startup_trials=2 * population)
-    middle = {each.name: 0.5 for each in design.variables}
-    return samplers.CmaEsSampler(
-        x0=middle, sigma0=1.0 / 6.0, seed=seed, popsize=population, warn_independent_sampling=False
-    )
+    begin = {"x0": {each.name: 0.5 for each in design.variables}, "sigma0": 1.0 / 6.0}
+    return samplers.CmaEsSampler(**begin, seed=seed, popsize=population, warn_independent_sampling=False)
 
 
 def front(tried: Sequence[Evaluation], names: Sequence[str]) -> list[int]:
@@ -86,9 +77,9 @@ def front(tried: Sequence[Evaluation], names: Sequence[str]) -> list[int]:
         pairs = [(tried[one].goals[name], tried[other].goals[name]) for name in names]
         return all(a <= b for a, b in pairs) and any(a < b for a, b in pairs)
 
-    best = [place for place in allowed if not any(better(other, place) for other in allowed)]
-    return [
-        place
-        for turn, place in enumerate(best)
-        if tried[place].values not in [tried[other].values for other in best[:turn]]
-    ]
+    found: dict[str, int] = {}
+    for place in allowed:
+        # Of equal designs the first.
+        if not any(better(other, place) for other in allowed):
+            found.setdefault(repr(tried[place].values), place)
+    return [*found.values()]

@@ -1,34 +1,25 @@
 """The sections of a design file, read one by one; mistakes are noted by their names."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from fenics_gears import load_scene, units
 from fenics_gears.inputs.problem import did_you_mean, line_numbers
+from fenics_gears.inputs.section import Section, names_in, read
 from fenics_gears.inputs.written import as_written
 from fenics_gears.scene.read import parsed
 from fenics_gears.studies import fields
 from fenics_gears.studies.axis import AxisError, factor_of, number_in, values_of
 from fenics_gears.studies.study_file import Mistakes, entries
 
-from .design import MEAN, QUANTILE, WORST, Bound, Goal, Loads, Scatter, Search, Tolerances, Variable
+from .design import WORST, Bound, Goal, Loads, Scatter, Search, Tolerances, Variable
 from .goals import NAMES, unit_and_words
 
 KEYS = ("title", "scene", "without", "set", "variables", "loads", "goals", "tolerances", "constraints", "search")
 EXAMPLES = {"variables": 'tip_relief.depth = ["5 um", "60 um"]', "goals": "peak_to_peak_transmission_error = 1"}
-OWN_OF_LOADS, OWN_OF_TOLERANCES = ("weights", "combine"), ("samples", "quantile", "judged", "tolerance_class")
-# Whole numbers with their least and largest values.
-WHOLE = {
-    "evaluations": (1, 100_000),
-    "population": (4, 1000),
-    "seed": (0, 2**31 - 1),
-    "samples": (1, 4096),
-    "tolerance_class": (1, 11),
-}
 
 
 class Sections:
@@ -42,11 +33,11 @@ class Sections:
         self.mistakes = Mistakes(str(path), lines)
 
     def table(self, name: str) -> Mapping[str, Any]:
-        """A section of the file; empty where there is none."""
         return self.tree.get(name, {})
 
-    def wrong(self, table: str, name: str, value: Any, message: str) -> None:
+    def wrong(self, table: str, field: str | fields.Path, value: Any, message: str) -> None:
         """Note a mistake in a field of a section; `value`: "" to leave it out."""
+        name = field if isinstance(field, str) else ".".join(field)
         self.mistakes.add((table, name), as_written(value) if value != "" else "", message)
 
     def check_keys(self) -> None:
@@ -81,15 +72,14 @@ class Sections:
         found = []
         for path, written in entries(self.tree, "variables", self.mistakes):
             if mistake := _not_variable(path, written):
-                self.wrong("variables", ".".join(path), written, mistake)
+                self.wrong("variables", path, written, mistake)
             elif fields.is_numeric(path):
-                found += self._range(path, ".".join(path), written)
+                found += self._range(path, written)
             else:
                 found.append(Variable(path, words=tuple(written)))
         return tuple(found)
 
-    def _range(self, path: fields.Path, name: str, written: list) -> list[Variable]:
-        """The variable between two ends; none, with a mistake noted, where they are wrong."""
+    def _range(self, path: fields.Path, written: list) -> list[Variable]:
         numbers, unit = self._numbers("variables", path, written)
         if not numbers:
             return []
@@ -98,9 +88,9 @@ class Sections:
         # A depth of exactly nothing is no relief; the least depth is as good.
         low, high = lowest / factor_of(unit) if numbers[0] == 0.0 < lowest else numbers[0], numbers[-1]
         if len(numbers) > 2 or not low < high:
-            self.wrong("variables", name, written, f"{ends} Allowed: two ends, the lower one first.")
+            self.wrong("variables", path, written, f"{ends} Allowed: two ends, the lower one first.")
         elif not lowest <= low * factor_of(unit) * (1 + 1e-12) or not high * factor_of(unit) <= highest:
-            self.wrong("variables", name, written, f"{ends} Allowed for this field: {allowed.description}.")
+            self.wrong("variables", path, written, f"{ends} Allowed for this field: {allowed.description}.")
         else:
             return [Variable(path, low, high, unit)]
         return []
@@ -116,45 +106,41 @@ class Sections:
                 units.of_kind(each, *kinds)[1] if isinstance(each, str) and allowed.kind else None for each in written
             ]
         except units.QuantityError as error:
-            self.wrong(table, ".".join(path), shown, f"has an entry that {error} Allowed: {allowed.description}.")
+            self.wrong(table, path, shown, f"has an entry that {error} Allowed: {allowed.description}.")
             return [], ""
         numbers = [number_in(each, unit) for each in written]
-        if (
-            len({*found}) > 1
-            or (found[0] is None) != (allowed.kind is None)
-            or not all(each is not None and math.isfinite(each) for each in numbers)
-        ):
-            self.wrong(table, ".".join(path), shown, f"is not of this field. Allowed: {allowed.description}.")
+        finite = all(each is not None and math.isfinite(each) for each in numbers)
+        if len({*found}) > 1 or (found[0] is None) != (allowed.kind is None) or not finite:
+            self.wrong(table, path, shown, f"is not of this field. Allowed: {allowed.description}.")
             return [], ""
         return numbers, unit
 
     def loads(self) -> Loads:
         """The operating points."""
         table, swept = self.table("loads"), {}
-        for path, written in entries(self.tree, "loads", self.mistakes, OWN_OF_LOADS):
+        for path, written in entries(self.tree, "loads", self.mistakes, ("weights", *names_in(Loads))):
             try:
                 swept[path] = values_of(path, written)
             except AxisError as error:
-                self.wrong("loads", ".".join(path), written, str(error))
+                self.wrong("loads", path, written, str(error))
         lengths = {len(values) for values in swept.values()} or {1}
         if len(lengths) > 1:
             listed = ", ".join(f"{'.'.join(path)} has {len(values)}" for path, values in swept.items())
             self.mistakes.add(("loads",), "", f"needs a value of each field for each operating point: {listed}.")
-        combine, weights = self._word("loads", "combine", MEAN, WORST), table.get("weights")
-        points = tuple(dict(zip(swept, values)) for values in zip(*swept.values())) or ({},)
+        weights, points = table.get("weights"), tuple(dict(zip(swept, each)) for each in zip(*swept.values())) or ({},)
+        found = replace(self._own("loads", Loads), points=points, weights=(1.0,) * len(points))
         if weights is None:
-            return Loads(points, (1.0,) * len(points), combine)
-        if combine == WORST:
+            return found
+        if found.combine == WORST:
             message = 'stands beside combine = "worst", where all operating points count alike. Leave one out.'
             self.wrong("loads", "weights", weights, message)
         numbers = isinstance(weights, list) and all(is_number(each) and each >= 0 for each in weights)
         if not (numbers and len(weights) in lengths and sum(weights) > 0):
-            message = (
-                f"is not a list of {max(lengths)} numbers of 0 and above. Allowed: a weight for each operating point."
-            )
+            kind = f"is not a list of {max(lengths)} numbers of 0 and above"
+            message = f"{kind}. Allowed: a weight for each operating point."
             self.wrong("loads", "weights", weights, message)
-            return Loads(points, (1.0,) * len(points), combine)
-        return Loads(points, tuple(map(float, weights)), combine)
+            return found
+        return replace(found, weights=tuple(map(float, weights)))
 
     def goals(self) -> tuple[Goal, ...]:
         """The numbers that are to be small."""
@@ -180,12 +166,9 @@ class Sections:
             if not self._is_result("constraints", name, written):
                 continue
             unit, words = unit_and_words(name)
-            ends = (
-                {key: _in_unit(value, unit) for key, value in written.items() if key in ("at_least", "at_most")}
-                if isinstance(written, Mapping)
-                else {}
-            )
-            if not ends or None in ends.values() or len(ends) != len(written):
+            given = written if isinstance(written, Mapping) else {}
+            ends = {key: _in_unit(value, unit) for key, value in given.items() if key in ("at_least", "at_most")}
+            if not ends or None in ends.values() or len(ends) != len(given):
                 example = "1.2" if unit == "1" else f'"20 {unit}"'
                 message = f"is no bound. Allowed: {{ at_most = {example} }}, and at_least likewise."
                 self.wrong("constraints", name, written, message)
@@ -193,54 +176,43 @@ class Sections:
                 found.append(Bound(Goal(name, unit, words), **ends))
         return tuple(found)
 
-    def tolerances(self) -> tuple[Tolerances, int | None]:
-        """What scatters, and the flank tolerance class."""
-        table, found = self.table("tolerances"), []
-        for path, written in entries(self.tree, "tolerances", self.mistakes, OWN_OF_TOLERANCES):
+    def tolerances(self) -> Tolerances:
+        """What scatters, but for the flank tolerance class."""
+        table, found, own = self.table("tolerances"), [], self._own("tolerances", Tolerances)
+        for path, written in entries(self.tree, "tolerances", self.mistakes, names_in(Tolerances)):
             if fields.is_section(path) or not fields.is_numeric(path):
-                self.wrong("tolerances", ".".join(path), written, "is no field of a number that could scatter.")
+                self.wrong("tolerances", path, written, "is no field of a number that could scatter.")
                 continue
             numbers, unit = self._numbers("tolerances", path, [written])
             if numbers and not numbers[0] > 0.0:
                 message = "is not above zero. Allowed: the limit of the scatter on either side."
-                self.wrong("tolerances", ".".join(path), written, message)
+                self.wrong("tolerances", path, written, message)
             elif numbers:
                 found.append(Scatter(path, numbers[0], unit, *fields.allowed_at(path)[1:]))
-        tolerance_class = self._whole("tolerances", "tolerance_class", None)
-        if table and not found and tolerance_class is None:
+        if table and not found and "tolerance_class" not in table:
             message = "has nothing that scatters. Add tolerance_class, or a field with its limit, such as"
             self.mistakes.add(("tolerances",), "", f'{message} tip_relief.depth = "4 um".')
-        number, quantile = self._whole("tolerances", "samples", 32), table.get("quantile", 0.9)
-        if number & (number - 1):
+        if own.samples & (own.samples - 1):
             message = "is no power of two, as Sobol's sequence needs. Allowed: 8, 16, 32, 64, ..."
-            self.wrong("tolerances", "samples", number, message)
-        if not (is_number(quantile) and 0.5 <= quantile < 1.0):
-            message = "is not allowed. Allowed: a number from 0.5 to below 1, such as 0.9."
-            self.wrong("tolerances", "quantile", quantile, message)
-        judged = self._word("tolerances", "judged", MEAN, QUANTILE)
-        return Tolerances(tuple(found), number if table else 1, quantile, judged), tolerance_class
+            self.wrong("tolerances", "samples", own.samples, message)
+        return replace(own, scatters=tuple(found), samples=own.samples if table else 1)
 
     def search(self) -> Search:
         """How long is searched, and from which seed."""
-        defaults = {"evaluations": 200, "population": 8, "seed": 1}
+        known = names_in(Search)
         for key, value in self.table("search").items():
-            if key not in defaults:
-                known = f"{did_you_mean(key, defaults)} Known: {', '.join(defaults)}."
-                self.wrong("search", key, value, f"is not known.{known}")
-        return Search(*(self._whole("search", name, default) for name, default in defaults.items()))
+            if key not in known:
+                hint = f"{did_you_mean(key, known)} Known: {', '.join(known)}."
+                self.wrong("search", key, value, f"is not known.{hint}")
+        return self._own("search", Search)
 
-    def _word(self, table: str, name: str, *words: str) -> str:
-        value = self.table(table).get(name, words[0])
-        if value not in words:
-            self.wrong(table, name, value, f"is not known. Allowed: {', '.join(map(as_written, words))}.")
-        return value
-
-    def _whole(self, table: str, name: str, default: int | None) -> int | None:
-        value, (lowest, highest) = self.table(table).get(name, default), WHOLE[name]
-        if value is default or type(value) is int and lowest <= value <= highest:
-            return value
-        self.wrong(table, name, value, f"is not allowed. Allowed: a whole number from {lowest} to {highest}.")
-        return default
+    def _own(self, table: str, section: type[Section]) -> Any:
+        """What a section has of its own beside paths; its defaults, with mistakes noted, where it is wrong."""
+        own = {name: value for name, value in self.table(table).items() if name in names_in(section)}
+        found, problems = read(section, own, (table,))
+        for problem in problems:
+            self.mistakes.add(problem.path, problem.written, problem.message)
+        return found or section()
 
 
 def _not_variable(path: fields.Path, written: Any) -> str:

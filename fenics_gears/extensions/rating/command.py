@@ -32,7 +32,6 @@ _NUMBERS = {
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     from .finish import Finish
 
     defaults = {each.name: each.default for each in fields(Finish)}
@@ -54,7 +53,6 @@ def _option(name: str) -> str:
 
 
 def rate(options: argparse.Namespace) -> int:
-    """Print and write the table."""
     from fenics_gears import carried_scene
 
     from . import rating
@@ -69,17 +67,14 @@ def rate(options: argparse.Namespace) -> int:
     if not options.quiet:
         _show(rows)
         if end := result.attrs.get("peak_contact_pressure_beside"):
-            print(
-                f"sigma_H of this run is beside the {end} of the pinion's active profile, where lines of contact end"
-                " and their line load rises (buttressing); ISO 6336-2 has no such rise."
-            )
+            why = "where lines of contact end and their line load rises (buttressing); ISO 6336-2 has no such rise"
+            print(f"sigma_H of this run is beside the {end} of the pinion's active profile, {why}.")
         print(rating.of_misalignment(scene, finish))
         print(output)
     return 0
 
 
 def _finish(options: argparse.Namespace, scene):
-    """Material, finish and oil of the options. Raises SceneError for values out of range."""
     from .finish import Finish
 
     given = {}
@@ -90,15 +85,13 @@ def _finish(options: argparse.Namespace, scene):
         if text is not None:
             given[name] = number_of_option(_option(name), text, unit, low, high)
     for name, (low, high, _) in _NUMBERS.items():
-        value = getattr(options, name)
+        value, whole = getattr(options, name), name == "tolerance_class"
         if value is None:
             continue
-        if not low <= value <= high or (name == "tolerance_class" and value != int(value)):
-            raise SceneError(
-                f"{_option(name)} {value:g}: allowed is {'a whole number ' if name == 'tolerance_class' else ''}from"
-                f" {low:g} to {high:g}."
-            )
-        given[name] = int(value) if name == "tolerance_class" else value
+        if not low <= value <= high or whole and value != int(value):
+            kind = "a whole number " if whole else ""
+            raise SceneError(f"{_option(name)} {value:g}: allowed is {kind}from {low:g} to {high:g}.")
+        given[name] = int(value) if whole else value
     return Finish(**given)
 
 
@@ -117,15 +110,10 @@ def _show(rows) -> None:
         unit = "" if row.unit == "1" else f" {row.unit}"
         name = row.name + ("," + unit if unit else "")
         print(f"{name:50}{_written(row.standard, 4):>10}{_written(row.computed, 4) or '-':>10}")
-    print(
-        "K_v of this run: largest force of a tooth pair over that without inertia. Safeties: the same limit over the"
-        " standard's stress and over the largest of this run."
-    )
+    print("K_v of this run: largest force of a tooth pair over that without inertia. Safeties: by the same limits.")
     if any(isnan(row.computed) for row in rows):
-        print(
-            "-: not in this run. Root stress needs [output] root_stress, the dynamic factor [inertia], face and"
-            " transverse factors a three-dimensional scene."
-        )
+        needs = "root stress [output] root_stress, the dynamic factor [inertia], face and transverse factors a face"
+        print(f"-: not in this run, which needs for {needs} (three dimensions).")
 
 
 def _written(value: float, digits: int) -> str:

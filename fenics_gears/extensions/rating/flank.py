@@ -4,7 +4,6 @@
 from dataclasses import dataclass
 from math import cos, pi, sin, sqrt, tan
 
-from .finish import Finish
 from .load_factors import LoadFactors, contact_ratio_factor
 from .operation import Operation
 
@@ -18,25 +17,17 @@ class FlankStress:
     limit: float
 
 
-def flank_stress(operation: Operation, finish: Finish, factors: LoadFactors) -> FlankStress:
+def flank_stress(operation: Operation, factors: LoadFactors) -> FlankStress:
     """Stresses of both gears by Z_H, Z_E, Z_eps, Z_beta, Z_B and Z_D."""
     pair = operation.pair
     ratio = pair.wheel.teeth / pair.pinion.teeth
-    load = (
-        operation.tangential_force / (2.0 * pair.pinion.reference_radius * operation.face_width) * (ratio + 1.0) / ratio
-    )
-    nominal = (
-        zone_factor(operation)
-        * elasticity_factor(operation)
-        * contact_ratio_factor(operation)
-        * sqrt(load / cos(operation.helix_angle))
-    )
+    area, finish = 2.0 * pair.pinion.reference_radius * operation.face_width, operation.finish
+    load = operation.tangential_force / area * (ratio + 1.0) / ratio
+    by_shape = zone_factor(operation) * elasticity_factor(operation) * contact_ratio_factor(operation)
+    nominal = by_shape * sqrt(load / cos(operation.helix_angle))
     raised = nominal * sqrt(finish.application_factor * factors.dynamic * factors.face * factors.transverse)
-    return FlankStress(
-        nominal,
-        tuple(raised * each for each in single_pair_factors(operation)),
-        finish.flank_limit * _film(operation, finish),
-    )
+    of_gears = tuple(raised * each for each in single_pair_factors(operation))
+    return FlankStress(nominal, of_gears, finish.flank_limit * _film(operation))
 
 
 def zone_factor(operation: Operation) -> float:
@@ -68,8 +59,9 @@ def single_pair_factors(operation: Operation) -> tuple[float, float]:
     return tuple(max(each - overlap * (each - 1.0), 1.0) for each in factors)
 
 
-def _film(operation: Operation, finish: Finish) -> float:
+def _film(operation: Operation) -> float:
     """Z_L Z_v Z_R: oil, speed and roughness."""
+    finish = operation.finish
     limit = min(max(finish.flank_limit, 850.0), 1200.0)
     oil = limit / 4375.0 + 0.6357
     lubricant = oil + 4.0 * (1.0 - oil) / (1.2 + 134.0 / finish.viscosity_grade) ** 2

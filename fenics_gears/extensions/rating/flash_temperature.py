@@ -22,10 +22,7 @@ def flash_temperature(
     pair: GearPair, materials: tuple[Material, Material], positions, line_force, friction: float, pinion_speed: float
 ) -> np.ndarray:
     """Rise (n,), K, of a tooth pair at positions (n,) on the path of contact (mm from T1), under normal forces per face
-    width (n,), N/mm.
-
-    `friction`: coefficient; `pinion_speed`: 1/min. Spur pairs, and helical ones in the transverse section.
-    """
+    width (n,), N/mm; `pinion_speed`: 1/min. Spur pairs, and helical ones in the transverse section."""
     first = np.asarray(positions, dtype=float)
     second = pair.line_of_action_length - first
     line_force = np.asarray(line_force, dtype=float)
@@ -34,14 +31,8 @@ def flash_temperature(
     compliance = sum((1.0 - each.poissons_ratio**2) / each.youngs_modulus for each in materials)
     # Hertz: b_H^2 = 4 w rho / (pi E*), 1/E* the sum of (1 - nu^2)/E.
     half_width = np.sqrt(4.0 * np.maximum(line_force, 0.0) * first * second / (first + second) * compliance / pi)
-    heat = (
-        SEMI_ELLIPTIC
-        * _UNITS
-        * friction
-        * line_force
-        * np.abs(speeds[0] - speeds[1])
-        / (STEEL * (np.sqrt(speeds[0]) + np.sqrt(speeds[1])))
-    )
+    spread = STEEL * (np.sqrt(speeds[0]) + np.sqrt(speeds[1]))
+    heat = SEMI_ELLIPTIC * _UNITS * friction * line_force * np.abs(speeds[0] - speeds[1]) / spread
     return np.divide(heat, np.sqrt(half_width), out=np.zeros_like(heat), where=half_width > 0.0)
 
 

@@ -1,5 +1,5 @@
-"""Dynamic, face and transverse load factors of ISO 6336-1:2006: K_v and K_Halpha by method B, K_Hbeta by method C,
-of pairs on shafts that bend also by method B."""
+"""Dynamic, face and transverse load factors of ISO 6336-1:2006: K_v and K_Halpha by method B, K_Hbeta by method C, of
+pairs on shafts that bend also by method B."""
 
 from dataclasses import dataclass
 from math import cos, hypot, pi, sin, sqrt
@@ -8,7 +8,6 @@ import numpy as np
 
 from fenics_gears import flank_tolerance, helix_tolerance
 
-from .finish import Finish
 from .operation import Operation
 
 
@@ -32,26 +31,24 @@ class _Deviations:
     profile_form_left: float
 
 
-def load_factors(operation: Operation, finish: Finish) -> LoadFactors:
+def load_factors(operation: Operation) -> LoadFactors:
     """The standard's factors of a pair whose case-hardened flanks run in by 7.5 % of their deviations."""
-    deviations = _deviations(operation, finish)
-    dynamic = _dynamic(operation, finish, deviations)
-    face = _face(operation, finish, dynamic)
+    deviations = _deviations(operation)
+    dynamic = _dynamic(operation, deviations)
+    face = _face(operation, dynamic)
     height = max(gear.tip_radius - gear.root_radius for gear in (operation.pair.pinion, operation.pair.wheel))
     part = min(height / operation.face_width, 1.0 / 3.0)
-    transverse = _transverse(operation, finish, deviations, dynamic * face)
+    transverse = _transverse(operation, deviations, dynamic * face)
     total, alpha = operation.pair.total_contact_ratio, operation.pair.contact_ratio
     highest = total / (alpha * contact_ratio_factor(operation) ** 2), total / (0.25 * alpha + 0.75)
-    return LoadFactors(
-        dynamic, face, face ** (1.0 / (1.0 + part + part**2)), *(min(max(transverse, 1.0), most) for most in highest)
-    )
+    root = face ** (1.0 / (1.0 + part + part**2))
+    return LoadFactors(dynamic, face, root, *(min(max(transverse, 1.0), most) for most in highest))
 
 
-def _deviations(operation: Operation, finish: Finish) -> _Deviations:
-    pair, tolerances = operation.pair, []
-    for gear in (pair.pinion, pair.wheel):
-        tolerances.append(flank_tolerance(2.0 * gear.reference_radius, gear.normal_module, finish.tolerance_class))
-    base_pitch = 1e3 * max(each.single_pitch for each in tolerances) * cos(pair.pinion.pressure_angle)
+def _deviations(operation: Operation) -> _Deviations:
+    gears, grade = (operation.pair.pinion, operation.pair.wheel), operation.finish.tolerance_class
+    tolerances = [flank_tolerance(2.0 * gear.reference_radius, gear.normal_module, grade) for gear in gears]
+    base_pitch = 1e3 * max(each.single_pitch for each in tolerances) * cos(gears[0].pressure_angle)
     form = 1e3 * max(each.profile_form for each in tolerances)
     return _Deviations(base_pitch, base_pitch - _run_in(base_pitch), form - _run_in(form))
 
@@ -61,10 +58,10 @@ def _run_in(deviation: float) -> float:
     return min(0.075 * deviation, 3.0)
 
 
-def _dynamic(operation: Operation, finish: Finish, deviations: _Deviations) -> float:
+def _dynamic(operation: Operation, deviations: _Deviations) -> float:
     """K_v by method B, section 6.5: below, in and above the main resonance."""
-    line_load = finish.application_factor * operation.tangential_force / operation.face_width
-    relief = operation.tip_relief or (finish.flank_limit / 97.0 - 18.45) ** 2 / 18.0 + 1.5
+    line_load = operation.line_load()
+    relief = operation.tip_relief or (operation.finish.flank_limit / 97.0 - 18.45) ** 2 / 18.0 + 1.5
     stiffness, total = operation.single_stiffness, operation.pair.total_contact_ratio
     pitch, form, modified = (
         stiffness * deviations.base_pitch_left / line_load, stiffness * deviations.profile_form_left / line_load,
@@ -74,12 +71,8 @@ def _dynamic(operation: Operation, finish: Finish, deviations: _Deviations) -> f
     if total <= 2.0:
         c2, c3, c4, c6 = 0.34, 0.23, 0.90, 0.47
     else:
-        c2, c3, c4, c6 = (
-            0.57 / (total - 0.3),
-            0.096 / (total - 1.56),
-            (0.57 - 0.05 * total) / (total - 1.44),
-            0.12 / (total - 1.74),
-        )
+        c2, c3 = 0.57 / (total - 0.3), 0.096 / (total - 1.56)
+        c4, c6 = (0.57 - 0.05 * total) / (total - 1.44), 0.12 / (total - 1.74)
     c7 = 0.75 if total <= 1.5 else 0.125 * sin(pi * (total - 2.0)) + 0.875 if total <= 2.5 else 1.0
     resonance = 30e3 / (pi * operation.pair.pinion.teeth) * sqrt(operation.mesh_stiffness / operation.reduced_mass)
     ratio = operation.pinion_speed / resonance
@@ -92,22 +85,21 @@ def _dynamic(operation: Operation, finish: Finish, deviations: _Deviations) -> f
     return above + (at_resonance - above) * max(1.5 - ratio, 0.0) / 0.35
 
 
-def _face(operation: Operation, finish: Finish, dynamic: float) -> float:
+def _face(operation: Operation, dynamic: float) -> float:
     """K_Hbeta by method C, section 7.6, of `mesh_misalignment`."""
-    misalignment = mesh_misalignment(operation, finish)
+    misalignment = mesh_misalignment(operation)
     left = misalignment - min(0.15 * misalignment, 6.0)
-    line_load = finish.application_factor * dynamic * operation.tangential_force / operation.face_width
+    line_load = operation.line_load(dynamic)
     unevenness = 0.5 * left * 0.85 * operation.mesh_stiffness / line_load
     return 1.0 + unevenness if unevenness < 1.0 else 2.0 * sqrt(unevenness)
 
 
-def iterated_face_factor(operation: Operation, finish: Finish, dynamic: float) -> float:
+def iterated_face_factor(operation: Operation, dynamic: float) -> float:
     """K_Hbeta by method B (annex E): the largest line load over the mean one, on shafts that bend and a foundation of
     0.85 c_gamma_alpha, where flanks can part. Without running-in."""
-    slices, force = len(operation.opening), finish.application_factor * dynamic * operation.base_force
-    yielding = operation.shafts + np.eye(slices) * slices / (
-        1e3 * 0.85 * operation.mesh_stiffness * operation.face_width
-    )
+    slices, force = len(operation.opening), operation.finish.application_factor * dynamic * operation.base_force
+    foundation = 1e3 * 0.85 * operation.mesh_stiffness * operation.face_width
+    yielding = operation.shafts + np.eye(slices) * slices / foundation
     loaded = np.full(slices, True)
     for _ in range(slices):
         # Approach and loads: gaps of loaded slices close, loads add up to the force.
@@ -121,19 +113,19 @@ def iterated_face_factor(operation: Operation, finish: Finish, dynamic: float) -
     return float(loads.max() * slices / force)
 
 
-def mesh_misalignment(operation: Operation, finish: Finish) -> float:
+def mesh_misalignment(operation: Operation) -> float:
     """F_betax (um) over the face: the scene's own with the inclination of shafts that bend, which is known and has no
     1.33 before it; else, from manufacture alone, helix slopes of both gears within their class."""
     if operation.misalignment is not None:
         return abs(operation.misalignment)
     gears = operation.pair.pinion, operation.pair.wheel
-    face, grade = operation.face_width, finish.tolerance_class
+    face, grade = operation.face_width, operation.finish.tolerance_class
     return 1e3 * hypot(*(helix_tolerance(2.0 * gear.reference_radius, face, grade).slope for gear in gears))
 
 
-def _transverse(operation: Operation, finish: Finish, deviations: _Deviations, before: float) -> float:
+def _transverse(operation: Operation, deviations: _Deviations, before: float) -> float:
     """K_Halpha by method B, section 8.3.2, before its limits; `before`: K_v K_Hbeta."""
-    line_load = finish.application_factor * before * operation.tangential_force / operation.face_width
+    line_load = operation.line_load(before)
     term = 0.4 * operation.mesh_stiffness * deviations.base_pitch_left / line_load
     total = operation.pair.total_contact_ratio
     return 0.5 * total * (0.9 + term) if total <= 2.0 else 0.9 + term * sqrt(2.0 * (total - 1.0) / total)

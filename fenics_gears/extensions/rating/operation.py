@@ -8,6 +8,8 @@ import numpy as np
 
 from fenics_gears import GearPair, Material, base_helix_angle, mesh_factor, single_stiffness
 
+from .finish import Finish
+
 
 @dataclass(frozen=True)
 class Operation:
@@ -26,6 +28,7 @@ class Operation:
     tip_relief: float
     reduced_mass: float
     gears: object
+    finish: Finish = Finish()
     misalignment: float | None = None
     shafts: np.ndarray | None = None
     opening: np.ndarray | None = None
@@ -39,6 +42,10 @@ class Operation:
     def tangential_force(self) -> float:
         """F_t (N) at the reference circle."""
         return self.pinion_torque / self.pair.pinion.reference_radius
+
+    def line_load(self, factors: float = 1.0) -> float:
+        """K_A F_t / b, N/mm, by further factors."""
+        return self.finish.application_factor * factors * self.tangential_force / self.face_width
 
     @property
     def base_force(self) -> float:
@@ -73,9 +80,8 @@ class Operation:
     @property
     def reduced_radius(self) -> float:
         """Reduced radius of curvature (mm) at the pitch point, in the transverse section."""
-        first, second = (
-            gear.base_radius * tan(self.pair.operating_pressure_angle) for gear in (self.pair.pinion, self.pair.wheel)
-        )
+        gears, angle = (self.pair.pinion, self.pair.wheel), self.pair.operating_pressure_angle
+        first, second = (gear.base_radius * tan(angle) for gear in gears)
         return first * second / (first + second)
 
 

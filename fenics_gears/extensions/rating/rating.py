@@ -1,5 +1,5 @@
-"""A run's load capacity, row by row: by the standard's own formulas from the nominal load, and from the loads and
-stresses that the run has computed."""
+"""A run's load capacity, row by row: by the standard's formulas from the nominal load, and by what the run has
+computed."""
 
 from dataclasses import dataclass
 from math import isnan, nan
@@ -25,8 +25,7 @@ POINTS = 201
 
 @dataclass(frozen=True)
 class Row:
-    """One quantity: symbol with its meaning, unit, value by the standard, and from the run; nan where one of them has
-    none."""
+    """One quantity: symbol with its meaning, unit, value by the standard, and from the run; NaN where one has none."""
 
     name: str
     unit: str
@@ -36,52 +35,35 @@ class Row:
 
 def rate(result: xr.Dataset, scene: Scene, finish: Finish) -> list[Row]:
     """The rows of a run. Raises SceneError for a scene without speed, load or elastic teeth."""
-    operation = _operation(scene, result)
-    factors, found = load_factors(operation, finish), result.attrs
+    operation = _operation(scene, finish, result)
+    factors, found = load_factors(operation), result.attrs
     face = found.get("face_load_factor", nan)
-    flank, roots = flank_stress(operation, finish, factors), root_stresses(operation, finish, factors)
+    misaligned = nan if isnan(face) else abs(operation.misalignment or 0.0)
+    flank, roots = flank_stress(operation, factors), root_stresses(operation, factors)
     rows = [
         Row("K_v, dynamic factor", "1", factors.dynamic, found.get("dynamic_factor_by_force", nan)),
-        Row(
-            "F_betax, misalignment over the face",
-            "um",
-            mesh_misalignment(operation, finish),
-            nan if isnan(face) else abs(operation.misalignment or 0.0),
-        ),
+        Row("F_betax, misalignment over the face", "um", mesh_misalignment(operation), misaligned),
         Row("K_Hbeta, face load factor", "1", factors.face, face),
-        *_iterated(operation, finish, factors.dynamic, face),
-        Row("K_Halpha, transverse load factor", "1", factors.transverse, found.get("transverse_load_factor", nan)),
     ]
+    if operation.shafts is not None:
+        iterated = iterated_face_factor(operation, factors.dynamic)
+        rows.append(Row("K_Hbeta, line load iterated over the shafts", "1", iterated, face))
+    transverse = found.get("transverse_load_factor", nan)
+    rows.append(Row("K_Halpha, transverse load factor", "1", factors.transverse, transverse))
     pressure = found.get("peak_contact_pressure", nan)
     for name, stress in zip(("pinion", "wheel"), flank.stress):
         rows.append(Row(f"sigma_H, contact stress of the {name}", "MPa", stress, pressure))
-        rows.append(
-            Row(f"S_H, safety against pitting of the {name}", "1", flank.limit / stress, flank.limit / pressure)
-        )
+        safeties = flank.limit / stress, flank.limit / pressure
+        rows.append(Row(f"S_H, safety against pitting of the {name}", "1", *safeties))
     for name, root in zip(("pinion", "wheel"), roots):
         computed = found.get(f"largest_root_stress_{name}", nan)
         rows.append(Row(f"sigma_F, root stress of the {name}", "MPa", root.stress, computed))
-        rows.append(
-            Row(
-                f"S_F, safety against tooth breakage of the {name}",
-                "1",
-                root.limit / root.stress,
-                root.limit / computed,
-            )
-        )
-    return rows + _flash(operation, finish, result)
+        safeties = root.limit / root.stress, root.limit / computed
+        rows.append(Row(f"S_F, safety against tooth breakage of the {name}", "1", *safeties))
+    return rows + _flash(operation, result)
 
 
-def _iterated(operation: Operation, finish: Finish, dynamic: float, face: float) -> list[Row]:
-    if operation.shafts is None:
-        return []
-    return [
-        Row("K_Hbeta, line load iterated over the shafts", "1", iterated_face_factor(operation, finish, dynamic), face)
-    ]
-
-
-def _operation(scene: Scene, result: xr.Dataset) -> Operation:
-    """What the standard rates: the steady load and the nominal speed of the scene, and how its shafts bend."""
+def _operation(scene: Scene, finish: Finish, result: xr.Dataset) -> Operation:
     if scene.gears.materials is None:
         raise SceneError("a rating needs elastic teeth: the scene has no [gears.material].")
     if not scene.load.wheel_torque > 0.0:
@@ -89,6 +71,7 @@ def _operation(scene: Scene, result: xr.Dataset) -> Operation:
     if not scene.motion.speed_given:
         raise SceneError("a rating needs a speed: give the scene motion.pinion_speed or motion.mesh_frequency.")
     pair = gear_pair(scene.gears)
+    misalignment, inclined = _misalignment(scene, pair), result.attrs.get(INCLINED)
     return Operation(
         pair=pair,
         materials=scene.gears.materials,
@@ -97,14 +80,10 @@ def _operation(scene: Scene, result: xr.Dataset) -> Operation:
         tip_relief=_tip_relief(scene),
         reduced_mass=_reduced_mass(scene, pair),
         gears=scene.gears,
-        misalignment=_with_inclination(_misalignment(scene, pair), result),
+        finish=finish,
+        misalignment=misalignment if inclined is None else (misalignment or 0.0) + inclined,
         **_on_bent_shafts(scene, pair),
     )
-
-
-def _with_inclination(misalignment: float | None, result: xr.Dataset) -> float | None:
-    inclined = result.attrs.get(INCLINED)
-    return misalignment if inclined is None else (misalignment or 0.0) + inclined
 
 
 def _shafts_bend(scene: Scene) -> bool:
@@ -127,8 +106,8 @@ def _misalignment(scene: Scene, pair: GearPair) -> float | None:
     """Misalignment (um) over the common face of the scene's axes and helix slopes, in the plane of action; None of a
     scene that names neither.
 
-    It is the straight part of the gap between the unloaded flanks along the face, in which crowning and end relief
-    have none."""
+    It is the straight part of the gap between the unloaded flanks along the face.
+    """
     leads = scene.lead_modifications
     sloped = leads is not None and any(own is not None and own.helix_slope for own in (leads.pinion, leads.wheel))
     if scene.misalignment is None and not sloped:
@@ -144,9 +123,8 @@ def of_misalignment(scene: Scene, finish: Finish) -> str:
     if _shafts_bend(scene):
         return (
             "K_Hbeta of ISO 6336 is of the axes' inclination in this run with the scene's misalignment and helix slopes"
-            " (method C, less running-in; iterated: method B, shafts under the line load of a foundation, without"
-            " running-in), not of helix slopes of the tolerance class. Twist within the teeth cut into a shaft is in"
-            " the iterated one."
+            " (method C, less running-in; iterated: method B, without running-in, with the twist within the teeth cut"
+            " into a shaft), not of helix slopes of the tolerance class."
         )
     if _misalignment(scene, gear_pair(scene.gears)) is not None:
         which = "the scene's misalignment and helix slopes (method C, less running-in)"
@@ -171,28 +149,22 @@ def _reduced_mass(scene: Scene, pair: GearPair) -> float:
     return first * second / (first + second)
 
 
-def _flash(operation: Operation, finish: Finish, result: xr.Dataset) -> list[Row]:
-    """The largest flash temperature of a run with friction, by the standard's load share and by the computed forces of
-    the tooth pairs."""
+def _flash(operation: Operation, result: xr.Dataset) -> list[Row]:
+    """The largest flash temperature of a run with friction, by the standard's load share and by the computed forces."""
     friction = result.attrs.get("friction_coefficient")
     if friction is None:
         return []
     pair, settled = operation.pair, of_settled(result)
     path = np.linspace(pair.path_start, pair.path_end, POINTS)
-    whole = finish.application_factor * transverse_line_force(pair, operation.tangential_force)
-    standard = flash_temperature(
-        pair, operation.materials, path, whole * standard_share(pair, path), friction, operation.pinion_speed
-    )
-    forces = settled["pair_normal_force"].transpose("time", "slot").values
-    since = settled["mesh_phase"].values[:, None] - (
-        settled["pair_number"].transpose("time", "slot").values - settled["pair_number"].attrs["number_at_phase_0"]
-    )
+    whole = operation.finish.application_factor * transverse_line_force(pair, operation.tangential_force)
+    at_work = friction, operation.pinion_speed
+    standard = flash_temperature(pair, operation.materials, path, whole * standard_share(pair, path), *at_work)
+    forces, numbers = (settled[name].transpose("time", "slot").values for name in ("pair_normal_force", "pair_number"))
+    since = settled["mesh_phase"].values[:, None] - (numbers - settled["pair_number"].attrs["number_at_phase_0"])
     places = pair.path_start + since * pair.base_pitch
     # Teeth that bend touch a little before and after the path of contact, where the formula's speeds are not theirs.
     on_path = (places >= pair.path_start) & (places <= pair.path_end) & np.isfinite(forces)
     # The standard's line force is in the transverse section; those of the run are along the contact normal.
     transverse = pair.cosine * forces[on_path] / pair.face_width
-    computed = flash_temperature(
-        pair, operation.materials, places[on_path], transverse, friction, operation.pinion_speed
-    )
+    computed = flash_temperature(pair, operation.materials, places[on_path], transverse, *at_work)
     return [Row("flash temperature", "K", float(standard.max()), float(computed.max(initial=0.0)))]

@@ -6,7 +6,6 @@ from math import acos, cos, degrees, pi, sin, sqrt, tan
 
 from fenics_gears import Gear, base_helix_angle, involute_function
 
-from .finish import Finish
 from .load_factors import LoadFactors
 from .operation import Operation
 
@@ -32,21 +31,16 @@ class RootStress:
     limit: float
 
 
-def root_stresses(operation: Operation, finish: Finish, factors: LoadFactors) -> tuple[RootStress, RootStress]:
+def root_stresses(operation: Operation, factors: LoadFactors) -> tuple[RootStress, RootStress]:
     """Of pinion and wheel: F_t / (b m_n) Y_F Y_S Y_beta, raised by the load factors; the limit by Y_delta_relT, Y_RrelT
     and Y_X of case-hardened steel."""
-    return tuple(_of_gear(operation, finish, factors, gear) for gear in (operation.pair.pinion, operation.pair.wheel))
+    return tuple(_of_gear(operation, factors, gear) for gear in (operation.pair.pinion, operation.pair.wheel))
 
 
-def _of_gear(operation: Operation, finish: Finish, factors: LoadFactors, gear: Gear) -> RootStress:
-    tooth = form_at_outer_point(gear, operation.pair.contact_ratio)
-    nominal = (
-        operation.tangential_force
-        / (operation.face_width * gear.normal_module)
-        * tooth.form
-        * tooth.stress_correction
-        * helix_angle_factor(operation)
-    )
+def _of_gear(operation: Operation, factors: LoadFactors, gear: Gear) -> RootStress:
+    tooth, finish = form_at_outer_point(gear, operation.pair.contact_ratio), operation.finish
+    load = operation.tangential_force / (operation.face_width * gear.normal_module)
+    nominal = load * tooth.form * tooth.stress_correction * helix_angle_factor(operation)
     stress = nominal * finish.application_factor * factors.dynamic * factors.face_root * factors.transverse_root
     notch = 0.9434 + 0.0231 * sqrt(1.0 + 2.0 * tooth.notch)
     surface = 1.120 if finish.root_roughness < 1.0 else 1.674 - 0.529 * (finish.root_roughness + 1.0) ** 0.1

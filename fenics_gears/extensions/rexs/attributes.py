@@ -6,7 +6,7 @@ in another version of REXS, is one more line here.
 """
 
 from collections.abc import Callable
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from .model import Component
 from .stage import GearParts, Stage
@@ -97,8 +97,7 @@ NO_PLACE_OF_RELIEFS = (
 
 
 class Reading:
-    """What was found wrong with a model (``problems``), and what a scene made of it leaves out (``left_out``), in
-    sentences."""
+    """What was found wrong with a model (``problems``), and what a scene made of it leaves out, in sentences."""
 
     def __init__(self) -> None:
         self.problems: list[str] = []
@@ -147,6 +146,19 @@ def needed(owner: GearParts | Stage, asked: str) -> Value:
     value = first(owner, asked)
     if value is None:
         raise missing(*places(owner, asked))
+    return value
+
+
+def stated(where: Place) -> Value | None:
+    """The value at a place; None where there is none. Raises ValueProblem."""
+    return value_of(*where) if where[1] in where[0].attributes else None
+
+
+def required(*where: Any) -> Value:
+    """The value at a place. Raises ValueProblem where there is none."""
+    value = stated(where)
+    if value is None:
+        raise missing(where)
     return value
 
 

@@ -9,7 +9,6 @@ from fenics_gears.command_line import add_output_argument, file_to_write, write_
 
 
 def add(commands, shared: argparse.ArgumentParser) -> None:
-    """Add the command to the parser."""
     command = commands.add_parser("import", parents=[shared])
     command.add_argument("file", type=Path, metavar="FILE", help="a REXS file: .rexs, .rexsj or .rexsz")
     add_output_argument(command, "name of FILE with .toml, in the current folder", "scene file to write", "SCENE")
@@ -17,16 +16,10 @@ def add(commands, shared: argparse.ArgumentParser) -> None:
         "--stage", type=int, metavar="ID", help="number of the component of the stage, if the file has several stages"
     )
     command.add_argument("--load-case", metavar="ID", help="number of the load case, if the file has several")
-    command.add_argument(
-        "--wheel-torque",
-        metavar="TORQUE",
-        help='torque on the driven gear in place of that of the file, such as "437 N m"',
-    )
-    command.add_argument(
-        "--pinion-speed",
-        metavar="SPEED",
-        help='speed of the driving gear in place of that of the file, such as "750 rpm"',
-    )
+    torque = 'torque on the driven gear in place of that of the file, such as "437 N m"'
+    command.add_argument("--wheel-torque", metavar="TORQUE", help=torque)
+    speed = 'speed of the driving gear in place of that of the file, such as "750 rpm"'
+    command.add_argument("--pinion-speed", metavar="SPEED", help=speed)
     command.set_defaults(command=import_rexs)
 
 
@@ -35,13 +28,12 @@ def import_rexs(options: argparse.Namespace) -> int:
     output = file_to_write(options, Path((options.file.stem.removesuffix(".rexs") or "scene") + ".toml"), "a scene")
     if output.exists():
         # A scene is the user's own work.
-        raise SceneError(
-            f"{output} exists already; nothing was written. Name another file with --output SCENE, or remove it."
-        )
-    from .imported import Choice, imported_scene
+        raise SceneError(f"{output} exists already. Name another file with --output SCENE, or remove it.")
+    from .imported import imported_scene
 
-    choice = Choice(options.stage, options.load_case, options.wheel_torque, options.pinion_speed)
-    imported = imported_scene(options.file, choice)
+    imported = imported_scene(
+        options.file, options.stage, options.load_case, options.wheel_torque, options.pinion_speed
+    )
     _check_scene(imported, options.file, output)
     write_whole(output, lambda path: path.write_text(imported.text, encoding="utf-8"))
     if not options.quiet:
@@ -66,12 +58,8 @@ def _check_scene(imported, file: Path, output: Path) -> None:
 
 
 def _summary(imported, output: Path) -> str:
-    """What the user should look at, and what comes next."""
-    parts = [(f"{output}: {imported.stage.pinion.gear} drives {imported.stage.wheel.gear}.", ())]
-    parts += [
-        (heading, listed)
-        for heading, listed in (("Assumed:", imported.assumed), ("Left out:", imported.left_out))
-        if listed
-    ]
-    lines = [line for heading, listed in parts for line in (heading, *(f"    {each}" for each in listed))]
+    lines = [f"{output}: {imported.stage.pinion.gear} drives {imported.stage.wheel.gear}."]
+    for heading, listed in (("Assumed:", imported.assumed), ("Left out:", imported.left_out)):
+        if listed:
+            lines += [heading, *(f"    {each}" for each in listed)]
     return "\n".join([*lines, f"Next: gears check {output}"])

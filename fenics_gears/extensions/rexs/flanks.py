@@ -1,18 +1,17 @@
 """Reliefs and tolerances of the loaded flanks, and what a file says of flanks that a scene has no field for."""
 
+from dataclasses import replace
 from math import cos, isclose, sqrt
 
-from .attributes import NO_PLACE, NO_PLACE_OF_RELIEFS, Place, Reading, given, missing, positive
+from .attributes import NO_PLACE, NO_PLACE_OF_RELIEFS, Reading, given, missing, positive, required, stated
 from .gears import ROUNDED, Sections, transverse_angle
-from .lead import LEAD_TYPES
+from .lead import LEAD_TYPES, POWERS, SHAPE, shape_of
 from .model import Component
-from .stage import GearParts, Stage
-from .values import SAME, Value, ValueProblem, computed, in_words, place, together, value_of, word_of
+from .stage import Fields, GearParts, Stage
+from .values import SAME, Value, ValueProblem, computed, in_words, place, together, word_of
 
-POWERS = {"linear": 1, "parabolic": 2}
 TIP, ROOT = "tip_relief", "root_relief"
 CLASSES = range(1, 12)
-Relief = dict[str, Value]
 
 
 def relief_sections(reading: Reading, stage: Stage, gears: Sections) -> Sections:
@@ -20,37 +19,33 @@ def relief_sections(reading: Reading, stage: Stage, gears: Sections) -> Sections
     found = {}
     beta = gears["gears"]["helix_angle"].number if "helix_angle" in gears["gears"] else 0.0
     for kind in (TIP, ROOT):
-        for part, name in zip(stage.gears, ("pinion", "wheel")):
+        for name, part in stage.named.items():
             circles = gears[f"gears.{name}"]
             base = reading.attempt(
                 _base_diameter, beta, *(gears["gears"][each] for each in ("module", "pressure_angle")), circles["teeth"]
             )
-            relief = None if base is None else reading.attempt(_relief, part, kind, base, circles["tip_diameter"])
-            if relief is not None:
+            relief = reading.attempt(_relief, part, kind, base, circles["tip_diameter"])
+            if relief:
                 found[f"{kind}.{name}"] = relief
     return found
 
 
 def tolerance_class(reading: Reading, stage: Stage) -> Value | None:
     """The flank tolerance class of ISO 1328-1:2013 of both gears, the coarser one where they differ."""
-    found = [value for part in stage.gears for value in _classes(reading, part)]
+    found = [value for part in stage.named.values() for value in _classes(reading, part)]
     if not found:
         return None
-    coarse = max(found, key=lambda value: value.number)
+    coarse, origin = max(found, key=lambda value: value.number), together(value.origin for value in found)
     if len({value.number for value in found}) > 1:
-        return Value(coarse.number, coarse.written, f"{coarse.origin}, the coarser of the two gears")
-    origin = together(value.origin for value in found)
-    return Value(
-        coarse.number,
-        coarse.written,
-        origin if len(found) == 2 else f"{origin}, of this gear only",
-        assumed=len(found) < 2,
-    )
+        origin = f"{coarse.origin}, the coarser of the two gears"
+    elif len(found) == 1:
+        origin = f"{origin}, of this gear only"
+    return replace(coarse, origin=origin, assumed=len(found) == 1)
 
 
 def note_what_is_left_out(reading: Reading, stage: Stage) -> None:
     """Add what the file says of the gears and no scene has to what is left out."""
-    for part in stage.gears:
+    for part in stage.named.values():
         modifications = {side: part.modifications[side] for side in part.loaded_sides}
         for side, found in modifications.items():
             others = (each for each in found if each.type not in (TIP, ROOT, *LEAD_TYPES))
@@ -95,41 +90,22 @@ def _base_diameter(beta: float, module: Value, angle: Value, teeth: Value) -> fl
     return module.number * teeth.number * cos(transverse_angle(angle.number, beta)) / cos(beta)
 
 
-def _relief(part: GearParts, kind: str, base: float, tip: Value) -> Relief | None:
-    """Tip or root relief of the loaded flank; None for a gear that has none."""
-    by_side = {}
-    for side in part.loaded_sides:
-        found = [each for each in part.modifications[side] if each.type == kind]
-        if len(found) > 1:
-            raise ValueProblem(
-                f"{part.flanks[side]}: two components {kind}, {found[0].id} and {found[1].id}; a scene has one."
-            )
-        by_side[side] = _relief_of(found[0], base, tip.number) if found else None
-    one, *others = by_side.values() or (None,)
-    if not all(_same(one, other) for other in others):
-        raise ValueProblem(
-            f"{part.gear}: its left and its right flank have different {kind}, and the file does not say which one is"
-            " loaded. Allowed: loaded_tooth_flank (left or right) in the gear's stage data."
-        )
-    return one
+def _relief(part: GearParts, kind: str, base: float, tip: Value) -> Fields:
+    """Tip or root relief of the loaded flank; empty for a gear that has none."""
+
+    def of_side(side: str) -> Fields:
+        found = part.modification(side, kind)
+        return {} if found is None else _relief_of(found, base, tip.number)
+
+    return part.of_loaded_sides(of_side, lambda one, other: isclose(one.number, other.number, rel_tol=SAME), kind)
 
 
-def _same(one: Relief | None, other: Relief | None) -> bool:
-    if one is None or other is None:
-        return one is other
-    return one.keys() == other.keys() and all(
-        isclose(one[name].number, other[name].number, rel_tol=SAME) for name in one
-    )
-
-
-def _relief_of(relief: Component, base: float, tip: float) -> Relief | None:
-    """The fields of a relief; None where it removes nothing. ``base``, ``tip``: diameters, mm."""
+def _relief_of(relief: Component, base: float, tip: float) -> Fields:
+    """The fields of a relief; none where it removes nothing. ``base``, ``tip``: diameters, mm."""
     where = (relief, f"{relief.type}_depth", "um")
-    depth = _stated(where)
-    if depth is None:
-        raise missing(where)
+    depth = required(*where)
     if depth.number == 0.0:
-        return None
+        return {}
     positive(depth, where)
     field, start, diameter = _start(relief, base, tip)
     shape = _shape(relief)
@@ -138,22 +114,18 @@ def _relief_of(relief: Component, base: float, tip: float) -> Relief | None:
     return {"depth": depth, field: start, "shape": shape}
 
 
-def _stated(where: Place) -> Value | None:
-    return value_of(*where) if where[1] in where[0].attributes else None
-
-
 def _start(relief: Component, base: float, tip: float) -> tuple[str, Value, float | None]:
     """Where a relief starts, as the field that a scene has for it: by the diameter, or by its length of roll (L_C, ISO
     21771). The diameter (mm) of a tip relief's start beside it: a flank rolls through s = sqrt(d^2 - d_b^2)/2.
     """
     where, by_length = (relief, f"{relief.type}_datum_diameter", "mm"), (relief, f"{relief.type}_datum_length", "mm")
-    stated, length = _stated(where), _stated(by_length)
-    if stated is None and length is None:
+    start, length = stated(where), stated(by_length)
+    if start is None and length is None:
         raise missing(where, by_length)
-    if stated is not None:
-        positive(stated, where)
+    if start is not None:
+        positive(start, where)
     if length is None:
-        return "start", stated, stated.number
+        return "start", start, start.number
     whole, diameter = 0.5 * sqrt(max(tip**2 - base**2, 0.0)), None
     if not 0.0 < length.number < whole:
         raise ValueProblem(
@@ -162,29 +134,24 @@ def _start(relief: Component, base: float, tip: float) -> tuple[str, Value, floa
         )
     if relief.type == TIP:
         diameter = sqrt(base**2 + 4.0 * (whole - length.number) ** 2)
-        if stated is not None and abs(stated.number - diameter) > ROUNDED * tip:
+        if start is not None and abs(start.number - diameter) > ROUNDED * tip:
             raise ValueProblem(
-                f"{place(*where[:2])} = {stated.words} contradicts {by_length[1]} = {length.words}, which starts at"
+                f"{place(*where[:2])} = {start.words} contradicts {by_length[1]} = {length.words}, which starts at"
                 f" {diameter:.6g} mm."
             )
-    return ("length_on_path", length, diameter) if stated is None else ("start", stated, stated.number)
+    return ("length_on_path", length, diameter) if start is None else ("start", start, start.number)
 
 
 def _shape(relief: Component) -> Value:
     """The shape, with its power of the roll angle as the number."""
-    name = "shape_of_relief"
-    if name not in relief.attributes:
-        return Value(1, '"linear"', f"no {name} of component {relief.id}", assumed=True)
-    shape = word_of(relief, name)
-    if shape not in POWERS:
-        raise ValueProblem(f"{place(relief, name)} = {shape}. Allowed: {' or '.join(POWERS)}, which a scene has.")
-    return Value(POWERS[shape], f'"{shape}"', f"{name} of component {relief.id}")
+    shape, origin, assumed = shape_of(relief), f"{SHAPE} of component {relief.id}", SHAPE not in relief.attributes
+    return Value(POWERS[shape], f'"{shape}"', f"no {origin}" if assumed else origin, assumed)
 
 
 def _at_the_tip(relief: Component, depth: Value, start: float, power: int, base: float, tip: float) -> Value:
     """The depth at the tip where the file gives it at another diameter: reliefs grow with the roll angle."""
     where = (relief, "tip_relief_evaluation_reference", "mm")
-    evaluated = _stated(where)
+    evaluated = stated(where)
     if evaluated is None:
         return depth
     if not base <= start < evaluated.number:

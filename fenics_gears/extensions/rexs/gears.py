@@ -1,5 +1,4 @@
-"""The gears of a stage: teeth, circles and material, given by the file, computed from it, or taken from the
-standard."""
+"""The gears of a stage: teeth, circles and material, given by the file, computed from it, or those of the standard."""
 
 from functools import partial
 from math import acos, atan, cos, isclose, tan
@@ -28,64 +27,48 @@ def gear_sections(reading: Reading, stage: Stage) -> Sections:
     """``[gears]`` and the sections below it."""
     helix = reading.attempt(_helix, stage) or {}
     beta = helix["helix_angle"].number if helix else 0.0
-    module = reading.attempt(_of_both, stage, "module", "The gears have different modules")
+    module = reading.attempt(_module, stage)
     angle, distance = reading.attempt(_pressure_angle, stage), reading.attempt(needed, stage, "centre_distance")
-    teeth = [reading.attempt(needed, part, "teeth") for part in stage.gears]
+    parts = stage.named.values()
+    teeth = [reading.attempt(needed, part, "teeth") for part in parts]
     shifts = _profile_shifts(reading, stage, module, angle, distance, teeth, beta)
-    gears = [_gear_section(reading, part, beta, module, *own) for part, *own in zip(stage.gears, teeth, shifts)]
-    for part, count in zip(stage.gears, teeth):
+    gears = [_gear_section(reading, part, beta, module, *own) for part, *own in zip(parts, teeth, shifts)]
+    for part, count in zip(parts, teeth):
         reading.attempt(_check_reference_diameter, part, beta, module, count)
     reading.attempt(_check_sum_of_shifts, stage, *shifts)
-    pair, widths = (
-        {"module": module, "pressure_angle": angle, **helix, "centre_distance": distance},
-        reading.attempt(_face_widths, stage) or [None],
-    )
+    pair = {"module": module, "pressure_angle": angle, **helix, "centre_distance": distance}
+    widths = reading.attempt(_face_widths, stage) or [None]
     if len(widths) == 1:
         pair["face_width"] = widths[0]
     else:
         gears = [{**gear, "face_width": width} for gear, width in zip(gears, widths)]
-    rack = {
-        "profile": Value(
-            0.0,
-            f'"{STANDARD}"',
-            "no tip radius of the tool; that of ISO 53, or what has room on the rack's tip",
-            assumed=True,
-        )
-    }
-    racks = {
-        f"gears.{name}.rack": rack for name, gear in zip(("pinion", "wheel"), gears) if "rack_tip_radius" not in gear
-    }
-    return {
-        "gears": pair,
-        "gears.pinion": gears[0],
-        "gears.wheel": gears[1],
-        **racks,
-        **(reading.attempt(_materials, stage) or {}),
-    }
+    why = "no tip radius of the tool; that of ISO 53, or what has room on the rack's tip"
+    rack = {"profile": Value(0.0, f'"{STANDARD}"', why, assumed=True)}
+    named = {f"gears.{name}": gear for name, gear in zip(stage.named, gears)}
+    racks = {f"{name}.rack": rack for name, gear in named.items() if "rack_tip_radius" not in gear}
+    return {"gears": pair, **named, **racks, **(reading.attempt(_materials, stage) or {})}
 
 
-def _of_both(stage: Stage, asked: str, different: str) -> Value:
-    return agreed([needed(part, asked) for part in stage.gears], different)
+def _module(stage: Stage) -> Value:
+    return agreed([needed(part, "module") for part in stage.named.values()], "The gears have different modules")
 
 
 def _helix(stage: Stage) -> dict[str, Value | None]:
     """Helix angle and hand of the pinion; empty for spur gears. A positive angle is a right-hand helix (ISO 21771)."""
-    found = [first(part, "helix_angle") for part in stage.gears]
-    there = [angle for angle in found if angle is not None]
+    pinion, wheel = (first(part, "helix_angle") for part in stage.named.values())
+    there = [angle for angle in (pinion, wheel) if angle is not None]
     if not any(abs(angle.number) > NO_HELIX for angle in there):
         return {}
-    if len(there) == 2 and abs(there[0].number + there[1].number) > ROUNDED * abs(there[0].number):
+    if len(there) == 2 and abs(pinion.number + wheel.number) > ROUNDED * abs(pinion.number):
         raise ValueProblem(
-            f"{stage.stage}: {there[0].origin} is {there[0].words}, {there[1].origin} is {there[1].words}. "
-            "Allowed on parallel axes: the same angle with opposite signs."
+            f"{stage.stage}: {pinion.origin} is {pinion.words}, {wheel.origin} is {wheel.words}. Allowed on parallel"
+            " axes: the same angle with opposite signs."
         )
-    pinion, wheel = found
-    angle = there[0]
-    right = pinion.number > 0.0 if pinion is not None else wheel is not None and wheel.number < 0.0
-    origin = together(each.origin for each in there)
+    angle, origin = there[0], together(each.origin for each in there)
+    hand = "right" if (angle.number > 0.0) == (pinion is not None) else "left"
     return {
         "helix_angle": Value(abs(angle.number), angle.written.replace('"-', '"'), origin),
-        "pinion_hand": Value(0.0, '"right"' if right else '"left"', f"the sign of {origin}"),
+        "pinion_hand": Value(0.0, f'"{hand}"', f"the sign of {origin}"),
     }
 
 
@@ -96,7 +79,7 @@ def transverse_angle(angle: float, beta: float) -> float:
 
 def _pressure_angle(stage: Stage) -> Value:
     angles = []
-    for part in stage.gears:
+    for part in stage.named.values():
         own = agreed(every(part, "pressure_angle"), "The flanks and tools of a gear have different pressure angles")
         angles.append(own or needed(part, "pressure_angle"))
     return agreed(angles, "The gears have different pressure angles")
@@ -106,7 +89,7 @@ def _face_widths(stage: Stage) -> list[Value]:
     common = first(stage, "common_face_width")
     if common is not None:
         return [common]
-    widths = [needed(part, "face_width") for part in stage.gears]
+    widths = [needed(part, "face_width") for part in stage.named.values()]
     return [agreed(widths, "")] if isclose(widths[0].number, widths[1].number) else widths
 
 
@@ -114,25 +97,21 @@ def _profile_shifts(
     reading: Reading, stage: Stage, module, angle, distance, teeth: list[Value | None], beta: float
 ) -> list[Value | None]:
     """The shift of both gears, as the file gives them, or as the centre distance leaves one of them."""
-    shifts = [reading.attempt(partial(_stated_shift, part, module)) for part in stage.gears]
-    unsaid = [number for number, part in enumerate(stage.gears) if not given(part, "profile_shift")]
+    parts = stage.named.values()
+    shifts = [reading.attempt(partial(_stated_shift, part, module)) for part in parts]
+    unsaid = [number for number, part in enumerate(parts) if not given(part, "profile_shift")]
     if len(unsaid) == 2:
-        reading.attempt(_refuse_both_missing, stage)
+        pinion, name = place(stage.pinion.gear, "addendum_modification_coefficient"), stage.wheel.gear.id
+        reading.problems.append(f"{pinion} is missing, for its flanks too, and so is that of component {name}.")
     elif unsaid:
-        shifts[unsaid[0]] = reading.attempt(
-            _remaining_shift, stage, beta, shifts[1 - unsaid[0]], module, angle, distance, *teeth
-        )
+        known = shifts[1 - unsaid[0]]
+        shifts[unsaid[0]] = reading.attempt(_remaining_shift, stage, beta, known, module, angle, distance, *teeth)
     return shifts
 
 
 def _stated_shift(part: GearParts, module: Value | None) -> Value | None:
     """The shift that the tooth's thickness follows from; the sides of a tooth have one each, which must agree."""
     return agreed(every(part, "profile_shift", module), f"{part.gear} has contradictory profile shifts")
-
-
-def _refuse_both_missing(stage: Stage) -> None:
-    pinion, name = place(stage.pinion.gear, "addendum_modification_coefficient"), stage.wheel.gear.id
-    raise ValueProblem(f"{pinion} is missing, for its flanks too, and so is that of component {name}.")
 
 
 def _remaining_shift(
@@ -148,10 +127,7 @@ def _remaining_shift(
         )
     operating = acos(cosine)
     total = 0.5 * count * (tan(operating) - operating - tan(transverse) + transverse) / tan(angle.number)
-    why = (
-        "no addendum_modification_coefficient; what that of the other gear and the centre distance leave it, without"
-        " backlash"
-    )
+    why = "no addendum_modification_coefficient; what that of the other gear and the centre distance leave it"
     return bare(round(total - known.number, 9), why, assumed=True)
 
 
@@ -178,31 +154,28 @@ def _gear_section(
 
 def _tip_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shift: Value) -> Value:
     addendum = first(part, "addendum")
-    modules = ADDENDUM if addendum is None else addendum.number
-    source = (
-        f"the addendum of ISO 53, {modules} modules" if addendum is None else f"{addendum.origin}, {modules} modules"
-    )
+    modules, source = _or_standard(addendum, "addendum", ADDENDUM)
     number = module.number * (teeth.number / cos(beta) + 2.0 * (shift.number + modules))
-    return computed(
-        number, 1.0, "mm", f"no tip_diameter; from teeth, profile shift and {source}", assumed=addendum is None
-    )
+    why = f"no tip_diameter; from teeth, profile shift and {source}"
+    return computed(number, 1.0, "mm", why, assumed=addendum is None)
+
+
+def _or_standard(stated: Value | None, name: str, standard: float) -> tuple[float, str]:
+    """Modules, and where they are from in words."""
+    number, origin = (standard, f"the {name} of ISO 53") if stated is None else (stated.number, stated.origin)
+    return number, f"{origin}, {number} modules"
 
 
 def _root_diameter(part: GearParts, beta: float, module: Value, teeth: Value, shift: Value, tip: Value) -> Value:
-    """What the depth of the teeth gives, or what the rack cuts: its addendum deep, at the shift of its generating where
-    that is given."""
+    """What the depth of the teeth gives, or what the rack cuts at the shift of its generating, if that is given."""
     depth = first(part, "tooth_depth")
     if depth is not None:
-        return computed(
-            tip.number - 2.0 * depth.number, 1.0, "mm", f"no root_diameter; tip diameter less twice {depth.origin}"
-        )
+        why = f"no root_diameter; tip diameter less twice {depth.origin}"
+        return computed(tip.number - 2.0 * depth.number, 1.0, "mm", why)
     generated, addendum = first(part, "generated_shift"), _of_tool(part, module, "tool_addendum")
     at = "profile shift" if generated is None else generated.origin
-    modules = DEDENDUM if addendum is None else addendum.number
+    modules, source = _or_standard(addendum, "dedendum", DEDENDUM)
     number = module.number * (teeth.number / cos(beta) + 2.0 * ((generated or shift).number - modules))
-    source = (
-        f"the dedendum of ISO 53, {modules} modules" if addendum is None else f"{addendum.origin}, {modules} modules"
-    )
     return computed(number, 1.0, "mm", f"no root_diameter; from teeth, {at} and {source}", assumed=addendum is None)
 
 
@@ -223,9 +196,7 @@ def _bore_diameter(part: GearParts, root: Value) -> Value:
 
 def _materials(stage: Stage) -> Sections:
     found = {
-        name: {asked: needed(part, asked) for asked in MATERIAL}
-        for name, part in zip(("pinion", "wheel"), stage.gears)
-        if part.material
+        name: {asked: needed(part, asked) for asked in MATERIAL} for name, part in stage.named.items() if part.material
     }
     if not found:
         why = "no material; that of steel (ISO 6336-1)"

@@ -17,9 +17,6 @@ from .scene_text import scene_text
 from .stage import Stage, chosen_stage
 from .values import Value, ValueProblem
 
-# Options that stand in for what the file says, with an example each.
-TORQUE, SPEED = ("--wheel-torque", "437 N m"), ("--pinion-speed", "750 rpm")
-
 
 @dataclass(frozen=True)
 class ImportedScene:
@@ -32,33 +29,36 @@ class ImportedScene:
     left_out: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class Choice:
-    """Which stage and load case of a file are meant, None for the only one; torque of the driven and speed of the
-    driving gear, as quantities of a scene, that stand before those of the file."""
+def imported_scene(
+    path: Path,
+    stage: int | None = None,
+    load_case: str | None = None,
+    wheel_torque: str | None = None,
+    pinion_speed: str | None = None,
+) -> ImportedScene:
+    """A pair of a REXS file as the text of a scene. Raises SceneError with all that is wrong.
 
-    stage: int | None = None
-    load_case: str | None = None
-    wheel_torque: str | None = None
-    pinion_speed: str | None = None
-
-
-def imported_scene(path: Path, choice: Choice = Choice()) -> ImportedScene:
-    """A pair of a REXS file as the text of a scene. Raises SceneError with all that is wrong."""
-    by_call = _by_call(TORQUE, choice.wheel_torque), _by_call(SPEED, choice.pinion_speed)
+    `stage`, `load_case`: which stage and load case are meant, None for the only one; `wheel_torque`
+    and `pinion_speed`, of the driven and the driving gear, stand before those of the file.
+    """
+    by_call = _by_call("--wheel-torque", wheel_torque, "437 N m"), _by_call("--pinion-speed", pinion_speed, "750 rpm")
     model, reading = read_model(path), Reading()
-    loaded = reading.attempt(_loaded, model, choice)
+    # A call that says all that a load case is asked for needs none.
+    if load_case is None and None not in by_call:
+        loaded: Model | None = model
+    else:
+        loaded = reading.attempt(lambda: loaded_model(model, load_case))
     try:
-        stage = chosen_stage(loaded or model, choice.stage)
+        chosen = chosen_stage(loaded or model, stage)
     except ValueProblem as problem:
         raise SceneError(f"{path}: {problem}\nNothing was written.") from None
-    sections = gear_sections(reading, stage)
-    sections |= relief_sections(reading, stage, sections)
-    sections |= lead_sections(reading, stage, sections)
-    sections |= _load_sections(reading, loaded, stage, sections, by_call)
-    sections |= _error_sections(reading, stage, sections)
-    densities = {name: reading.attempt(first, part, "density") for name, part in zip(("pinion", "wheel"), stage.gears)}
-    note_what_is_left_out(reading, stage)
+    sections = gear_sections(reading, chosen)
+    sections |= relief_sections(reading, chosen, sections)
+    sections |= lead_sections(reading, chosen, sections)
+    sections |= _load_sections(reading, loaded, chosen, sections, by_call)
+    sections |= _error_sections(reading, chosen, sections)
+    densities = {name: reading.attempt(first, part, "density") for name, part in chosen.named.items()}
+    note_what_is_left_out(reading, chosen)
     _check_all_found(reading, path)
     assumed = [
         f"{section}.{name} = {value.words}: {value.origin}"
@@ -75,24 +75,15 @@ def imported_scene(path: Path, choice: Choice = Choice()) -> ImportedScene:
             if density is not None
         ],
     }
-    text = scene_text(path.name, model, stage, sections, notes)
-    return ImportedScene(text, stage, tuple(assumed), tuple(reading.left_out))
+    text = scene_text(path.name, model, chosen, sections, notes)
+    return ImportedScene(text, chosen, tuple(assumed), tuple(reading.left_out))
 
 
 def _check_all_found(reading: Reading, path: Path) -> None:
-    if reading.problems:
-        count = "1 mistake" if len(reading.problems) == 1 else f"{len(reading.problems)} mistakes"
-        raise SceneError(
-            "\n".join([*(f"{path}: {each}" for each in reading.problems), f"{count} in {path}. Nothing was written."])
-        )
-
-
-def _loaded(model: Model, choice: Choice) -> Model:
-    """The model in the chosen load case; as it is where the call says all that a load case is asked for. Raises
-    ValueProblem."""
-    if choice.load_case is None and choice.wheel_torque is not None and choice.pinion_speed is not None:
-        return model
-    return loaded_model(model, choice.load_case)
+    if count := len(reading.problems):
+        told = [f"{path}: {each}" for each in reading.problems]
+        total = f"{count} mistake{'' if count == 1 else 's'} in {path}. Nothing was written."
+        raise SceneError("\n".join([*told, total]))
 
 
 def _load_sections(
@@ -107,22 +98,19 @@ def _load_sections(
 
 
 def _error_sections(reading: Reading, stage: Stage, sections: Sections) -> Sections:
-    """The tolerance class, and with it or without it how long the run takes."""
+    """The tolerance class, and how long the run takes."""
     tolerance = reading.attempt(tolerance_class, reading, stage)
-    if tolerance is None:
-        cycles = Value(1, "1", "quasi-static, so that all mesh cycles are alike", assumed=True)
-        return {"motion": {**sections["motion"], "mesh_cycles": cycles}}
-    cycles = Value(
-        0, '"hunting tooth period"', "errors differ from tooth to tooth; so long until all have met", assumed=True
-    )
-    return {"motion": {**sections["motion"], "mesh_cycles": cycles}, "flank_errors": {"tolerance_class": tolerance}}
+    written, why = "1", "quasi-static, so that all mesh cycles are alike"
+    if tolerance is not None:
+        written, why = '"hunting tooth period"', "errors differ from tooth to tooth; so long until all have met"
+    motion = {**sections["motion"], "mesh_cycles": Value(0.0, written, why, assumed=True)}
+    return {"motion": motion, **({"flank_errors": {"tolerance_class": tolerance}} if tolerance is not None else {})}
 
 
-def _by_call(option: tuple[str, str], text: str | None) -> Value | None:
-    """What the call says in the place of the file. Raises SceneError where it is no such quantity."""
+def _by_call(name: str, text: str | None, example: str) -> Value | None:
+    """What an option says in the place of the file. Raises SceneError where it is no such quantity."""
     if text is None:
         return None
-    name, example = option
     try:
         number, _ = units.of_kind(text, units.quantity(example)[1])
     except units.QuantityError as error:

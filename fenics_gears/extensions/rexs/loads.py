@@ -30,43 +30,32 @@ def wheel_torque(model: Model, stage: Stage, ratio: float) -> Value:
     for part, factor in ((stage.wheel, 1.0), (stage.pinion, ratio)):
         torque = first(part, "torque") or _shaft_torque(model, stage, part)
         if torque is not None:
-            return _scaled(torque, factor, 1e3, "N m", "the ratio of teeth")
-    why = (
-        "its planets share the torque of their shafts"
-        if stage.in_planetary
-        else "no shaft with this gear alone bears external loads that are all known"
-    )
+            return _scaled(torque, factor, 1e3, "N m")
+    why = "no shaft with this gear alone bears external loads that are all known"
+    if stage.in_planetary:
+        why = "its planets share the torque of their shafts"
     raise ValueProblem(
         f"{stage.stage}: no torque. Its gears, {stage.pinion.gear.id} and {stage.wheel.gear.id}, have none in their"
-        " stage data, "
-        f'and {why}. Give that of the driven gear: --wheel-torque "437 N m".'
+        f' stage data, and {why}. Give that of the driven gear: --wheel-torque "437 N m".'
     )
 
 
 def pinion_speed(stage: Stage, ratio: float) -> Value:
-    """The speed of the driving gear, against its carrier where it has one; a slow one where the file gives none. Raises
-    ValueProblem."""
+    """The speed of the driving gear, against its carrier where it has one; a slow one where the file gives none."""
     for part, factor in ((stage.pinion, 1.0), (stage.wheel, ratio)):
         speeds = every(part, "speed_in_mesh") + ([] if stage.in_planetary else every(part, "speed"))
         for speed in speeds:
             if speed.number != 0.0:
-                return _scaled(speed, factor, RPM, "rpm", "the ratio of teeth")
-    return computed(
-        ASSUMED_SPEED * RPM,
-        RPM,
-        "rpm",
-        "no rotational_speed; without [inertia] it sets the scale of time only",
-        assumed=True,
-    )
+                return _scaled(speed, factor, RPM, "rpm")
+    why = "no rotational_speed; without [inertia] it sets the scale of time only"
+    return computed(ASSUMED_SPEED * RPM, RPM, "rpm", why, assumed=True)
 
 
-def _scaled(value: Value, factor: float, unit: float, name: str, why: str) -> Value:
-    """The value without its sign, as written where it stays what it is."""
+def _scaled(value: Value, factor: float, unit: float, name: str) -> Value:
     if factor == 1.0 and value.number >= 0.0:
         return value
-    return computed(
-        abs(value.number) * factor, unit, name, value.origin if factor == 1.0 else f"{value.origin} by {why}"
-    )
+    origin = value.origin if factor == 1.0 else f"{value.origin} by the ratio of teeth"
+    return computed(abs(value.number) * factor, unit, name, origin)
 
 
 def _shaft_torque(model: Model, stage: Stage, part: GearParts) -> Value | None:
@@ -74,17 +63,14 @@ def _shaft_torque(model: Model, stage: Stage, part: GearParts) -> Value | None:
     not."""
     if stage.in_planetary or len(part.shafts) != 1 or not _is_alone(model, part):
         return None
-    loads = [
-        each
-        for each in model.partners("assembly", "part", assembly=part.shafts[0])
-        if each.type == "external_load" and _is_torque(each)
-    ]
+    on_shaft = model.partners("assembly", "part", assembly=part.shafts[0])
+    loads = [each for each in on_shaft if each.type == "external_load" and _is_torque(each)]
     torques = [value_of(load, TORQUE, "N m") for load in loads if TORQUE in load.attributes]
     if not torques or len(torques) < len(loads):
         return None
-    total = sum(torque.number for torque in torques)
     if len(torques) == 1:
         return torques[0]
+    total = sum(torque.number for torque in torques)
     return computed(total, 1e3, "N m", together(torque.origin for torque in torques))
 
 
@@ -95,11 +81,7 @@ def _is_torque(load: Component) -> bool:
 
 
 def _is_alone(model: Model, part: GearParts) -> bool:
-    meshes = sum(
-        part.gear.id in (each.roles.get("gear_1"), each.roles.get("gear_2")) for each in model.related("stage")
-    )
-    in_stages = {
-        number for each in model.related("stage") for role, number in each.roles.items() if role in ("gear_1", "gear_2")
-    }
+    pairs = [{each.roles.get("gear_1"), each.roles.get("gear_2")} for each in model.related("stage")]
+    in_stages = set().union(*pairs)
     on_shaft = [each for each in model.partners("assembly", "part", assembly=part.shafts[0]) if each.id in in_stages]
-    return meshes == 1 and len(on_shaft) == 1
+    return sum(part.gear.id in pair for pair in pairs) == 1 and len(on_shaft) == 1

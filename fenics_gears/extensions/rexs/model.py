@@ -1,5 +1,4 @@
-"""A REXS file as components with attributes, relations between them, and load cases; values are texts as written, with
-units not yet converted."""
+"""A REXS file as components with attributes, relations between them, and load cases; values are texts as written."""
 
 from __future__ import annotations
 
@@ -14,13 +13,10 @@ class ModelError(ValueError):
 
 
 def readable(text: Any) -> Any:
-    """A name of the file in one line of characters that can be printed, so that it can stand in a message or a
-    comment."""
-    return (
-        " ".join("".join(each if each.isprintable() else " " for each in text).split())[:100]
-        if isinstance(text, str)
-        else text
-    )
+    """A name of the file in one line of characters that can be printed."""
+    if not isinstance(text, str):
+        return text
+    return " ".join("".join(each if each.isprintable() else " " for each in text).split())[:100]
 
 
 Name = Annotated[str, BeforeValidator(readable)]
@@ -47,16 +43,13 @@ class Attribute(_Node):
         if not isinstance(tree, Mapping):
             return tree
         value = next((value for key, value in tree.items() if key not in ("id", "unit")), None)
-        return {
-            "id": tree.get("id"),
-            "unit": tree.get("unit"),
-            "value": ("false", "true")[value] if isinstance(value, bool) else readable(value),
-        }
+        value = ("false", "true")[value] if isinstance(value, bool) else readable(value)
+        return {"id": tree.get("id"), "unit": tree.get("unit"), "value": value}
 
 
 def _by_name(attributes: list[Attribute]) -> dict[str, Attribute]:
-    """Attributes by their names, without those that are null or empty. Raises ValueError where one is there twice with
-    different values."""
+    """Attributes by their names, without those that are null or empty. Raises ValueError for two different values of
+    one."""
     found: dict[str, Attribute] = {}
     for each in attributes:
         first = found.setdefault(each.id, each) if each.value not in (None, "") else each
@@ -137,9 +130,8 @@ class Model(_Node):
     @property
     def load_cases(self) -> dict[str, dict[int, Mapping[str, Attribute]]]:
         """By the case's name, what each says of components, by their number."""
-        return {
-            case.id: {each.id: each.attributes for each in case.components} for case in self.load_spectrum.load_cases
-        }
+        cases = self.load_spectrum.load_cases
+        return {case.id: {each.id: each.attributes for each in case.components} for case in cases}
 
     def related(self, type: str, **known: Component) -> Iterator[Relation]:
         """Relations of a type in which the known components have these roles, in their order."""
@@ -174,9 +166,8 @@ def checked_model(tree: Any) -> Model:
     for relation in model.relations:
         for role, number in relation.roles.items():
             if number not in model.components:
-                raise ModelError(
-                    f'has a relation "{relation.type}" whose {role} is component {number}, which is not there'
-                )
+                words = f'has a relation "{relation.type}" whose {role} is component {number}'
+                raise ModelError(f"{words}, which is not there")
     return model
 
 

@@ -64,14 +64,11 @@ def _packed(content: bytes) -> bytes:
     """The one model in an archive; systems put files of their own beside it, whose names begin with a dot."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            models = [
-                each
-                for each in archive.infolist()
-                if each.filename.endswith(ENDINGS) and not Path(each.filename).name.startswith(".")
-            ]
+            every = (name for name in archive.namelist() if name.endswith(ENDINGS))
+            models = [name for name in every if not Path(name).name.startswith(".")]
             if len(models) != 1:
-                names = ", ".join(each.filename for each in models) or "none"
-                raise ModelError(f"is a ZIP archive that must hold one .rexs or .rexsj file, but holds: {names}")
+                holds = ", ".join(models) or "none"
+                raise ModelError(f"is a ZIP archive that must hold one .rexs or .rexsj file, but holds: {holds}")
             with archive.open(models[0]) as file:
                 return file.read(LARGEST + 1)
     except ModelError:
@@ -106,16 +103,15 @@ def _of_xml(content: bytes) -> Any:
     if _name(root) != "model":
         raise ModelError(f"is XML, but no REXS: its root is <{_name(root)}>, not <model>")
     components = [_component(each) for each in _within(root, "components", "component")]
-    relations = [
-        {**each.attrib, "refs": [ref.attrib for ref in _within(each, "ref")]}
-        for each in _within(root, "relations", "relation")
-    ]
-    spectra = list(_within(root, "load_spectrum"))
-    cases = [
-        _load_case(case, spectrum if len(spectra) > 1 else None)
-        for spectrum in spectra
-        for case in _within(spectrum, "load_case")
-    ]
+    found = _within(root, "relations", "relation")
+    relations = [{**each.attrib, "refs": [ref.attrib for ref in _within(each, "ref")]} for each in found]
+    spectra, cases = list(_within(root, "load_spectrum")), []
+    for spectrum in spectra:
+        # Where there are several spectra, a case has the name of its own before its own.
+        before = f"{spectrum.get('id')}." if len(spectra) > 1 else ""
+        for case in _within(spectrum, "load_case"):
+            loaded = [_component(each) for each in _within(case, "component")]
+            cases.append({"id": f"{before}{case.get('id')}", "components": loaded})
     return {**root.attrib, "components": components, "relations": relations, "load_spectrum": {"load_cases": cases}}
 
 
@@ -138,10 +134,8 @@ def _within(element: ElementTree.Element, *names: str) -> Iterator[ElementTree.E
 
 
 def _component(element: ElementTree.Element) -> dict[str, Any]:
-    return {
-        **element.attrib,
-        "attributes": [{**each.attrib, "value": _value(each)} for each in _within(element, "attribute")],
-    }
+    attributes = [{**each.attrib, "value": _value(each)} for each in _within(element, "attribute")]
+    return {**element.attrib, "attributes": attributes}
 
 
 def _value(element: ElementTree.Element) -> Any:
@@ -151,13 +145,4 @@ def _value(element: ElementTree.Element) -> Any:
     inner = element[0]
     if "code" in inner.attrib:
         return {"code": inner.get("code"), "value": (inner.text or "").strip()}
-    return [
-        _value(each) if len(each) else (each.text or "").strip()
-        for each in (inner if _name(inner) in ("array", "matrix") else element)
-    ]
-
-
-def _load_case(case: ElementTree.Element, spectrum: ElementTree.Element | None) -> dict[str, Any]:
-    """A load case; where there are several spectra, with the name of its own before its own."""
-    name = case.get("id") if spectrum is None else f"{spectrum.get('id')}.{case.get('id')}"
-    return {"id": name, "components": [_component(each) for each in _within(case, "component")]}
+    return [_value(each) for each in (inner if _name(inner) in ("array", "matrix") else element)]

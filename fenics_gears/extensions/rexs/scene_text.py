@@ -19,8 +19,7 @@ def scene_text(
     sections: Mapping[str, Mapping[str, Value]],
     notes: Mapping[str, Iterable[str]],
 ) -> str:
-    """The TOML text of a scene; ``file`` is the name of the REXS file it is made from, ``notes`` are lists under a
-    heading each."""
+    """The TOML text of a scene; ``file`` is the name of the REXS file, ``notes`` are lists under a heading each."""
     named = stage.stage.name or f"stage {stage.stage.id}"
     text = _head(file, model, stage, notes) + f"\ntitle = {toml_value(_one_line(f'{named} of {file}')[:500])}\n"
     for section, fields in sections.items():
@@ -29,20 +28,14 @@ def scene_text(
 
 
 def _head(file: str, model: Model, stage: Stage, notes: Mapping[str, Iterable[str]]) -> str:
+    program = f"{model.applicationId} {model.applicationVersion}".strip() or "by a program not named"
     lines = [
-        (
-            f"Made by gears import from {file} (REXS {model.version},"
-            f" {f'{model.applicationId} {model.applicationVersion}'.strip() or 'by a program not named'},"
-            f" {model.date or 'without a date'})."
-        ),
+        f"Made by gears import from {file} (REXS {model.version}, {program}, {model.date or 'without a date'}).",
         f"The pair is {stage.stage}: {stage.pinion.gear} drives {stage.wheel.gear}.",
         "Behind every value stands where it is from. This is a scene like any other: change what you know better.",
         *(line for heading, items in notes.items() for line in _listed(heading, items)),
         "",
-        (
-            "Sections that may be added (docs/effects.md): [friction], [shafts], [bearings], [inertia], [damping],"
-            " [coast_flanks] and more."
-        ),
+        "Sections that may be added: [friction], [shafts], [bearings], [inertia], [damping], ... (docs/effects.md).",
     ]
     return "".join(f"# {_one_line(line)}".rstrip() + "\n" for line in lines)
 
@@ -58,5 +51,4 @@ def _line(name: str, value: Value) -> str:
 
 
 def _one_line(text: str) -> str:
-    """A comment may have no control characters, which a file's name might have."""
     return "".join(each if each.isprintable() else "?" for each in text)

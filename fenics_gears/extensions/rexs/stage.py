@@ -1,18 +1,21 @@
 """The pair that is meant in a REXS model, and the components that describe it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from .model import Component, Model, Relation
-from .values import COUNT, ValueProblem, value_of, word_of
+from .values import COUNT, Value, ValueProblem, value_of, word_of
 
 CYLINDRICAL, EXTERNAL, INTERNAL = "cylindrical_stage", "cylindrical_gear", "ring_gear"
 RACK_TOOL = "rack_shaped_tool"
+# Of a section of a scene.
+Fields = dict[str, Value]
 
 
 @dataclass(frozen=True)
 class GearParts:
     """The components of one gear of a stage: itself, its flanks by their side and what modifies them, its tools and how
-    they were set, bodies, materials and shafts, and its data in this stage. Lists are empty where the file has none."""
+    they were set, bodies, materials and shafts, and its data in this stage."""
 
     gear: Component
     flanks: dict[str, Component]
@@ -42,6 +45,28 @@ class GearParts:
         ]
         return [side for side in self.flanks if not said or side == said[0]]
 
+    def modification(self, side: str, kind: str) -> Component | None:
+        """What modifies a flank in this way. Raises ValueProblem where there are two."""
+        found = [each for each in self.modifications[side] if each.type == kind]
+        if len(found) > 1:
+            raise ValueProblem(
+                f"{self.flanks[side]}: two components {kind}, {found[0].id} and {found[1].id}; a scene has one."
+            )
+        return found[0] if found else None
+
+    def of_loaded_sides(
+        self, fields_of: Callable[[str], Fields], same: Callable[[Value, Value], bool], what: str
+    ) -> Fields:
+        """The fields of all sides that may be loaded. Raises ValueProblem where they are not the same."""
+        one, *others = [fields_of(side) for side in self.loaded_sides] or [{}]
+        for other in others:
+            if one.keys() != other.keys() or not all(same(value, other[name]) for name, value in one.items()):
+                raise ValueProblem(
+                    f"{self.gear}: its left and its right flank have different {what}, and the file does not say which"
+                    " one is loaded. Allowed: loaded_tooth_flank (left or right) in the gear's stage data."
+                )
+        return one
+
 
 @dataclass(frozen=True)
 class Stage:
@@ -53,9 +78,9 @@ class Stage:
     in_planetary: bool
 
     @property
-    def gears(self) -> tuple[GearParts, GearParts]:
+    def named(self) -> dict[str, GearParts]:
         """The driving gear, and the one it drives."""
-        return self.pinion, self.wheel
+        return {"pinion": self.pinion, "wheel": self.wheel}
 
 
 def chosen_stage(model: Model, wanted: int | None) -> Stage:
@@ -64,13 +89,13 @@ def chosen_stage(model: Model, wanted: int | None) -> Stage:
     relations = {
         each.roles["stage"]: each
         for each in model.related("stage")
-        if {"stage", "gear_1", "gear_2"} <= set(each.roles) and _is_cylindrical(model, each)
+        if {"stage", "gear_1", "gear_2"} <= set(each.roles)
+        and model.components[each.roles["stage"]].type == CYLINDRICAL
     }
     if not relations:
         raise ValueProblem(_no_stage(model))
-    listed = "\n".join(
-        f"    --stage {number}    {_described(model, relation)}" for number, relation in relations.items()
-    )
+    described = {number: _described(model, relation) for number, relation in relations.items()}
+    listed = "\n".join(f"    --stage {number}    {words}" for number, words in described.items())
     if wanted is None and len(relations) > 1:
         raise ValueProblem(f"has {len(relations)} pairs of cylindrical gears; a scene has one. Choose it:\n{listed}")
     number = next(iter(relations)) if wanted is None else wanted
@@ -79,19 +104,12 @@ def chosen_stage(model: Model, wanted: int | None) -> Stage:
     return _stage(model, relations[number])
 
 
-def _is_cylindrical(model: Model, relation: Relation) -> bool:
-    return model.components[relation.roles["stage"]].type == CYLINDRICAL
-
-
 def _no_stage(model: Model) -> str:
-    others = sorted(
-        {model.components[each.roles["stage"]].type for each in model.related("stage") if "stage" in each.roles}
-    )
+    numbers = {each.roles["stage"] for each in model.related("stage") if "stage" in each.roles}
+    others = sorted({model.components[number].type for number in numbers})
     besides = f" Its stages are: {', '.join(others)}." if others else ""
-    return (
-        'has no pair of cylindrical gears: no relation "stage" with a cylindrical_stage, a gear_1 and a'
-        f" gear_2.{besides}"
-    )
+    needed = 'no relation "stage" with a cylindrical_stage, a gear_1 and a gear_2'
+    return f"has no pair of cylindrical gears: {needed}.{besides}"
 
 
 def _described(model: Model, relation: Relation) -> str:
@@ -117,29 +135,21 @@ def _stage(model: Model, relation: Relation) -> Stage:
 
 
 def _parts(model: Model, stage: Component, gear: Component) -> GearParts:
-    sides = next(iter(model.related("flank", gear=gear)), None)
-    flanks = (
-        {}
-        if sides is None
-        else {side: model.components[sides.roles[side]] for side in ("left", "right") if side in sides.roles}
-    )
+    roles = next((each.roles for each in model.related("flank", gear=gear)), {})
+    flanks = {side: model.components[roles[side]] for side in ("left", "right") if side in roles}
     steps = [step for flank in flanks.values() for step in model.related("manufacturing_step", workpiece=flank)]
     tools = {step.roles["tool"]: step for step in steps if "tool" in step.roles}
     # Up to version 1.2 a gear refers to its tools; from 1.3 on its flanks do, each with how the tool was set.
     referred = model.partners("ordered_reference", "referenced", origin=gear) + [
         model.components[number] for number in tools
     ]
-    settings = [
-        model.components[step.roles["manufacturing_settings"]]
-        for step in steps
-        if "manufacturing_settings" in step.roles
-    ]
+    settings = {step.roles["manufacturing_settings"]: None for step in steps if "manufacturing_settings" in step.roles}
     return GearParts(
         gear,
         flanks,
         {side: model.partners("reference", "referenced", origin=flank) for side, flank in flanks.items()},
         [each for each in referred if each.type == RACK_TOOL],
-        list({each.id: each for each in settings}.values()),
+        [model.components[number] for number in settings],
         [each for each in model.partners("assembly", "part", assembly=gear) if each.type == "gear_body"],
         [each for each in model.partners("reference", "referenced", origin=gear) if each.type == "material"],
         [each for each in model.partners("assembly", "assembly", part=gear) if each.type == "shaft"],
@@ -148,14 +158,15 @@ def _parts(model: Model, stage: Component, gear: Component) -> GearParts:
 
 
 def _check_external(gear: Component) -> None:
-    if (
-        gear.type == INTERNAL
-        or "number_of_teeth" in gear.attributes
-        and value_of(gear, "number_of_teeth", COUNT).number < 0
-    ):
+    teeth = _teeth(gear)
+    if gear.type == INTERNAL or teeth is not None and teeth < 0:
         raise ValueProblem(f"{gear} is an internal gear; pairs of external gears are computed only.")
     if gear.type != EXTERNAL:
         raise ValueProblem(f"{gear} is no cylindrical gear.")
+
+
+def _teeth(gear: Component) -> float | None:
+    return value_of(gear, "number_of_teeth", COUNT).number if "number_of_teeth" in gear.attributes else None
 
 
 def _first_drives(first: GearParts, second: GearParts) -> bool:
@@ -164,12 +175,8 @@ def _first_drives(first: GearParts, second: GearParts) -> bool:
     if says[0] != says[1]:
         return says[0] is True or says[1] is False
     # Programs also write that neither drives, or both.
-    teeth = [
-        value_of(part.gear, "number_of_teeth", COUNT).number
-        for part in (first, second)
-        if "number_of_teeth" in part.gear.attributes
-    ]
-    return len(teeth) < 2 or teeth[0] <= teeth[1]
+    teeth = [_teeth(part.gear) for part in (first, second)]
+    return None in teeth or teeth[0] <= teeth[1]
 
 
 def _drives(part: GearParts) -> bool | None:

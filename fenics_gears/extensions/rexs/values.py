@@ -4,7 +4,7 @@ import base64
 import math
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isclose
 
 import numpy as np
@@ -42,7 +42,6 @@ class Value:
 
     @property
     def words(self) -> str:
-        """As messages write it."""
         return self.written.strip('"')
 
 
@@ -53,10 +52,7 @@ def place(component: Component, name: str) -> str:
 
 def value_of(component: Component, name: str, unit: str, module: Value | None = None) -> Value:
     """The value of an attribute: a quantity of the kind of ``unit``, or one of the kinds above; ``module``: for lengths
-    in modules.
-
-    Raises ValueProblem.
-    """
+    in modules. Raises ValueProblem."""
     if unit == MODULES:
         length = value_of(component, name, "mm")
         return bare(length.number / module.number, f"{length.origin}, over the module")
@@ -65,12 +61,12 @@ def value_of(component: Component, name: str, unit: str, module: Value | None = 
     spelt, said = SPELLINGS.get(spelt, spelt), f"{place(component, name)} = {text} {written}".rstrip()
     origin = f"{name} of component {component.id}"
     if unit == COUNT:
-        if spelt or not _WHOLE.fullmatch(text):
-            raise ValueProblem(
-                f"{said if spelt else f'{place(component, name)} = {text}'} is not a whole"
-                f" number{' without unit' if spelt else ''}."
-            )
-        return Value(int(text.partition(".")[0]), text.partition(".")[0], origin)
+        whole = text.partition(".")[0]
+        if spelt:
+            raise ValueProblem(f"{said} is not a whole number without unit.")
+        if not _WHOLE.fullmatch(text):
+            raise ValueProblem(f"{place(component, name)} = {text} is not a whole number.")
+        return Value(int(whole), whole, origin)
     if unit == NUMBER:
         if spelt not in ("", "%"):
             raise ValueProblem(f'{said} has the unit "{written}". Allowed: "none" or "%".')
@@ -102,16 +98,13 @@ def word_of(component: Component, name: str) -> str:
 
 def in_words(component: Component, name: str) -> str:
     """An attribute's value, or how many an array has and from where to where they go, with its unit."""
-    entries, unit = (
-        _entries(component, name),
-        SPELLINGS.get(component.attributes[name].unit, component.attributes[name].unit),
-    )
+    entries, unit = _entries(component, name), component.attributes[name].unit
     try:
         numbers = [float(each) for each in entries]
         text = entries[0] if len(entries) == 1 else f"{len(entries)} values from {min(numbers):g} to {max(numbers):g}"
     except ValueError:
         text = ", ".join(entries)[:100]
-    return f"{text} {unit}".rstrip()
+    return f"{text} {SPELLINGS.get(unit, unit)}".rstrip()
 
 
 def _entries(component: Component, name: str) -> list[str]:
@@ -128,9 +121,8 @@ def _entries(component: Component, name: str) -> list[str]:
 def _decoded(component: Component, attribute: Attribute) -> list[str]:
     code, text = (str(attribute.value.get(name, "")) for name in ("code", "value"))
     if code not in CODES:
-        raise ValueProblem(
-            f'{place(component, attribute.id)} is an array with the code "{code}". Allowed: {", ".join(CODES)}.'
-        )
+        what = f'{place(component, attribute.id)} is an array with the code "{code}"'
+        raise ValueProblem(f"{what}. Allowed: {', '.join(CODES)}.")
     try:
         # Programs also leave out the padding at the end.
         numbers = np.frombuffer(base64.b64decode(text + "=" * (-len(text) % 4), validate=True), CODES[code])
@@ -140,7 +132,6 @@ def _decoded(component: Component, attribute: Attribute) -> list[str]:
 
 
 def bare(number: float, origin: str, *, assumed: bool = False) -> Value:
-    """A number without unit."""
     return Value(number, repr(float(number)), origin, assumed)
 
 
@@ -161,12 +152,8 @@ def agreed(values: Iterable[Value | None], what: str) -> Value | None:
             )
     if not there:
         return None
-    return Value(
-        there[0].number,
-        there[0].written,
-        together(value.origin for value in there),
-        any(value.assumed for value in there),
-    )
+    origin, assumed = together(value.origin for value in there), any(value.assumed for value in there)
+    return replace(there[0], origin=origin, assumed=assumed)
 
 
 def together(origins: Iterable[str]) -> str:

@@ -57,7 +57,7 @@ def test_computed_forces_enter_in_the_transverse_section_as_the_standards_do():
     """Statics: a tooth pair of a helical gear that carries F_bt/cos(beta_b) along the contact normal has the flash
     temperature of the line force F_bt/b."""
     scene = wide_pair("[friction]\ncoefficient = 0.05\n")
-    operation = _operation(scene, xr.Dataset())
+    operation = _operation(scene, Finish(), xr.Dataset())
     pair, force = operation.pair, scene.load.wheel_torque / operation.pair.wheel.base_radius
     phase = np.linspace(0.0, 0.95 * pair.contact_ratio, 40)
     dims = ("time", "slot")
@@ -79,5 +79,5 @@ def test_computed_forces_enter_in_the_transverse_section_as_the_standards_do():
         0.05,
         operation.pinion_speed,
     )
-    (row,) = _flash(operation, Finish(), result)
+    (row,) = _flash(operation, result)
     assert pair.cosine < 0.98 and row.computed == pytest.approx(expected.max())

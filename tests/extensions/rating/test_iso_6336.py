@@ -46,12 +46,13 @@ def test_the_standard_s_example(example):
         1.0,
     )
     finish = Finish(viscosity_grade=320.0, flank_roughness=6.0, tolerance_class=5)
-    flank = flank_stress(example, finish, LoadFactors(1.003, 1.16, 1.128, 1.0, 1.0))
+    example = replace(example, finish=finish)
+    flank = flank_stress(example, LoadFactors(1.003, 1.16, 1.128, 1.0, 1.0))
     assert flank.nominal == pytest.approx(1206.58207, abs=5e-4)
     # K_v is printed to three digits.
     assert flank.stress == pytest.approx((1301.35343, 1301.35343), rel=3e-4)
     assert flank.limit / finish.flank_limit == pytest.approx(1.04739 * 0.96911 * 0.96599, rel=2e-5)
-    assert load_factors(example, finish).dynamic == pytest.approx(1.003, abs=2e-3)
+    assert load_factors(example).dynamic == pytest.approx(1.003, abs=2e-3)
 
 
 FZG_C = (
@@ -91,7 +92,7 @@ def test_root_stress_of_another_program():
     """GEARpie's report of the FZG gear C14 at 200 N m: nominal root stresses 271.19 and 263.17 MPa of F_t at the pitch
     circle, 5464.5 N in place of 5555.6."""
     found = operation(FZG_C[0], 200e3, 1500.0)
-    roots = root_stresses(found, Finish(), LoadFactors(1.0, 1.0, 1.0, 1.0, 1.0))
+    roots = root_stresses(found, LoadFactors(1.0, 1.0, 1.0, 1.0, 1.0))
     assert [each.nominal * 5464.5 / found.tangential_force for each in roots] == pytest.approx(
         [271.19, 263.17], rel=1e-3
     )
@@ -104,16 +105,16 @@ def test_face_load_factor_counts_the_scene_s_misalignment():
     slopes of the class by ISO 1328-1."""
     data, _ = H501
     found = replace(operation(data, 200e3, 1000.0), misalignment=-20.0)
-    factors = load_factors(found, Finish())
+    factors = load_factors(found)
     stiffness, line_load = 0.85 * found.mesh_stiffness, factors.dynamic * found.tangential_force / 23.0
     assert factors.face == pytest.approx(1.0 + 0.5 * 17.0 * stiffness / line_load)
-    large = load_factors(replace(found, misalignment=60.0), Finish())
+    large = load_factors(replace(found, misalignment=60.0))
     assert large.face == pytest.approx(2.0 * sqrt(0.5 * 54.0 * stiffness / line_load))
     slopes = [
         sqrt(2.0) * (0.05 * sqrt(2.0 * gear.reference_radius) + 0.35 * sqrt(23.0) + 4.0)
         for gear in (found.pair.pinion, found.pair.wheel)
     ]
-    assert mesh_misalignment(replace(found, misalignment=None), Finish()) == pytest.approx(hypot(*slopes))
+    assert mesh_misalignment(replace(found, misalignment=None)) == pytest.approx(hypot(*slopes))
 
 
 def test_dynamic_factor_is_continuous_and_highest_in_resonance():
@@ -123,7 +124,7 @@ def test_dynamic_factor_is_continuous_and_highest_in_resonance():
     resonance = 30e3 / 3.14159265 / 20 * (found.mesh_stiffness / found.reduced_mass) ** 0.5
 
     def factor(ratio):
-        return load_factors(replace(found, pinion_speed=ratio * resonance), Finish()).dynamic
+        return load_factors(replace(found, pinion_speed=ratio * resonance)).dynamic
 
     assert factor(1e-6) == pytest.approx(1.0, abs=1e-5)
     assert factor(1.0) == factor(1.1) and factor(1.6) == factor(3.0)

@@ -10,7 +10,6 @@ from tests.extensions.rexs import paper_model as rexs
 from tests.extensions.rexs.test_paper_pair import imported
 
 from fenics_gears import SceneError, gear_pair
-from fenics_gears.extensions.rexs.imported import Choice
 from fenics_gears.model.modification import removals
 from fenics_gears.scene.data import Motion
 
@@ -19,7 +18,7 @@ GEARS = (rexs.PINION, rexs.WHEEL)
 
 def scene_of(tmp_path, model, **choice):
     """The scene of a model, and what was assumed and left out."""
-    return imported(tmp_path, rexs.as_xml(model), choice=Choice(**choice))
+    return imported(tmp_path, rexs.as_xml(model), **choice)
 
 
 def assumed_fields(found):
@@ -197,12 +196,10 @@ def test_load_cases(tmp_path, form):
     with pytest.raises(SceneError, match="2 load cases; a scene has one. Choose it with --load-case: 1, 2"):
         imported(tmp_path, form(with_load_cases(300.0, 200.0)))
     with pytest.raises(SceneError, match='no load case "3". It has: 1, 2'):
-        imported(tmp_path, form(with_load_cases(300.0, 200.0)), choice=Choice(load_case="3"))
-    scene, _ = imported(tmp_path, form(with_load_cases(300.0, 200.0)), choice=Choice(load_case="2"))
+        imported(tmp_path, form(with_load_cases(300.0, 200.0)), load_case="3")
+    scene, _ = imported(tmp_path, form(with_load_cases(300.0, 200.0)), load_case="2")
     assert (scene.load.wheel_torque, scene.motion.mesh_frequency) == (200e3, pytest.approx(200 / 60 * 16))
-    scene, _ = imported(
-        tmp_path, form(with_load_cases(300.0, 200.0)), choice=Choice(wheel_torque="1 kN m", pinion_speed="10 rev/s")
-    )
+    scene, _ = imported(tmp_path, form(with_load_cases(300.0, 200.0)), wheel_torque="1 kN m", pinion_speed="10 rev/s")
     assert (scene.load.wheel_torque, scene.motion.mesh_frequency) == (1e6, pytest.approx(160.0))
 
 

@@ -12,14 +12,14 @@ from tests.conftest import DEMOS
 from tests.extensions.rexs import paper_model as rexs
 
 from fenics_gears import scene_from_text
-from fenics_gears.extensions.rexs.imported import Choice, imported_scene
+from fenics_gears.extensions.rexs.imported import imported_scene
 
 
-def imported(tmp_path, content, name="file.rexs", choice=Choice()):
+def imported(tmp_path, content, name="file.rexs", **choice):
     """The scene of a file's content, and what was assumed and left out."""
     path = tmp_path / name
     path.write_bytes(content)
-    found = imported_scene(path, choice)
+    found = imported_scene(path, **choice)
     return scene_from_text(found.text, "imported"), found
 
 

@@ -12,7 +12,6 @@ from tests.extensions.rexs.test_paper_pair import imported
 
 from fenics_gears import SceneError
 from fenics_gears.extensions.rexs import read
-from fenics_gears.extensions.rexs.imported import Choice
 
 P, W, FLANK, MATERIAL = rexs.PINION, rexs.WHEEL, rexs.PINION_FLANKS[0], rexs.MATERIAL
 
@@ -268,7 +267,7 @@ def test_damaged_files_end_in_a_scene_or_in_a_sentence(tmp_path_factory, data):
         )
         content = content[:start] + put + content[start + data.draw(st.integers(0, 12)) :]
     try:
-        imported(tmp_path_factory.mktemp("damaged"), content, choice=Choice(stage=4))
+        imported(tmp_path_factory.mktemp("damaged"), content, stage=4)
     except SceneError as error:
         assert str(error).strip()
 
