@@ -69,8 +69,8 @@ class Damping(Rayleigh):
 
     @property
     def modal(self) -> tuple[float, ...]:
-        """Damping ratios by mode from the lowest frequency on, of which the last holds for all that follow; empty for
-        Rayleigh damping."""
+        """Damping ratios by mode from the lowest frequency on, the last for all that follow; empty for Rayleigh
+        damping."""
         return (self.ratio,) if self.ratio is not None else self.ratios or ()
 
     def rayleigh(self, gear: str) -> tuple[float, float]:
@@ -104,11 +104,8 @@ def damping_acts(tree: Tree) -> Broken:
     yield from _rayleigh_acts(tree)
 
 
-_MISSING = {"stiffness_proportional": "0.4e-3 s", "mass_proportional": "0.5e-3 1/s"}
-
-
 def _rayleigh_is_complete(damping: Tree) -> Broken:
-    for name, example in _MISSING.items():
+    for name, example in zip(RAYLEIGH, ("0.4e-3 s", "0.5e-3 1/s")):
         gears = [gear for gear in GEARS if name not in given_for(damping, gear)]
         if gears:
             path = ("damping", name) if len(gears) == 2 else ("damping", *gears, name)
@@ -131,8 +128,8 @@ def _rayleigh_acts(tree: Tree) -> Broken:
         yield ("damping",), message
     elif "shafts" not in tree and "bearings" not in tree:
         message = (
-            "damps nothing: there is no stiffness without [shafts] or [bearings]. Add one of them, or allow a"
-            " mass_proportional value above 0."
+            "damps nothing: there is no stiffness without [shafts] or [bearings]. Add one of them, or"
+            " mass_proportional damping."
         )
         path = next(path for path, value in of_stiffness.items() if value)
         yield (*path, "stiffness_proportional"), message

@@ -67,7 +67,6 @@ class Eccentricity(Section):
 
 
 def offsets_are_given(tree: Tree) -> Broken:
-    """The section of a gear says what the gear does not run true by."""
     for gear in GEARS:
         own = table(table(tree, "eccentricity") or {}, gear)
         if own is not None and not {"distance", "wobble"} & set(own):
@@ -76,14 +75,12 @@ def offsets_are_given(tree: Tree) -> Broken:
 
 
 def gaps(eccentricity: Eccentricity, model):
-    """What displaced base circles and leaning teeth add to the gaps."""
     from fenics_gears.contact.run_out import run_out
 
     return run_out(model.pair, eccentricity, model.resolution.steps_per_mesh_cycle)
 
 
 def period(eccentricity: Eccentricity, scene) -> int:
-    """Mesh cycles of whole turns of the gears that run out."""
     return lcm(*(getattr(scene.gears, name).teeth for name in GEARS if getattr(eccentricity, name) is not None))
 
 

@@ -104,9 +104,8 @@ def inertia_is_complete(tree: Tree) -> Broken:
         return
     if "motor" in both:
         message = (
-            "has no effect: the far end of the input shaft turns as prescribed, as behind a motor of any inertia whose"
-            " speed is held. Leave it out; what turns with the pinion belongs to [inertia.pinion], and a soft"
-            " [shafts.input] lets the pinion's side swing."
+            "has no effect: the input shaft's far end turns as prescribed. Leave it out; what turns with the pinion"
+            " belongs to [inertia.pinion]."
         )
         yield ("inertia", "motor"), message
     yield from _density_stands_alone(tree)
@@ -137,11 +136,8 @@ def _density_stands_alone(tree: Tree) -> Broken:
     for path, section in with_gears(tree, "inertia").items():
         beside = [name for name in LUMPED if name in section]
         if "density" in section and beside:
-            message = (
-                f"stands beside {' and '.join(beside)}, which follow from it. Leave density out, or"
-                f" {' and '.join(beside)}."
-            )
-            yield (*path, "density"), message
+            others = " and ".join(beside)
+            yield (*path, "density"), f"stands beside {others}, which follow from it. Leave density out, or {others}."
 
 
 def _what_tilts_has_places(tree: Tree) -> Broken:

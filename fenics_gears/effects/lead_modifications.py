@@ -41,7 +41,6 @@ class EndRelief(Section):
 
     @property
     def power(self) -> int:
-        """Power of the distance from its start with which the relief grows."""
         return POWERS[self.shape]
 
 
@@ -93,7 +92,6 @@ class LeadModifications(Section):
 
 
 def end_reliefs_have_room(tree: Tree) -> Broken:
-    """End reliefs have room on the face."""
     for gear in GEARS:
         yield from _end_relief_has_room(tree, gear)
 

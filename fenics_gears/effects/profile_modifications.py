@@ -55,7 +55,6 @@ class ProfileModifications(Section):
 
 
 def removal(modifications: ProfileModifications, pair):
-    """Material removed from pinion and wheel."""
     from fenics_gears.geometry.profile_modification import profile_curves
 
     return profile_curves(pair, modifications)

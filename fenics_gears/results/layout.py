@@ -1,5 +1,5 @@
-"""What every result's file has: names, dimensions and types, checked after its seal, which only says that its bytes are
-those that were written."""
+"""What every result's file has: names, dimensions and types; its seal only says that its bytes are those that were
+written."""
 
 from collections.abc import Iterator
 from functools import cache
@@ -39,25 +39,17 @@ def _mistakes(result: xr.Dataset) -> Iterator[str]:
             yield f"{name} holds {result[name].dtype}, not numbers"
     numbers = {each.name for each in RESULT_ATTRIBUTES if each.units}
     for name, value in result.attrs.items():
-        if (
-            name in TEXTS
-            and not isinstance(value, str)
-            or name in numbers
-            and not isinstance(value, (int, float, np.number))
-        ):
+        kinds = str if name in TEXTS else (int, float, np.number) if name in numbers else object
+        if not isinstance(value, kinds):
             yield f"its attribute {name} is {value!r:.60}"
     yield from _mistakes_of_places(result)
 
 
 @cache
 def _known_dims() -> dict[str, list[tuple[str, ...]]]:
-    """Dimensions that variables of numbers may have, by name; those of contact nodes are of slices too where the flanks
-    are resolved over the face."""
-    variables = [
-        *COMMON_VARIABLES,
-        *FACE_VARIABLES,
-        *(variable for effect in every_effect() for variable in effect.variables),
-    ]
+    """Dimensions that variables of numbers may have, by name; over a face those of contact nodes are of slices too."""
+    of_effects = (variable for effect in every_effect() for variable in effect.variables)
+    variables = [*COMMON_VARIABLES, *FACE_VARIABLES, *of_effects]
     found = {
         each.name: [each.dims, *([(*OF_SLICES, "contact_node")] if each.dims == OF_NODES else [])] for each in variables
     }

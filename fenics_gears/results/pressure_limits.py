@@ -96,17 +96,14 @@ def _linear(reliefs: Reliefs | None) -> list[str]:
 def _off_the_edge(scene: Scene, gears: list[str]) -> str:
     reliefs = [getattr(scene.tip_relief, gear) for gear in gears] if scene.tip_relief is not None else []
     if None in reliefs:
-        ways = [
-            f"[tip_relief.{gear}] takes the load off the edge" for gear, relief in zip(gears, reliefs) if relief is None
-        ]
+        without = (gear for gear, relief in zip(gears, reliefs) if relief is None)
+        ways = [f"[tip_relief.{gear}] takes the load off the edge" for gear in without]
     elif reliefs:
         ways = ["a deeper or longer tip relief takes more load off the edge"]
-        ways += (
-            ['tip_relief.shape = "parabolic" is steeper at the tip']
-            if any(relief.power == 1 for relief in reliefs)
-            else []
-        )
+        if any(relief.power == 1 for relief in reliefs):
+            ways.append('tip_relief.shape = "parabolic" is steeper at the tip')
     else:
         ways = ["[tip_relief] takes the load off the edge"]
-    rounded = scene.corner_contact is not None and min(scene.corner_contact.edge_radii) > 0.0
-    return ", ".join([*ways, *([] if rounded else ["[corner_contact] with an edge_radius rounds it"])])
+    if scene.corner_contact is None or not min(scene.corner_contact.edge_radii) > 0.0:
+        ways.append("[corner_contact] with an edge_radius rounds it")
+    return ", ".join(ways)

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 def elastic_route(
     model: Model, progress: Progress, cache: Cache | None, job: Job | None = None
 ) -> tuple[Bodies, Cycle]:
-    """The bodies of both gears, and the contact operators of a mesh cycle on them; `job`: whose ranks share the work on
-    each body in three dimensions."""
+    """The bodies of both gears, and the contact operators on them; `job`: whose ranks share the work on each body in
+    three dimensions."""
     bodies = gear_bodies(model, progress, cache, job)
     return bodies, mesh_cycle(model, bodies)
 
@@ -69,9 +69,8 @@ def yielding_seats(model: Model) -> tuple[ElasticShaft, ...]:
 
 def cycle_of(model: Model, mesh: Mesh) -> Cycle:
     """The contact equations of a mesh over the steps of the model, with what opens its nodes."""
-    cycle = Cycle(
-        mesh, model.resolution.steps_per_mesh_cycle, model.drivetrain.indices, model.scene.friction is not None
-    )
+    steps, friction = model.resolution.steps_per_mesh_cycle, model.scene.friction is not None
+    cycle = Cycle(mesh, steps, model.drivetrain.indices, friction)
     return cycle.with_gaps(gaps_of(model, cycle))
 
 

@@ -13,7 +13,6 @@ from .elastic_route import cycle_of
 
 
 def rigid_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[tuple, Cycle]:
-    """No compliance, and the contact of one mesh cycle."""
     return (), rigid_cycle(model)
 
 

@@ -14,7 +14,6 @@ from .bodies import discretisation_of
 
 
 def root_stress(model: Model, cycle: Cycle, progress: Progress, cache: Cache | None) -> RootStress:
-    """The root stress of both gears at the steps of a cycle, ready to be taken at each."""
     rows = []
     for name in ("pinion", "wheel"):
         progress.stage(f"root stress of the {name}")

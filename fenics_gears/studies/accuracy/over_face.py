@@ -59,12 +59,7 @@ def in_the_plane(scene: Scene) -> Scene:
     )  # fmt: skip
     accuracy = replace(scene.accuracy, slices=None, layers=None)
     if bearings is not None:
-        own = {
-            name: replace(each, axial_stiffness=None)
-            for name in ("pinion", "wheel")
-            if (each := getattr(bearings, name)) is not None
-        }
-        bearings = replace(bearings, places=None, axial_stiffness=None, **own)
+        bearings = replace(bearings.held_axially, places=None)
     return replace(
         scene, gears=section, bearings=bearings, lead_modifications=None, misalignment=None, accuracy=accuracy
     )

@@ -89,7 +89,6 @@ OVER_THE_FACE = Plan(
 
 
 def plan_of(scene: Scene) -> Plan:
-    """What is refined of a scene."""
     return OVER_THE_FACE if scene.three_dimensional else IN_THE_PLANE
 
 
@@ -133,12 +132,10 @@ class Refinement:
         return next((place for place, level in enumerate(self.levels) if same(level.setting)), None)
 
     def moved(self, setting: Setting, place: int) -> Setting:
-        """A whole setting with the values of a level."""
         return replace(setting, **{field: getattr(self.levels[place].setting, field) for field in self.fields})
 
 
 def check_measurable(scene: Scene) -> None:
-    """Raise SceneError for a scene whose accuracy cannot be measured."""
     if not scene.resolves_contact:
         raise SceneError(
             "gears accuracy needs the full contact of elastic flanks: give [gears.material], and leave out"
@@ -192,7 +189,6 @@ def _setting(scene: Scene, values: dict[str, float]) -> Setting:
 
 
 def _whole(part: float, default: int) -> int:
-    """A part of a number of slices or layers."""
     return max(2, round(part * default))
 
 

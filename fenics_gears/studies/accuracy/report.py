@@ -49,17 +49,13 @@ class RefinementResult:
     limits: dict[str, Limit]
 
     def order(self, measure: str) -> float | None:
-        """Observed order of a measure; None without one."""
         return self.limits[measure].order if measure in self.limits else None
 
 
 @dataclass(frozen=True)
 class WholeResult:
-    """A whole setting or a cheaper model: errors from the reference, the parts of its settings, and times.
-
-    `parts` is empty for a cheaper model, whose error does not depend on settings, and for the settings of a `target`,
-    which are no levels.
-    """
+    """A whole setting or a cheaper model: errors from the reference, the parts of its settings, and times. `parts` is
+    empty for a cheaper model, and for the settings of a `target`, which are no levels."""
 
     name: str
     setting: Setting | None
@@ -70,17 +66,13 @@ class WholeResult:
 
     @property
     def total_error(self) -> float:
-        """Its total error; see `whole.total_error`."""
         return whole.total_error(judged(self.errors), self.parts)
 
 
 @dataclass(frozen=True)
 class AccuracyReport:
     """All that was measured; `uncertainty`: relative, of the reference, by measure; `failures`: what did not run, and
-    why.
-
-    rounds: how often whole settings were timed.
-    """
+    why; `rounds`: how often whole settings were timed."""
 
     scene: Scene
     fine: Setting
@@ -95,7 +87,6 @@ class AccuracyReport:
 
     @property
     def own(self) -> WholeResult:
-        """The scene's own setting."""
         return next(each for each in self.settings if each.name == OWN)
 
     @property
@@ -118,10 +109,8 @@ class AccuracyReport:
 def measure(
     scene: Scene, progress: Progress | None = None, quick: bool = False, rounds: int | None = None
 ) -> AccuracyReport:
-    """Refine every setting of a scene alone, then run and time whole settings; `quick`: few levels, coarse ones.
-
-    Raises SceneError, GeometryError, ComputationError.
-    """
+    """Refine every setting of a scene alone, then run and time whole settings; `quick`: few levels, coarse ones. Raises
+    SceneError, GeometryError, ComputationError."""
     usual = 1 if quick else plan_of(scene).rounds
     study = AccuracyStudy(scene, progress or SilentProgress(), quick, rounds or usual)
     results = study.refine()
@@ -234,8 +223,7 @@ class AccuracyStudy:
         return answer(run, self.window, peak_root_stress(run, model, cycle) if recovered else None)
 
     def _in_turns(self, scenes: dict[str, Scene]) -> tuple[dict[str, Answer], dict[str, Times]]:
-        """Run every scene once a round, with gears of its own, so that other load of the machine affects all of them
-        alike."""
+        """Run every scene once a round, with gears of its own, so that other load of the machine affects all alike."""
         self.progress.stage("whole settings")
         answers, times, left = {}, {}, dict(scenes)
         for turn in range(self.rounds):
@@ -254,8 +242,7 @@ class AccuracyStudy:
         return answers, times
 
     def _result(self, refinement: Refinement) -> RefinementResult:
-        """Errors of the levels from the limit of their setting; a choice is compared with its base, for no choice is
-        the limit of the others."""
+        """Errors of the levels from the limit of their setting; a choice is compared with its base."""
         answers, base = self.runs.answers, self.runs.answers[refinement.base]
         ran = [(level, answers[level.setting]) for level in refinement.levels if level.setting in answers]
         regular = [(level, found) for level, found in ran if not level.own or refinement.name == LENGTH]
@@ -272,8 +259,7 @@ class AccuracyStudy:
 
 
 def scene_of(scene: Scene, name: str, setting: Setting | None) -> Scene:
-    """The scene with a whole setting, or with the cheaper model of a name. Its own and the default settings are left as
-    they are decided there."""
+    """The scene with a whole setting, or with the cheaper model of a name."""
     if setting is None:
         return in_the_plane(scene) if name == PLANE else replace(scene, accuracy=_accuracy_of(scene, name))
     return {OWN: scene, DEFAULTS: without_settings(scene)}.get(name) or setting.of(scene)
