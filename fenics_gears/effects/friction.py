@@ -34,9 +34,8 @@ class Friction(Section):
         "Schlenk",
         "Benedict and Kelley",
         meaning="formula of the mean coefficient of oiled steel flanks: Schlenk's at the pitch point (ISO/TR 14179-2,"
-        " mineral oil), for pitch line speeds from 1 m/s, those above 50 m/s counted as 50, and line loads below"
-        " 150 N/mm as 150; or that of Benedict and Kelley (1961), averaged over the path of contact, for mixed"
-        " lubrication",
+        " mineral oil), for pitch line speeds from 1 m/s, those above 50 m/s counted as 50, and line loads below 150"
+        " N/mm as 150; or that of Benedict and Kelley (1961), averaged over the path of contact, for mixed lubrication",
         otherwise="`coefficient`",
     )
     viscosity: float | None = quantity(

@@ -62,14 +62,9 @@ class LeadModification(Section):
     helix_slope: float = quantity(
         "-100 mm to 100 mm",
         "8 um",
-        meaning=(
-            "helix slope modification: material removed in proportion to the distance from the left end of the"
-            " gear's"
-            " own face, nothing there and so much at the right end; a negative one removes nothing at the right"
-            " end."
-            " Unlike a misalignment it removes half its amount on average, which shows in the mean transmission"
-            " error"
-        ),
+        meaning="helix slope modification: material removed in proportion to the distance from the left end of the"
+        " gear's own face, nothing there and so much at the right end; a negative one removes nothing at the right"
+        " end. Unlike a misalignment it removes half its amount on average, which shows in the mean transmission error",
         default="0 um",
         otherwise="no helix slope modification",
         small=True,

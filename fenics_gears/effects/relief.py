@@ -75,10 +75,8 @@ class Relief(Section):
     shape: str | None = choice(
         LINEAR,
         PARABOLIC,
-        meaning=(
-            "growth of the relief with the roll angle: `linear` starts with a kink, at which the pressure does not"
-            " converge as the mesh is refined; `parabolic` starts without a kink"
-        ),
+        meaning="growth of the relief with the roll angle: `linear` starts with a kink, at which the pressure does not"
+        " converge as the mesh is refined; `parabolic` starts without a kink",
         otherwise="`linear`",
     )
     exponent: float | None = number(

@@ -1,8 +1,6 @@
 """``[shafts]``: torsion of the input and the output shaft (``dynamics.drivetrain``), or shafts that also bend
 (``dynamics.elastic_shaft``)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from pathlib import Path
 

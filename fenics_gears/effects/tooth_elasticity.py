@@ -120,10 +120,8 @@ EFFECT = Effect(
     section="tooth_elasticity",
     within=("gears", "material"),
     description="elastic teeth and gear bodies",
-    absent=(
-        "rigid flanks: kinematic transmission error, no pressures; forces of tooth pairs only where a single pair"
-        " touches"
-    ),
+    absent="rigid flanks: kinematic transmission error, no pressures; forces of tooth pairs only where a single pair"
+    " touches",
     fields=MaterialText,
     read=material_of,
     unknowns=("normal force of each closed contact node",),

@@ -1,7 +1,5 @@
 """Expected time and memory of a run whose flanks are resolved over the face, on the machine of `model.cost`."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

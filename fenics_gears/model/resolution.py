@@ -6,8 +6,6 @@ relative radius on the path of contact; the contact window from the deflection t
 action; the time step from the mesh cycle and the drivetrain's frequencies.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial

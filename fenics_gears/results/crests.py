@@ -9,8 +9,6 @@ parabola on either side. Of a smooth curve that is known at the steps alone the 
 which is of fourth order.
 """
 
-from __future__ import annotations
-
 from math import inf, isnan, nan, sqrt
 
 import numpy as np

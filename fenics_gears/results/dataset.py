@@ -4,8 +4,6 @@ Dimensions: `time`, all marched steps; `slot`, the tooth pairs that can touch at
 `contact_time`, the steps whose contact fields are stored; `contact_node`; over the face also `face_position`.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Mapping
 from functools import cached_property

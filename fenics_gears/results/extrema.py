@@ -5,8 +5,6 @@ With inertia curves are smooth, and the extremum is that of cubics. Where steps 
 motion follows the static one: positions are solved as without inertia.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial

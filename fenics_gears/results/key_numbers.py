@@ -1,8 +1,6 @@
 """The key numbers of a run, taken from the curves of its settled mesh cycles; `results.attributes` has their units and
 meaning."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

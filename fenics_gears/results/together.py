@@ -5,8 +5,6 @@ A run of which there would be more to say has to be run by itself: contact that 
 other, steps that are divided or have no solution.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Collection, Sequence
 from typing import Any

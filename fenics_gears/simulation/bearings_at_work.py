@@ -1,8 +1,6 @@
 """Rolling bearings and contact in balance: runs repeated until bearings are as stiff as the mean load of the run makes
 them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

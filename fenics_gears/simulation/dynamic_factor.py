@@ -1,8 +1,6 @@
 """Dynamic factors of a run with ``[inertia]`` (K_v of ISO 6336-1, by a computation): the same scene is marched without
 inertia beside it, by the same contact operators."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from weakref import WeakKeyDictionary

@@ -12,8 +12,6 @@ whose step d is halved until that largest mean falls, and which is repeated unti
 face does not touch, a helix slope first takes off what is left open there and what the rest approaches by.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple

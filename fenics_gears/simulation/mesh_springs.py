@@ -1,8 +1,6 @@
 """Cheaper models of the mesh with the same drivetrain (`[accuracy] model`): a stiffness table, and stiffness by ISO
 6336-1."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from time import perf_counter
 

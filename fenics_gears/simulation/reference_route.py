@@ -1,8 +1,6 @@
 """The route of `condensation = "every step"`: both gears meshed anew at every position of a mesh cycle, as the paper
 does it; the yardstick of the fast route, with which it shares no interpolation."""
 
-from __future__ import annotations
-
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.node_to_node import loaded_teeth
 from fenics_gears.contact.remeshed_mesh import paired_nodes, remeshed_mesh

@@ -1,8 +1,6 @@
 """``[output] root_stress``: the matrices of both gears from flank forces to root stress, by which a march records
 it."""
 
-from __future__ import annotations
-
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows

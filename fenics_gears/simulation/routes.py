@@ -3,8 +3,6 @@
 Each route is imported when it is taken: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
 """
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Both gears of a run at a stored time: place, displacement and stress of nodes, in the plane or over the face."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Self
 

@@ -1,7 +1,5 @@
 """Contact forces at a stored time, read from a result and applied to the flanks."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

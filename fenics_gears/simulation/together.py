@@ -1,7 +1,5 @@
 """Runs of a search whose numbers alone are asked for: those that share contact operators are solved together."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 
 from fenics_gears.contact.mesh_cycle import Gaps

@@ -1,7 +1,5 @@
 """The result of a run that has not come to its end, made of its journal: its process was killed, or still runs."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import xarray as xr

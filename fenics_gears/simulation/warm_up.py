@@ -4,8 +4,6 @@
 the set-up and after each change of their sources.
 """
 
-from __future__ import annotations
-
 import time
 from functools import cache
 

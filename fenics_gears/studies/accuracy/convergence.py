@@ -6,8 +6,6 @@ runs and more, which show their order; without an observed order the error is th
 the 2.4 that h^0.5 leaves where sizes halve.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

@@ -6,8 +6,6 @@ of their own at the kinks where tooth pairs enter or leave contact. T_EPP is loc
 The `energy defect` is an error in itself, in parts of the drive's work.
 """
 
-from __future__ import annotations
-
 from collections.abc import Container, Sequence
 from math import gcd
 

@@ -1,9 +1,8 @@
 """The study of `gears accuracy`: settings refined one at a time, the reference, whole settings and cheaper models, all
 run and timed."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import xarray as xr
@@ -111,11 +110,11 @@ def measure(
 ) -> AccuracyReport:
     """Refine every setting of a scene alone, then run and time whole settings; `quick`: few levels, coarse ones. Raises
     SceneError, GeometryError, ComputationError."""
-    usual = 1 if quick else plan_of(scene).rounds
-    study = AccuracyStudy(scene, progress or SilentProgress(), quick, rounds or usual)
+    plan = plan_of(scene, quick)
+    study = AccuracyStudy(scene, progress or SilentProgress(), quick, rounds or plan.rounds)
     results = study.refine()
     reference, uncertainty = study.reference(results)
-    whole_settings, models, targets = study.whole_runs(results, reference, () if quick else plan_of(scene).targets)
+    whole_settings, models, targets = study.whole_runs(results, reference, plan.targets)
     return AccuracyReport(
         scene, study.base, results, whole_settings, models, uncertainty, tuple(study.failures), machine(),
         study.rounds, targets,
@@ -181,9 +180,7 @@ class AccuracyStudy:
         chosen: dict[str, Setting | None] = {OWN: own_setting(self.scene)}
         if plain != self.scene:
             chosen[DEFAULTS] = default_setting(self.scene)
-        for setting in whole.path(
-            self.base, ran, errors, lambda setting: whole.fits(self.scene, setting), whole.ENOUGH
-        ):
+        for setting in whole.path(self.base, ran, errors, partial(whole.fits, self.scene), whole.ENOUGH):
             chosen[setting.words] = setting
         chosen |= dict.fromkeys(plan_of(self.scene).models)
         of_targets = settings_of(self.scene, targets, self.progress, self.failures)
@@ -247,15 +244,11 @@ class AccuracyStudy:
         ran = [(level, answers[level.setting]) for level in refinement.levels if level.setting in answers]
         regular = [(level, found) for level, found in ran if not level.own or refinement.name == LENGTH]
         limits = {name: limit_of(refinement, regular, base, name) for name in base}
-        levels = tuple(
-            LevelResult(
-                level,
-                {name: error_from(limits, found, name) for name in measures_of(base)},
-                self.runs.times[level.setting],
-            )
-            for level, found in ran
-        )
-        return RefinementResult(refinement, levels, limits)
+        levels = []
+        for level, found in ran:
+            errors = {name: error_from(limits, found, name) for name in measures_of(base)}
+            levels.append(LevelResult(level, errors, self.runs.times[level.setting]))
+        return RefinementResult(refinement, tuple(levels), limits)
 
 
 def scene_of(scene: Scene, name: str, setting: Setting | None) -> Scene:

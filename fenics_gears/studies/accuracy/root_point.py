@@ -1,8 +1,6 @@
 """Peak stress at one material point of the pinion's tooth root, the same on all meshes, which the place of the largest
 stress is not: where the fillet's tangent stands at 30 degrees to the tooth's centreline."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

@@ -1,8 +1,6 @@
 """A whole setting of `[accuracy]`: element, sizes and steps; the scene's own setting; the half-width in which sizes are
 given."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import lru_cache
 

@@ -1,7 +1,5 @@
 """The report of `gears accuracy` as tables, in words, and as CSV."""
 
-from __future__ import annotations
-
 from math import isnan
 from pathlib import Path
 

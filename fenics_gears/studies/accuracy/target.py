@@ -1,8 +1,6 @@
 """Settings for a target: errors are estimated at coarse sizes, sizes of least counted cost follow from them by order
 2."""
 
-from __future__ import annotations
-
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import ceil, sqrt

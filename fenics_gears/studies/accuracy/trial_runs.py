@@ -5,8 +5,6 @@ from their defaults, and the number of steps; over a face also the numbers of sl
 errors fall with the square of the size, so that a run with twice the size differs by three times the error.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 

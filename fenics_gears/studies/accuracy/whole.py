@@ -2,8 +2,6 @@
 another load or speed: the total error of a whole setting is the sum of its parts' errors, each measured with the others
 fine, or its own distance from the reference where that is larger."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from functools import reduce
 from math import ceil
