@@ -17,6 +17,7 @@ from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects import common_period, from_effects, result_variables
 from fenics_gears.inputs.tree import GEARS
+from fenics_gears.model.storage import CONTACT_COORDINATES
 from fenics_gears.numbers_version import NUMBERS_VERSION
 
 from .carried_scene import scene_attributes
@@ -119,23 +120,13 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
         "slot": ("slot", np.arange(recorder.slots), {"long_name": "slot for a tooth pair that can touch"}),
     }
     if "contact_time" in arrays:
-        coordinates |= {
-            "contact_time": (
-                "contact_time",
-                arrays["contact_time"],
-                {"units": "s", "long_name": "time at which contact fields are stored"},
-            ),
-            "contact_mesh_phase": (
-                "contact_time",
-                arrays["contact_mesh_phase"],
-                {"units": "1", "long_name": "mesh cycles since the start at the times of the contact fields"},
-            ),
-            "contact_pair_number": (
-                ("contact_time", "slot"),
-                arrays["contact_pair_number"],
-                numbered | {"long_name": "pair_number at the times of the contact fields"},
-            ),
+        at = "at the times of the contact fields"
+        labels = {
+            "contact_time": {"units": "s", "long_name": "time at which contact fields are stored"},
+            "contact_mesh_phase": {"units": "1", "long_name": f"mesh cycles since the start {at}"},
+            "contact_pair_number": numbered | {"long_name": f"pair_number {at}"},
         }
+        coordinates |= {name: (dims, arrays[name], labels[name]) for name, dims in CONTACT_COORDINATES.items()}
     for along in recorder.along_face:
         coordinates |= along.coordinates()
     return coordinates if recorder.stress is None else coordinates | recorder.stress.labels()[1]

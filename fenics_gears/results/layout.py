@@ -9,11 +9,11 @@ import xarray as xr
 
 from fenics_gears.effects import COMMON_VARIABLES, FACE_VARIABLES, every_effect
 from fenics_gears.effects.effect import OF_NODES, OF_SLICES
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.storage import CONTACT_COORDINATES, COORDINATES, ROOT_STRESS, ROOT_STRESS_OVER_FACE
 
 from .attributes import RESULT_ATTRIBUTES
 
-GEARS = ["pinion", "wheel"]
 # Without these nothing can be drawn or said of a result; and what this program writes with them into each.
 REQUIRED = ("time", "mesh_phase", "transmission_error")
 WRITTEN = (*COORDINATES, "slot", "gear", "normal_force", "pair_normal_force")
@@ -61,7 +61,7 @@ def _known_dims() -> dict[str, list[tuple[str, ...]]]:
 
 def _mistakes_of_places(result: xr.Dataset) -> Iterator[str]:
     """Of the coordinates: steps in the order of time, contact fields at some of them, tooth pairs in their slots."""
-    if "gear" in result.dims and list(result["gear"].values) != GEARS:
+    if "gear" in result.dims and tuple(result["gear"].values) != GEARS:
         yield "its gears are not pinion and wheel"
     for name in ("time", "mesh_phase"):
         values = result[name].values

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ def warnings_of_pressure(scene: Scene, watched: Mapping[str, np.ndarray], number
 
 def _sharp_edge(scene: Scene, watched: Mapping[str, np.ndarray]) -> list[str]:
     """Contact on the sharp edge of a tip, where linear elasticity has infinite pressure."""
-    touched = {gear: watched[f"on the {gear}'s tip"] for gear in ("pinion", "wheel")}
+    touched = {gear: watched[f"on the {gear}'s tip"] for gear in GEARS}
     steps = int((touched["pinion"] | touched["wheel"]).sum())
     if not steps:
         return []
@@ -38,7 +39,7 @@ def _sharp_edge(scene: Scene, watched: Mapping[str, np.ndarray]) -> list[str]:
 
 def _undercut_edge(watched: Mapping[str, np.ndarray]) -> list[str]:
     found = []
-    for gear in ("pinion", "wheel"):
+    for gear in GEARS:
         at = watched[f"on the {gear}'s form circle"]
         if at.any():
             found.append(
@@ -52,7 +53,7 @@ def _undercut_edge(watched: Mapping[str, np.ndarray]) -> list[str]:
 def yielding(scene: Scene, numbers: Mapping) -> list[str]:
     """Stresses above what the materials bear without yielding, where their yield strength is known."""
     found, pressure = [], numbers.get("peak_contact_pressure", 0.0)
-    for gear, material in zip(("pinion", "wheel"), scene.gears.materials):
+    for gear, material in zip(GEARS, scene.gears.materials):
         strength = material.yield_strength
         if strength is None:
             continue
@@ -89,7 +90,7 @@ def _kink(scene: Scene, numbers: Mapping) -> list[str]:
 
 
 def _linear(reliefs: Reliefs | None) -> list[str]:
-    own = {gear: getattr(reliefs, gear, None) for gear in ("pinion", "wheel")}
+    own = {gear: getattr(reliefs, gear, None) for gear in GEARS}
     return [gear for gear, relief in own.items() if relief is not None and relief.power == 1 and relief.depth > 0.0]
 
 
