@@ -189,7 +189,6 @@ def supports_are_complete(tree: Tree) -> Broken:
     listed = [gear for gear in GEARS if LISTED in (table(both, gear) or {})]
     bent = shafts_with_sections(tree)
     if listed or bent:
-        # Imported here: few scenes have any.
         from .elastic_shaft_rules import rules_of_listed_bearings
 
         yield from rules_of_listed_bearings(tree, both, listed)

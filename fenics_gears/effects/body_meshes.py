@@ -111,17 +111,11 @@ def elasticity(meshes: BodyMeshes, model, name: str, reach, cache):
         return None
     from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 
-    gear, resolution = getattr(model.pair, name), model.resolution
-    body = _body(meshes, name, model.pair, resolution.element)
+    gear, material, element = getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.element
+    mesh = given_mesh(meshes, name, model.pair, element)
     # Forces one tooth beyond those that interact still open or close a crack.
-    return whole_body_compliance(
-        body.mesh,
-        gear,
-        model.scene.gears.material_of(name),
-        element=resolution.element,
-        tooth_offsets=reach.same + 1,
-        cache=cache,
-    )
+    offsets = reach.same + 1
+    return whole_body_compliance(mesh, gear, material, element=element, tooth_offsets=offsets, cache=cache)
 
 
 def unknowns_of(meshes: BodyMeshes, model, name: str) -> int | None:
@@ -132,7 +126,7 @@ def unknowns_of(meshes: BodyMeshes, model, name: str) -> int | None:
     from fenics_gears.elasticity.elements import element_named
 
     element = model.resolution.element
-    return 2 * len(element_nodes(_body(meshes, name, model.pair, element).mesh, element_named(element)).points)
+    return 2 * len(element_nodes(given_mesh(meshes, name, model.pair, element), element_named(element)).points)
 
 
 def watched(meshes: BodyMeshes, cycle, steps) -> dict:
@@ -161,9 +155,8 @@ def _body(meshes: BodyMeshes, name: str, pair, element: str):
     from fenics_gears.elasticity.whole_body.given import given_body
 
     file = getattr(meshes, name)
-    return given_body(
-        file.path, file.digest, getattr(pair, name), element, f"body_meshes.{name} = {as_written(file.path)}"
-    )
+    written = f"body_meshes.{name} = {as_written(file.path)}"
+    return given_body(file.path, file.digest, getattr(pair, name), element, written)
 
 
 EFFECT = Effect(

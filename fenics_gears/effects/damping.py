@@ -13,22 +13,17 @@ from .effect import Effect, ResultVariable, own_or_shared
 RAYLEIGH, MODAL = ("stiffness_proportional", "mass_proportional"), ("ratio", "ratios")
 
 
+OF_GEARS = "each gear has its own, or the damping is given by ratios"
+
+
 def _stiffness_proportional(otherwise: str):
-    return quantity(
-        "0 s to 1e3 s",
-        "0.4e-3 s",
-        meaning="factor alpha of the stiffness matrix K in the damping matrix alpha K + beta M",
-        otherwise=otherwise,
-    )
+    meaning = "factor alpha of the stiffness matrix K in the damping matrix alpha K + beta M"
+    return quantity("0 s to 1e3 s", "0.4e-3 s", meaning=meaning, otherwise=otherwise)
 
 
 def _mass_proportional(otherwise: str):
-    return quantity(
-        "0 1/s to 1e9 1/s",
-        "0.5e-3 1/s",
-        meaning="factor beta of the mass matrix M in the damping matrix alpha K + beta M",
-        otherwise=otherwise,
-    )
+    meaning = "factor beta of the mass matrix M in the damping matrix alpha K + beta M"
+    return quantity("0 1/s to 1e9 1/s", "0.5e-3 1/s", meaning=meaning, otherwise=otherwise)
 
 
 @dataclass(frozen=True)
@@ -45,10 +40,8 @@ class Damping(Rayleigh):
 
     alternatives = (MODAL,)
 
-    stiffness_proportional: float | None = _stiffness_proportional(
-        "each gear has its own, or the damping is given by ratios"
-    )
-    mass_proportional: float | None = _mass_proportional("each gear has its own, or the damping is given by ratios")
+    stiffness_proportional: float | None = _stiffness_proportional(OF_GEARS)
+    mass_proportional: float | None = _mass_proportional(OF_GEARS)
     ratio: float | None = number(
         0.05,
         meaning=(

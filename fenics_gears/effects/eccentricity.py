@@ -16,13 +16,8 @@ def _angle(of: str, field: str):
         f"{of} at the start of the first mesh cycle: angle from the line of action (pinion to wheel), in the gear's"
         " sense of rotation"
     )
-    return quantity(
-        "-360 deg to 360 deg",
-        "90 deg",
-        meaning=meaning,
-        default="0 deg",
-        otherwise=f"0 deg; has no meaning without {field}",
-    )
+    otherwise = f"0 deg; has no meaning without {field}"
+    return quantity("-360 deg to 360 deg", "90 deg", meaning=meaning, default="0 deg", otherwise=otherwise)
 
 
 @dataclass(frozen=True)

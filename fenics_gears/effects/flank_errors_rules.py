@@ -23,7 +23,7 @@ def errors_fit_the_gears(tree: Tree) -> Broken:
     if "tolerance_class" in errors:
         yield from _class_is_for_the_gears(tree)
     elif not any(table(errors, gear) for gear in GEARS):
-        message = "has no errors. Add a tolerance_class, or [flank_errors.pinion] with a list or a file."
+        message = "has no errors. Add a tolerance_class or [flank_errors.pinion], or leave the section out."
         yield ("flank_errors",), message
     for gear in GEARS:
         own = table(errors, gear) or {}

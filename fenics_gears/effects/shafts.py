@@ -160,7 +160,6 @@ def shafts_are_complete(tree: Tree) -> Broken:
         return
     yield from _each_gives_way(both)
     if shafts_with_sections(tree):
-        # Imported here: few scenes have any.
         from .elastic_shaft_rules import rules_of_elastic_shafts
 
         yield from rules_of_elastic_shafts(tree)

@@ -131,23 +131,17 @@ EFFECT = Effect(
             OF_TIME,
             energy_teeth=("N mm", "elastic energy of the gears"),
             mesh_stiffness=("N/mm", "mesh stiffness: mesh force divided by the deflection of the flanks"),
-            mesh_stiffness_tangent=(
-                "N/mm",
-                "tangent mesh stiffness: change of the mesh force divided by the change of the deflection",
-            ),
+            mesh_stiffness_tangent=("N/mm", "tangent mesh stiffness: change of mesh force over change of deflection"),
             loaded_pairs=("1", "number of loaded tooth pairs"),
             largest_contact_pressure=(
                 "MPa",
-                "largest contact pressure, averaged over five contact nodes, without what is at edges and kinks",
+                "largest contact pressure, averaged over five nodes, without edges and kinks",
             ),
             largest_contact_pressure_pair=(
                 "1",
-                "number of the tooth pair with the largest contact pressure; 0 if none is in contact",
+                "number of the tooth pair with the largest contact pressure; 0 if none",
             ),
-            largest_contact_pressure_roll_angle=(
-                "rad",
-                "roll angle on the pinion's flank at the largest contact pressure",
-            ),
+            largest_contact_pressure_roll_angle=("rad", "roll angle of the pinion at the largest contact pressure"),
             largest_edge_pressure=(
                 "MPa",
                 "largest pressure at edges of tips and of undercut flanks: within two Hertz half-widths of one, of"

@@ -139,7 +139,6 @@ def expected_cost(model: Model) -> ExpectedCost:
     sections = _sections(model, gears)
     if model.face.slices == 1:
         return _with_root_stress(model, gears, sections)
-    # Imported here: plane scenes have none.
     from .face_cost import face_cost
 
     return face_cost(model, sections)
@@ -168,15 +167,9 @@ def _condensed(model: Model, name: str) -> _Gear:
     if reach.across is None:
         return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1, reach.same)
     # Half a symmetric sector, for motions of either symmetry.
-    across = reach.across[1] - reach.across[0] + 1
-    return _Gear(
-        f"half a {name} sector",
-        0.5 * body + per_node * 0.5 * dofs,
-        dofs,
-        reach.same + 1 + across,
-        2 * reach.same,
-        BOTH_FLANKS_INVERSES,
-    )
+    half, across = 0.5 * body + per_node * 0.5 * dofs, reach.across[1] - reach.across[0] + 1
+    blocks = reach.same + 1 + across
+    return _Gear(f"half a {name} sector", half, dofs, blocks, 2 * reach.same, BOTH_FLANKS_INVERSES)
 
 
 def _meshed(model: Model, name: str) -> int | None:
@@ -256,11 +249,8 @@ def root_stress_cost(
     factorised, solved = seconds
     points = 2.0 * (fillet_points(model.face.slices) + 1) * model.face.slices
     teeth = 2 * model.touching.reach.farthest + (3 if model.scene.coast_flanks is not None else 1)
-    return (
-        unknowns * (factorised + solved * (points + flank)),
-        BYTES_OF_A_NUMBER * teeth * points * flank,
-        STEP_STRESS * points * flank,
-    )
+    condensing = unknowns * (factorised + solved * (points + flank))
+    return condensing, BYTES_OF_A_NUMBER * teeth * points * flank, STEP_STRESS * points * flank
 
 
 def _remeshed_cost(model: Model, gears: list[_Gear]) -> ExpectedCost:

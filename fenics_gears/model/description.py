@@ -199,19 +199,22 @@ def _accuracy_rows(model: Model) -> Rows:
     def origin(value) -> str:
         return "" if value is None else ", from the scene"
 
+    def given(label: str, value) -> Rows:
+        return [(label, f"{value}, from the scene", "")] if value else []
+
     elastic: Rows = [
         ("Hertz half-width at full load", f"{resolution.half_width:.4g}", "mm"),
         ("element", resolution.element + origin(asked.element), ""),
         ("flank element size", f"{resolution.flank_element_size:.4g}", "mm" + origin(asked.flank_element_size)),
         *([("body element size", asked.body_element_size, "mm, from the scene")] if asked.body_element_size else []),
-        *([("interpolation", f"{asked.interpolation}, from the scene", "")] if asked.interpolation else []),
-        *([("elastic teeth", f"{asked.elastic_teeth}, from the scene", "")] if asked.elastic_teeth else []),
+        *given("interpolation", asked.interpolation),
+        *given("elastic teeth", asked.elastic_teeth),
     ]
     condensation: Rows = [("condensation", resolution.condensation + origin(asked.condensation), "")]
     how = "a run chooses settings first, by two or three coarse test runs; what follows is without a target"
     return [
         *([("target", f"{asked.target:.3%}:", how)] if asked.target else []),
-        *([("model of the mesh", f"{asked.model}, from the scene", "")] if asked.model else []),
+        *given("model of the mesh", asked.model),
         *(elastic if model.resolution.element in SECTOR_UNKNOWNS else []),
         ("contact length", f"{resolution.contact_grid.length:.4g}", "mm" + origin(asked.contact_length)),
         ("contact node spacing", f"{resolution.contact_grid.spacing:.4g}", "mm" + origin(asked.contact_nodes)),

@@ -5,7 +5,7 @@ With inertia curves are smooth, and the extremum is that of cubics. Where steps 
 motion follows the static one: positions are solved as without inertia.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from math import ceil, isfinite, log2
@@ -129,7 +129,9 @@ class Extrema:
 
     def _values(self, asked: Sequence[tuple[Quantity, float]]) -> list[float]:
         """Values of quantities at places between steps; not a number where one cannot be solved."""
-        records = self._records(step for _, step in asked)
+        # With inertia also the steps on either side.
+        sides = () if self._quasi_static else (-1, 0)
+        records = self._between.at([each for _, step in asked for each in (step, *(ceil(step) + at for at in sides))])
         return [self._at(step, quantity, records) for quantity, step in asked]
 
     def transmission_error(self, record: Record) -> float:
@@ -138,11 +140,6 @@ class Extrema:
     def _place(self, step: float) -> int:
         """Place of a step of the period among all steps."""
         return int(step) + self.first - int(self._steps[0])
-
-    def _records(self, steps: Iterable[float]) -> dict[float, Record | None]:
-        """What is solved at places between steps and, with inertia, at the steps on either side."""
-        sides = () if self._quasi_static else (-1, 0)
-        return self._between.at([each for step in steps for each in (step, *(ceil(step) + side for side in sides))])
 
     def _at(self, step: float, quantity: Quantity, records: Mapping[float, Record | None]) -> float:
         """Value of a quantity at a place between two steps; not a number where it cannot be solved. With inertia it is

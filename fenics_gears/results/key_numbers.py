@@ -38,13 +38,8 @@ def key_numbers(
     # The last step begins the next cycle.
     last = max(len(counted["time"]) - 1, 1)
     settled = {name: values[:last] for name, values in counted.items()}
-    return (
-        _harmonics(settled, pair)
-        | _stiffness(settled, pair)
-        | _pair_force(settled)
-        | _pressure(settled, pair)
-        | _power(counted, friction_loss, timed)
-    )
+    of_mesh = _harmonics(settled, pair) | _stiffness(settled, pair) | _pair_force(settled) | _pressure(settled, pair)
+    return of_mesh | _power(counted, friction_loss, timed)
 
 
 def _harmonics(settled: Curves, pair: GearPair) -> dict[str, float]:
@@ -116,7 +111,6 @@ def _pressure(settled: Curves, pair: GearPair) -> dict[str, float | str]:
     on_coast = "coast_normal_force" in settled and at("coast_normal_force") > at("normal_force")
     roll = at("largest_contact_pressure_roll_angle")
     if pair.slope:
-        # Imported here: plane runs have none.
         from .load_factors import end_of_line
 
         if end := end_of_line(pair, pair.pinion.base_radius * roll):

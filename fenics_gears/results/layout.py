@@ -26,7 +26,8 @@ def mistake_in(result: xr.Dataset) -> str:
 
 
 def _mistakes(result: xr.Dataset) -> Iterator[str]:
-    needed = (*REQUIRED, *(WRITTEN if "fenics_gears_version" in result.attrs else ()))
+    needed = [*REQUIRED, *(WRITTEN if "fenics_gears_version" in result.attrs else ())]
+    needed += ["face_slice_width"] if "face_position" in result.dims else []
     if missing := [name for name in dict.fromkeys(needed) if name not in result.variables]:
         yield f"it has no {', '.join(missing)}"
     for name, allowed in _known_dims().items():

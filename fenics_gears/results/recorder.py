@@ -43,7 +43,6 @@ WATCHED = "watched: "
 def _along_face(model: Model, cycle: Cycle) -> tuple[AlongTheFace, ...]:
     if cycle.face.slices == 1:
         return ()
-    # Imported here: plane scenes have none.
     from .face_variables import AlongTheFace
 
     if not model.drivetrain.elastic:

@@ -60,7 +60,6 @@ def _section(model: Model, name: str, cache: Cache | None):
     for own in from_effects(model.scene, "elasticity", model, name, reach, cache):
         if own is not None:
             return own
-    # Imported here: rigid flanks have none.
     from fenics_gears.elasticity.gear_compliance import flank_compliance
 
     material, division = model.scene.gears.material_of(name), model.resolution.discretisation(GEARS.index(name))
@@ -77,7 +76,6 @@ def solids_of(
     """Both bodies in three dimensions, at once where there are cores and memory for it; None of a plane scene."""
     if model.solid_discretisation(0) is None:
         return None, None
-    # Imported here: plane scenes have none.
     from fenics_gears.model.face_cost import both_at_once
     from fenics_gears.system.second_process import second_process, threads
 
@@ -100,7 +98,6 @@ def solids_of(
 
 def solid_of(model: Model, name: str, cache: Cache | None, job: Job | SecondProcess | None = None) -> FaceCompliance:
     """The body of the "pinion" or the "wheel" in three dimensions, from the cache or condensed."""
-    # Imported here: plane scenes have none.
     from fenics_gears.elasticity.face.compliance import face_compliance
     from fenics_gears.model.face_resolution import face_discretisation
 

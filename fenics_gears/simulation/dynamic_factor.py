@@ -82,14 +82,8 @@ def _peaks_still(still: Model, recorder: Recorder) -> Peaks | str:
     """The peaks of the quasi-static model, or why there are none."""
     cycle, drivetrain, equations = recorder.cycle, still.drivetrain, still.equations_of_motion
     # Without mass and loads that vary nothing depends on time, nor on the mesh frequency.
-    key = (
-        drivetrain.coordinates,
-        drivetrain.radii.tobytes(),
-        drivetrain.stiffness.tobytes(),
-        drivetrain.load.tobytes(),
-        equations.friction,
-        still.steps,
-    )
+    numbers = [each.tobytes() for each in (drivetrain.radii, drivetrain.stiffness, drivetrain.load)]
+    key = (drivetrain.coordinates, *numbers, equations.friction, still.steps)
     known = _PEAKS_OF_CYCLES.setdefault(cycle, {})
     shared = not still.loads and recorder.stress is None
     if shared and key in known:

@@ -31,17 +31,10 @@ def reference_route(
     gears = []
     for number, name in enumerate(("pinion", "wheel")):
         progress.stage(f"remesh {name}")
-        gears.append(
-            remeshed_stiffness(
-                getattr(model.pair, name),
-                model.scene.gears.material_of(name),
-                [loaded_teeth(pairs, number, order) for pairs in nodes],
-                resolution.discretisation(number),
-                cache=cache,
-                job=job,
-                report=progress.update,
-            )
-        )
+        gear, material = getattr(model.pair, name), model.scene.gears.material_of(name)
+        teeth, division = [loaded_teeth(pairs, number, order) for pairs in nodes], resolution.discretisation(number)
+        how = {"cache": cache, "job": job, "report": progress.update}
+        gears.append(remeshed_stiffness(gear, material, teeth, division, **how))
     positions = list(zip(*(gear.positions for gear in gears)))
     mesh = remeshed_mesh(model.pair, nodes, positions, resolution.contact_grid, order, model.drivetrain.indices)
     return tuple(gears), cycle_of(model, mesh)

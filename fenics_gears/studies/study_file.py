@@ -72,18 +72,10 @@ def study_of(
     scene_tree = parsed(base.text, str(scene_file))
     _check_present(changes, scene_tree, str(scene_file), mistakes)
     mistakes.check()
-    cases = _cases(Scenes(name_of(path), scene_file.parent, changes, scene_tree), changes, mistakes)
+    name, combine, axes = name_of(path), changes.combine, changes.axes
+    cases = _cases(Scenes(name, scene_file.parent, changes, scene_tree), changes, mistakes)
     mistakes.check()
-    return Study(
-        name=name_of(path),
-        title=tree.get("title", name_of(path)),
-        combine=changes.combine,
-        axes=changes.axes,
-        cases=cases,
-        text=text,
-        scene_text=base.text,
-        base_key=scene_key(base),
-    )
+    return Study(name, tree.get("title", name), combine, axes, cases, text, base.text, scene_key(base))
 
 
 def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:

@@ -65,7 +65,6 @@ def judged_answer(run: xr.Dataset) -> Answer:
 def _over_face(run: xr.Dataset) -> Answer:
     """Line load, N/mm, of all tooth pairs together, averaged over the mesh cycle, at places along the face; and the
     load factors."""
-    # Imported here: plane runs have none.
     from fenics_gears.results.load_factors import mean_line_load
 
     names = {FACE_LOAD: "face_load_factor", LARGEST_LOAD: "largest_line_load_factor"}
