@@ -53,7 +53,12 @@ _ROWS = (
     ("fenics_gears_version", "", "version of this program"),
     ("numbers_version", "", "version of its numbers: two results of the same scene may differ where these do"),
     ("complete", "", "1 when the run reached its end, 0 when it failed or was interrupted before"),
-    ("stopped", "", "why: `interrupted`, `failed`, or `not ended` (killed or still running)", "`complete` is 0"),
+    (
+        "stopped",
+        "",
+        "why it is not complete: `interrupted`, `failed`, or `not ended` (killed or still running)",
+        "`complete` is 0",
+    ),
     ("warnings", "", "warnings, one on each line"),
     (
         "settled_from",
@@ -65,7 +70,11 @@ _ROWS = (
     ("friction_coefficient", "1", "coefficient of friction of the run", "`[friction]`"),
     ("shown_cycles", "1", "number of mesh cycles at the end of the run that pictures show; for a speed ramp all"),
     ("mean_transmission_error", "rad", "mean over the settled steps but the last, which begins the next mesh cycle"),
-    ("peak_to_peak_transmission_error", "rad", "over the settled steps; its extremes may lie between steps"),
+    (
+        "peak_to_peak_transmission_error",
+        "rad",
+        "peak-to-peak value over the settled steps; extremes may lie between steps",
+    ),
     (
         "peak_to_peak_transmission_error_from",
         "",
@@ -83,8 +92,8 @@ _ROWS = (
         (f"transmission_error_harmonic_{n}", "um", f"{OF_HARMONIC} at {words} mesh frequency", OF_WHOLE_CYCLES)
         for n, words in enumerate(("the", "twice the", "three times the", "four times the", "five times the"), 1)
     ),
-    ("rms_transmission_error", "um", "its r.m.s. value without its mean, along the line of action", OF_WHOLE_CYCLES),
-    ("rms_normal_force", "N", "r.m.s. value of the drive less the coast force, without its mean", OF_WHOLE_CYCLES),
+    ("rms_transmission_error", "um", "r.m.s. transmission error without its mean", OF_WHOLE_CYCLES),
+    ("rms_normal_force", "N", "r.m.s. force of the drive less the coast flanks, without its mean", OF_WHOLE_CYCLES),
     ("mean_mesh_stiffness", PER_WIDTH, "c_gamma: mean of `mesh_stiffness` while the flanks touch", WITH_TEETH),
     ("mean_mesh_stiffness_tangent", PER_WIDTH, "mean of `mesh_stiffness_tangent`, for small vibrations", WITH_TEETH),
     (
@@ -138,7 +147,7 @@ _ROWS = (
     (
         "edge_line_load_factor",
         "1",
-        "the same near the ends of the face and where a line of contact ends at a tip or form circle",
+        "largest line load likewise, near the ends of the face and where lines of contact end at a tip or form circle",
         f"{OVER_FACE_WITH_FIELDS}, and an edge is loaded",
     ),
     *(
@@ -180,7 +189,7 @@ _ROWS = (
     (
         "mesh_efficiency",
         "1",
-        "1 - `friction_loss`, without losses of bearings, oil and damping",
+        "efficiency of the mesh, without losses of bearings, oil and damping",
         WITH_FRICTION + ", and teeth that are neither wedged nor locked",
     ),
     ("contact_loss_count", "1", "number of contact losses of the drive flanks in the settled steps"),
@@ -188,8 +197,18 @@ _ROWS = (
     ("contact_loss_longest", "s", "duration of the longest contact loss", AFTER_LOSS),
     ("contact_loss_share", "1", "share of the settled time without contact", AFTER_LOSS),
     ("contact_loss_opening", "mm", "largest gap between the drive flanks during a contact loss", AFTER_LOSS),
-    ("dynamic_factor_by_force", "1", "largest force of a tooth pair over that of the quasi-static run", WITH_INERTIA),
-    ("dynamic_factor_by_stress", "1", "largest root stress over that of the quasi-static run", WITH_ROOT_STRESS),
+    (
+        "dynamic_factor_by_force",
+        "1",
+        "dynamic factor: largest force of a tooth pair over that of the quasi-static run",
+        WITH_INERTIA,
+    ),
+    (
+        "dynamic_factor_by_stress",
+        "1",
+        "dynamic factor: largest root stress over that of the quasi-static run",
+        WITH_ROOT_STRESS,
+    ),
     ("quasi_static_pair_normal_force", "N", "largest force of a tooth pair in the quasi-static run", WITH_INERTIA),
     ("quasi_static_root_stress", "MPa", "largest root stress in the quasi-static run", WITH_ROOT_STRESS),
     (
