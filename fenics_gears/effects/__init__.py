@@ -1,8 +1,8 @@
-"""The one list of effects; a scene switches an effect on by naming its section.
+"""The one list of effects; a scene switches an effect on by naming its section. The scene's sections, the output of
+``gears check``, the result's variables and the documentation's table follow from it.
 
 Of an effect whose section is absent none of its unknowns, terms or result variables exist, and its module is not
-imported. The scene's sections, the output of ``gears check``, the result's variables and the documentation's table
-follow from this list.
+imported.
 """
 
 import functools
@@ -12,100 +12,71 @@ from importlib import import_module
 from math import inf, lcm
 from typing import Any
 
-from .effect import OF_NODES, OF_PAIRS, OF_POINTS, OF_SLICES, Effect, ResultVariable
+from .effect import OF_GEARS, OF_NODES, OF_PAIRS, OF_POINTS, OF_SLICES, OF_TIME, Effect, ResultVariable, variables
 
 # Effects by their sections, which are their modules' names: those at the top of a scene, and all.
 AT_THE_TOP = (
-    "body_meshes",
-    "shafts",
-    "bearings",
-    "inertia",
-    "damping",
-    "friction",
-    "tip_relief",
-    "root_relief",
-    "lead_modifications",
-    "misalignment",
-    "flank_errors",
-    "eccentricity",
-    "coast_flanks",
-    "corner_contact",
-    "torque_ripple",
-    "speed_ramp",
-    "profile_modifications",
-)
+    "body_meshes", "shafts", "bearings", "inertia", "damping", "friction", "tip_relief", "root_relief",
+    "lead_modifications", "misalignment", "flank_errors", "eccentricity", "coast_flanks", "corner_contact",
+    "torque_ripple", "speed_ramp", "profile_modifications",
+)  # fmt: skip
 SECTIONS = ("tooth_elasticity", *AT_THE_TOP)
 # What opens the flanks along a face.
 ALONG_THE_FACE = ("lead_modifications", "misalignment")
 
-OF_GEARS = ("time", "gear")
 # What every run has, whatever its effects.
 COMMON_VARIABLES: tuple[ResultVariable, ...] = (
-    ResultVariable("transmission_error", "rad", "transmission error"),
-    ResultVariable("rotation", "rad", "rotation of the hub relative to its nominal rotation", dims=OF_GEARS),
-    ResultVariable("normal_force", "N", "contact force of the mesh along the line of action"),
-    ResultVariable("pair_normal_force", "N", "contact force of the tooth pair along the line of action", dims=OF_PAIRS),
-    ResultVariable("reaction_x", "N", "force of the gear on its shaft along the line of action", dims=OF_GEARS),
-    ResultVariable("reaction_y", "N", "force of the gear on its shaft off the line of action", dims=OF_GEARS),
-    ResultVariable(
-        "reaction_couple",
-        "N mm",
-        "torque of the gear on its shaft, positive in the pinion's sense of rotation",
-        dims=OF_GEARS,
+    *variables(
+        OF_TIME,
+        transmission_error=("rad", "transmission error"),
+        normal_force=("N", "contact force of the mesh along the line of action"),
+        newton_iterations=("1", "Newton iterations of the step"),
+        closed_nodes=("1", "number of closed contact nodes"),
+        energy=("N mm", "elastic and kinetic energy"),
+        work_input=("N mm", "work done on the input shaft by the drive; negative where the wheel drives"),
+        work_output=("N mm", "work done on the load by the output shaft; negative where the wheel drives"),
+        work_contact_changes=("N mm", "energy added by the time stepping where nodes come into contact or separate"),
+        energy_defect=("N mm", "defect of the energy balance"),
     ),
-    ResultVariable("newton_iterations", "1", "Newton iterations of the step"),
-    ResultVariable("closed_nodes", "1", "number of closed contact nodes"),
-    ResultVariable("energy", "N mm", "elastic and kinetic energy"),
-    ResultVariable("work_input", "N mm", "work done on the input shaft by the drive; negative where the wheel drives"),
-    ResultVariable("work_output", "N mm", "work done on the load by the output shaft; negative where the wheel drives"),
-    ResultVariable(
-        "work_contact_changes", "N mm", "energy added by the time stepping where nodes come into contact or separate"
+    *variables(OF_PAIRS, pair_normal_force=("N", "contact force of the tooth pair along the line of action")),
+    *variables(
+        OF_GEARS,
+        rotation=("rad", "rotation of the hub relative to its nominal rotation"),
+        reaction_x=("N", "force of the gear on its shaft along the line of action"),
+        reaction_y=("N", "force of the gear on its shaft off the line of action"),
+        reaction_couple=("N mm", "torque of the gear on its shaft, positive in the pinion's sense of rotation"),
     ),
-    ResultVariable("energy_defect", "N mm", "defect of the energy balance"),
-    ResultVariable(
-        "path_point_position", "mm", "distance of the point from T1 along the line of action", dims=OF_POINTS
+    *variables(
+        OF_POINTS,
+        path_point_position=("mm", "distance of the point from T1 along the line of action"),
+        sliding_speed=(
+            "mm/s",
+            "sliding speed of the pinion's flank over the wheel's, positive towards the pinion's tip",
+        ),
+        load_share=("1", "share of a tooth pair in the mesh force at the point of the path of contact"),
     ),
-    ResultVariable(
-        "path_point_diameter", "mm", "diameter at the point of the path of contact", dims=(*OF_POINTS, "gear")
-    ),
-    ResultVariable(
-        "sliding_speed",
-        "mm/s",
-        "sliding speed of the pinion's flank over the wheel's, positive towards the pinion's tip",
-        dims=OF_POINTS,
-    ),
-    ResultVariable(
-        "specific_sliding",
-        "1",
-        "specific sliding: sliding speed divided by the speed of the contact point along the gear's own flank; negative"
-        " in the dedendum",
-        dims=(*OF_POINTS, "gear"),
-    ),
-    ResultVariable(
-        "load_share", "1", "share of a tooth pair in the mesh force at the point of the path of contact", dims=OF_POINTS
+    *variables(
+        (*OF_POINTS, "gear"),
+        path_point_diameter=("mm", "diameter at the point of the path of contact"),
+        specific_sliding=(
+            "1",
+            "specific sliding: sliding speed divided by the speed of the contact point along the gear's own flank;"
+            " negative in the dedendum",
+        ),
     ),
 )
 
 # What a run has besides where the flanks are resolved over the face. Moments are about the gears' mid-widths.
 FACE_VARIABLES: tuple[ResultVariable, ...] = (
-    ResultVariable(
-        "line_load",
-        "N/mm",
-        "contact force of the tooth pair along the contact normal, per length of the face",
-        dims=OF_SLICES,
+    *variables(
+        OF_SLICES,
+        line_load=("N/mm", "contact force of the tooth pair along the contact normal, per length of the face"),
     ),
-    ResultVariable("reaction_z", "N", "axial force of the gear on its shaft", dims=OF_GEARS),
-    ResultVariable(
-        "reaction_moment_x",
-        "N mm",
-        "moment of the gear on its shaft about the line of action, at mid-width",
-        dims=OF_GEARS,
-    ),
-    ResultVariable(
-        "reaction_moment_y",
-        "N mm",
-        "moment of the gear on its shaft off the line of action, at mid-width",
-        dims=OF_GEARS,
+    *variables(
+        OF_GEARS,
+        reaction_z=("N", "axial force of the gear on its shaft"),
+        reaction_moment_x=("N mm", "moment of the gear on its shaft about the line of action, at mid-width"),
+        reaction_moment_y=("N mm", "moment of the gear on its shaft off the line of action, at mid-width"),
     ),
 )
 
@@ -130,7 +101,6 @@ def effect_named(section: str) -> Effect:
 
 
 def every_effect() -> tuple[Effect, ...]:
-    """All effects, in the order of the list."""
     return tuple(map(effect_named, SECTIONS))
 
 
@@ -147,19 +117,16 @@ def from_effects(scene, hook: str, *arguments) -> list[Any]:
 
 
 def check_files(scene, pair) -> None:
-    """Raise SceneError for what is wrong in files that the scene's effects name."""
     from_effects(scene, "check", scene, pair)
 
 
 def result_variables(scene) -> tuple[ResultVariable, ...]:
-    """Every variable that the result of a scene has."""
     on, over_face = effects_on(scene), scene.three_dimensional
-    named = {each.section for each in on}
 
     def is_there(variable: ResultVariable, data) -> bool:
         fields = variable.field.split(" or ") if variable.field else ()
         return (
-            (not variable.needs or variable.needs in named)
+            (not variable.needs or getattr(scene, variable.needs) is not None)
             and (not fields or any(getattr(data, name) is not None for name in fields))
             and (over_face or not variable.over_face)
         )
@@ -171,15 +138,13 @@ def result_variables(scene) -> tuple[ResultVariable, ...]:
         found = [replace(each, dims=along_face) if each.dims == OF_NODES else each for each in found]
         found += FACE_VARIABLES
     left_out = () if scene.resolves_contact else OVER_CONTACT_NODES
-    if not scene.motion.speed_given:
-        left_out = (*left_out, "sliding_speed")
+    left_out += () if scene.motion.speed_given else ("sliding_speed",)
     # Two effects may have a variable in common.
     return tuple(dict.fromkeys(each for each in found if each.name not in left_out))
 
 
 def common_period(scene) -> float:
-    """Mesh cycles after which all that the scene's effects do repeats: the common multiple of their periods; infinite
-    where one never does."""
+    """Mesh cycles after which all that the scene's effects do repeats; infinite where one never does."""
     periods = from_effects(scene, "period", scene)
     return inf if inf in periods else lcm(*periods)
 

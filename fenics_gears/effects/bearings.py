@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fenics_gears.inputs.allowed import AllowedMatrix, Matrix
 from fenics_gears.inputs.fields import declared, quantities, quantity
@@ -10,7 +10,7 @@ from fenics_gears.inputs.problem import LISTED, Broken
 from fenics_gears.inputs.section import AllowedTables, Section, names_in
 from fenics_gears.inputs.tree import GEARS, Tree, given_for, quantity_at, quantity_in, shafts_with_sections, table
 
-from .effect import Effect, ResultVariable, own_or_shared
+from .effect import OF_GEARS, Effect, ResultVariable, own_or_shared, variables
 from .rolling_bearings import RollingBearing
 
 DIRECTIONS = ("x", "y")
@@ -34,22 +34,18 @@ def _places(gear: str):
     )
 
 
-def _of_bearing(limits: str, example: str, meaning: str, default: str = "", otherwise: str = ""):
-    return quantity(limits, example, meaning=meaning, default=default, otherwise=otherwise)
-
-
 @dataclass(frozen=True)
 class Bearing(Section):
     """A bearing of a shaft with sections: stiff across the axis, along it and against tilting, by a matrix, or as its
     rolling elements make it."""
 
-    at: float = _of_bearing("0 mm to 100 m", "12 mm", "its place, from the left end of the shaft")
-    radial_stiffness: float | None = _of_bearing(
-        "1e-6 N/mm to 1e15 N/mm", "0.3e6 N/mm", "across the axis", otherwise="`stiffness_matrix` or `rolling`"
+    at: float = quantity("0 mm to 100 m", "12 mm", meaning="its place, from the left end of the shaft")
+    radial_stiffness: float | None = quantity(
+        "1e-6 N/mm to 1e15 N/mm", "0.3e6 N/mm", meaning="across the axis", otherwise="`stiffness_matrix` or `rolling`"
     )
-    axial_stiffness: float = _of_bearing("0 N/mm to 1e15 N/mm", "0.1e6 N/mm", "along the axis", "0 N/mm")
-    tilting_stiffness: float = _of_bearing(
-        "0 N mm/rad to 1e24 N mm/rad", "1e8 N mm/rad", "against tilting", "0 N mm/rad"
+    axial_stiffness: float = quantity("0 N/mm to 1e15 N/mm", "0.1e6 N/mm", meaning="along the axis", default="0 N/mm")
+    tilting_stiffness: float = quantity(
+        "0 N mm/rad to 1e24 N mm/rad", "1e8 N mm/rad", meaning="against tilting", default="0 N mm/rad"
     )
     stiffness_matrix: Matrix | None = declared(
         AllowedMatrix(
@@ -153,8 +149,8 @@ class Bearings(Stiffnesses):
     places: BearingPlaces | None = None
 
     def of(self, gear: str, direction: str) -> float | None:
-        """Stiffness (N/mm) of the "pinion"'s or the "wheel"'s support in "x" or "y"; None where it has none, or stands
-        on bearings of its own."""
+        """Stiffness (N/mm) of the "pinion"'s or the "wheel"'s support in "x" or "y"; None where it has none, or
+        bearings of its own."""
         own = getattr(self, gear)
         stiffness = None if own is None else own.along(direction)
         return self.along(direction) if stiffness is None else stiffness
@@ -164,18 +160,24 @@ class Bearings(Stiffnesses):
         return own_or_shared(getattr(self, gear), self, "axial_stiffness")
 
     @property
+    def held_axially(self) -> Bearings:
+        """The same without axial stiffness: either shaft is held."""
+        own = {gear: replace(each, axial_stiffness=None) for gear in GEARS if (each := getattr(self, gear)) is not None}
+        return replace(self, axial_stiffness=None, **own)
+
+    @property
     def each(self) -> tuple[Bearing, ...] | None:
         """The bearings of both shafts with sections; None where there are none."""
         return self.each_of("pinion") + self.each_of("wheel") or None
 
     def each_of(self, gear: str) -> tuple[Bearing, ...]:
-        """The bearings of the shaft with sections that the "pinion" or the "wheel" is on; empty where it is on none."""
+        """The bearings of the shaft with sections that the "pinion" or the "wheel" is on."""
         own = getattr(self, gear)
         return () if own is None or own.each is None else own.each
 
     def places_of(self, gear: str) -> tuple[float, ...] | None:
-        """Places (2,), mm, of the bearings of the "pinion"'s or the "wheel"'s shaft, from the gear's mid-width; None
-        where that gear does not tilt."""
+        """Places (2,), mm, of the bearings of the "pinion"'s or the "wheel"'s shaft; None where that gear does not
+        tilt."""
         return getattr(self.places, gear, None)
 
 
@@ -187,7 +189,6 @@ def supports_are_complete(tree: Tree) -> Broken:
     listed = [gear for gear in GEARS if LISTED in (table(both, gear) or {})]
     bent = shafts_with_sections(tree)
     if listed or bent:
-        # Imported here: few scenes have any.
         from .elastic_shaft_rules import rules_of_listed_bearings
 
         yield from rules_of_listed_bearings(tree, both, listed)
@@ -213,7 +214,6 @@ def supports_are_complete(tree: Tree) -> Broken:
 
 
 def _bearings_stand_apart(tree: Tree, both: Tree) -> Broken:
-    """The two bearings of a shaft are not on one spot."""
     places = table(both, "places")
     if places is None:
         return
@@ -223,7 +223,7 @@ def _bearings_stand_apart(tree: Tree, both: Tree) -> Broken:
         found = [quantity_in(value) for value in written] if isinstance(written, list) else []
         if len(found) == 2 and None not in found and abs(found[1] - found[0]) < LEAST_SPAN * module:
             message = (
-                "has both bearings on one spot, where nothing holds the shaft's tilt. Allowed: places at least"
+                "has both bearings on one spot, where nothing holds the tilt. Allowed: places at least"
                 f" {LEAST_SPAN * module:g} mm apart, a tenth of the module."
             )
             yield ("bearings", "places", gear), message
@@ -242,7 +242,6 @@ def _axial_stiffness_has_places(both: Tree) -> Broken:
 
 
 def warnings(bearings: Bearings, model) -> list[str]:
-    """Sentences on bearings within a gear, and where gears turn so fast that gyroscopic moments could matter."""
     if bearings.places is None and bearings.each is None:
         return []
     from fenics_gears.dynamics.tilting import gyroscopic_warnings
@@ -253,7 +252,7 @@ def warnings(bearings: Bearings, model) -> list[str]:
 
 
 def within_gears(bearings: Bearings, model) -> list[str]:
-    """A sentence on each bearing that stands within its gear's own face, where there is no room for one."""
+    """A sentence on each bearing that stands within its gear's own face."""
     found = []
     for gear, width in zip(GEARS, model.pair.face_widths):
         inside = [place for place in bearings.places_of(gear) or () if abs(place) < 0.5 * width]
@@ -261,10 +260,8 @@ def within_gears(bearings: Bearings, model) -> list[str]:
             places = " and ".join(f"{place:g} mm" for place in inside)
             said = f"the bearing at {places} stands" if len(inside) == 1 else f"the bearings at {places} stand"
             found.append(
-                f"bearings.places.{gear}: {said} within the gear, which reaches {0.5 * width:g} mm to either side of "
-                "its mid-width; places are "
-                "counted from there, not from an end or the other gear: move the bearing out, unless the gear turns "
-                "on it"
+                f"bearings.places.{gear}: {said} within the gear, which reaches {0.5 * width:g} mm to either side of"
+                " its mid-width, from which places are counted: move the bearing out, unless the gear turns on it"
             )
     return found
 
@@ -277,15 +274,17 @@ EFFECT = Effect(
     unknowns=("two displacements of each gear centre; with places also two tilts and the axial position",),
     terms=("springs of the bearings",),
     variables=(
-        ResultVariable("centre_x", "mm", "displacement of the centre along the line of action", dims=("time", "gear")),
-        ResultVariable("centre_y", "mm", "displacement of the centre off the line of action", dims=("time", "gear")),
-        *(
-            ResultVariable(name, units, words, dims=("time", "gear"), field="places or each")
-            for name, units, words in (
-                ("axial_position", "mm", "displacement of the gear along its axis"),
-                ("tilt_x", "rad", "tilt of the gear about the line of action"),
-                ("tilt_y", "rad", "tilt of the gear about the direction off the line of action"),
-            )
+        *variables(
+            OF_GEARS,
+            centre_x=("mm", "displacement of the centre along the line of action"),
+            centre_y=("mm", "displacement of the centre off the line of action"),
+        ),
+        *variables(
+            OF_GEARS,
+            field="places or each",
+            axial_position=("mm", "displacement of the gear along its axis"),
+            tilt_x=("rad", "tilt of the gear about the line of action"),
+            tilt_y=("rad", "tilt of the gear about the direction off the line of action"),
         ),
         ResultVariable("energy_bearings", "N mm", "elastic energy of the bearings"),
     ),

@@ -46,7 +46,6 @@ class BodyMeshes(Section):
 
 
 def located(meshes: BodyMeshes, directory: Path) -> BodyMeshes:
-    """The meshes with their files found from a directory on, and hashed."""
     return BodyMeshes(*(each and _located(each, directory) for each in (meshes.pinion, meshes.wheel)))
 
 
@@ -62,12 +61,11 @@ def _located(file: MeshFile, directory: Path) -> MeshFile:
 
 
 def files(meshes: BodyMeshes) -> dict[str, str]:
-    """Path and hash of each mesh file."""
     return {each.path: each.digest for each in (meshes.pinion, meshes.wheel) if each is not None}
 
 
 def meshes_are_given_and_used(tree: Tree) -> Broken:
-    """A section names a file; only the elastic model, condensed once, can have teeth that are not alike."""
+    """Only the elastic model, condensed once, can have teeth that are not alike."""
     section = table(tree, "body_meshes")
     if section is None:
         return
@@ -75,29 +73,25 @@ def meshes_are_given_and_used(tree: Tree) -> Broken:
         if gear in section and value_at(tree, "gears", gear, "web") is not None:
             message = f"cannot stand beside body_meshes.{gear}, which says where the body is. Leave one of the two out."
             yield ("gears", gear, "web"), message
-    accuracy = table(tree, "accuracy") or {}
+    beside = "cannot stand beside [body_meshes]"
     for name, allowed in (("model", "elastic"), ("condensation", "once")):
-        written = accuracy.get(name, allowed)
+        written = value_at(tree, "accuracy", name)
         if written != allowed and isinstance(written, str):
-            message = f'cannot stand beside [body_meshes]. Take "{allowed}", or leave one of the two out.'
-            yield ("accuracy", name), message
-    if "elastic_teeth" in accuracy:
-        message = "cannot stand beside [body_meshes], where all teeth feel each other. Leave one of the two out."
+            yield ("accuracy", name), f'{beside}. Take "{allowed}", or leave one of the two out.'
+    if value_at(tree, "accuracy", "elastic_teeth") is not None:
+        message = f"{beside}, where all teeth feel each other. Leave one of the two out."
         yield ("accuracy", "elastic_teeth"), message
     if value_at(tree, "output", "root_stress") is True:
-        message = "knows equal teeth only and cannot stand beside [body_meshes]. Leave one of the two out."
-        yield ("output", "root_stress"), message
+        yield ("output", "root_stress"), f"knows equal teeth only and {beside}. Leave one of the two out."
 
 
 def check(meshes: BodyMeshes, scene, pair) -> None:
-    """Raise SceneError where a mesh is not that of its gear."""
     for name in GEARS:
         if getattr(meshes, name) is not None:
             _body(meshes, name, pair, scene.accuracy.element or "P2")
 
 
 def warnings(meshes: BodyMeshes, model) -> list[str]:
-    """Sentences on meshes that are too coarse for the contact."""
     wanted, found = model.resolution.flank_element_size, []
     for name in GEARS:
         if getattr(meshes, name) is None:
@@ -106,8 +100,7 @@ def warnings(meshes: BodyMeshes, model) -> list[str]:
         if size > COARSE * wanted:
             found.append(
                 f"body_meshes.{name}: elements along its flanks are up to {size:.3g} mm long, the contact asks for"
-                f" {wanted:.3g} mm (accuracy.flank_element_size): pressures and deflections of the contact are not"
-                " resolved"
+                f" {wanted:.3g} mm (accuracy.flank_element_size): it is not resolved"
             )
     return found
 
@@ -118,17 +111,11 @@ def elasticity(meshes: BodyMeshes, model, name: str, reach, cache):
         return None
     from fenics_gears.elasticity.whole_body.condensed import whole_body_compliance
 
-    gear, resolution = getattr(model.pair, name), model.resolution
-    body = _body(meshes, name, model.pair, resolution.element)
+    gear, material, element = getattr(model.pair, name), model.scene.gears.material_of(name), model.resolution.element
+    mesh = given_mesh(meshes, name, model.pair, element)
     # Forces one tooth beyond those that interact still open or close a crack.
-    return whole_body_compliance(
-        body.mesh,
-        gear,
-        model.scene.gears.material_of(name),
-        element=resolution.element,
-        tooth_offsets=reach.same + 1,
-        cache=cache,
-    )
+    offsets = reach.same + 1
+    return whole_body_compliance(mesh, gear, material, element=element, tooth_offsets=offsets, cache=cache)
 
 
 def unknowns_of(meshes: BodyMeshes, model, name: str) -> int | None:
@@ -139,7 +126,7 @@ def unknowns_of(meshes: BodyMeshes, model, name: str) -> int | None:
     from fenics_gears.elasticity.elements import element_named
 
     element = model.resolution.element
-    return 2 * len(element_nodes(_body(meshes, name, model.pair, element).mesh, element_named(element)).points)
+    return 2 * len(element_nodes(given_mesh(meshes, name, model.pair, element), element_named(element)).points)
 
 
 def watched(meshes: BodyMeshes, cycle, steps) -> dict:
@@ -150,7 +137,6 @@ def watched(meshes: BodyMeshes, cycle, steps) -> dict:
 
 
 def findings(meshes: BodyMeshes, watched) -> list[str]:
-    """Sentences on cracks that a run would have closed."""
     from fenics_gears.dynamics.crack_openings import closed_cracks
 
     return closed_cracks(watched)
@@ -162,7 +148,6 @@ def period(meshes: BodyMeshes, scene) -> int:
 
 
 def given_mesh(meshes: BodyMeshes, name: str, pair, element: str):
-    """The mesh (``elasticity.mesh_data.BodyMesh``) of a gear that has one of its own."""
     return _body(meshes, name, pair, element).mesh
 
 
@@ -170,9 +155,8 @@ def _body(meshes: BodyMeshes, name: str, pair, element: str):
     from fenics_gears.elasticity.whole_body.given import given_body
 
     file = getattr(meshes, name)
-    return given_body(
-        file.path, file.digest, getattr(pair, name), element, f"body_meshes.{name} = {as_written(file.path)}"
-    )
+    written = f"body_meshes.{name} = {as_written(file.path)}"
+    return given_body(file.path, file.digest, getattr(pair, name), element, written)
 
 
 EFFECT = Effect(

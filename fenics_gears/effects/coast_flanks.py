@@ -6,7 +6,7 @@ from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section
 from fenics_gears.inputs.tree import Tree, value_at
 
-from .effect import OF_NODES, OF_PAIRS, OF_SLICES, Effect, ResultVariable
+from .effect import OF_NODES, OF_PAIRS, OF_SLICES, OF_TIME, Effect, ResultVariable, variables
 
 
 @dataclass(frozen=True)
@@ -29,32 +29,32 @@ EFFECT = Effect(
     unknowns=("normal force of each closed contact node on the coast flanks",),
     terms=("contact along the coast flanks' own line of action",),
     variables=(
-        ResultVariable("coast_normal_force", "N", "contact force of the coast flanks along their line of action"),
-        ResultVariable("coast_friction_force", "N", "friction force of the coast flanks", "friction"),
-        ResultVariable(
-            "pair_coast_normal_force", "N", "contact force of the coast flank of the pair's pinion tooth", dims=OF_PAIRS
+        *variables(
+            OF_TIME,
+            coast_normal_force=("N", "contact force of the coast flanks along their line of action"),
+            drive_flank_opening=("mm", "smallest gap between the drive flanks"),
+            coast_flank_opening=("mm", "smallest gap between the coast flanks"),
         ),
-        ResultVariable(
-            "coast_line_load",
-            "N/mm",
-            "contact force of the coast flank of the pair's pinion tooth along the contact normal, per length of the"
-            " face",
-            dims=OF_SLICES,
+        *variables(
+            OF_PAIRS, pair_coast_normal_force=("N", "contact force of the coast flank of the pair's pinion tooth")
+        ),
+        *variables(
+            OF_SLICES,
             over_face=True,
+            coast_line_load=(
+                "N/mm",
+                "contact force of the coast flank of the pair's pinion tooth along the contact normal, per length of"
+                " the face",
+            ),
         ),
-        ResultVariable(
-            "coast_contact_pressure", "MPa", "contact pressure on the coast flanks", "tooth_elasticity", OF_NODES
-        ),
-        ResultVariable(
-            "coast_contact_roll_angle",
-            "rad",
-            "roll angle of the contact node on the pinion's coast flank",
-            "tooth_elasticity",
+        *variables(
             OF_NODES,
+            "tooth_elasticity",
+            coast_contact_pressure=("MPa", "contact pressure on the coast flanks"),
+            coast_contact_roll_angle=("rad", "roll angle of the contact node on the pinion's coast flank"),
         ),
+        ResultVariable("coast_friction_force", "N", "friction force of the coast flanks", "friction"),
         ResultVariable("coast_contact_traction", "MPa", "friction traction on the coast flanks", "friction", OF_NODES),
-        ResultVariable("drive_flank_opening", "mm", "smallest gap between the drive flanks"),
-        ResultVariable("coast_flank_opening", "mm", "smallest gap between the coast flanks"),
     ),
     rules=flanks_are_there,
 )

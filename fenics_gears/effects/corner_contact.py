@@ -32,9 +32,9 @@ class CornerContact(Edge):
 
     @property
     def edge_radii(self) -> tuple[float, float]:
-        """Radius of the edge of pinion and wheel, mm: each gear's own before that of both; 0 for a sharp edge."""
-        radii = (own_or_shared(own, self, "edge_radius") or 0.0 for own in (self.pinion, self.wheel))
-        return next(radii), next(radii)
+        """Radius of the edge of pinion and wheel, mm; 0 for a sharp edge."""
+        pinion, wheel = (own_or_shared(own, self, "edge_radius") or 0.0 for own in (self.pinion, self.wheel))
+        return pinion, wheel
 
 
 def route_has_corners(tree: Tree) -> Broken:

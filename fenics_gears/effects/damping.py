@@ -13,22 +13,17 @@ from .effect import Effect, ResultVariable, own_or_shared
 RAYLEIGH, MODAL = ("stiffness_proportional", "mass_proportional"), ("ratio", "ratios")
 
 
+OF_GEARS = "each gear has its own, or the damping is given by ratios"
+
+
 def _stiffness_proportional(otherwise: str):
-    return quantity(
-        "0 s to 1e3 s",
-        "0.4e-3 s",
-        meaning="factor alpha of the stiffness matrix K in the damping matrix alpha K + beta M",
-        otherwise=otherwise,
-    )
+    meaning = "factor alpha of the stiffness matrix K in the damping matrix alpha K + beta M"
+    return quantity("0 s to 1e3 s", "0.4e-3 s", meaning=meaning, otherwise=otherwise)
 
 
 def _mass_proportional(otherwise: str):
-    return quantity(
-        "0 1/s to 1e9 1/s",
-        "0.5e-3 1/s",
-        meaning="factor beta of the mass matrix M in the damping matrix alpha K + beta M",
-        otherwise=otherwise,
-    )
+    meaning = "factor beta of the mass matrix M in the damping matrix alpha K + beta M"
+    return quantity("0 1/s to 1e9 1/s", "0.5e-3 1/s", meaning=meaning, otherwise=otherwise)
 
 
 @dataclass(frozen=True)
@@ -45,10 +40,8 @@ class Damping(Rayleigh):
 
     alternatives = (MODAL,)
 
-    stiffness_proportional: float | None = _stiffness_proportional(
-        "each gear has its own, or the damping is given by ratios"
-    )
-    mass_proportional: float | None = _mass_proportional("each gear has its own, or the damping is given by ratios")
+    stiffness_proportional: float | None = _stiffness_proportional(OF_GEARS)
+    mass_proportional: float | None = _mass_proportional(OF_GEARS)
     ratio: float | None = number(
         0.05,
         meaning=(
@@ -69,8 +62,8 @@ class Damping(Rayleigh):
 
     @property
     def modal(self) -> tuple[float, ...]:
-        """Damping ratios by mode from the lowest frequency on, of which the last holds for all that follow; empty for
-        Rayleigh damping."""
+        """Damping ratios by mode from the lowest frequency on, the last for all that follow; empty for Rayleigh
+        damping."""
         return (self.ratio,) if self.ratio is not None else self.ratios or ()
 
     def rayleigh(self, gear: str) -> tuple[float, float]:
@@ -104,11 +97,8 @@ def damping_acts(tree: Tree) -> Broken:
     yield from _rayleigh_acts(tree)
 
 
-_MISSING = {"stiffness_proportional": "0.4e-3 s", "mass_proportional": "0.5e-3 1/s"}
-
-
 def _rayleigh_is_complete(damping: Tree) -> Broken:
-    for name, example in _MISSING.items():
+    for name, example in zip(RAYLEIGH, ("0.4e-3 s", "0.5e-3 1/s")):
         gears = [gear for gear in GEARS if name not in given_for(damping, gear)]
         if gears:
             path = ("damping", name) if len(gears) == 2 else ("damping", *gears, name)
@@ -131,8 +121,8 @@ def _rayleigh_acts(tree: Tree) -> Broken:
         yield ("damping",), message
     elif "shafts" not in tree and "bearings" not in tree:
         message = (
-            "damps nothing: there is no stiffness without [shafts] or [bearings]. Add one of them, or allow a"
-            " mass_proportional value above 0."
+            "damps nothing: there is no stiffness without [shafts] or [bearings]. Add one of them, or"
+            " mass_proportional damping."
         )
         path = next(path for path, value in of_stiffness.items() if value)
         yield (*path, "stiffness_proportional"), message

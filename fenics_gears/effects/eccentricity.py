@@ -16,13 +16,8 @@ def _angle(of: str, field: str):
         f"{of} at the start of the first mesh cycle: angle from the line of action (pinion to wheel), in the gear's"
         " sense of rotation"
     )
-    return quantity(
-        "-360 deg to 360 deg",
-        "90 deg",
-        meaning=meaning,
-        default="0 deg",
-        otherwise=f"0 deg; has no meaning without {field}",
-    )
+    otherwise = f"0 deg; has no meaning without {field}"
+    return quantity("-360 deg to 360 deg", "90 deg", meaning=meaning, default="0 deg", otherwise=otherwise)
 
 
 @dataclass(frozen=True)
@@ -67,7 +62,6 @@ class Eccentricity(Section):
 
 
 def offsets_are_given(tree: Tree) -> Broken:
-    """The section of a gear says what the gear does not run true by."""
     for gear in GEARS:
         own = table(table(tree, "eccentricity") or {}, gear)
         if own is not None and not {"distance", "wobble"} & set(own):
@@ -76,14 +70,12 @@ def offsets_are_given(tree: Tree) -> Broken:
 
 
 def gaps(eccentricity: Eccentricity, model):
-    """What displaced base circles and leaning teeth add to the gaps."""
     from fenics_gears.contact.run_out import run_out
 
     return run_out(model.pair, eccentricity, model.resolution.steps_per_mesh_cycle)
 
 
 def period(eccentricity: Eccentricity, scene) -> int:
-    """Mesh cycles of whole turns of the gears that run out."""
     return lcm(*(getattr(scene.gears, name).teeth for name in GEARS if getattr(eccentricity, name) is not None))
 
 

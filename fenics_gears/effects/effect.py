@@ -1,8 +1,7 @@
 """What an effect is: the section that switches it on, and the hooks by which it enters the model.
 
-An effect is one module of this package and one entry in the list of ``fenics_gears.effects``: its section, which is its
-data in program units, its description, and hooks. A hook is called only when the scene names the effect, and imports
-the effect's physics inside, so that a scene without it does not load it.
+An effect is one module of this package and one entry in the list of ``fenics_gears.effects``. A hook is called only
+when the scene names the effect, and imports the effect's physics inside, so that a scene without it does not load it.
 """
 
 from collections.abc import Callable, Mapping
@@ -16,16 +15,16 @@ from fenics_gears.inputs.section import Section, tree_of
 # Over the tooth pairs that can touch at once, and over the contact nodes of each at the steps whose contact fields are
 # stored.
 OF_PAIRS, OF_NODES, OF_POINTS = ("time", "slot"), ("contact_time", "slot", "contact_node"), ("path_point",)
+OF_TIME, OF_GEARS = ("time",), ("time", "gear")
 # The same over the slices of a face.
 OF_SLICES = ("contact_time", "slot", "face_position")
 
 
 @dataclass(frozen=True)
 class ResultVariable:
-    """One variable of the result: name, units, and long name for labels; ``needs``: another effect without which it is
-    not there; ``field``: the field of the effect's own section without which it is not there, or several, "places or
-    each", of which one is enough; ``over_face``: in three-dimensional scenes only.
-    """
+    """One variable of the result; ``needs``: another effect without which it is not there; ``field``: the field of the
+    effect's own section without which it is not there, or several, "places or each", of which one is enough;
+    ``over_face``: in three-dimensional scenes only."""
 
     name: str
     units: str
@@ -34,6 +33,17 @@ class ResultVariable:
     dims: tuple[str, ...] = ("time",)
     field: str = ""
     over_face: bool = False
+
+    @property
+    def labels(self) -> dict[str, str]:
+        return {"units": self.units, "long_name": self.long_name}
+
+
+def variables(
+    dims: tuple[str, ...], needs: str = "", field: str = "", over_face: bool = False, **said: tuple[str, str]
+) -> tuple[ResultVariable, ...]:
+    """Result variables that are alike but for names, units and long names."""
+    return tuple(ResultVariable(name, *each, needs, dims, field, over_face) for name, each in said.items())
 
 
 @dataclass(frozen=True)
@@ -48,20 +58,21 @@ class Effect:
 
     Hooks, each with the effect's data first:
 
-    ``removal(data, pair)``: material removed from pinion and wheel, two functions of the roll angle (rad) giving mm, or
-    None. ``gaps(data, model)``: a function of a step and its position giving what is added to the gaps of the contact
-    nodes (n,), mm. ``load(data, model)``: a function of a step giving forces on the centre coordinates (k,), N, besides
-    the constant load. ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
+    ``removal(data, pair)``: material removed from pinion and wheel, two functions of the roll angle (rad), mm.
+    ``gaps(data, model)``: a function of a step and its position: additional gaps of the contact nodes (n,), mm.
+    ``load(data, model)``: a function of a step: forces on the centre coordinates (k,), N, besides the constant load.
+    ``clock(data, model)``: when a step is (``dynamics.clock``), where steps are not all as long.
     ``elasticity(data, model, name, reach, cache)``: flank compliance of the "pinion" or the "wheel" over a reach of
-    teeth; None for that of equal teeth. ``located(data, directory)``: the data with their files found from the scene
-    file's directory on. ``files(data)``: the names of these files, each with a hash of what was read. ``check(data,
-    scene, pair)``: raises SceneError where those files are wrong, or the effect is not for this load and speed.
-    ``warnings(data, model)``: sentences to read before the run. ``watched(data, cycle, steps)``: values of consecutive
-    steps (``dynamics.steps.Steps``) that the findings need, name to values (steps,). ``findings(data, watched)``:
-    sentences on where a run violates what the effect assumes. ``results(data, scene, cycle, steps)``: the effect's own
-    variables at steps (time,), name to (dimensions, values). ``period(data, scene)``: mesh cycles after which what it
-    does repeats, infinite where never; 1 unless given. ``gentle(data)``: whether teeth come into contact so gently that
-    fewer layers over a face resolve it.
+    teeth; None for that of equal teeth.
+    ``located(data, directory)``: the data with their files found from the scene file's directory on.
+    ``files(data)``: the names of these files, each with a hash of what was read.
+    ``check(data, scene, pair)``: raises SceneError where those files, or this load and speed, are wrong.
+    ``warnings(data, model)``: sentences to read before the run.
+    ``watched(data, cycle, steps)``: what the findings need of ``dynamics.steps.Steps``, name to values (steps,).
+    ``findings(data, watched)``: sentences on where a run violates what the effect assumes.
+    ``results(data, scene, cycle, steps)``: its own variables at steps (time,), name to (dimensions, values).
+    ``period(data, scene)``: mesh cycles after which what it does repeats, infinite where never; 1 unless given.
+    ``gentle(data)``: whether teeth come into contact so gently that fewer layers over a face resolve it.
     """
 
     section: str
@@ -105,7 +116,6 @@ class Effect:
         return data if self.located is None else self.located(data, directory)
 
     def as_section(self, data: Any) -> dict[str, Any]:
-        """The section that has the data, as a scene file has it."""
         return tree_of(data) if self.write is None else self.write(data)
 
 

@@ -22,7 +22,6 @@ from .flank_errors_tables import check, files, located
 
 
 def write(errors: FlankErrors) -> dict:
-    """The section; what stands in tables is left to them."""
     found = tree_of(errors)
     for gear in GEARS:
         for column in getattr(errors, gear).columns:
@@ -31,7 +30,6 @@ def write(errors: FlankErrors) -> dict:
 
 
 def gaps(errors: FlankErrors, model):
-    """What the errors of the teeth that meet add to the gaps."""
     from fenics_gears.contact.flank_gaps import flank_gaps
 
     return flank_gaps(errors, model.pair, model.resolution.steps_per_mesh_cycle, model.face)
@@ -46,13 +44,10 @@ def results(errors: FlankErrors, scene, cycle, steps) -> dict[str, Any]:
     for gear, found in zip(GEARS, deviations_of(errors, cycle.pair, cycle.face)):
         dimension = (f"{gear}_tooth",)
         values[f"{gear}_index_deviation"] = dimension, found.index
-        slope, form = slope_and_form(found)
-        values[f"{gear}_profile_slope"] = dimension, slope
-        values[f"{gear}_profile_form"] = dimension, form
-        if found.helix is not None:
-            slope, form = slope_and_form(found.helix)
-            values[f"{gear}_helix_slope"] = dimension, slope
-            values[f"{gear}_helix_form"] = dimension, form
+        for kind, errors_of_kind in (("profile", found), ("helix", found.helix)):
+            if errors_of_kind is not None:
+                slope, form = slope_and_form(errors_of_kind)
+                values |= {f"{gear}_{kind}_slope": (dimension, slope), f"{gear}_{kind}_form": (dimension, form)}
     return values
 
 
@@ -64,13 +59,9 @@ def period(errors: FlankErrors, scene) -> int:
 
 def _differ(own: GearErrors, names: Sequence[str], drawn: bool) -> bool:
     """Whether a gear's teeth are not all alike in some deviations; what is not given is `drawn`, or there is none."""
-    given = [getattr(own, name) for name in names]
-    measured = own.profile_curves is not None or own.helix_curves is not None
-    return (
-        own.waviness is not None
-        or measured
-        or any(drawn if values is None else len(set(values)) > 1 for values in given)
-    )
+    if any(each is not None for each in (own.waviness, own.profile_curves, own.helix_curves)):
+        return True
+    return any(drawn if (given := getattr(own, name)) is None else len(set(given)) > 1 for name in names)
 
 
 EFFECT = Effect(
@@ -84,11 +75,7 @@ EFFECT = Effect(
     terms=("gaps that differ from tooth to tooth, over a hunting tooth period",),
     variables=tuple(
         ResultVariable(
-            f"{gear}_{name}",
-            "mm",
-            f"{words} of each tooth of the {gear}",
-            dims=(f"{gear}_tooth",),
-            over_face=name in HELIX,
+            f"{gear}_{name}", "mm", f"{words} of each tooth of the {gear}", "", (f"{gear}_tooth",), "", name in HELIX
         )
         for gear in GEARS
         for name, words in (

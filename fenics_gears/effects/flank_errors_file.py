@@ -41,11 +41,10 @@ class _Row:
 
 def deviations_in(path: Path, names: Sequence[str]) -> dict[str, tuple[float, ...]]:
     """Each column's deviations, mm, in the order of the teeth, which are numbered from 1; by the column's name, one of
-    `names`.
+    `names`. Raises FileProblem.
 
     The first line names the columns: `tooth`, and deviations with their unit in brackets, or with a unit in every cell;
-    they are parted by commas, semicolons or tabs. Empty lines and those that begin with # are passed over. Raises
-    FileProblem.
+    they are parted by commas, semicolons or tabs. Empty lines and those that begin with # are passed over.
     """
     columns, rows = _table(path, dict.fromkeys(names, LENGTH), "tooth, pitch (um), profile_slope (um)")
     found: dict[int, tuple[float, ...]] = {}
@@ -63,13 +62,9 @@ def deviations_in(path: Path, names: Sequence[str]) -> dict[str, tuple[float, ..
 
 
 def curves_in(path: Path, along: Mapping[str, str]) -> MeasuredCurves:
-    """Measured curves: a line for each point, with `tooth`, `deviation` and where the point lies, one of `along` (name
-    to kind of quantity).
-
-    Points of a tooth may come in any order. Raises FileProblem.
-    """
-    first = next(iter(along))
-    example = f"tooth, {first} (mm), deviation (um)"
+    """Measured curves: a line for each point, in any order, with `tooth`, `deviation` and where the point lies, one of
+    `along` (name to kind of quantity). Raises FileProblem."""
+    example = f"tooth, {next(iter(along))} (mm), deviation (um)"
     columns, rows = _table(path, {**along, DEVIATION: LENGTH}, example)
     places = [name for name in columns if name in along]
     if len(columns) != 2 or len(places) != 1:
@@ -107,7 +102,7 @@ def _table(path: Path, kinds: Mapping[str, str], example: str) -> tuple[list[str
     number, heading = lines[0]
     separator = next((each for each in ";\t" if each in heading), ",")
     columns = _columns(f"{path}:{number}", _cells(f"{path}:{number}", heading, separator), kinds, example)
-    rows = []
+    measured, rows = [name for name in columns if name != TOOTH], []
     for number, line in lines[1:]:
         place = f"{path}:{number}"
         cells = _cells(place, line, separator)
@@ -116,14 +111,13 @@ def _table(path: Path, kinds: Mapping[str, str], example: str) -> tuple[list[str
             raise FileProblem(
                 f"{place}: has {len(cells)} columns, the first line {len(columns)}.{hint} Allowed: as many."
             )
-        given = dict(zip((name for name, _ in columns), cells))
-        values = tuple(_number(place, name, unit, given[name], kinds[name]) for name, unit in columns if name != TOOTH)
+        given = dict(zip(columns, cells))
+        values = tuple(_number(place, name, columns[name], given[name], kinds[name]) for name in measured)
         rows.append(_Row(place, _tooth(place, given[TOOTH]), values))
-    return [name for name, _ in columns if name != TOOTH], rows
+    return measured, rows
 
 
 def _lines(path: Path) -> list[tuple[int, str]]:
-    """Numbered lines that say something."""
     try:
         text = user_file.text_of(path, user_file.LARGEST_TABLE)
     except user_file.Missing as problem:
@@ -145,13 +139,13 @@ def _cells(place: str, line: str, separator: str) -> list[str]:
         raise FileProblem(f"{place}: is no line of a table: {error}. {allowed}") from None
 
 
-def _columns(place: str, headings: Sequence[str], kinds: Mapping[str, str], example: str) -> list[tuple[str, str]]:
+def _columns(place: str, headings: Sequence[str], kinds: Mapping[str, str], example: str) -> dict[str, str]:
     """Name and unit of every column; no unit where the cells have their own."""
-    columns = []
+    columns: dict[str, str] = {}
+    known = (TOOTH, *kinds)
     for heading in headings:
         match = _HEADING.fullmatch(heading)
         name, unit = (match[1], match[2] or "") if match else (heading.strip(), "")
-        known = (TOOTH, *kinds)
         if name not in known:
             synonym = meant(("flank_errors", "pinion"), name, tuple(kinds))
             hint = f' Did you mean "{synonym}"?' if synonym else did_you_mean(name, known)
@@ -159,7 +153,7 @@ def _columns(place: str, headings: Sequence[str], kinds: Mapping[str, str], exam
                 f"{place}: has the column {as_written(name)}, which is none of a gear's deviations.{hint} Allowed:"
                 f" {', '.join(known)}."
             )
-        if name in (each for each, _ in columns):
+        if name in columns:
             raise FileProblem(f"{place}: has the column {name} twice. Allowed: each once.")
         if unit and _kind(f"1 {unit}") != kinds.get(name):
             wanted = kinds[name] if name in kinds else "a count, which has none"
@@ -167,10 +161,9 @@ def _columns(place: str, headings: Sequence[str], kinds: Mapping[str, str], exam
                 f'{place}: has the column {name} in "{unit}", which is no unit of'
                 f" {wanted.removeprefix('a ').removeprefix('an ')}. Allowed: such as {name} ({_UNITS.get(wanted, '')})."
             )
-        columns.append((name, unit))
-    given = [name for name, _ in columns]
-    if TOOTH not in given or len(given) < 2:
-        lacking = "no column tooth" if TOOTH not in given else "no deviations"
+        columns[name] = unit
+    if TOOTH not in columns or len(columns) < 2:
+        lacking = "no column tooth" if TOOTH not in columns else "no deviations"
         raise FileProblem(f"{place}: has {lacking}. Allowed: a first line such as `{example}`.")
     return columns
 
@@ -178,26 +171,21 @@ def _columns(place: str, headings: Sequence[str], kinds: Mapping[str, str], exam
 def _tooth(place: str, cell: str) -> int:
     text = cell.strip()
     if not (text.isascii() and text.isdigit()) or not 0 < int(text[:6]) <= 1000:
-        raise FileProblem(
-            f"{place}: has the tooth {as_written(text)}. Allowed: a whole number from 1 on, in the order in which teeth"
-            " mesh."
-        )
+        raise FileProblem(f"{place}: has the tooth {as_written(text)}. Allowed: whole numbers from 1 on, as they mesh.")
     return int(text)
 
 
 def _number(place: str, name: str, unit: str, cell: str, wanted: str) -> float:
-    """A cell in mm or rad."""
     text = cell.strip()
     try:
         number, kind = units.quantity(f"{text} {unit}" if unit else text)
     except units.QuantityError as error:
         raise FileProblem(f"{place}: {name} = {as_written(text)} {error} Allowed: a number, such as 3.5.") from None
     if kind != wanted:
-        message = (
-            f"is {kind}, not {wanted}. Allowed: a unit in the first line, such as {name} ({_UNITS[wanted]}), and bare"
-            " numbers below it; or a unit in each cell."
+        raise FileProblem(
+            f"{place}: {name} = {as_written(text)} is {kind}, not {wanted}. Allowed: a unit in the first line, such as"
+            f" {name} ({_UNITS[wanted]}), or in each cell."
         )
-        raise FileProblem(f"{place}: {name} = {as_written(text)} {message}")
     if not isfinite(number):
         raise FileProblem(f"{place}: {name} = {as_written(text)} is no number. Allowed: a number, such as 3.5.")
     return number
@@ -206,8 +194,7 @@ def _number(place: str, name: str, unit: str, cell: str, wanted: str) -> float:
 def _deviation(place: str, name: str, value: float) -> float:
     if abs(value) > _LARGEST:
         raise FileProblem(
-            f"{place}: {name} = {value:g} mm is no deviation of a tooth. Allowed: from -{_LARGEST:g} mm to"
-            f" {_LARGEST:g} mm."
+            f"{place}: {name} = {value:g} mm is no deviation. Allowed: from -{_LARGEST:g} to {_LARGEST:g} mm."
         )
     return value
 

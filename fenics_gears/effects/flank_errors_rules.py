@@ -23,10 +23,7 @@ def errors_fit_the_gears(tree: Tree) -> Broken:
     if "tolerance_class" in errors:
         yield from _class_is_for_the_gears(tree)
     elif not any(table(errors, gear) for gear in GEARS):
-        message = (
-            "has no errors. Add a tolerance_class, or [flank_errors.pinion] with a list or a file. For true flanks,"
-            " leave the section out."
-        )
+        message = "has no errors. Add a tolerance_class or [flank_errors.pinion], or leave the section out."
         yield ("flank_errors",), message
     for gear in GEARS:
         own = table(errors, gear) or {}
@@ -50,7 +47,6 @@ def _lists_fit_the_teeth(errors: Tree, teeth: int | None, gear: str) -> Broken:
 
 
 def _pitches_close(values: list, path: tuple[str, ...]) -> Broken:
-    """The single pitch deviations of a whole turn sum to zero; the last tooth would not meet the first otherwise."""
     numbers = [quantity_in(value) for value in values]
     if None in numbers:
         return
@@ -68,20 +64,12 @@ def not_closed(total: float) -> str:
 
 def _class_is_for_the_gears(tree: Tree) -> Broken:
     module = quantity_at(tree, "gears", "module")
-    path = ("flank_errors", "tolerance_class")
     if module is None:
         return
-    if not MODULES[0] <= module <= MODULES[1]:
-        message = (
-            f"is for modules from {MODULES[0]:g} to {MODULES[1]:g} mm (ISO 1328-1), not {module:g} mm. Allowed: lists"
-            " of errors instead."
-        )
-        yield path, message
-    for gear in GEARS:
-        diameter = module * (teeth_in(tree, gear) or 100)
-        if not DIAMETERS[0] <= diameter <= DIAMETERS[1]:
-            message = (
-                f"is for reference diameters from 5 mm to 15 m (ISO 1328-1), not {diameter:g} mm. Allowed: lists of"
-                " errors instead."
-            )
-            yield path, message
+    diameters = [module * (teeth_in(tree, gear) or 100) for gear in GEARS]
+    sizes = [("modules from 0.5 to 70 mm", module, MODULES)]
+    sizes += [("reference diameters from 5 mm to 15 m", each, DIAMETERS) for each in diameters]
+    for words, size, (least, most) in sizes:
+        if not least <= size <= most:
+            message = f"is for {words} (ISO 1328-1), not {size:g} mm. Allowed: lists of errors instead."
+            yield ("flank_errors", "tolerance_class"), message

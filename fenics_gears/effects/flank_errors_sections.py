@@ -21,8 +21,12 @@ CURVES = {"profile_curves": ("measured_profile", "ALONG_PROFILE"), "helix_curves
 REPLACED = {"profile_curves": ("profile_slope", "profile_form"), "helix_curves": HELIX}
 TABLES = ("file", *CURVES)
 
-DRAWN = "random values within `tolerance_class`; without a class, zero"
-DRAWN_OVER_FACE = f"{DRAWN}; not allowed in a plane scene"
+
+def _deviations(example: str, meaning: str, over_face: bool = False):
+    drawn = "random values within `tolerance_class`; without a class, zero"
+    otherwise = f"{drawn}; not allowed in a plane scene" if over_face else drawn
+    limits = "-100 mm to 100 mm"
+    return quantities(limits, example, meaning=meaning, otherwise=otherwise, small=True, over_face=over_face)
 
 
 @dataclass(frozen=True)
@@ -80,60 +84,36 @@ class GearErrors(Section):
         otherwise="no table",
     )
 
-    pitch: tuple[float, ...] | None = quantities(
-        "-100 mm to 100 mm",
-        "3.5 um",
-        meaning="single pitch deviations, positive where the pitch is too long; their sum must be zero",
-        otherwise=DRAWN,
-        small=True,
+    pitch: tuple[float, ...] | None = _deviations(
+        "3.5 um", "single pitch deviations, positive where the pitch is too long; their sum must be zero"
     )
-    profile_slope: tuple[float, ...] | None = quantities(
-        "-100 mm to 100 mm",
-        "4 um",
-        meaning="profile slope deviations, positive with material in excess towards the tip",
-        otherwise=DRAWN,
-        small=True,
+    profile_slope: tuple[float, ...] | None = _deviations(
+        "4 um", "profile slope deviations, positive with material in excess towards the tip"
     )
-    profile_form: tuple[float, ...] | None = quantities(
-        "-100 mm to 100 mm",
-        "3 um",
-        meaning="profile form deviations, positive with material in excess in the middle of the flank",
-        otherwise=DRAWN,
-        small=True,
+    profile_form: tuple[float, ...] | None = _deviations(
+        "3 um", "profile form deviations, positive with material in excess in the middle of the flank"
     )
-    helix_slope: tuple[float, ...] | None = quantities(
-        "-100 mm to 100 mm",
+    helix_slope: tuple[float, ...] | None = _deviations(
         "5 um",
-        meaning=("helix slope deviations over the face width, positive with material in excess towards the right end"),
-        otherwise=DRAWN_OVER_FACE,
-        small=True,
+        "helix slope deviations over the face width, positive with material in excess towards the right end",
         over_face=True,
     )
-    helix_form: tuple[float, ...] | None = quantities(
-        "-100 mm to 100 mm",
-        "3 um",
-        meaning="helix form deviations, positive with material in excess in the middle of the face",
-        otherwise=DRAWN_OVER_FACE,
-        small=True,
-        over_face=True,
+    helix_form: tuple[float, ...] | None = _deviations(
+        "3 um", "helix form deviations, positive with material in excess in the middle of the face", over_face=True
     )
     profile_curves: str | None = file_name(
         ".csv",
         "pinion_profile.csv",
-        meaning=(
-            "measured profiles: a table with a line for each point, the columns `tooth`, `deviation (um)`, positive"
-            " with material in excess, and `roll_length (mm)`, `roll_angle (deg)` or `diameter (mm)`; a tooth without a"
-            " curve has the mean of the curves; in place of `profile_slope` and `profile_form`"
-        ),
+        meaning="measured profiles: a table with a line for each point, the columns `tooth`, `deviation (um)`, positive"
+        " with material in excess, and `roll_length (mm)`, `roll_angle (deg)` or `diameter (mm)`; a tooth without a"
+        " curve has the mean of the curves; in place of `profile_slope` and `profile_form`",
         otherwise="no curves",
     )
     helix_curves: str | None = file_name(
         ".csv",
         "pinion_helix.csv",
-        meaning=(
-            "measured helices: the same with `face_position (mm)` from mid-width to the right; in place of"
-            " `helix_slope` and `helix_form`"
-        ),
+        meaning="measured helices: the same with `face_position (mm)` from mid-width to the right; in place of"
+        " `helix_slope` and `helix_form`",
         otherwise="no curves; not allowed in a plane scene",
         over_face=True,
     )

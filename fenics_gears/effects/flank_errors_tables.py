@@ -50,7 +50,6 @@ def _found(directory: Path, name: str) -> Path:
 
 
 def files(errors: FlankErrors) -> dict[str, str]:
-    """Names of the tables, with a hash of what they say."""
     found = {}
     for own in (errors.pinion, errors.wheel):
         said = {"file": {name: getattr(own, name) for name in own.columns}}
@@ -68,17 +67,12 @@ def check(errors: FlankErrors, scene, pair) -> None:
     for gear in GEARS:
         own = getattr(errors, gear)
         name, problem = own.problem or _problem_of_tables(own, scene, pair, gear)
+        in_table = [column for column in own.columns if column not in lists_of(scene)]
+        if not problem and in_table:
+            name, problem = "file", f"the column {in_table[0]} {NOT_IN_THE_PLANE}"
         if problem:
-            raise SceneError(
-                f"flank_errors.{gear}.{name} = {as_written(getattr(own, name))}: {problem}\nNothing was computed or"
-                " written."
-            )
-        in_table = [name for name in own.columns if name not in lists_of(scene)]
-        if in_table:
-            raise SceneError(
-                f"flank_errors.{gear}.file = {as_written(own.file)}: the column {in_table[0]}"
-                f" {NOT_IN_THE_PLANE}\nNothing was computed or written."
-            )
+            written = as_written(getattr(own, name))
+            raise SceneError(f"flank_errors.{gear}.{name} = {written}: {problem}\nNothing was computed or written.")
 
 
 def _problem_of_tables(errors: GearErrors, scene, pair, gear: str) -> tuple[str, str]:
@@ -96,26 +90,26 @@ def _problem_of_tables(errors: GearErrors, scene, pair, gear: str) -> tuple[str,
                 return name, f"stands beside {replaced}, which the curves replace. Leave one of the two out."
         whole = "active profile" if measured == "measured_profile" else "face"
         for curve in curves.curves:
-            if problem := _problem_of_curve(curve, curves.along, scene, pair, gear, whole):
+            if problem := _problem_of_curve(curve, curves.along, module, pair, gear, whole):
                 return name, problem
     return "", ""
 
 
-def _problem_of_curve(curve, along, scene, pair, gear: str, whole: str) -> str:
-    """What does not fit the gear; empty where all does. `whole`: of what a curve measures a part."""
+def _problem_of_curve(curve, along, module: float, pair, gear: str, whole: str) -> str:
+    """What does not fit the gear; `whole`: of what a curve measures a part."""
     from fenics_gears.geometry.flank_deviations import measured_share
 
-    teeth, module = getattr(pair, gear).teeth, scene.gears.module
+    teeth, largest = getattr(pair, gear).teeth, LARGEST_ERROR * module
     if curve.tooth > teeth:
         return (
             f"has a curve of tooth {curve.tooth}, but the {gear} has {teeth} teeth. Allowed: teeth from 1 to {teeth},"
             " counted as they mesh."
         )
     worst = max(abs(each) for each in curve.deviations)
-    if worst > LARGEST_ERROR * module:
+    if worst > largest:
         return (
             f"has a deviation of {worst:.4g} mm on tooth {curve.tooth}, too large for a module of {module:g} mm."
-            f" Allowed: up to {LARGEST_ERROR * module:g} mm."
+            f" Allowed: up to {largest:g} mm."
         )
     share = measured_share(curve, along, pair, gear)
     if share < LEAST_MEASURED:
@@ -127,7 +121,6 @@ def _problem_of_curve(curve, along, scene, pair, gear: str, whole: str) -> str:
 
 
 def _problem_of_table(errors: GearErrors, teeth: int, module: float, gear: str) -> str:
-    """What does not fit the gear, by the rules of lists; empty where all does."""
     for name in LISTS:
         values = getattr(errors, name)
         if values is None:

@@ -10,7 +10,7 @@ from fenics_gears.inputs.section import Section, allowed_in
 from fenics_gears.inputs.tree import Tree, quantity_at, table
 from fenics_gears.inputs.written import as_written
 
-from .effect import OF_NODES, OF_PAIRS, Effect, ResultVariable
+from .effect import OF_NODES, OF_PAIRS, OF_TIME, Effect, variables
 
 OF_A_FORMULA = ("viscosity", "roughness")
 
@@ -33,12 +33,9 @@ class Friction(Section):
     formula: str | None = choice(
         "Schlenk",
         "Benedict and Kelley",
-        meaning=(
-            "formula of the mean coefficient of oiled steel flanks: Schlenk's at the pitch point (ISO/TR 14179-2,"
-            " mineral oil), for pitch line speeds from 1 m/s, those above 50 m/s counted as 50, and line loads below"
-            " 150 N/mm as 150; or that of Benedict and Kelley (1961), averaged over the path of contact, for mixed"
-            " lubrication"
-        ),
+        meaning="formula of the mean coefficient of oiled steel flanks: Schlenk's at the pitch point (ISO/TR 14179-2,"
+        " mineral oil), for pitch line speeds from 1 m/s, those above 50 m/s counted as 50, and line loads below 150"
+        " N/mm as 150; or that of Benedict and Kelley (1961), averaged over the path of contact, for mixed lubrication",
         otherwise="`coefficient`",
     )
     viscosity: float | None = quantity(
@@ -70,17 +67,17 @@ def coefficient_or_formula(tree: Tree) -> Broken:
             yield ("friction", name), "is for a formula. Add formula, or leave it out."
         if formula is not None and name not in friction:
             yield ("friction", name), "is missing; friction.formula needs it."
-    if formula is not None and 0.0 in (quantity_at(tree, "load", name) for name in ("wheel_torque", "pinion_torque")):
+    if formula is None:
+        return
+    if 0.0 in (quantity_at(tree, "load", name) for name in ("wheel_torque", "pinion_torque")):
         yield ("friction", "formula"), "has no meaning without a load. Give a torque, or a coefficient."
-    motion = table(tree, "motion") or {}
-    if formula is not None and not {"mesh_frequency", "pinion_speed"} & set(motion):
+    if not {"mesh_frequency", "pinion_speed"} & set(table(tree, "motion") or {}):
         message = 'needs a speed. Add motion.pinion_speed, such as "1500 rpm", or motion.mesh_frequency.'
         yield ("friction", "formula"), message
 
 
 def coefficient_of(friction: Friction, scene, pair) -> float:
-    """The coefficient of a scene's friction. Raises SceneError for a formula that is not for the
-    scene's load and speed."""
+    """The coefficient of a scene's friction. Raises SceneError for a formula that is not for its load and speed."""
     if friction.formula is None:
         return friction.coefficient
     from fenics_gears.geometry.friction_formulas import FORMULAS, OutOfRange
@@ -103,10 +100,13 @@ EFFECT = Effect(
     unknowns=("tangential force of each closed contact node",),
     terms=("friction law with stick and slip",),
     variables=(
-        ResultVariable("friction_force", "N", "friction force of the mesh, on the drive flanks"),
-        ResultVariable("pair_friction_force", "N", "friction force of the tooth pair", dims=OF_PAIRS),
-        ResultVariable("contact_traction", "MPa", "friction traction on the flank", dims=OF_NODES),
-        ResultVariable("work_friction", "N mm", "energy lost to friction between the flanks"),
+        *variables(
+            OF_TIME,
+            friction_force=("N", "friction force of the mesh, on the drive flanks"),
+            work_friction=("N mm", "energy lost to friction between the flanks"),
+        ),
+        *variables(OF_PAIRS, pair_friction_force=("N", "friction force of the tooth pair")),
+        *variables(OF_NODES, contact_traction=("MPa", "friction traction on the flank")),
     ),
     rules=coefficient_or_formula,
     check=coefficient_of,

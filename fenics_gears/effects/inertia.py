@@ -11,6 +11,7 @@ from fenics_gears.inputs.tree import GEARS, SHAFTS, Tree, given_for, shafts_with
 from .effect import Effect, ResultVariable, own_or_shared
 
 LUMPED = ("mass", "moment_of_inertia")
+OF_DENSITY = "from the gear's own `density`, otherwise from `[inertia]`"
 
 
 def _mass(meaning: str, otherwise: str):
@@ -42,13 +43,8 @@ class GearInertia(Section):
     """``[inertia.pinion]`` and ``[inertia.wheel]``; values that are left out follow from the gear's own density,
     otherwise from ``[inertia]``."""
 
-    mass: float | None = _mass(
-        "mass of this gear, with its shaft, if that has no `sections`",
-        "from the gear's own `density`, otherwise from `[inertia]`",
-    )
-    moment_of_inertia: float | None = _moment_of_inertia(
-        "moment of inertia of this gear", "from the gear's own `density`, otherwise from `[inertia]`"
-    )
+    mass: float | None = _mass("mass of this gear, with its shaft, if that has no `sections`", OF_DENSITY)
+    moment_of_inertia: float | None = _moment_of_inertia("moment of inertia of this gear", OF_DENSITY)
     density: float | None = _density("that of `[inertia]`, where the gear has no mass and moment of inertia of its own")
     tilting_moment_of_inertia: float | None = _tilting("that of `[inertia]`")
 
@@ -104,9 +100,8 @@ def inertia_is_complete(tree: Tree) -> Broken:
         return
     if "motor" in both:
         message = (
-            "has no effect: the far end of the input shaft turns as prescribed, as behind a motor of any inertia whose"
-            " speed is held. Leave it out; what turns with the pinion belongs to [inertia.pinion], and a soft"
-            " [shafts.input] lets the pinion's side swing."
+            "has no effect: the far end of [shafts.input] turns as prescribed. Leave it out; what turns with the pinion"
+            " belongs to [inertia.pinion]."
         )
         yield ("inertia", "motor"), message
     yield from _density_stands_alone(tree)
@@ -115,7 +110,9 @@ def inertia_is_complete(tree: Tree) -> Broken:
     for name, gears in missing.items():
         if gears:
             path = ("inertia", name) if len(gears) == 2 else ("inertia", *gears, name)
-            yield path, _MISSING[name].format(place="" if len(gears) == 2 else ", here or in [inertia] for both gears")
+            place = "" if len(gears) == 2 else ", here or in [inertia] for both gears"
+            allowed = f'such as "{_EXAMPLES[name]}"{place}; or density = "7.85 g/cm^3", from which it is computed'
+            yield path, f"is missing. Allowed: {allowed}."
     twisted = {"torsional_stiffness", "output"} & set(table(tree, "shafts") or {})
     if twisted and not missing["moment_of_inertia"] and not {"moment_of_inertia", "load"} & set(both):
         message = (
@@ -125,23 +122,15 @@ def inertia_is_complete(tree: Tree) -> Broken:
         yield ("inertia", "load", "moment_of_inertia"), message
 
 
-_MISSING = {
-    "mass": 'is missing. Allowed: such as "4.9 kg"{place}; or density = "7.85 g/cm^3", from which it is computed.',
-    "moment_of_inertia": (
-        'is missing. Allowed: such as "24.5e-3 kg m^2"{place}; or density = "7.85 g/cm^3", from which it is computed.'
-    ),
-}
+_EXAMPLES = {"mass": "4.9 kg", "moment_of_inertia": "24.5e-3 kg m^2"}
 
 
 def _density_stands_alone(tree: Tree) -> Broken:
     for path, section in with_gears(tree, "inertia").items():
         beside = [name for name in LUMPED if name in section]
         if "density" in section and beside:
-            message = (
-                f"stands beside {' and '.join(beside)}, which follow from it. Leave density out, or"
-                f" {' and '.join(beside)}."
-            )
-            yield (*path, "density"), message
+            others = " and ".join(beside)
+            yield (*path, "density"), f"stands beside {others}, which follow from it. Leave density out, or {others}."
 
 
 def _what_tilts_has_places(tree: Tree) -> Broken:

@@ -41,7 +41,6 @@ class EndRelief(Section):
 
     @property
     def power(self) -> int:
-        """Power of the distance from its start with which the relief grows."""
         return POWERS[self.shape]
 
 
@@ -63,14 +62,9 @@ class LeadModification(Section):
     helix_slope: float = quantity(
         "-100 mm to 100 mm",
         "8 um",
-        meaning=(
-            "helix slope modification: material removed in proportion to the distance from the left end of the"
-            " gear's"
-            " own face, nothing there and so much at the right end; a negative one removes nothing at the right"
-            " end."
-            " Unlike a misalignment it removes half its amount on average, which shows in the mean transmission"
-            " error"
-        ),
+        meaning="helix slope modification: material removed in proportion to the distance from the left end of the"
+        " gear's own face, nothing there and so much at the right end; a negative one removes nothing at the right"
+        " end. Unlike a misalignment it removes half its amount on average, which shows in the mean transmission error",
         default="0 um",
         otherwise="no helix slope modification",
         small=True,
@@ -93,7 +87,6 @@ class LeadModifications(Section):
 
 
 def end_reliefs_have_room(tree: Tree) -> Broken:
-    """End reliefs have room on the face."""
     for gear in GEARS:
         yield from _end_relief_has_room(tree, gear)
 

@@ -19,10 +19,8 @@ class ProfileModification(Section):
     crowning: float = quantity(
         "-100 mm to 100 mm",
         "4 um",
-        meaning=(
-            "height of the crowning, a parabola over the roll angle: removed at both ends, nothing in the"
-            " middle; where it is negative, in the middle and nothing at the ends"
-        ),
+        meaning="height of the crowning, a parabola over the roll angle: removed at both ends, nothing in the"
+        " middle; where it is negative, in the middle and nothing at the ends",
         default="0 um",
         otherwise="no crowning",
         small=True,
@@ -30,10 +28,8 @@ class ProfileModification(Section):
     slope: float = quantity(
         "-100 mm to 100 mm",
         "5 um",
-        meaning=(
-            "slope, removed in proportion to the roll angle: so much at the tip; where it is negative, so much"
-            " at the start of active profile and nothing at the tip"
-        ),
+        meaning="slope, removed in proportion to the roll angle: so much at the tip; where it is negative, so much"
+        " at the start of active profile and nothing at the tip",
         default="0 um",
         otherwise="no slope",
         small=True,
@@ -55,7 +51,6 @@ class ProfileModifications(Section):
 
 
 def removal(modifications: ProfileModifications, pair):
-    """Material removed from pinion and wheel."""
     from fenics_gears.geometry.profile_modification import profile_curves
 
     return profile_curves(pair, modifications)

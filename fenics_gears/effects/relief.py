@@ -43,7 +43,6 @@ def start_field(word: str, word_meaning: str) -> Any:
 
 
 def length_field(measured: str) -> Any:
-    """The field for the length of a relief, in place of its start."""
     return quantity(
         "1e-3 um to 100 m",
         "3 mm",
@@ -76,10 +75,8 @@ class Relief(Section):
     shape: str | None = choice(
         LINEAR,
         PARABOLIC,
-        meaning=(
-            "growth of the relief with the roll angle: `linear` starts with a kink, at which the pressure does not"
-            " converge as the mesh is refined; `parabolic` starts without a kink"
-        ),
+        meaning="growth of the relief with the roll angle: `linear` starts with a kink, at which the pressure does not"
+        " converge as the mesh is refined; `parabolic` starts without a kink",
         otherwise="`linear`",
     )
     exponent: float | None = number(
@@ -102,7 +99,6 @@ class Relief(Section):
 
     @property
     def power(self) -> float:
-        """Power of the roll angle with which the relief grows."""
         return POWERS[self.shape or LINEAR] if self.exponent is None else self.exponent
 
 
@@ -123,7 +119,6 @@ class Reliefs:
 
 
 def read(kind: type[Reliefs], section: Any) -> Reliefs:
-    """The data of a section: each gear's own relief before that of both."""
     return kind(*(_of_gear(section, getattr(section, gear)) for gear in GEARS))
 
 

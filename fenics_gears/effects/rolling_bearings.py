@@ -53,12 +53,10 @@ class RollingBearing(Section):
 
     @property
     def rollers(self) -> bool:
-        """Whether it has rollers."""
         return self.elements == ROLLERS
 
     @property
     def grooves(self) -> tuple[float, float]:
-        """Radii of the inner and the outer ring's groove, mm."""
         return self.diameter * (self.inner_groove or INNER_GROOVE), self.diameter * (self.outer_groove or OUTER_GROOVE)
 
     @property
@@ -82,7 +80,4 @@ def wrong_with(rolling: RollingBearing) -> Iterator[str]:
             f" of {rolling.pitch_diameter:g} mm; allowed are {needed:.4g} mm and more"
         )
     if rolling.preload and not rolling.contact_angle:
-        yield (
-            "has a preload without contact_angle, which it would not hold; give a contact_angle, or a negative"
-            " clearance for an interference"
-        )
+        yield "has a preload without contact_angle; give one, or a negative clearance for an interference"

@@ -21,7 +21,6 @@ class RootRelief(Reliefs):
 
 
 def removal(reliefs: RootRelief, pair):
-    """Material removed from pinion and wheel."""
     from fenics_gears.geometry.relief import root_reliefs
 
     return root_reliefs(pair, reliefs)

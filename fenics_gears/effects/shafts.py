@@ -1,8 +1,6 @@
 """``[shafts]``: torsion of the input and the output shaft (``dynamics.drivetrain``), or shafts that also bend
 (``dynamics.elastic_shaft``)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -13,7 +11,7 @@ from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import AllowedTables, Section, allowed_in
 from fenics_gears.inputs.tree import SHAFTS, Tree, shafts_with_sections, table
 
-from .effect import Effect, ResultVariable, own_or_shared
+from .effect import OF_TIME, Effect, ResultVariable, own_or_shared, variables
 from .tooth_elasticity import material_name, poissons_ratio, youngs_modulus
 
 MOST_SECTIONS = 100
@@ -43,7 +41,6 @@ class ShaftSection(Section):
 
     @property
     def tapered(self) -> bool:
-        """Whether it is a cone."""
         return self.right_diameter != self.diameter
 
     @property
@@ -83,10 +80,8 @@ class ShaftMaterial(Section):
     def constants(self, gear: Material) -> tuple[float, float]:
         """Young's modulus, N/mm^2, and Poisson's ratio of the shaft of a gear that is made of something."""
         named = gear if self.name is None else MATERIALS[self.name][0]
-        own = (self.youngs_modulus, self.poissons_ratio)
-        usual = (named.youngs_modulus, named.poissons_ratio)
-        modulus, ratio = (number if each is None else each for each, number in zip(own, usual))
-        return modulus, ratio
+        modulus = named.youngs_modulus if self.youngs_modulus is None else self.youngs_modulus
+        return modulus, named.poissons_ratio if self.poissons_ratio is None else self.poissons_ratio
 
 
 @dataclass(frozen=True)
@@ -165,7 +160,6 @@ def shafts_are_complete(tree: Tree) -> Broken:
         return
     yield from _each_gives_way(both)
     if shafts_with_sections(tree):
-        # Imported here: few scenes have any.
         from .elastic_shaft_rules import rules_of_elastic_shafts
 
         yield from rules_of_elastic_shafts(tree)
@@ -178,14 +172,10 @@ def shafts_are_complete(tree: Tree) -> Broken:
         yield ("shafts", "torsional_stiffness"), message
     elif missing:
         path = ("shafts", *missing, "torsional_stiffness")
-        message = (
-            f"is missing: only the other shaft has a stiffness. {example}, or torsional_stiffness of [shafts] for both."
-        )
-        yield path, message
+        yield path, f"is missing: only the other shaft has one. {example}, or torsional_stiffness of [shafts] for both."
 
 
 def _each_gives_way(both: Tree) -> Broken:
-    """A shaft that is named has a stiffness or sections; places, seat and material are those of sections."""
     for shaft in SHAFTS:
         own = table(both, shaft)
         if own is None or "sections" in own:
@@ -200,7 +190,6 @@ def _each_gives_way(both: Tree) -> Broken:
 
 
 def located(shafts: Shafts, directory: Path) -> Shafts:
-    """The shafts with the matrices of their housings, whose files are looked for from a directory on."""
     if all(each is None or each.housing is None for each in (shafts.input, shafts.output)):
         return shafts
     from .elastic_shaft_housing import found
@@ -209,7 +198,6 @@ def located(shafts: Shafts, directory: Path) -> Shafts:
 
 
 def files(shafts: Shafts) -> dict[str, str]:
-    """Path and hash of each file of a housing."""
     both = (each.housing for each in (shafts.input, shafts.output) if each is not None)
     return {each.path: each.digest for each in both if each is not None}
 
@@ -223,37 +211,11 @@ def check(shafts: Shafts, scene, pair) -> None:
 
 
 def warnings(shafts: Shafts, model) -> list[str]:
-    """A sentence where a gear's bore and the shaft in it differ."""
     if shafts.sections is None:
         return []
     from .elastic_shaft_rules import shaft_warnings
 
     return shaft_warnings(model.scene, model.pair)
-
-
-# Departures of the axes are those of [misalignment], and as large over the common face.
-OF_AXES = (
-    ("axis_inclination_in_plane", "um", "misalignment by the load in the plane of action, over the common face"),
-    (
-        "axis_inclination_out_of_plane",
-        "um",
-        "misalignment by the load out of the plane of action, over the common face",
-    ),
-    ("axis_offset_in_plane", "um", "distance that the load adds between the axes along the line of action"),
-    ("axis_offset_out_of_plane", "um", "displacement of the wheel's axis against the pinion's off the line of action"),
-)
-OF_BEARINGS = (
-    ("bearing_force_x", "N", "force of the shaft on its bearing along the line of action"),
-    ("bearing_force_y", "N", "force of the shaft on its bearing off the line of action"),
-    ("bearing_force_z", "N", "axial force of the shaft on its bearing"),
-    ("bearing_moment_x", "N mm", "moment of the shaft on its bearing about the line of action"),
-    ("bearing_moment_y", "N mm", "moment of the shaft on its bearing about the direction off the line of action"),
-)
-OF_LINES = ("contact_time", "gear", "shaft_point")
-DEFLECTIONS = (
-    ("shaft_deflection_x", "mm", "displacement of the shaft's axis along the line of action"),
-    ("shaft_deflection_y", "mm", "displacement of the shaft's axis off the line of action"),
-)
 
 
 EFFECT = Effect(
@@ -266,9 +228,36 @@ EFFECT = Effect(
     variables=(
         ResultVariable("shaft_end_rotation", "rad", "rotation of the far end of the output shaft"),
         ResultVariable("energy_shafts", "N mm", "elastic energy of the shafts"),
-        *(ResultVariable(*each, field="sections") for each in OF_AXES),
-        *(ResultVariable(*each, dims=("time", "bearing"), field="sections") for each in OF_BEARINGS),
-        *(ResultVariable(*each, dims=OF_LINES, field="sections") for each in DEFLECTIONS),
+        # Departures of the axes are those of [misalignment], and as large over the common face.
+        *variables(
+            OF_TIME,
+            field="sections",
+            axis_inclination_in_plane=("um", "misalignment by the load in the plane of action, over the common face"),
+            axis_inclination_out_of_plane=(
+                "um",
+                "misalignment by the load out of the plane of action, over the common face",
+            ),
+            axis_offset_in_plane=("um", "distance that the load adds between the axes along the line of action"),
+            axis_offset_out_of_plane=(
+                "um",
+                "displacement of the wheel's axis against the pinion's off the line of action",
+            ),
+        ),
+        *variables(
+            ("time", "bearing"),
+            field="sections",
+            bearing_force_x=("N", "force of the shaft on its bearing along the line of action"),
+            bearing_force_y=("N", "force of the shaft on its bearing off the line of action"),
+            bearing_force_z=("N", "axial force of the shaft on its bearing"),
+            bearing_moment_x=("N mm", "moment of the shaft on its bearing about the line of action"),
+            bearing_moment_y=("N mm", "moment of the shaft on its bearing about the direction off the line of action"),
+        ),
+        *variables(
+            ("contact_time", "gear", "shaft_point"),
+            field="sections",
+            shaft_deflection_x=("mm", "displacement of the shaft's axis along the line of action"),
+            shaft_deflection_y=("mm", "displacement of the shaft's axis off the line of action"),
+        ),
     ),
     rules=shafts_are_complete,
     located=located,

@@ -30,8 +30,7 @@ def speed_changes(tree: Tree) -> Broken:
     start, end = quantity_in(motion.get("mesh_frequency")), quantity_in(ramp.get("end_frequency"))
     if start is not None and start == end:
         message = (
-            "is the frequency at the start, motion.mesh_frequency. For a steady speed, leave the section [speed_ramp]"
-            " out. Allowed: any other."
+            "is the frequency at the start, motion.mesh_frequency. Allowed: any other, or no section [speed_ramp]."
         )
         yield ("speed_ramp", "end_frequency"), message
     held, run = ramp.get("hold_cycles"), motion.get("mesh_cycles")
@@ -43,12 +42,10 @@ def speed_changes(tree: Tree) -> Broken:
 
 
 def clock(ramp: SpeedRamp, model):
-    """When a step is."""
     return _clock(ramp, model.scene, model.resolution.steps_per_mesh_cycle)
 
 
 def load(ramp: SpeedRamp, model):
-    """Inertia forces of the nominal motion."""
     from fenics_gears.dynamics.speed_ramp import inertia_forces
 
     return inertia_forces(clock(ramp, model), model.drivetrain, model.scene.gears.wheel.teeth)
@@ -63,7 +60,6 @@ def results(ramp: SpeedRamp, scene, cycle, steps) -> dict:
 
 
 def period(ramp: SpeedRamp, scene) -> float:
-    """No two mesh cycles are as long."""
     return inf
 
 

@@ -21,14 +21,12 @@ class TipRelief(Reliefs):
 
 
 def removal(reliefs: TipRelief, pair):
-    """Material removed from pinion and wheel."""
     from fenics_gears.geometry.relief import tip_reliefs
 
     return tip_reliefs(pair, reliefs)
 
 
 def gentle(reliefs: TipRelief) -> bool:
-    """Whether the tips of both gears come into contact gently."""
     return None not in (reliefs.pinion, reliefs.wheel)
 
 

@@ -10,23 +10,20 @@ from fenics_gears.inputs.problem import Broken
 from fenics_gears.inputs.section import Section, allowed_in
 from fenics_gears.inputs.tree import GEARS, Tree, material_sections, table
 
-from .effect import OF_NODES, Effect, ResultVariable
+from .effect import OF_NODES, OF_TIME, Effect, variables
 
 CONSTANTS = ("youngs_modulus", "poissons_ratio")
 
 
 def youngs_modulus(otherwise: str):
-    """A field of Young's modulus."""
     return quantity("1 kPa to 1e9 GPa", "206 GPa", meaning="Young's modulus", otherwise=otherwise)
 
 
 def poissons_ratio(otherwise: str):
-    """A field of Poisson's ratio."""
     return number(0.3, meaning="Poisson's ratio", above=-1, below=0.5, otherwise=otherwise)
 
 
 def material_name(otherwise: str):
-    """A field of a material by name."""
     listed = "; ".join(
         f"{name} {each.youngs_modulus / 1e3:g} GPa, {each.poissons_ratio:g}"
         + (f", yield strength {each.yield_strength:g} MPa" if each.yield_strength else "")
@@ -101,20 +98,15 @@ def materials_are_complete(tree: Tree) -> Broken:
     shared = table(gears, "material")
     for name in CONSTANTS if shared is not None and "name" not in shared else ():
         if name not in shared:
-            message = (
-                f"is missing. Allowed: {allowed_in(MaterialText, name).description}; or a material by name, such as"
-                ' name = "steel".'
-            )
+            allowed = allowed_in(MaterialText, name).description
+            message = f'is missing. Allowed: {allowed}; or a material by name, such as name = "steel".'
             yield ("gears", "material", name), message
     if "material" in gears or not material_sections(tree):
         return
     for gear in GEARS:
         own = table(gears, gear)
         if own is None or not any(path[1] == gear for path in material_sections(tree)):
-            message = (
-                "is missing: the other gear has a material, and both give way or none. Add it, or [gears.material] for"
-                " both gears."
-            )
+            message = "is missing: both give way or none. Add it, or [gears.material] for both gears."
             yield ("gears", gear, "material"), message
             continue
         written = table(own, "material")
@@ -128,54 +120,40 @@ EFFECT = Effect(
     section="tooth_elasticity",
     within=("gears", "material"),
     description="elastic teeth and gear bodies",
-    absent=(
-        "rigid flanks: kinematic transmission error, no pressures; forces of tooth pairs only where a single pair"
-        " touches"
-    ),
+    absent="rigid flanks: kinematic transmission error, no pressures; forces of tooth pairs only where a single pair"
+    " touches",
     fields=MaterialText,
     read=material_of,
     unknowns=("normal force of each closed contact node",),
     terms=("compliance of the flanks",),
     variables=(
-        ResultVariable("energy_teeth", "N mm", "elastic energy of the gears"),
-        ResultVariable("mesh_stiffness", "N/mm", "mesh stiffness: mesh force divided by the deflection of the flanks"),
-        ResultVariable(
-            "mesh_stiffness_tangent",
-            "N/mm",
-            "tangent mesh stiffness: change of the mesh force divided by the change of the deflection",
+        *variables(
+            OF_TIME,
+            energy_teeth=("N mm", "elastic energy of the gears"),
+            mesh_stiffness=("N/mm", "mesh stiffness: mesh force divided by the deflection of the flanks"),
+            mesh_stiffness_tangent=("N/mm", "tangent mesh stiffness: change of mesh force over change of deflection"),
+            loaded_pairs=("1", "number of loaded tooth pairs"),
+            largest_contact_pressure=(
+                "MPa",
+                "largest contact pressure, averaged over five nodes, without edges and kinks",
+            ),
+            largest_contact_pressure_pair=(
+                "1",
+                "number of the tooth pair with the largest contact pressure; 0 if none",
+            ),
+            largest_contact_pressure_roll_angle=("rad", "roll angle of the pinion at the largest contact pressure"),
+            largest_edge_pressure=(
+                "MPa",
+                "largest pressure at edges of tips and of undercut flanks: within two Hertz half-widths of one, of"
+                " pairs that press with one, or in three dimensions near the ends of the face; it does not converge as"
+                " the mesh is refined",
+            ),
         ),
-        ResultVariable("loaded_pairs", "1", "number of loaded tooth pairs"),
-        ResultVariable(
-            "largest_contact_pressure",
-            "MPa",
-            "largest contact pressure, averaged over five contact nodes, without what is at edges and kinks",
-        ),
-        ResultVariable(
-            "largest_contact_pressure_pair",
-            "1",
-            "number of the tooth pair with the largest contact pressure; 0 if none is in contact",
-        ),
-        ResultVariable(
-            "largest_contact_pressure_roll_angle",
-            "rad",
-            "roll angle on the pinion's flank at the largest contact pressure",
-        ),
-        ResultVariable(
-            "largest_edge_pressure",
-            "MPa",
-            "largest pressure at edges of tips and of undercut flanks: within two Hertz half-widths of one, of pairs"
-            " that press with one, or in three dimensions near the ends of the face; it does not converge as the mesh"
-            " is refined",
-        ),
-        ResultVariable("contact_pressure", "MPa", "contact pressure at the node, not averaged", dims=OF_NODES),
-        ResultVariable(
-            "contact_offset",
-            "mm",
-            "offset of the contact node from the line of action, towards the pinion",
-            dims=OF_NODES,
-        ),
-        ResultVariable(
-            "contact_roll_angle", "rad", "roll angle of the contact node on the pinion's flank", dims=OF_NODES
+        *variables(
+            OF_NODES,
+            contact_pressure=("MPa", "contact pressure at the node, not averaged"),
+            contact_offset=("mm", "offset of the contact node from the line of action, towards the pinion"),
+            contact_roll_angle=("rad", "roll angle of the contact node on the pinion's flank"),
         ),
     ),
     rules=materials_are_complete,

@@ -57,14 +57,12 @@ def torque_keeps_its_sign(tree: Tree) -> Broken:
     if isfinite(total) and total > abs(torque):
         message = (
             f"has amplitudes of {total * 1e-3:.6g} N m together, more than {dotted(mean[0])}{of_wheel}: the torque can"
-            f" change its sign and drive the pair from the wheel. Allowed: up to {abs(torque) * 1e-3:.6g} N m, or any"
-            " with the section [coast_flanks]."
+            f" change its sign. Allowed: up to {abs(torque) * 1e-3:.6g} N m, or any with the section [coast_flanks]."
         )
         yield ("torque_ripple", "harmonics"), message
 
 
 def load(ripple: TorqueRipple, model):
-    """The varying part of the torque on the centre coordinates."""
     from fenics_gears.dynamics.torque_ripple import varying_load
 
     return varying_load(ripple, model.drivetrain, shaft_step(model.scene, model.resolution.steps_per_mesh_cycle))

@@ -2,7 +2,7 @@
 
 Seconds are those of one core of the reference machine (Intel Xeon of 2023, 2 cores, Debian 12's OpenBLAS, one thread);
 machines differ by a factor of two. `python -m tests.benchmarks.expected_cost` prints what is expected beside what is
-measured, of the examples.
+measured.
 """
 
 from dataclasses import dataclass, replace
@@ -22,13 +22,8 @@ Number = float | np.ndarray
 
 # Unknowns of a sector mesh: a body part and one part per flank node; fitted to meshes from 0.16 to 0.01 mm of the
 # paper's pair.
-SECTOR_UNKNOWNS = {
-    "P1": (5200, 35.0),
-    "P2": (2300, 30.0),
-    "Q1": (6500, 31.0),
-    "Q1 incompatible": (6500, 31.0),
-    "Q2": (3000, 35.0),
-}
+SECTOR_UNKNOWNS = {"P1": (5200, 35.0), "P2": (2300, 30.0), "Q1": (6500, 31.0), "Q2": (3000, 35.0)}
+SECTOR_UNKNOWNS["Q1 incompatible"] = SECTOR_UNKNOWNS["Q1"]
 # Seconds of meshing and condensing: a gear, an unknown, the cube of a flank's dofs (a dense inverse), their square for
 # each block of compliance.
 GEAR, UNKNOWN, FLANK_CUBE, FLANK_SQUARE = 0.04, 1.2e-5, 1.4e-10, 4.5e-8
@@ -42,12 +37,8 @@ RIGID_STEP = 1.4e-4
 # Seconds that an effect adds to a step: gaps that differ, a torque that varies, openings of both flanks, time steps of
 # unequal length.
 STEP_OF_EFFECT = {
-    "flank_errors": 4e-5,
-    "eccentricity": 2e-5,
-    "torque_ripple": 1e-5,
-    "coast_flanks": 5e-6,
-    "speed_ramp": 1e-5,
-}
+    "flank_errors": 4e-5, "eccentricity": 2e-5, "torque_ripple": 1e-5, "coast_flanks": 5e-6, "speed_ramp": 1e-5,
+}  # fmt: skip
 # Mesh cycles that are unlike where a gear is meshed as a whole: those in which a cracked tooth or its neighbours are in
 # mesh (measured).
 UNLIKE_CYCLES = 5
@@ -93,15 +84,15 @@ def too_large(model: Model, cost: ExpectedCost, allowed: float) -> str:
     """Why a run that may take `allowed` bytes does not fit, and what to change; empty where it does."""
     if cost.held <= allowed:
         return ""
-    less = "Larger flank elements and fewer mesh cycles take less"
+    less = "Larger flank elements and fewer mesh cycles"
     if cost.ways:
         less = (
             f"Fewer slices (accuracy.slices, here {model.face.evenly}) and larger elements of the bodies"
-            " (accuracy.body_element_size, accuracy.layers) take less"
+            " (accuracy.body_element_size, accuracy.layers)"
         )
     return (
         f"The run would take {cost.held / 1e9:.3g} GB of memory, contact operators apart, and {allowed / 1e9:.3g} GB"
-        f" are allowed. Nothing was computed. {less}; `--memory` or FENICS_GEARS_MEMORY allow more."
+        f" are allowed. Nothing was computed. {less} take less; `--memory` or FENICS_GEARS_MEMORY allow more."
     )
 
 
@@ -148,7 +139,6 @@ def expected_cost(model: Model) -> ExpectedCost:
     sections = _sections(model, gears)
     if model.face.slices == 1:
         return _with_root_stress(model, gears, sections)
-    # Imported here: plane scenes have none.
     from .face_cost import face_cost
 
     return face_cost(model, sections)
@@ -169,24 +159,17 @@ class _Gear:
 
 def _condensed(model: Model, name: str) -> _Gear:
     resolution, reach, gear = model.resolution, model.touching.reach, getattr(model.pair, name)
-    order = 2 if resolution.element.endswith("2") else 1
     body, per_node = SECTOR_UNKNOWNS[resolution.element]
-    dofs, meshed = flank_unknowns(gear, order, resolution.flank_element_size), _meshed(model, name)
+    dofs, meshed = flank_unknowns(gear, resolution.order, resolution.flank_element_size), _meshed(model, name)
     if meshed is not None:
         # Of all teeth, where each has a compliance of its own.
         return _Gear(f"the whole {name}", meshed, dofs, 3.0 * gear.teeth, 1.0, gear.teeth)
     if reach.across is None:
         return _Gear(f"a {name} sector", body + per_node * 0.5 * dofs, dofs, reach.same + 1, reach.same)
     # Half a symmetric sector, for motions of either symmetry.
-    across = reach.across[1] - reach.across[0] + 1
-    return _Gear(
-        f"half a {name} sector",
-        0.5 * body + per_node * 0.5 * dofs,
-        dofs,
-        reach.same + 1 + across,
-        2 * reach.same,
-        BOTH_FLANKS_INVERSES,
-    )
+    half, across = 0.5 * body + per_node * 0.5 * dofs, reach.across[1] - reach.across[0] + 1
+    blocks = reach.same + 1 + across
+    return _Gear(f"half a {name} sector", half, dofs, blocks, 2 * reach.same, BOTH_FLANKS_INVERSES)
 
 
 def _meshed(model: Model, name: str) -> int | None:
@@ -207,15 +190,12 @@ def _positions(model: Model) -> int:
 
 
 def _marching(model: Model, rows: float) -> float:
-    """Seconds of marching with so many contact rows a position."""
-    step = (STEP if model.scene.tooth_elasticity is not None else RIGID_STEP) + sum(
-        STEP_OF_EFFECT.get(effect.section, 0.0) for effect in effects_on(model.scene)
-    )
+    step = STEP if model.scene.tooth_elasticity is not None else RIGID_STEP
+    step += sum(STEP_OF_EFFECT.get(effect.section, 0.0) for effect in effects_on(model.scene))
     return _building(model, rows) + model.steps * (step + ROW * rows)
 
 
 def _building(model: Model, rows: float) -> float:
-    """Seconds of making the contact operators."""
     nodes = rows / (2 if model.scene.friction is not None else 1)
     return _positions(model) * (PAIR * loaded_pairs(model) + NODES_SQUARE * nodes**2)
 
@@ -269,22 +249,15 @@ def root_stress_cost(
     factorised, solved = seconds
     points = 2.0 * (fillet_points(model.face.slices) + 1) * model.face.slices
     teeth = 2 * model.touching.reach.farthest + (3 if model.scene.coast_flanks is not None else 1)
-    return (
-        unknowns * (factorised + solved * (points + flank)),
-        BYTES_OF_A_NUMBER * teeth * points * flank,
-        STEP_STRESS * points * flank,
-    )
+    condensing = unknowns * (factorised + solved * (points + flank))
+    return condensing, BYTES_OF_A_NUMBER * teeth * points * flank, STEP_STRESS * points * flank
 
 
 def _remeshed_cost(model: Model, gears: list[_Gear]) -> ExpectedCost:
     """Of a run where every loaded sector is meshed anew at every position."""
-    order = 2 if model.resolution.element.endswith("2") else 1
-    positions, nodes, pairs = (
-        model.resolution.steps_per_mesh_cycle,
-        model.resolution.contact_grid.nodes,
-        loaded_pairs(model),
-    )
-    rows = 2.0 * pairs * (order * (nodes - 1) + 1)
+    resolution, pairs = model.resolution, loaded_pairs(model)
+    positions = resolution.steps_per_mesh_cycle
+    rows = 2.0 * pairs * (resolution.order * (resolution.contact_grid.nodes - 1) + 1)
     return ExpectedCost(
         positions * pairs * REMESHED_UNKNOWN * sum(gear.unknowns for gear in gears),
         model.steps * (REMESHED_STEP + ROW_CUBE * rows**3),

@@ -31,7 +31,6 @@ class EffectState:
 
 
 def effect_states(scene: Scene) -> list[EffectState]:
-    """Every effect, on or off, for a scene."""
     states, there = [], {variable.name for variable in result_variables(scene)}
     for effect in every_effect():
         data = getattr(scene, effect.section)
@@ -43,23 +42,14 @@ def effect_states(scene: Scene) -> list[EffectState]:
             continue
         results = [variable.name for variable in effect.variables if variable.name in there]
         added = {"unknowns": effect.unknowns, "terms": effect.terms, "results": results}
-        states.append(
-            EffectState(
-                effect,
-                True,
-                effect.description,
-                "; ".join(f"{kind}: {', '.join(names)}" for kind, names in added.items() if names),
-            )
-        )
+        words = "; ".join(f"{kind}: {', '.join(names)}" for kind, names in added.items() if names)
+        states.append(EffectState(effect, True, effect.description, words))
     return states
 
 
 def describe(scene: Scene) -> list[tuple[str, Rows]]:
     """Geometry, model, accuracy, natural frequencies and cost of a scene: headings, each with rows (label, value,
-    unit).
-
-    Raises GeometryError for impossible gears.
-    """
+    unit). Raises GeometryError for impossible gears."""
     model = model_of(scene)
     derived = [(each.name, each.value, f"{each.unit}, {each.formula}".lstrip(", ")) for each in scene.derived]
     sections: list[tuple[str, Rows]] = [("Derived, since the scene leaves it out", derived)] if derived else []
@@ -113,7 +103,6 @@ def _face_rows(model: Model) -> Rows:
         widths = [("face width in common", pair.face_width, f"mm: {', '.join(each)}")]
     if not scene.three_dimensional:
         return [*widths, *_plane_rows(model)]
-    # Imported here: plane scenes have none.
     from .face_resolution import face_discretisation, layers_of_common_face
 
     low, high = pair.common_face
@@ -185,8 +174,7 @@ STEEL, NOTABLE_STIFFNESS = 0.3, 2.0
 
 def too_stiff(widths: float, materials: Sequence[Material]) -> float:
     """Per cent by which the transmission error of a spur pair in plane strain is too small; `widths`: its common face
-    width in modules. Its ends are nearer to plane stress, which differs by nu^2.
-    """
+    width in modules. Its ends are nearer to plane stress, which differs by nu^2."""
     squares = sum(each.poissons_ratio**2 for each in materials) / len(materials)
     return float(np.interp(log(widths), np.log(list(SOFTER)), list(SOFTER.values()))) * squares / STEEL**2
 
@@ -211,22 +199,22 @@ def _accuracy_rows(model: Model) -> Rows:
     def origin(value) -> str:
         return "" if value is None else ", from the scene"
 
+    def given(label: str, value) -> Rows:
+        return [(label, f"{value}, from the scene", "")] if value else []
+
     elastic: Rows = [
         ("Hertz half-width at full load", f"{resolution.half_width:.4g}", "mm"),
         ("element", resolution.element + origin(asked.element), ""),
         ("flank element size", f"{resolution.flank_element_size:.4g}", "mm" + origin(asked.flank_element_size)),
         *([("body element size", asked.body_element_size, "mm, from the scene")] if asked.body_element_size else []),
-        *([("interpolation", f"{asked.interpolation}, from the scene", "")] if asked.interpolation else []),
-        *([("elastic teeth", f"{asked.elastic_teeth}, from the scene", "")] if asked.elastic_teeth else []),
+        *given("interpolation", asked.interpolation),
+        *given("elastic teeth", asked.elastic_teeth),
     ]
     condensation: Rows = [("condensation", resolution.condensation + origin(asked.condensation), "")]
-    rows: Rows = []
-    if asked.target:
-        how = "a run chooses settings first, by two or three coarse test runs; what follows is without a target"
-        rows.append(("target", f"{asked.target:.3%}:", how))
+    how = "a run chooses settings first, by two or three coarse test runs; what follows is without a target"
     return [
-        *rows,
-        *([("model of the mesh", f"{asked.model}, from the scene", "")] if asked.model else []),
+        *([("target", f"{asked.target:.3%}:", how)] if asked.target else []),
+        *given("model of the mesh", asked.model),
         *(elastic if model.resolution.element in SECTOR_UNKNOWNS else []),
         ("contact length", f"{resolution.contact_grid.length:.4g}", "mm" + origin(asked.contact_length)),
         ("contact node spacing", f"{resolution.contact_grid.spacing:.4g}", "mm" + origin(asked.contact_nodes)),

@@ -38,7 +38,6 @@ def drivetrain(scene: Scene, pair: GearPair, gear_loads: Mapping[str, np.ndarray
 def _elastic(
     scene: Scene, pair: GearPair, gears: Mapping[str, LumpedGear], gear_loads: Mapping[str, np.ndarray]
 ) -> tuple[ElasticShaft, ...]:
-    """The shafts that also bend, of pinion and wheel."""
     if scene.shafts is None or scene.shafts.sections is None:
         return ()
     from fenics_gears.effects.elastic_shaft_rules import shaft_at_work
@@ -69,9 +68,9 @@ def mesh_stiffness(scene: Scene) -> float:
     >>> mesh_stiffness(load_scene("demos/lundvall2004.toml"))
     210000.0
     """
-    return (
-        inf if scene.tooth_elasticity is None else rough_pair_stiffness(scene.tooth_elasticity, scene.gears.face_width)
-    )
+    if scene.tooth_elasticity is None:
+        return inf
+    return rough_pair_stiffness(scene.tooth_elasticity, scene.gears.face_width)
 
 
 def lumped_gears(scene: Scene, pair: GearPair) -> dict[str, LumpedGear]:

@@ -1,7 +1,5 @@
 """Expected time and memory of a run whose flanks are resolved over the face, on the machine of `model.cost`."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np
@@ -19,8 +17,7 @@ from .model import Model
 
 # Seconds of an unknown of a body, of the cube of the unknowns that it is condensed onto, and of the cube of those of a
 # cut for each harmonic of the ring, of which there are half as many as teeth; of a folded sector (measured on helical
-# gears of 23 to 67 teeth and faces of 20 and 32 mm), and of one that is not, since its web is not in the middle (of
-# 35 and 61 teeth, 20 mm wide).
+# gears of 23 to 67 teeth), and of one that is not, since its web is not in the middle (of 35 and 61 teeth).
 FOLDED_SECTOR, WHOLE_SECTOR = (3e-5, 2e-11, 4e-12), (6e-5, 4e-11, 3e-11)
 # Of the root stress, an unknown, factorised and solved for one load.
 FACTORISED_UNKNOWN, SOLVED_UNKNOWN = 6e-5, 4e-7
@@ -39,7 +36,6 @@ PHASES = 4
 
 
 def contact_nodes(model: Model) -> tuple[float, float]:
-    """Tooth pairs in slices, and their contact nodes, on the average over the mesh cycle."""
     face, coast = model.face, model.scene.coast_flanks is not None
     along = tuple(face.positions.tolist()), tuple(face.widths.tolist()), face.slope
     return _contact_nodes(model.pair, model.resolution.contact_grid, along, coast, model.corner)
@@ -80,7 +76,6 @@ def both_at_once(model: Model) -> bool:
 
 
 def face_cost(model: Model, sections: ExpectedCost) -> ExpectedCost:
-    """Cost of a run over the face whose plane sections cost so much."""
     bodies, ways, condensing, largest = [], [], sections.condensing, 0.0
     # What the sections hold, without their contact operators, which are not made.
     held, stress_step = sections.held, 0.0

@@ -43,15 +43,11 @@ LEAST_OVERHANG = 0.1
 def face_of(scene: Scene, pair: GearPair) -> Face:
     """The slices of the common face, all of one width; of helical pairs the outermost are cut in two, as layers are.
 
-    There a line of contact begins and ends, and the transmission error has a cusp. Where it is small, near a whole
-    overlap, its peak-to-peak value was up to 6 % too large without the cut (30 degrees, sharp tips), 1 % with it.
+    There a line of contact begins and ends, and the transmission error has a cusp: near a whole overlap its
+    peak-to-peak value was up to 6 % too large without the cut (30 degrees, sharp tips), 1 % with it.
     """
-    least = _fewest_layers(scene, pair)
-    slices = (
-        scene.accuracy.slices
-        or _multiple(scene.accuracy.layers, SLICES_OF_A_LAYER * least)
-        or SLICES_OF_A_LAYER * least
-    )
+    least = SLICES_OF_A_LAYER * _fewest_layers(scene, pair)
+    slices = scene.accuracy.slices or _multiple(scene.accuracy.layers, least) or least
     even = even_slices(pair.face_width, slices)
     cut = pair.slope and slices >= FEWEST_WITH_FINER_ENDS
     return Face(*(finer_ends(*even) if cut else even), pair.slope, pair.gear_middles)
@@ -104,7 +100,6 @@ INNER_HALF_WIDTHS, MESH_STIFFNESS = 4.5, 0.1
 def inner_length(scene: Scene, pair: GearPair, line_load: float, half_width_of: Callable[[float], float]) -> float:
     """Length (mm) of that window, for the largest line load that is expected; `half_width_of`: half-width (mm) of the
     contact under a line load (N/mm)."""
-    # Imported here: plane scenes have none.
     from fenics_gears.geometry.face import face_opening
 
     opening = face_opening(pair, scene.lead_modifications, scene.misalignment, np.linspace(*pair.common_face, 21))
@@ -133,20 +128,19 @@ def face_discretisation(model: Model, gear: int) -> FaceDiscretisation:
 
 
 def check_layers(model: Model) -> None:
-    """Raise SceneError for layers over which a body turns too far."""
     for gear in range(2):
         face_discretisation(model, gear).check()
 
 
 def face_warnings(model: Model) -> list[str]:
-    """Sentences where the layers of the bodies do not tell the slices of the face apart, and where too few slices carry
-    the load."""
-    slices, layers, found = model.face.evenly, layers_of_common_face(model.scene, model.pair, model.face.evenly), []
+    """Sentences where layers of the bodies do not tell slices of the face apart, or too few slices carry the load."""
+    slices, found = model.face.evenly, []
+    layers = layers_of_common_face(model.scene, model.pair, slices)
     if slices > MOST_SLICES_OF_A_LAYER * layers:
         found.append(
             f"accuracy.layers = {layers}: the gears' bodies have {slices / layers:.3g} slices of the face to a layer,"
-            " which they cannot tell apart; a line load that varies over a layer is then wrong. Take accuracy.layers ="
-            f" {ceil(slices / SLICES_OF_A_LAYER)}, or fewer accuracy.slices"
+            f" which they cannot tell apart. Take accuracy.layers = {ceil(slices / SLICES_OF_A_LAYER)}, or fewer"
+            " accuracy.slices"
         )
     part = loaded_part(model)
     if part < 1.0 and part * slices < FEWEST_LOADED_SLICES:

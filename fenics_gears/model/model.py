@@ -34,10 +34,7 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Model:
     """A scene ready to be computed: its gear pair, its drivetrain, how finely, and the material removed from either
-    flank.
-
-    `contact_cycles`: mesh cycles, the last, whose contact fields are stored.
-    """
+    flank. `contact_cycles`: mesh cycles, the last, whose contact fields are stored."""
 
     scene: Scene
     pair: GearPair
@@ -48,7 +45,6 @@ class Model:
 
     @cached_property
     def clock(self) -> Clock:
-        """When a step is."""
         steady = SteadyClock(1.0 / (self.scene.motion.mesh_frequency * self.resolution.steps_per_mesh_cycle))
         return next(iter(from_effects(self.scene, "clock", self)), steady)
 
@@ -59,7 +55,7 @@ class Model:
 
     @cached_property
     def loads(self) -> tuple[Callable[[float], np.ndarray], ...]:
-        """What acts on the centre coordinates besides the drivetrain's constant load: forces (k,), N, at a step."""
+        """Forces (k,), N, on the centre coordinates besides the drivetrain's constant load, at a step."""
         return tuple(from_effects(self.scene, "load", self))
 
     @cached_property
@@ -73,14 +69,12 @@ class Model:
 
     @property
     def equations_of_motion(self) -> EquationsOfMotion:
-        """What a march of the scene solves for."""
         return EquationsOfMotion(
             self.drivetrain, self.time_step, self.friction_coefficient, self.time_scales, self.clock, self.loads
         )
 
     @property
     def steps(self) -> int:
-        """Steps of the whole run."""
         return self.scene.motion.mesh_cycles * self.resolution.steps_per_mesh_cycle
 
     @property
@@ -90,7 +84,6 @@ class Model:
 
     @cached_property
     def corner(self):
-        """How tips touch off the line of action (`contact.corner`); None where the scene does not ask for it."""
         return corner(self.scene, self.pair)
 
     @cached_property
@@ -103,7 +96,6 @@ class Model:
 
     @cached_property
     def face(self) -> Face:
-        """The common face in slices; a plane scene has one."""
         if not self.scene.three_dimensional:
             return one_slice(self.pair.face_width)
         from .face_resolution import face_of
@@ -111,8 +103,8 @@ class Model:
         return face_of(self.scene, self.pair)
 
     def face_opening(self, z: np.ndarray, position: np.ndarray | None = None) -> np.ndarray:
-        """Gap (k,), mm, along the line of action by lead modifications and misalignment at places z (k,), mm, on the
-        face; see `geometry.face`."""
+        """Gap (k,), mm, along the line of action by lead modifications and misalignment at places z (k,), mm; see
+        `geometry.face`."""
         from fenics_gears.geometry.face import face_opening
 
         return face_opening(self.pair, self.scene.lead_modifications, self.scene.misalignment, z, position)
@@ -122,9 +114,8 @@ class Model:
         """The same between the coast flanks, along their own line of action; None where nothing opens them."""
         from fenics_gears.geometry.face import coast_face_opening
 
-        return (
-            None if self.scene.misalignment is None else partial(coast_face_opening, self.pair, self.scene.misalignment)
-        )
+        leaning = self.scene.misalignment
+        return None if leaning is None else partial(coast_face_opening, self.pair, leaning)
 
     @property
     def slices_and_layers(self) -> tuple[int | None, int | None]:
@@ -145,14 +136,11 @@ class Model:
 
     def transmission_error(self, position: np.ndarray) -> np.ndarray:
         """T_E = phi2 + (z1/z2) phi1 [13], rad of the wheel, at centre coordinates (..., k)."""
-        gears = self.scene.gears
-        return self.drivetrain.value(
-            position, "rotation_2"
-        ) + gears.pinion.teeth / gears.wheel.teeth * self.drivetrain.value(position, "rotation_1")
+        first, second = (self.drivetrain.value(position, f"rotation_{gear}") for gear in (1, 2))
+        return second + self.pair.rotation_ratio * first
 
     @cached_property
     def stored_bytes(self) -> int:
-        """Size of the result in memory: curves of all steps, and contact fields of those that are stored."""
         slots, nodes = self.touching.slots, self.resolution.contact_grid.most_nodes
         size = sizes(self.steps + 1, self.contact_steps, slots, nodes, self.face.slices, self.drivetrain.bearings)
         return counted_bytes(stored_arrays(self.scene, size), size)
@@ -178,9 +166,9 @@ class Model:
 
     @property
     def warnings(self) -> list[str]:
-        """Sentences for the user before the run: thin tips, contact or vibrations not resolved, inertia that does not
-        matter."""
-        found = [*self._of_a_part(), *self._without_fields(), *self._unusual()]
+        """Sentences for the user before the run."""
+        found = [*self._of_a_part(), *self._without_fields()]
+        found += [each.unusual for each in self.scene.derived if each.unusual]
         found += [*design_warnings(self.pair), *resolution_warnings(self.resolution)]
         found += [*locking_warnings(self.resolution, self.scene.gears.materials), *rim_warnings(self)]
         for sentences in from_effects(self.scene, "warnings", self):
@@ -202,32 +190,24 @@ class Model:
         return found
 
     def _of_a_part(self) -> list[str]:
-        """A sentence where fewer cycles are run than the common period has."""
         period, run = common_period(self.scene), self.scene.motion.mesh_cycles
         if not run < period < inf:
             return []
         whole = lcm(self.scene.gears.pinion.teeth, self.scene.gears.wheel.teeth)
         words = f' or "{HUNTING_TOOTH_PERIOD}"' if period == whole else ""
         return [
-            f"only {run} of the {period} mesh cycles of the common period are run: cycles are not alike, and the"
-            f" transmission error and all other numbers are of a part of them; motion.mesh_cycles = {period}{words}"
-            " goes through all"
+            f"only {run} of the {period} mesh cycles of the common period are run: cycles are not alike, and all"
+            f" numbers are of a part of them; motion.mesh_cycles = {period}{words} goes through all"
         ]
 
-    def _unusual(self) -> list[str]:
-        """Sentences on derived figures that are not usual."""
-        return [each.unusual for each in self.scene.derived if each.unusual]
-
     def _without_fields(self) -> list[str]:
-        """A sentence where a large result leaves out contact fields that the scene did not ask to leave out."""
         motion = self.scene.motion
         if not self.contact_cycles or self.contact_cycles >= motion.recorded_cycles:
             return []
         return [
             f"contact fields (pressures over the contact nodes) are stored of the last {self.contact_cycles} of"
-            f" {motion.mesh_cycles} mesh cycles only: with those of all the result would hold more than"
-            f" {MOST_UNASKED_BYTES / 1e9:g} GB; output.contact_fields says how many to store. Curves and numbers are"
-            " of all"
+            f" {motion.mesh_cycles} mesh cycles only: those of all would take more than"
+            f" {MOST_UNASKED_BYTES / 1e9:g} GB; output.contact_fields says how many to store"
         ]
 
 
@@ -284,9 +264,8 @@ def with_reliefs(model: Model, scene: Scene) -> Model:
 
 
 def _too_large(curves: Model, whole: Model) -> str:
-    """Why a result is refused, and what makes it smaller: its curves by themselves, or its contact fields."""
-    allowed = f"at most {MOST_STORED_BYTES / 1e9:g} GB are allowed"
-    motion = whole.scene.motion
+    """Why a result is refused, and what makes it smaller."""
+    allowed, motion = f"at most {MOST_STORED_BYTES / 1e9:g} GB are allowed", whole.scene.motion
     if curves.stored_bytes > MOST_STORED_BYTES:
         return (
             f"motion.mesh_cycles = {motion.mesh_cycles}: the curves of all steps would hold"

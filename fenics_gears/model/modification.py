@@ -1,5 +1,4 @@
-"""Reliefs and tip edges of a scene, which all teeth of a gear share; and how much too stiff a rigid bore makes a gear
-with a thin rim."""
+"""Reliefs and tip edges of a scene; and how much too stiff a rigid bore makes a gear with a thin rim."""
 
 from __future__ import annotations
 
@@ -36,13 +35,10 @@ def check_geometry(scene: Scene) -> GearPair:
 
 
 def corner(scene: Scene, pair: GearPair):
-    """How the scene's tips touch off the line of action, as contact sees it; None without `[corner_contact]`.
-
-    Raises GeometryError for an edge that does not fit a tip.
-    """
+    """How the scene's tips touch off the line of action, as contact sees it; None without `[corner_contact]`. Raises
+    GeometryError for an edge that does not fit a tip."""
     if scene.corner_contact is None:
         return None
-    # Imported here: a scene without corner contact does not load it.
     from fenics_gears.contact.corner import corner_contact
 
     return corner_contact(pair, scene.corner_contact.edge_radii)
@@ -50,10 +46,7 @@ def corner(scene: Scene, pair: GearPair):
 
 def removals(scene: Scene, pair: GearPair) -> tuple:
     """Material that the scene's effects remove from the drive flanks of pinion and wheel: functions of the roll angle,
-    or None.
-
-    Raises GeometryError where an effect asks for what the flank does not have.
-    """
+    or None. Raises GeometryError where an effect asks for what the flank does not have."""
     found = from_effects(scene, "removal", pair)
     parts = [tuple(part for part in of_gear if part is not None) for of_gear in zip(*found)] or [(), ()]
     return tuple(Removals(of_gear) if len(of_gear) > 1 else (of_gear[0] if of_gear else None) for of_gear in parts)
@@ -66,14 +59,13 @@ class Removals:
     parts: tuple
 
     def __call__(self, roll_angle) -> np.ndarray:
-        """Removal (mm) at roll angles (rad, any shape) by all of them together."""
+        """Removal (mm) at roll angles (rad, any shape)."""
         return sum(part(roll_angle) for part in self.parts)
 
     @classmethod
     def side_by_side(cls, removals: Sequence[Removals], counts: Sequence[int]) -> Removals | None:
         """One removal for roll angles of several flanks one after the other, so many of each; None where the effects
         that remove differ."""
-        # Imported here: true involutes have none.
         from fenics_gears.geometry.relief import side_by_side
 
         parts = [[type(part) for part in removal.parts] for removal in removals]
@@ -83,20 +75,18 @@ class Removals:
 
     @property
     def kinks(self) -> tuple[float, ...]:
-        """Those of all parts."""
         return tuple(roll for part in self.parts for roll in part.kinks)
 
 
 def kinks(removal) -> tuple[float, ...]:
-    """Roll angles (rad) at which a removal, None for no removal, leaves the flank with a kink."""
+    """Roll angles (rad) at which a removal, None for none, leaves the flank with a kink."""
     return () if removal is None else removal.kinks
 
 
-# Tooth and rim on a rigid ring give way by so many per cent less than in a solid body, over the rim's thickness in
-# parts of the root radius:
-# STIFFEST exp(-thickness/FALL), within 4 of what is measured for 20 to 80 teeth (docs/drawing.md, thin rims).
+# Tooth and rim on a rigid ring give way by STIFFEST exp(-thickness/FALL) per cent less than in a solid body, thickness
+# of the rim in root radii: within 4 of what is measured for 20 to 80 teeth (docs/drawing.md, thin rims).
 STIFFEST, FALL = 45.0, 0.19
-# Per cent from which there is a warning; about twice what the transmission error of a pair misses by one such gear.
+# Per cent from which there is a warning.
 NOTABLE = 10.0
 
 
@@ -117,10 +107,9 @@ def rim_warnings(model: Model) -> list[str]:
             continue
         rim = gear.root_radius - gear.bore_radius
         found.append(
-            f"{name}: thin rim: {rim:.4g} mm = {rim / gear.normal_module:.3g} modules between bore and root circle, "
-            f"and the bore is a rigid ring: tooth and rim give way about {off:.0f}% less than in a solid body, "
-            "where a rim on a flexible seat gives way more: take a smaller "
-            f"gears.{name}.bore_diameter where rim and shaft are one body, or "
-            f"[gears.{name}.web] for a rim on a web, in a plane scene [body_meshes] for any other seat"
+            f"{name}: thin rim: {rim:.4g} mm = {rim / gear.normal_module:.3g} modules between bore and root circle, and"
+            f" the bore is a rigid ring: tooth and rim give way about {off:.0f}% less than in a solid body: take a"
+            f" smaller gears.{name}.bore_diameter where rim and shaft are one body, or [gears.{name}.web] for a rim on"
+            " a web, in a plane scene [body_meshes] for any other seat"
         )
     return found

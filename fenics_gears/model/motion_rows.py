@@ -36,8 +36,8 @@ def speed_rows(model: Model) -> Rows:
 
 
 def inertia_rows(model: Model) -> Rows:
-    """Mass and moment of inertia of each gear, of the far end of the output shaft, and what both gears are along the
-    line of action."""
+    """Mass and moment of inertia of each gear, of the far end of the output shaft, and of both gears along the line of
+    action."""
     from .drivetrain import lumped_gears
 
     rows: Rows = []
@@ -121,7 +121,6 @@ MOTIONS = {
 
 
 def motion_in_words(coordinate: str) -> str:
-    """A coordinate of the drivetrain in words."""
     if coordinate == "shaft_twist":
         return "twist of the output shaft"
     return f"{'pinion' if coordinate[-1] == '1' else 'wheel'} {MOTIONS[coordinate[:-1]]}"

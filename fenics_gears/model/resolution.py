@@ -6,8 +6,6 @@ relative radius on the path of contact; the contact window from the deflection t
 action; the time step from the mesh cycle and the drivetrain's frequencies.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -40,8 +38,7 @@ HALF_WIDTHS_BESIDE = 2.0
 # Beyond this the window would reach past the tooth; the load that asks for it breaks teeth. In modules.
 LONGEST_WINDOW = 3.0
 # Where the mate's tip edge presses, along the flank from the start of its active profile, in modules. Of the paper's
-# pair a longer part changes the transmission error by 0.01 % at 144 and at 575 N/mm, by 0.04 % at 1700 N/mm; 0.15 below
-# and 0.06 above would err by 0.01, 0.14 and 0.26 %.
+# pair a longer part changes the transmission error by 0.01 % at 144 and at 575 N/mm, by 0.04 % at 1700 N/mm.
 BELOW_MATE_TIP, ABOVE_MATE_TIP = 0.03, 0.18
 # Contact nodes closer than this part of the distance of flank nodes are nearly dependent.
 CLOSEST_NODES = 0.7
@@ -52,8 +49,7 @@ LOCKING_ELEMENTS, LOCKING_POISSONS_RATIO = ("P1", "Q1"), 0.45
 ONCE, EVERY_STEP = "once", "every step"
 # For rigid flanks: contact window in modules, and the number of nodes in it among which the first contact is searched.
 RIGID, RIGID_WINDOW, RIGID_NODES = "rigid", 0.5, 81
-# Curves of fewer see little of the change from one tooth pair to two. With 4 the peak-to-peak value of the paper's pair
-# with friction misses 13 %.
+# Curves of fewer see little of the change from one tooth pair to two.
 FEWEST_STEPS = 20
 
 
@@ -63,8 +59,8 @@ class Resolution:
 
     `half_width`: the Hertz half-width (mm) that the defaults go by; zero without load. `body_element_size` (mm):
     largest in tooth and rim, None for the element's default; `elastic_teeth`: how far apart teeth feel each other (1:
-    not at all), None for all;
-    `mate_tips`: roll angles (rad) of pinion and wheel between which the mate's tip edge may press.
+    not at all), None for all; `mate_tips`: roll angles (rad) of pinion and wheel between which the mate's tip edge may
+    press.
     """
 
     element: str
@@ -77,6 +73,11 @@ class Resolution:
     elastic_teeth: int | None = None
     mate_tips: tuple[tuple[float, float] | None, tuple[float, float] | None] = (None, None)
 
+    @property
+    def order(self) -> int:
+        """Of the element's shapes."""
+        return 2 if self.element.endswith("2") else 1
+
     def discretisation(self, gear: int) -> Discretisation:
         """How the body of the pinion (0) or the wheel (1) is divided into finite elements."""
         return Discretisation(
@@ -86,9 +87,7 @@ class Resolution:
 
 def hertz_half_width(line_load: float, relative_radius: float, plane_modulus: float) -> float:
     """Half-width (mm) of a Hertz line contact: sqrt(4 F' R / (pi E*)); Johnson, Contact Mechanics, 1985, eq. 4.43.
-
-    `line_load` N/mm; `relative_radius` mm; `plane_modulus` MPa: E*, see `plane_contact_modulus`.
-    """
+    `line_load` N/mm; `relative_radius` mm; `plane_modulus` MPa: E*, see `plane_contact_modulus`."""
     return sqrt(4.0 * line_load * relative_radius / (pi * plane_modulus))
 
 
@@ -127,9 +126,8 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
     if scene.three_dimensional:
         from .face_resolution import in_steps, inner_length
 
-        half_width_of = partial(
-            hertz_half_width, relative_radius=_widest(pair), plane_modulus=plane_contact_modulus(scene)
-        )
+        modulus = plane_contact_modulus(scene)
+        half_width_of = partial(hertz_half_width, relative_radius=_widest(pair), plane_modulus=modulus)
         inner = in_steps(inner_length(scene, pair, line_load, half_width_of) + 2.0 * spacing, length)
     return Resolution(
         element=asked.element or DEFAULT_ELEMENT,
@@ -147,11 +145,9 @@ def resolve(scene: Scene, pair: GearPair, drivetrain: Drivetrain) -> Resolution:
 
 
 def mate_tips(pair: GearPair) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Roll angles (rad) of pinion and wheel between which the mate's tip edge may press on the flank.
-
-    The edge comes down the flank to the start of active profile and turns there. A loaded pair touches with the edge
-    alone before it enters and after it has left the path of contact, so that the edge presses above that point.
-    """
+    """Roll angles (rad) of pinion and wheel between which the mate's tip edge may press on the flank: above the start
+    of active profile, for a loaded pair touches with the edge alone before it enters and after it has left the path of
+    contact."""
     gears, ends = (pair.pinion, pair.wheel), (pair.path_start, pair.line_of_action_length - pair.path_end)
     found = []
     for gear, end in zip(gears, ends):
@@ -181,11 +177,8 @@ def _contact_length(scene: Scene, pair: GearPair, line_load: float, half_width: 
 
 def _widest(pair: GearPair) -> float:
     """The largest relative radius (mm) on the path of contact."""
-    middle = 0.5 * pair.line_of_action_length
-    return max(
-        relative_radius(pair, xi)
-        for xi in (pair.path_start, pair.path_end, min(max(middle, pair.path_start), pair.path_end))
-    )
+    middle = min(max(0.5 * pair.line_of_action_length, pair.path_start), pair.path_end)
+    return max(relative_radius(pair, xi) for xi in (pair.path_start, pair.path_end, middle))
 
 
 def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
@@ -202,14 +195,13 @@ def _steps_per_mesh_cycle(scene: Scene, drivetrain: Drivetrain) -> int:
 
 
 def resolution_warnings(resolution: Resolution) -> list[str]:
-    """Sentences on settings too coarse to resolve the contact or the mesh cycle, or contact nodes too close for the
+    """Sentences on settings too coarse for the contact or the mesh cycle, or contact nodes too close for the
     elements."""
     found, spacing = [], resolution.contact_grid.spacing
     if resolution.steps_per_mesh_cycle < FEWEST_STEPS:
         found.append(
-            f"accuracy.steps_per_mesh_cycle is {resolution.steps_per_mesh_cycle}: curves do not show what lies between"
-            f" the steps, and the peak-to-peak transmission error may miss an extreme; from {FEWEST_STEPS} on it is"
-            " right within about 1%, without vibrations"
+            f"accuracy.steps_per_mesh_cycle is {resolution.steps_per_mesh_cycle}: the peak-to-peak transmission error"
+            f" may miss an extreme; from {FEWEST_STEPS} on it is right within about 1%, without vibrations"
         )
     for name, size in (
         ("accuracy.flank_element_size", resolution.flank_element_size),
@@ -221,7 +213,7 @@ def resolution_warnings(resolution: Resolution) -> list[str]:
                 " load: contact is not resolved; pressures are not right, and the transmission error may be off by per"
                 " cents"
             )
-    node_distance = resolution.flank_element_size / (2 if resolution.element.endswith("2") else 1)
+    node_distance = resolution.flank_element_size / resolution.order
     if spacing < CLOSEST_NODES * node_distance:
         found.append(
             f"contact nodes stand {spacing:.3g} mm apart, the flank's own nodes {node_distance:.3g} mm: the pressure"
@@ -231,11 +223,10 @@ def resolution_warnings(resolution: Resolution) -> list[str]:
 
 
 def locking_warnings(resolution: Resolution, materials: Sequence[Material] | None) -> list[str]:
-    """A sentence on an element that locks in a nearly incompressible material."""
     largest = max((material.poissons_ratio for material in materials or ()), default=-1.0)
     if resolution.element not in LOCKING_ELEMENTS or largest <= LOCKING_POISSONS_RATIO:
         return []
     return [
-        f"accuracy.element {resolution.element} locks in a nearly incompressible material (poissons_ratio is"
+        f"accuracy.element {resolution.element} locks in a nearly incompressible material (poissons_ratio"
         f" {largest:g}, above {LOCKING_POISSONS_RATIO}): the teeth are too stiff; choose accuracy.element P2 or Q2"
     ]

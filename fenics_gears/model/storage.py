@@ -38,13 +38,11 @@ Arrays = Mapping[str, tuple[tuple[str, ...], np.dtype]]
 
 
 def fillet_points(slices: int) -> int:
-    """Stress points of a fillet in each of so many slices."""
     return FILLET_POINTS if slices == 1 else FILLET_POINTS_OVER_FACE
 
 
 def sizes(steps: int, contact_steps: int, slots: int, nodes: int, slices: int = 1, bearings: int = 0) -> dict[str, int]:
-    """Length of each dimension of a result with so many steps, of which the contact fields of so many are stored, over
-    so many `slices` of the face, and of shafts on so many `bearings`."""
+    """Length of each dimension of a result with so many steps, of which the contact fields of so many are stored."""
     return {
         "face_position": slices,
         "bearing": bearings, "shaft_point": SHAFT_POINTS,
@@ -60,21 +58,16 @@ def stored_arrays(scene: Scene, size: Mapping[str, int]) -> Arrays:
     if scene.output.root_stress and scene.resolves_contact:
         arrays |= ROOT_STRESS_OVER_FACE if scene.three_dimensional else ROOT_STRESS
     arrays |= CONTACT_COORDINATES
-    whole = {
-        "newton_iterations": np.dtype(np.int64),
-        "closed_nodes": np.dtype(np.int64),
-        "pair_number": np.dtype(np.int32),
-        "contact_pair_number": np.dtype(np.int32),
-    }
+    whole = {"newton_iterations": np.int64, "closed_nodes": np.int64}
+    whole |= dict.fromkeys(("pair_number", "contact_pair_number"), np.int32)
     return {
-        name: (dims, whole.get(name, np.dtype(float)))
+        name: (dims, np.dtype(whole.get(name, float)))
         for name, dims in arrays.items()
         if "time" in dims or ("contact_time" in dims and size["contact_time"])
     }
 
 
 def counted_bytes(arrays: Arrays, size: Mapping[str, int]) -> int:
-    """Memory of the arrays."""
     return sum(kind.itemsize * prod(size[each] for each in dims) for dims, kind in arrays.values())
 
 

@@ -1,8 +1,6 @@
 """The attributes of a result: what each is, and when it is there. Tests compare the results of runs with this list.
-
-What may be in a result beside them: one attribute for each method of the solver, by the prefix ``RUNG``, and one for
-each setting whose error was estimated, by the prefix ``ESTIMATED``.
-"""
+Beside them there may be one attribute for each method of the solver, by the prefix ``RUNG``, and one for each setting
+whose error was estimated, by the prefix ``ESTIMATED``."""
 
 from dataclasses import dataclass
 
@@ -19,6 +17,7 @@ class ResultAttribute:
     when: str = ""
 
 
+PER_WIDTH = "N/(mm um)"
 OF_WHOLE_CYCLES = "a whole mesh cycle was run, at one speed"
 WITH_TEETH = "the teeth are elastic"
 WITH_CONTACT = "the teeth are elastic and contact is resolved over nodes"
@@ -44,6 +43,7 @@ WITH_FILES = "the scene names files (`[body_meshes]`, tables of `[flank_errors]`
 WITH_TARGET = "`[accuracy] target`"
 IN_STUDIES = "the run is a study's case"
 
+OF_HARMONIC = "amplitude of the transmission error, along the line of action,"
 _ROWS = (
     ("title", "", "the scene's title"),
     ("scene", "", "the text of the scene that was run; saved as a file it can be run again"),
@@ -56,30 +56,24 @@ _ROWS = (
     (
         "stopped",
         "",
-        "why the run is not complete: `interrupted`, `failed`, or `not ended` (killed or still running, read from"
-        " `run.nc.part`)",
+        "why it is not complete: `interrupted`, `failed`, or `not ended` (killed or still running)",
         "`complete` is 0",
     ),
     ("warnings", "", "warnings, one on each line"),
     (
         "settled_from",
         "s",
-        "time from which on steps are settled: the vibration excited by the start has decreased to 0.1 %, in short runs"
-        " to 1 %",
+        "begin of the settled steps: of the start's vibration 0.1 % is left, in short runs 1 %",
         WITH_STEPS,
     ),
     ("settled_cycles", "1", "number of mesh cycles from `settled_from` to the end", WITH_STEPS),
     ("friction_coefficient", "1", "coefficient of friction of the run", "`[friction]`"),
     ("shown_cycles", "1", "number of mesh cycles at the end of the run that pictures show; for a speed ramp all"),
-    (
-        "mean_transmission_error",
-        "rad",
-        "mean over the settled steps, without the last step, which belongs to the next mesh cycle",
-    ),
+    ("mean_transmission_error", "rad", "mean over the settled steps but the last, which begins the next mesh cycle"),
     (
         "peak_to_peak_transmission_error",
         "rad",
-        "peak-to-peak value over the settled steps; its extremes may lie between steps",
+        "peak-to-peak value over the settled steps; extremes may lie between steps",
     ),
     (
         "peak_to_peak_transmission_error_from",
@@ -92,55 +86,25 @@ _ROWS = (
     (
         "base_radius_wheel",
         "mm",
-        "base radius of the wheel, which converts the transmission error into a length along the line of action",
+        "base radius of the wheel: with it the transmission error is a length along the line of action",
     ),
     *(
-        (
-            f"transmission_error_harmonic_{n}",
-            "um",
-            f"amplitude of the transmission error at {words} mesh frequency, along the line of action",
-            OF_WHOLE_CYCLES,
-        )
+        (f"transmission_error_harmonic_{n}", "um", f"{OF_HARMONIC} at {words} mesh frequency", OF_WHOLE_CYCLES)
         for n, words in enumerate(("the", "twice the", "three times the", "four times the", "five times the"), 1)
     ),
-    (
-        "rms_transmission_error",
-        "um",
-        "root mean square of the transmission error without its mean, along the line of action",
-        OF_WHOLE_CYCLES,
-    ),
-    (
-        "rms_normal_force",
-        "N",
-        "root mean square of the mesh force (drive less coast flanks) without its mean",
-        OF_WHOLE_CYCLES,
-    ),
-    (
-        "mean_mesh_stiffness",
-        "N/(mm um)",
-        "mesh stiffness c_gamma: mean of `mesh_stiffness` while the flanks touch, per face width",
-        WITH_TEETH,
-    ),
-    (
-        "mean_mesh_stiffness_tangent",
-        "N/(mm um)",
-        "mean of `mesh_stiffness_tangent`, which governs small vibrations, per face width",
-        WITH_TEETH,
-    ),
+    ("rms_transmission_error", "um", "r.m.s. transmission error without its mean", OF_WHOLE_CYCLES),
+    ("rms_normal_force", "N", "r.m.s. force of the drive less the coast flanks, without its mean", OF_WHOLE_CYCLES),
+    ("mean_mesh_stiffness", PER_WIDTH, "c_gamma: mean of `mesh_stiffness` while the flanks touch", WITH_TEETH),
+    ("mean_mesh_stiffness_tangent", PER_WIDTH, "mean of `mesh_stiffness_tangent`, for small vibrations", WITH_TEETH),
     (
         "single_pair_stiffness",
-        "N/(mm um)",
-        "single stiffness c': largest `mesh_stiffness` while one tooth pair is loaded, per face width",
+        PER_WIDTH,
+        "c': largest `mesh_stiffness` while one tooth pair is loaded",
         WITH_TEETH + " and in some steps one pair is loaded",
     ),
     ("largest_pair_force", "N", "largest normal force of a tooth pair", PAIR_LOADED),
     ("largest_pair_force_mesh_phase", "1", "mesh phase of the largest normal force of a tooth pair", PAIR_LOADED),
-    (
-        "largest_pair_force_from",
-        "",
-        "how the largest normal force was found, as `peak_to_peak_transmission_error_from`",
-        PAIR_LOADED,
-    ),
+    ("largest_pair_force_from", "", "how that was found, as `peak_to_peak_transmission_error_from`", PAIR_LOADED),
     ("peak_contact_pressure", "MPa", "peak contact pressure: maximum of `largest_contact_pressure`", WITH_CONTACT),
     ("peak_contact_pressure_time", "s", "time of the peak contact pressure", WITH_PRESSURE),
     ("peak_contact_pressure_mesh_phase", "1", "mesh phase of the peak contact pressure", WITH_PRESSURE),
@@ -150,19 +114,19 @@ _ROWS = (
     (
         "peak_contact_pressure_beside",
         "",
-        "`start` or `end` of the pinion's active profile, where lines of contact end and their line load rises",
+        "`start` or `end` of the pinion's active profile, where lines of contact end",
         "the peak contact pressure is where `largest_line_load_factor` leaves the end of a line of contact out",
     ),
     (
         "peak_edge_pressure",
         "MPa",
-        "maximum of `largest_edge_pressure`; it does not converge as the mesh is refined",
+        "maximum of `largest_edge_pressure`, which does not converge",
         "a pair is in contact at an edge, within two Hertz half-widths of one, or near the ends of the face",
     ),
     (
         "peak_kink_pressure",
         "MPa",
-        "maximum of `largest_kink_pressure`; it does not converge as the mesh is refined",
+        "maximum of `largest_kink_pressure`, which does not converge",
         "a pair is in contact within a Hertz half-width of the kink of a linear relief",
     ),
     ("overlap_ratio", "1", "overlap ratio of the common face; 0 for spur gears", OVER_FACE),
@@ -170,21 +134,20 @@ _ROWS = (
     (
         "face_load_factor",
         "1",
-        "face load factor K_Hbeta: of the line load averaged over the mesh cycle, the largest along the face, away from"
-        " its ends, divided by the mean",
+        "K_Hbeta: of the line load averaged over the mesh cycle, the largest away from the face's ends over the mean",
         f"{OVER_FACE_WITH_FIELDS} of at least a mesh cycle",
     ),
     (
         "largest_line_load_factor",
         "1",
-        "largest line load of a tooth pair at any time, away from edges, divided by that of an even load on rigid gears"
-        " in the worst position",
+        "largest line load of a tooth pair, away from edges, over that of an even load on rigid gears in the worst"
+        " position",
         f"{OVER_FACE_WITH_FIELDS}, and the load reaches away from edges",
     ),
     (
         "edge_line_load_factor",
         "1",
-        "the same of the line load near the ends of the face and where a line of contact ends at a tip or form circle",
+        "largest line load likewise, near the ends of the face and where lines of contact end at a tip or form circle",
         f"{OVER_FACE_WITH_FIELDS}, and an edge is loaded",
     ),
     *(
@@ -195,8 +158,8 @@ _ROWS = (
     (
         "natural_frequencies",
         "",
-        "a line for each natural frequency with the mean tangent mesh stiffness, as far as modes of shafts are counted:"
-        " the frequency in Hz, then what moves",
+        "a line for each, with the mean tangent mesh stiffness, up to the modes of shafts that are counted: the"
+        " frequency in Hz, then what moves",
         WITH_VIBRATIONS,
     ),
     ("largest_bearing_force", "N", "largest force of a shaft on one of its bearings", WITH_SECTIONS),
@@ -209,15 +172,15 @@ _ROWS = (
             (
                 "face_load_factor",
                 "1",
-                "the least `face_load_factor` that these two can give, without friction; the variable"
-                " `proposed_line_load`, N/mm, is the line load of the mesh with them, mean over the mesh cycle",
+                "the least that these two can give, without friction; the variable `proposed_line_load`, N/mm, is the"
+                " line load of the mesh with them, mean over the mesh cycle",
             ),
         )
     ),
     (
         "transverse_load_factor",
         "1",
-        "transverse load factor K_Halpha: largest share of a tooth pair, relative to that of even line load",
+        "K_Halpha: largest share of a tooth pair, relative to that of even line load",
         OVER_FACE_WITH_LOAD,
     ),
     ("input_power", "W", "mean power of the driving gear", "a load and a speed"),
@@ -226,7 +189,7 @@ _ROWS = (
     (
         "mesh_efficiency",
         "1",
-        "efficiency of the mesh, 1 - `friction_loss`, without losses of bearings, oil and damping",
+        "efficiency of the mesh, without losses of bearings, oil and damping",
         WITH_FRICTION + ", and teeth that are neither wedged nor locked",
     ),
     ("contact_loss_count", "1", "number of contact losses of the drive flanks in the settled steps"),
@@ -237,13 +200,13 @@ _ROWS = (
     (
         "dynamic_factor_by_force",
         "1",
-        "dynamic factor: largest force of a tooth pair divided by that of the quasi-static run",
+        "dynamic factor: largest force of a tooth pair over that of the quasi-static run",
         WITH_INERTIA,
     ),
     (
         "dynamic_factor_by_stress",
         "1",
-        "dynamic factor: largest root stress divided by that of the quasi-static run",
+        "dynamic factor: largest root stress over that of the quasi-static run",
         WITH_ROOT_STRESS,
     ),
     ("quasi_static_pair_normal_force", "N", "largest force of a tooth pair in the quasi-static run", WITH_INERTIA),
@@ -251,8 +214,8 @@ _ROWS = (
     (
         "dynamic_factor_unknown",
         "",
-        "reason why the dynamic factors and the quasi-static values are missing",
-        "`[inertia]`, if they are missing",
+        "why the dynamic factors and the quasi-static values are missing",
+        "`[inertia]`, if they are",
     ),
     *(
         attribute
@@ -275,8 +238,8 @@ _ROWS = (
     (
         "estimated_error",
         "1",
-        "the larger of the estimated errors of the curve and of the peak-to-peak value of the transmission error, in"
-        " three dimensions also of line load, face load factor and largest line load",
+        "the largest estimated error of the curve and the peak-to-peak value of the transmission error, in three"
+        " dimensions also of line load, face load factor and largest line load",
         WITH_TARGET,
     ),
     ("target_runs", "1", "number of test runs by which the settings were chosen", WITH_TARGET),

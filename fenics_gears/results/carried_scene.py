@@ -1,4 +1,4 @@
-"""The scene that a result carries: what of it stands in the result's attributes, and the scene again from these."""
+"""The scene that a result carries in its attributes, and the scene again from these."""
 
 import logging
 from pathlib import Path
@@ -26,20 +26,18 @@ def scene_attributes(scene: Scene) -> dict[str, str]:
 
 
 def carried_scene(result: xr.Dataset) -> Scene:
-    """The scene that was run; a warning is logged where files that it names are no longer what they were. Raises
-    SceneError where its text is no scene of this version.
+    """The scene that was run; a warning is logged where files that it names have changed. Raises SceneError where its
+    text is no scene of this version.
 
     >>> from fenics_gears import load_scene
     >>> scene = load_scene("demos/lundvall2004.toml")
     >>> carried_scene(xr.Dataset(attrs=scene_attributes(scene))) == scene
     True
     """
-    text = str(result.attrs.get("scene", ""))
+    text, name, folder = (str(result.attrs.get(each, "")) for each in ("scene", "scene_name", "scene_folder"))
     if text.startswith(NO_FILE):
         raise SceneError(text.removeprefix("# ").rstrip())
-    scene = scene_from_text(
-        text, str(result.attrs.get("scene_name") or "scene"), directory=Path(str(result.attrs.get("scene_folder", "")))
-    )
+    scene = scene_from_text(text, name or "scene", directory=Path(folder))
     for words in changed_files(result, scene):
         LOGGER.warning("%s", words)
     return scene

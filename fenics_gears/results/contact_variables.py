@@ -1,5 +1,5 @@
-"""Contact and energy in the result: forces of the mesh, of each tooth pair and of each contact node, their reactions on
-the shafts; what the drivetrain and the teeth store, and the work that supplies and takes it."""
+"""Contact and energy in the result: forces of the mesh, of tooth pairs and contact nodes, their reactions on the
+shafts; stored energies, and the work that supplies and takes them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -28,22 +28,20 @@ Values = dict[str, np.ndarray]
 
 
 class Curves(Protocol):
-    """Values (steps, ...) of a result by name, as arrays."""
+    """Values (steps, ...) of a result by name."""
 
-    def __getitem__(self, name: str, /) -> np.ndarray:
-        pass
+    def __getitem__(self, name: str, /) -> np.ndarray: ...
 
     def __contains__(self, name: object, /) -> bool: ...
 
 
 def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
-    """Forces of the whole mesh at consecutive steps, on drive and on coast flanks, and their reactions on both gears'
+    """Forces of the whole mesh at consecutive steps, on drive and coast flanks, and their reactions on both gears'
     centres."""
     steps, drive = nodes.steps, nodes.drive
     reactions = _summed(nodes.of("rows_of_normals"), nodes.normal, nodes.layouts.starts)
 
     def of_gears(rows: np.ndarray) -> np.ndarray:
-        """Rows (6, s), three for each gear, as (3, s, gears)."""
         return rows.reshape(2, 3, len(steps)).transpose(1, 2, 0)
 
     if nodes.tangential is not None:
@@ -69,13 +67,11 @@ def mesh_variables(scene: Scene, nodes: SideBySide) -> Values:
 
 
 def normal_forces(scene: Scene, nodes: SideBySide) -> Values:
-    """Normal forces of the whole mesh at consecutive steps, on drive and on coast flanks."""
+    """Normal forces of the whole mesh at consecutive steps, on drive and coast flanks."""
     values = {"normal_force": nodes.summed(nodes.normal * nodes.drive)}
-    return (
-        values
-        if scene.coast_flanks is None
-        else values | {"coast_normal_force": nodes.summed(nodes.normal * ~nodes.drive)}
-    )
+    if scene.coast_flanks is not None:
+        values["coast_normal_force"] = nodes.summed(nodes.normal * ~nodes.drive)
+    return values
 
 
 @njit(cache=True)
@@ -108,10 +104,8 @@ def mesh_force(result: Curves | xr.Dataset) -> np.ndarray:
 
 
 def pair_variables(scene: Scene, nodes: SideBySide) -> Values:
-    """Forces of each tooth pair (steps, slots), on drive and coast flanks; zero where a pair does not touch.
-
-    Pairs of rigid flanks with friction that touch together are given equal shares.
-    """
+    """Forces of each tooth pair (steps, slots), on drive and coast flanks; zero where a pair does not touch. Pairs of
+    rigid flanks with friction that touch together are given equal shares."""
     if scene.tooth_elasticity is None and scene.friction is None:
         return _rigid_pairs(scene, nodes)
     values = {"pair_normal_force": nodes.by_slot(nodes.normal * nodes.drive)}
@@ -123,8 +117,8 @@ def pair_variables(scene: Scene, nodes: SideBySide) -> Values:
 
 
 def _rigid_pairs(scene: Scene, nodes: SideBySide) -> Values:
-    """Forces of pairs of rigid flanks; not a number where several pairs touch together, for their shares are not
-    determined: all with the gap of the node (one of a side) that has the force."""
+    """Forces of pairs of rigid flanks; not a number where several touch together: all with the gap of the node that has
+    the force."""
     gap, steps = np.concatenate([position.operator.gap for position in nodes.steps.positions]), len(nodes.steps)
     found = {}
     for name, drive in (("pair_normal_force", True), ("pair_coast_normal_force", False)):
@@ -155,8 +149,7 @@ def node_variables(scene: Scene, nodes: SideBySide) -> Values:
 
 
 def watched_contact(nodes: SideBySide) -> Values:
-    """What the run's warnings need of consecutive steps: contact at the window's ends and on tips, rank of the
-    compliance."""
+    """What the warnings need of consecutive steps: contact at the window's ends and on tips, rank of the compliance."""
     steps = nodes.steps
     found = {
         "window reached": nodes.any(nodes.of("at_end") & nodes.closed),
@@ -213,8 +206,7 @@ def work_variables(
     steps: Steps,
     energy: np.ndarray,
 ) -> dict:
-    """Work since the first of consecutive steps (N mm), which with the `energy` (time,) adds up to nothing but
-    round-off:
+    """Work since the first of consecutive steps (N mm), which with the `energy` (time,) adds up but for round-off:
 
     energy - energy[0] = work_input - work_output - work_damping - work_friction + work_contact_changes + energy_defect.
     """
@@ -243,10 +235,8 @@ class Transmitted:
 
 
 def transmitted(result: Curves | xr.Dataset) -> Transmitted:
-    """The side that drives and the work it does, from the first to the last step of a result.
-
-    Where the wheel drives, the work of the pinion's side and of the wheel's side are negative.
-    """
+    """The side that drives and the work it does, from the first to the last step. Where the wheel drives, the work of
+    both sides is negative."""
     at_pinion, at_wheel = (
         float(np.subtract(*np.asarray(result[name])[[-1, 0]])) for name in ("work_input", "work_output")
     )

@@ -1,15 +1,13 @@
 """Where the largest value of a curve that is known at some steps can lie between them.
 
-Where a cubic through four steps agrees with the value in the middle of the inner two, the curve is that cubic there:
-the largest value is that of its crest, and nothing more is asked for. Elsewhere the curve is taken to stay, between two
-steps, below the straight lines through the steps on either side, as it does at corners where a tooth pair enters or
-leaves contact. Lines through further points replace these, until no crossing lies above the largest value found.
-All places are multiples of a part of a step, so that the runs of a search ask for the same ones; between two such
-places the curve is a cubic or, at a corner, a parabola on either side.
-Of a smooth curve that is known at the steps alone the largest value is that of the cubics, which is of fourth order.
+Where a cubic through four steps agrees with the value in the middle of the inner two, the curve is that cubic there,
+and its crest is the largest value. Elsewhere the curve is taken to stay, between two steps, below the straight lines
+through the steps on either side, as at corners where a tooth pair enters or leaves contact. Lines through further
+points replace these, until no crossing lies above the largest value found. All places are multiples of a part of a
+step, so that the runs of a search ask for the same ones; between two of them the curve is a cubic or, at a corner, a
+parabola on either side. Of a smooth curve that is known at the steps alone the largest value is that of the cubics,
+which is of fourth order.
 """
-
-from __future__ import annotations
 
 from math import inf, isnan, nan, sqrt
 
@@ -26,8 +24,8 @@ NEAR = 25.0
 # where the lower of the parabolas from either side is above the steps by at least this part of the higher one; between
 # steps where their curvatures are as much alike.
 LIKE = 0.5
-# A cubic holds where it differs from a value between its steps by at most so many parts of what is sought: those that
-# go through it then differ by a tenth of that. It is asked for at most this part of the interval from its middle.
+# A cubic holds where it differs from a value between its steps by at most so many parts of what is sought; the value is
+# asked for at most this part of the interval from its middle.
 AGREES, MIDDLE = 2.0, 0.25
 # A position is sought no nearer to a step than this part of the distance to the next.
 NEAREST = 0.02
@@ -41,16 +39,15 @@ COUNTED = COUNT, LEFT, AT = range(3)
 
 class Searches:
     """Searches for the largest values of curves (c, s) that are given at `steps` (s,), side by side: each asks for
-    values of its curve between them, at places that are multiples of the `finest` part of a step, until these say what
-    is `sought` (c,) of its largest value. `corners`: between two places a curve may be higher than both at a corner.
+    values of its curve between them, at multiples of the `finest` part of a step, until these say what is `sought` (c,)
+    of its largest value. `corners`: between two places a curve may be higher than both at a corner.
 
-    `asked` (c,): the places whose values are asked for now, not a number where a search has ended; `tops` (c, 2): place
-    and largest value, as far as they are known.
+    `asked` (c,): the places asked for now, not a number where a search has ended; `tops` (c, 2): place and largest
+    value, as far as they are known.
 
-    Between the first two and the last two steps nothing is sought, nor where the curve is level at its top: it reaches
-    what bounds it there. A search ends where no crossing of lines is higher by what is sought and on either side of the
-    largest value the curve falls by NEAR times that in small parts, so that lines are those beside the crest; or after
-    MOST_SOLVED values.
+    Between the first two and the last two steps nothing is sought, nor where the curve is level at its top. A search
+    ends where no crossing of lines is higher by what is sought and on either side of the largest value the curve falls
+    by NEAR times that in small parts, so that lines are those beside the crest; or after MOST_SOLVED values.
     """
 
     def __init__(self, steps: np.ndarray, curves: np.ndarray, sought: np.ndarray, finest: float, corners: bool = True):
@@ -64,7 +61,7 @@ class Searches:
         self.take(self.asked)
 
     def take(self, values: np.ndarray) -> None:
-        """Go on with the values (c,) at the places that were asked for; a search ends that gets none (not a number)."""
+        """Go on with the values (c,) at the places that were asked for; a search that gets none (not a number) ends."""
         _go_on(self._points, self._intervals, self._counted, self._ends, np.array(values), *self._settings)
 
 
@@ -99,7 +96,7 @@ def _is_level(values):
 @njit(cache=True)
 def _begin(x, y, known, settings):
     """Look at the intervals but the outer ones in which a line from either side rises above the largest value by more
-    than is sought: elsewhere the curve is lower, whatever is found beside it."""
+    than is sought."""
     known[BOUND], known[HEIGHT] = -inf, -inf
     highest = y.max() + settings[0]
     for i in range(1, len(x) - 2):
@@ -112,7 +109,6 @@ def _begin(x, y, known, settings):
 
 @njit(cache=True)
 def _top(x, y, known):
-    """Place and largest value of all points and crests."""
     top = y.argmax()
     if len(known[HEIGHT]):
         crest = known[HEIGHT].argmax()
@@ -142,8 +138,8 @@ def _next(x, y, known, top, settings):
 @njit(cache=True)
 def _steep_neighbour(x, y, top, sought, finest):
     """The steeper of the intervals in which the curve falls below its largest value, at the point `top`, by more than
-    NEAR times what is sought on either side within a step of it; 0 where neither falls by so much in itself, has a
-    place between, or both are at an end."""
+    NEAR times what is sought within a step of it; 0 where neither does so in itself, has a place between, or both are
+    at an end."""
     near, steepest, fall = NEAR * sought, 0, -inf
     for side in (-1, 1):
         end = top
@@ -161,7 +157,7 @@ def _steep_neighbour(x, y, top, sought, finest):
 
 @njit(cache=True)
 def _take(x, y, known, count, value, settings):
-    """The value found in an interval at a place, which divides it; x, y and what is known have room for it."""
+    """The value found in an interval at a place, which divides it."""
     interval, place, found = value
     holds = _holds(x[interval - 1 :], y[interval - 1 :], place, found, AGREES * settings[0])
     for i in range(count, interval + 1, -1):
@@ -198,8 +194,8 @@ def _bound(x, y):
     """How high a curve may be between the middle two of four points x, y (4,); the place that is to be solved there;
     and whether it may jump.
 
-    That is the crossing of the lines from either side. Where one rises into the interval and the other lies far below
-    its end, the curve may have jumped down anywhere: then half-way.
+    That is the crossing of the lines from either side; half-way where one rises into the interval and the other lies
+    far below its end, so that the curve may have jumped down anywhere.
     """
     h, a, b = x[2] - x[1], y[1], y[2]
     left, right = (a - y[0]) / (x[1] - x[0]), (y[3] - b) / (x[3] - x[2])

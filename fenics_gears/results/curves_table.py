@@ -17,7 +17,7 @@ DIGITS = 12
 
 
 def save_curves(result: xr.Dataset, path: Path) -> None:
-    """Write the table as comma-separated values: a line for each stored step, units in the heads, decimal points."""
+    """Write comma-separated values: a line for each stored step, units in the heads, decimal points."""
     columns = dict(curves(result))
     with open(path, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file)
@@ -26,10 +26,8 @@ def save_curves(result: xr.Dataset, path: Path) -> None:
 
 
 def save_tables(dataset: xr.Dataset, directory: Path, stem: str) -> list[Path]:
-    """Write a dataset as `stem`.nc and, of its variables over the same dimensions, a table each: a line for each
-    combination of their coordinates.
-
-    A table is called by its dimensions, `map_over_load_and_mesh_phase.csv`. Returns the files.
+    """Write a dataset as `stem`.nc and, of its variables over the same dimensions, a table each, called by them
+    (`map_over_load_and_mesh_phase.csv`): a line for each combination of their coordinates. Returns the files.
 
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
@@ -38,17 +36,11 @@ def save_tables(dataset: xr.Dataset, directory: Path, stem: str) -> list[Path]:
     ['map.nc', 'map_over_load.csv']
     """
     save(dataset, directory / f"{stem}.nc")
-    every = dict.fromkeys(each.dims for each in dataset.data_vars.values() if each.dims)
-    return [
-        directory / f"{stem}.nc",
-        *(
-            write_whole(
-                directory / f"{stem}_over_{'_and_'.join(dims)}.csv",
-                lambda path, dims=dims: _save_table(dataset, dims, path),
-            )
-            for dims in every
-        ),
-    ]
+    files = [directory / f"{stem}.nc"]
+    for dims in dict.fromkeys(each.dims for each in dataset.data_vars.values() if each.dims):
+        table = directory / f"{stem}_over_{'_and_'.join(dims)}.csv"
+        files.append(write_whole(table, lambda path, dims=dims: _save_table(dataset, dims, path)))
+    return files
 
 
 def _save_table(dataset: xr.Dataset, dimensions: tuple[str, ...], path: Path) -> None:

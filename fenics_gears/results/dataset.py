@@ -1,11 +1,8 @@
 """The result of a run: one labelled dataset, with units and long names.
 
 Dimensions: `time`, all marched steps; `slot`, the tooth pairs that can touch at once; `gear` ("pinion", "wheel");
-`contact_time`, the steps whose contact fields are stored; `contact_node`; of flanks resolved over the face also
-`face_position`. A variable that belongs to an effect is there only when the scene names that effect.
+`contact_time`, the steps whose contact fields are stored; `contact_node`; over the face also `face_position`.
 """
-
-from __future__ import annotations
 
 import time
 from collections.abc import Mapping
@@ -20,8 +17,8 @@ from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.dynamics.march import March
 from fenics_gears.effects import common_period, from_effects, result_variables
 from fenics_gears.inputs.tree import GEARS
+from fenics_gears.model.storage import CONTACT_COORDINATES
 from fenics_gears.numbers_version import NUMBERS_VERSION
-from fenics_gears.scene.data import Scene
 
 from .carried_scene import scene_attributes
 from .contact_variables import largest_normal_force, transmitted
@@ -35,9 +32,8 @@ from .validity import warnings_of, warnings_of_energy
 
 
 class RunResult:
-    """What a march gave: its numbers and warnings by name (`attrs`), its curves (steps, ...) by name as arrays
-    (`result["normal_force"]`), and `dataset`, all of it with labels, put together when it is asked for. `recorder`:
-    what they are taken from; `seconds`: that its numbers took, of which locating extremes between steps takes most."""
+    """What a march gave: numbers and warnings (`attrs`), curves (steps, ...) by name (`result["normal_force"]`), and
+    the labelled `dataset`, put together when it is asked for; `seconds`: that its numbers took."""
 
     def __init__(self, recorder: Recorder, march: March):
         begun = time.perf_counter()
@@ -50,17 +46,14 @@ class RunResult:
         self.attrs.update(_numbers(recorder, march, self, counted.first))
         found = [counted.warning] if counted.warning else []
         found += warnings_of(recorder, march, self)
-        found += [
-            *warnings_of_energy(model.scene, self, recorder.cycle.steps, shown_steps(self)),
-            *_undetermined_shares(self),
-        ]
+        found += warnings_of_energy(model.scene, self, recorder.cycle.steps, shown_steps(self))
+        found += _undetermined_shares(self)
         for sentences in from_effects(model.scene, "findings", recorder.watched):
             found += sentences
         self.attrs["warnings"] = "\n".join(found)
         self.seconds = time.perf_counter() - begun
 
     def __getitem__(self, name: str) -> np.ndarray:
-        """A curve, or another array of the result."""
         return self._curves[name]
 
     def __contains__(self, name: str) -> bool:
@@ -68,7 +61,7 @@ class RunResult:
 
     @property
     def dataset(self) -> xr.Dataset:
-        """The same with labels; every variable with units and long name."""
+        """All of it; every variable with units and long name."""
         self._labelled.attrs = self.attrs
         return self._labelled
 
@@ -87,23 +80,17 @@ def _variables(recorder: Recorder, first: int):
     described = {variable.name: variable for variable in result_variables(scene)}
     for name, variable in described.items():
         if name in arrays:
-            yield name, variable.dims, arrays[name], {"units": variable.units, "long_name": variable.long_name}
+            yield name, variable.dims, arrays[name], variable.labels
     for found in from_effects(scene, "results", scene, recorder.cycle, np.empty(0)):
         for name, (dims, values) in found.items():
             if dims[:1] != ("time",):
-                yield name, dims, values, {"units": described[name].units, "long_name": described[name].long_name}
+                yield name, dims, values, described[name].labels
     forces, numbers = arrays["pair_normal_force"][first:], arrays["pair_number"][first:]
-    points = path_point_values(
-        recorder.model.scene, recorder.model.pair, arrays["mesh_phase"][first:], numbers, forces, recorder.first_number
-    )
+    phase = arrays["mesh_phase"][first:]
+    points = path_point_values(scene, recorder.model.pair, phase, numbers, forces, recorder.first_number)
     for name, values in points.items():
         if name in described:
-            yield (
-                name,
-                described[name].dims,
-                values,
-                {"units": described[name].units, "long_name": described[name].long_name},
-            )
+            yield name, described[name].dims, values, described[name].labels
     if recorder.stress is not None:
         labels = recorder.stress.labels()[0]
         for along in recorder.along_face:
@@ -114,6 +101,8 @@ def _variables(recorder: Recorder, first: int):
 
 
 def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str, tuple]:
+    speed_given = recorder.model.scene.motion.speed_given
+    time_name = "time" if speed_given else "nominal time, 1 s for a mesh cycle"
     numbered = {
         "units": "1",
         "long_name": (
@@ -123,7 +112,7 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
         "number_at_phase_0": recorder.first_number,
     }
     coordinates = {
-        "time": ("time", arrays["time"], {"units": "s", "long_name": _time_name(recorder.model.scene)}),
+        "time": ("time", arrays["time"], {"units": "s", "long_name": time_name}),
         "mesh_phase": ("time", arrays["mesh_phase"], {"units": "1", "long_name": "mesh cycles since the start"}),
         "pair_number": (("time", "slot"), arrays["pair_number"], numbered),
         "gear": ("gear", list(GEARS), {"long_name": "gear"}),
@@ -131,43 +120,26 @@ def _coordinates(recorder: Recorder, arrays: dict[str, np.ndarray]) -> dict[str,
         "slot": ("slot", np.arange(recorder.slots), {"long_name": "slot for a tooth pair that can touch"}),
     }
     if "contact_time" in arrays:
-        coordinates |= {
-            "contact_time": (
-                "contact_time",
-                arrays["contact_time"],
-                {"units": "s", "long_name": "time at which contact fields are stored"},
-            ),
-            "contact_mesh_phase": (
-                "contact_time",
-                arrays["contact_mesh_phase"],
-                {"units": "1", "long_name": "mesh cycles since the start at the times of the contact fields"},
-            ),
-            "contact_pair_number": (
-                ("contact_time", "slot"),
-                arrays["contact_pair_number"],
-                numbered | {"long_name": "pair_number at the times of the contact fields"},
-            ),
+        at = "at the times of the contact fields"
+        labels = {
+            "contact_time": {"units": "s", "long_name": "time at which contact fields are stored"},
+            "contact_mesh_phase": {"units": "1", "long_name": f"mesh cycles since the start {at}"},
+            "contact_pair_number": numbered | {"long_name": f"pair_number {at}"},
         }
+        coordinates |= {name: (dims, arrays[name], labels[name]) for name, dims in CONTACT_COORDINATES.items()}
     for along in recorder.along_face:
         coordinates |= along.coordinates()
     return coordinates if recorder.stress is None else coordinates | recorder.stress.labels()[1]
 
 
-def _time_name(scene: Scene) -> str:
-    """What the time is; a scene without speed has none."""
-    return "time" if scene.motion.speed_given else "nominal time, 1 s for a mesh cycle"
-
-
 def _undetermined_shares(result: RunResult) -> list[str]:
-    """A warning where several pairs of rigid flanks touch at once: their shares of the force are not determined."""
     shares = result["pair_normal_force"]
     steps = int(np.isnan(shares).any(axis=1).sum())
     if not steps:
         return []
     return [
-        f"several pairs of rigid flanks touch at once in {steps} of {len(shares)} steps: their shares of the"
-        " force are not determined, and pair_normal_force is not a number there; a scene with [gears.material] has"
-        " them"
+        f"several pairs of rigid flanks touch at once in {steps} of {len(shares)} steps: their shares of the force are"
+        " not determined (pair_normal_force); a scene with [gears.material] has them"
     ]
 
 
@@ -196,7 +168,6 @@ def _attributes(recorder: Recorder, march: March, result: RunResult, first: int)
 
 
 def _numbers(recorder: Recorder, march: March, result: RunResult, first: int) -> dict[str, float | str]:
-    """The numbers of a run, of its settled steps from `first` on."""
     if not recorder.steps:
         return {"contact_loss_count": 0}
     model = recorder.model

@@ -1,14 +1,11 @@
 """Extrema of a run's curves, located between its steps: of a quasi-static run at positions that are solved where
 `results.crests` asks for them.
 
-With inertia curves are smooth, and the extremum is that of cubics. The march's own velocities give no more: between two
-steps average acceleration means a parabola. Where steps are too long for any vibration, the motion follows the static
-one: positions are solved as without inertia.
+With inertia curves are smooth, and the extremum is that of cubics. Where steps are too long for any vibration, the
+motion follows the static one: positions are solved as without inertia.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from math import ceil, isfinite, log2
@@ -28,11 +25,10 @@ from .numbers import CUBICS, SAME, SOLVED, STEPS
 
 # Up to which part of the curve's span an extremum is sought.
 SOUGHT = 1e-4
-# Places between steps divide a step by eight at least, so that runs of a search ask for the same ones, and a mesh cycle
-# by so many: friction turns, and pairs enter contact, within less.
+# Places between steps divide a step by eight at least and a mesh cycle by so many: friction turns, and pairs enter
+# contact, within less.
 LARGEST_PART, PLACES = 0.125, 800
-# Over a face positions cost a hundred times as much, and slices leave a peak-to-peak value some 2 % uncertain: their
-# ripples are so long that what looks like a corner is none.
+# Over a face positions cost a hundred times as much, and slices leave a peak-to-peak value some 2 % uncertain.
 SOUGHT_OVER_FACE = 3e-4
 # Longer periods are not held in memory.
 MOST_RECORDS = 2000
@@ -80,10 +76,8 @@ class Extrema:
         self._period = common_period(model.scene) * cycle.steps
         whole = isfinite(self._period) and len(self._steps) > self._period
         # Solved in the first period, so that the same cycles give the same bits however many are run.
-        self.first, self._whole = (
-            int((self._steps[-1] - self._period) // self._period * self._period) if whole else 0,
-            whole,
-        )
+        self.first = int((self._steps[-1] - self._period) // self._period * self._period) if whole else 0
+        self._whole = whole
         self._quasi_static = model.drivetrain.mass is None
         follows_statics = self._quasi_static or not model.time_scales.averages_acceleration
         self._sought, self._finest, self._corners = SOUGHT_OVER_FACE, LARGEST_PART, cycle.face.slices == 1
@@ -92,12 +86,9 @@ class Extrema:
             self._sought, self._finest = SOUGHT, min(max(wanted, 1.0 / COMMON_PLACES), LARGEST_PART)
         self._way = CUBICS if not follows_statics else SOLVED if cycle.traits.divisible else STEPS
         if self._way == SOLVED:
-            # Not a method of this object: with a circle of references all operators would stay until Python looks for
-            # garbage.
-            same = SAME_POSITION * SOUGHT * float(np.ptp(transmission_error))
-            marched = partial(
-                _is_marched, model, transmission_error, self._place(0), same if self._quasi_static else np.inf
-            )
+            # Not methods: a circle of references would keep all operators until Python looks for garbage.
+            same = SAME_POSITION * SOUGHT * float(np.ptp(transmission_error)) if self._quasi_static else np.inf
+            marched = partial(_is_marched, model, transmission_error, self._place(0), same)
             held = partial(_held, march, self.first)
             self._between = BetweenSteps(cycle, model.equations_of_motion, marched, held)
 
@@ -138,28 +129,21 @@ class Extrema:
 
     def _values(self, asked: Sequence[tuple[Quantity, float]]) -> list[float]:
         """Values of quantities at places between steps; not a number where one cannot be solved."""
-        records = self._records(step for _, step in asked)
+        # With inertia also the steps on either side.
+        sides = () if self._quasi_static else (-1, 0)
+        records = self._between.at([each for _, step in asked for each in (step, *(ceil(step) + at for at in sides))])
         return [self._at(step, quantity, records) for quantity, step in asked]
 
     def transmission_error(self, record: Record) -> float:
-        """The transmission error, rad, at a position."""
         return float(self._model.transmission_error(record.state.position))
 
     def _place(self, step: float) -> int:
         """Place of a step of the period among all steps."""
         return int(step) + self.first - int(self._steps[0])
 
-    def _records(self, steps: Iterable[float]) -> dict[float, Record | None]:
-        """What is solved at places between steps and, with inertia, at the steps on either side of them."""
-        sides = () if self._quasi_static else (-1, 0)
-        return self._between.at([each for step in steps for each in (step, *(ceil(step) + side for side in sides))])
-
     def _at(self, step: float, quantity: Quantity, records: Mapping[float, Record | None]) -> float:
-        """Value of a quantity at a place between two steps; not a number where it cannot be solved.
-
-        With inertia it is the static value and, straight between the steps, by what the curve differs from static
-        values there.
-        """
+        """Value of a quantity at a place between two steps; not a number where it cannot be solved. With inertia it is
+        the static value and, straight between the steps, by what the curve differs from static values there."""
         ends = () if self._quasi_static else (ceil(step) - 1, ceil(step))
         solved = [record for each in (step, *ends) if (record := records[each]) is not None]
         if len(solved) < 1 + len(ends):
@@ -186,11 +170,10 @@ def _round_off(curves: np.ndarray) -> np.ndarray:
 def _is_marched(model: Model, transmission_error: np.ndarray, first: int, same: float, record: Record) -> bool:
     """Whether a position has the transmission error (s,) of the march at its step, of which step 0 has the place
     `first`; any has where `same` is infinite."""
-    return (
-        same == np.inf
-        or abs(float(model.transmission_error(record.state.position)) - transmission_error[int(record.step) + first])
-        <= same
-    )
+    if same == np.inf:
+        return True
+    found = float(model.transmission_error(record.state.position))
+    return abs(found - transmission_error[int(record.step) + first]) <= same
 
 
 def _held(march: March | None, first: int, step: int) -> Record | None:
@@ -211,8 +194,8 @@ Numbers = dict[str, float | str]
 def extremes(
     extrema: Extrema, runs: Sequence[tuple[int, Mapping[str, np.ndarray], bool]]
 ) -> list[tuple[Numbers, Numbers]]:
-    """Of each run, by its number and curves, T_EPP, rad, where the extremes of the transmission error are, and how they
-    were found; and the same of the largest normal force of a tooth pair, N, where it is asked for."""
+    """Of each run, by its number and curves: numbers of the extremes of the transmission error, and of the largest
+    normal force of a tooth pair where it is asked for."""
     of, quantities = extrema.transmission_error, []
     for run, curves, force in runs:
         error = curves["transmission_error"]
@@ -240,21 +223,15 @@ def _of_force(found: Extremum) -> Numbers:
 
 
 def pair_force(curves: Mapping[str, np.ndarray], run: int = 0) -> Quantity:
-    """The largest normal force of a tooth pair, N."""
     return Quantity(largest_force_over_time(curves), _largest_force_of_a_pair, run)
 
 
 def _largest_force_of_a_pair(record: Record) -> float:
-    """Largest normal force, N, of a pair of flanks at a position."""
     operator = record.position.operator
     pair_of_node = operator.node_pair
     if operator.face.slices > 1:
         # There a tooth pair has nodes in many slices.
-        numbers = {
-            key: number
-            for number, key in enumerate(dict.fromkeys((pair.place.flank, pair.place.index) for pair in operator.pairs))
-        }
-        pair_of_node = np.array([numbers[pair.place.flank, pair.place.index] for pair in operator.pairs], dtype=int)[
-            pair_of_node
-        ]
+        keys = [(pair.place.flank, pair.place.index) for pair in operator.pairs]
+        numbers = {key: number for number, key in enumerate(dict.fromkeys(keys))}
+        pair_of_node = np.array([numbers[key] for key in keys], dtype=int)[pair_of_node]
     return float(np.bincount(pair_of_node, record.solution.forces[: operator.nodes], minlength=1).max())

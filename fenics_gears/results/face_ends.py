@@ -1,5 +1,5 @@
-"""Where the face of a result ends: its slices with their widths, and the zone at either end whose line load and
-pressure are those of an edge."""
+"""Where the face of a result ends: its slices, and the zone at either end whose line load and pressure are those of an
+edge."""
 
 import numpy as np
 import xarray as xr
@@ -7,8 +7,7 @@ import xarray as xr
 from fenics_gears.geometry.pair import GearPair
 
 # Depth of the zone at either end of the common face, in normal modules, and the largest part of the face that it
-# takes. The tooth's free end, or the edge of the narrower gear on the wider one, changes the line load within that
-# depth; further in a line load is the flank's own.
+# takes. Within it the tooth's free end, or the edge of the narrower gear on the wider one, changes the line load.
 END_DEPTH, LARGEST_PART = 0.5, 0.1
 ROUNDING = 1e-9
 
@@ -31,26 +30,16 @@ def in_end_zone(pair: GearPair, positions: np.ndarray) -> np.ndarray:
     return (positions < low - round_off) | (positions > high + round_off)
 
 
-def slice_widths(result: xr.Dataset) -> np.ndarray:
-    """Width (S,), mm, of each slice of the face; results of earlier versions have slices of one width."""
-    if "face_slice_width" in result.coords:
-        return result["face_slice_width"].values
-    z = result["face_position"].values
-    return np.full(len(z), z[1] - z[0] if len(z) > 1 else 1.0)
-
-
 def slice_ends(result: xr.Dataset) -> np.ndarray:
     """Ends (S + 1,), mm, of the slices along the face."""
-    z, widths = result["face_position"].values, slice_widths(result)
+    z, widths = result["face_position"].values, result["face_slice_width"].values
     return np.append(z - 0.5 * widths, z[-1] + 0.5 * widths[-1])
 
 
 def windows(result: xr.Dataset, pair: GearPair) -> np.ndarray:
     """Shares (k, S) of the slices in windows of the face as long as an end zone is deep, outside the end zones: all
-    windows over which the mean of values of slices can be largest.
-
-    What differs from slice to slice within a layer of the bodies is not resolved; its mean over such a window is.
-    """
+    windows over which the mean of values of slices can be largest. Values are not resolved within a layer of the
+    bodies; means over such a window are."""
     ends, (low, high), length = slice_ends(result), inner_face(pair), end_depth(pair)
     starts = np.unique(np.clip(np.concatenate([ends, ends - length, [low, high]]), low, high - length))
     return np.diff(np.clip(ends, starts[:, None], starts[:, None] + length), axis=1) / length

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from fenics_gears.contact.face import Face
 from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.mesh_cycle import Cycle
 
@@ -29,18 +28,17 @@ class AlongTheFace:
 
     @property
     def end_slices(self) -> np.ndarray:
-        """Whether each slice (S,) is an edge of the flanks."""
+        """Which slices (S,) are edges of the flanks."""
         return in_end_zone(self.pair, self.face.positions)
 
     def fields(self, nodes: SideBySide) -> dict[str, np.ndarray]:
-        """Line load of each tooth pair on its drive flanks, and on its coast flanks where they can touch, over the
-        slices of the face (steps, slots, slices), N/mm."""
+        """Line load of each tooth pair on its drive flanks, and on its coast flanks where they can touch (steps, slots,
+        slices), N/mm."""
         sides = {"line_load": nodes.drive} | ({"coast_line_load": ~nodes.drive} if self.coast_flanks else {})
         return {name: nodes.by_slice(nodes.normal * side) / self.face.widths for name, side in sides.items()}
 
     def curves(self, curves: Mapping[str, np.ndarray], nodes: SideBySide) -> dict[str, np.ndarray]:
-        """Mesh stiffness in the transverse plane, as ISO 6336-1 has it, from that along the contact normal; and the
-        loaded tooth pairs, not their slices.
+        """Mesh stiffness in the transverse plane, as ISO 6336-1 has it; and the loaded tooth pairs, not their slices.
 
         A transverse approach of 1 mm is one of the cosine of the base helix angle along the normal, and of the force
         the transverse part is as large.
@@ -51,18 +49,14 @@ class AlongTheFace:
         return stiffness | {"loaded_pairs": np.maximum(*loaded).astype(float)}
 
     def coordinates(self) -> dict[str, tuple]:
-        """Where the slices are, and how wide."""
         words = (
             "distance along the axes from the middle of the common face, towards the end from which the pinion is seen"
             " to turn counter-clockwise"
         )
+        width = {"units": "mm", "long_name": "width of the slice along the axes"}
         return {
             "face_position": ("face_position", self.face.positions, {"units": "mm", "long_name": words}),
-            "face_slice_width": (
-                "face_position",
-                self.face.widths,
-                {"units": "mm", "long_name": "width of the slice along the axes"},
-            ),
+            "face_slice_width": ("face_position", self.face.widths, width),
         }
 
     def words(self, words: Mapping[str, str]) -> dict[str, str]:
@@ -71,38 +65,27 @@ class AlongTheFace:
         return {**words, "root_stress_at_30_degrees": f"largest {section}", "root_stress_over_face": section}
 
     def numbers(self, counted: xr.Dataset) -> dict[str, float | str]:
-        """Of the settled steps of a result."""
         return load_factors(counted, self.pair)
 
     def warnings(self, result: xr.Dataset) -> list[str]:
-        """As `warnings_of_face`."""
-        return warnings_of_face(self.face, result)
-
-
-def warnings_of_face(face: Face, result: xr.Dataset) -> list[str]:
-    """Where the recorded flanks leave much of the face without load in all steps; nothing where contact fields are not
-    stored."""
-    if not result.sizes.get("contact_time"):
-        return []
-    loads = result[f"{carrying_side(result)}line_load"].transpose(..., "face_position").values
-    touched = (loads > NO_FORCE).reshape(-1, face.slices).any(axis=0)
-    part = face.widths[touched].sum() / face.widths.sum()
-    if not touched.any() or part >= NOTABLE_PART:
-        return []
-    begins, ends = face.positions - 0.5 * face.widths, face.positions + 0.5 * face.widths
-    one_sided = touched[0] != touched[-1]
-    where = f"at its {'left' if touched[0] else 'right'} end, " if one_sided else ""
-    remedy = (
-        "lower [misalignment], correct it by lead_modifications.pinion.helix_slope"
-        if one_sided
-        else "lower the crowning or the end relief"
-    )
-    coarse = (
-        f"; {touched.sum()} of {face.slices} slices do not resolve how: raise accuracy.slices"
-        if touched.sum() < FEWEST_TOUCHING
-        else ""
-    )
-    return [
-        f"the flanks touch over {part:.0%} of the face only, {where}from {begins[touched][0]:.3g} to"
-        f" {ends[touched][-1]:.3g} mm of {begins[0]:.3g} to {ends[-1]:.3g} mm: {remedy}, or raise the torque{coarse}"
-    ]
+        """Where the flanks leave much of the face without load in all steps; nothing without stored contact fields."""
+        if not result.sizes.get("contact_time"):
+            return []
+        face = self.face
+        loads = result[f"{carrying_side(result)}line_load"].transpose(..., "face_position").values
+        touched = (loads > NO_FORCE).reshape(-1, face.slices).any(axis=0)
+        part = face.widths[touched].sum() / face.widths.sum()
+        if not touched.any() or part >= NOTABLE_PART:
+            return []
+        begins, ends = face.positions - 0.5 * face.widths, face.positions + 0.5 * face.widths
+        where, remedy, coarse = "", "lower the crowning or the end relief", ""
+        if touched[0] != touched[-1]:
+            where = f"at its {'left' if touched[0] else 'right'} end, "
+            remedy = "lower [misalignment], correct it by lead_modifications.pinion.helix_slope"
+        if touched.sum() < FEWEST_TOUCHING:
+            coarse = f"; {touched.sum()} of {face.slices} slices do not resolve how: raise accuracy.slices"
+        return [
+            f"the flanks touch over {part:.0%} of the face only, {where}from {begins[touched][0]:.3g} to"
+            f" {ends[touched][-1]:.3g} mm of {begins[0]:.3g} to {ends[-1]:.3g} mm: {remedy}, or raise the"
+            f" torque{coarse}"
+        ]

@@ -1,8 +1,8 @@
 """A result as a NetCDF-4 file: written whole or not at all, and refused when read back damaged.
 
 h5py writes and reads it as the format's specification has dimensions and attributes in HDF5 (appendix "NetCDF-4 format"
-of the NetCDF user's guide). Half a hundred variables with their attributes take HDF5 longer to make than to fill.
-Datasets alike in all but values, such as the runs of a study, therefore begin as copies of one file without values.
+of the NetCDF user's guide). Datasets alike in all but values, such as the runs of a study, begin as copies of one file
+without values: half a hundred variables with attributes take HDF5 longer to make than to fill.
 """
 
 from __future__ import annotations
@@ -38,15 +38,14 @@ def save(result: xr.Dataset, path: str | Path) -> None:
 
 
 class NeverFull:
-    """A file for HDF5, which itself does not come back cleanly from a full disk: this goes on in memory then, and has
-    the `failure`."""
+    """A file for HDF5, which does not come back cleanly from a full disk: this goes on in memory then, and has the
+    `failure`."""
 
     def __init__(self, file: BinaryIO):
         self._file = file
         self.failure: OSError | None = None
 
     def __getattr__(self, name: str):
-        """Whatever cannot fail for want of room."""
         return getattr(self._file, name)
 
     def write(self, content) -> int:
@@ -77,8 +76,7 @@ class NeverFull:
 
 
 def load(path: str | Path) -> xr.Dataset:
-    """Read a saved result into memory. Raises ComputationError when the
-    file is no result of this program, or damaged.
+    """Read a saved result into memory. Raises ComputationError when the file is no result of this program, or damaged.
 
     >>> load("demos/lundvall2004.toml")  # doctest: +ELLIPSIS
     Traceback (most recent call last):
@@ -88,7 +86,7 @@ def load(path: str | Path) -> xr.Dataset:
     result = read(path)
     if "transmission_error" not in result or "scene" not in result.attrs:
         raise ComputationError(f"{path}: holds no run of this program (no transmission_error, no scene text)")
-    # The contents' layout, imported here: writing a result does not need it.
+    # Imported here: writing a result does not need it.
     from .layout import mistake_in
 
     if mistake := mistake_in(result):
@@ -97,8 +95,8 @@ def load(path: str | Path) -> xr.Dataset:
 
 
 def read(path: str | Path, names: Collection[str] | None = None) -> xr.Dataset:
-    """Read a saved dataset, whatever it holds, into memory, or only its variables of these names. Raises
-    ComputationError when it is damaged or not written by `save`."""
+    """Read a saved dataset into memory, or only its variables of these names. Raises ComputationError when it is
+    damaged or not written by `save`."""
     try:
         with unsealed(Path(path)) as content:
             return read_netcdf(content, names)
@@ -145,7 +143,7 @@ def _as_stored(variable: xr.Variable) -> np.ndarray:
 @dataclass(frozen=True)
 class Layout:
     """What a dataset has but its values: of each variable name, type, shape, dimensions and attributes, and the sizes
-    of dimensions; equal in `words`."""
+    of dimensions; equal in `words`, which tell apart whatever files would."""
 
     words: str
     variables: list[tuple] = field(compare=False)
@@ -153,7 +151,6 @@ class Layout:
 
     @classmethod
     def of(cls, variables: list[tuple], sizes: dict[str, int]) -> Layout:
-        """With words that tell apart whatever files would."""
         typed = [
             (*each, [str(getattr(value, "dtype", type(value))) for value in each[-1].values()]) for each in variables
         ]
@@ -214,21 +211,15 @@ def _write_attributes(place, attributes: Mapping[str, Any]) -> None:
 
 # What the format keeps in attributes of its own.
 OF_THE_FORMAT = {
-    "CLASS",
-    "NAME",
-    "DIMENSION_LIST",
-    "REFERENCE_LIST",
-    "_Netcdf4Dimid",
-    "_Netcdf4Coordinates",
-    "_NCProperties",
+    "CLASS", "NAME", "DIMENSION_LIST", "REFERENCE_LIST", "_Netcdf4Dimid", "_Netcdf4Coordinates", "_NCProperties",
     "_nc3_strict",
-}
+}  # fmt: skip
 NO_VARIABLE = "This is a netCDF dimension but not a netCDF variable"
 
 
 def read_netcdf(content, names: Collection[str] | None = None) -> xr.Dataset:
-    """The dataset in an open NetCDF-4 file, in memory, or only its variables of these names: as `xarray.open_dataset`
-    by h5netcdf, in a third of the time for so many variables."""
+    """The dataset in an open NetCDF-4 file, in memory, or only its variables of these names: as `xarray.open_dataset`,
+    in a third of the time."""
     variables = {}
     with h5py.File(content) as file:
         # As a group the root has its names in the order in which they were written.
@@ -253,8 +244,8 @@ def read_netcdf(content, names: Collection[str] | None = None) -> xr.Dataset:
 
 
 def _decoded(dims: tuple[str, ...], values: np.ndarray, labels: dict[str, Any]) -> xr.Variable:
-    """A variable by the conventions that `write_netcdf` follows, all that results need: what is missing is not a
-    number, and switches are whole numbers. To look for all other conventions takes a fifth of the time of reading."""
+    """A variable by the conventions that `write_netcdf` follows: what is missing is not a number, and switches are
+    whole numbers."""
     encoding: dict[str, Any] = {"dtype": values.dtype}
     if "_FillValue" in labels:
         encoding["_FillValue"] = labels.pop("_FillValue")

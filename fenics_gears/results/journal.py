@@ -1,9 +1,8 @@
 """What a march has recorded, on disk while it goes on: it outlives a process that is killed, and takes no memory.
 
-A directory of plain files, a file for each variable, to which the values of every block of steps are written when the
-block is done; then STATE, which says how many steps are whole, is replaced. Nothing waits in the process to be written:
-what was written is in the hands of the operating system, which loses nothing of it when the process is killed. HDF5
-keeps parts of its files in the process; what a kill leaves of them cannot always be opened.
+A directory with a file for each variable, to which the values of every block of steps are written when it is done; then
+STATE, which says how many steps are whole, is replaced. Nothing waits in the process to be written, as it would with
+HDF5: what was written is in the hands of the operating system, which loses nothing when the process is killed.
 """
 
 import json
@@ -54,11 +53,8 @@ class Place:
 
 
 class Journal(InMemory):
-    """Keeps values in memory for the first SECONDS_WITHOUT, then in files; in memory again where these cannot be
-    written.
-
-    `place`: the directory, and where files that the `scene` names are looked for.
-    """
+    """Keeps values in memory for the first SECONDS_WITHOUT, then in files at a `place`; in memory again where these
+    cannot be written."""
 
     def __init__(self, place: Place, scene: Scene, stored: Arrays, steps: int, last: int):
         super().__init__(stored, steps, last)
@@ -109,7 +105,6 @@ class Journal(InMemory):
             _write(self._files[check], CHECK, first, sums)
 
     def _begin(self, steps: int) -> None:
-        """Write all values so far, and hold them no longer."""
         remove(self.directory)
         # Of a process that was killed while it removed its own.
         (self.directory / STATE).unlink(missing_ok=True)
@@ -181,7 +176,6 @@ class Recorded:
     values: dict[str, np.ndarray]
 
     def get(self, name: str, steps: int) -> np.ndarray:
-        """The values of a variable, of all steps."""
         return self.values[name]
 
 
@@ -191,7 +185,6 @@ def is_journal(path: Path) -> bool:
 
 
 def remove(directory: Path) -> None:
-    """Remove a journal, if there is one."""
     if (directory / HEADER).is_file():
         shutil.rmtree(directory)
 
@@ -203,7 +196,7 @@ def read(directory: Path) -> Recorded:
         header, state = _text(directory / HEADER), _text(directory / STATE)
         if header["version"] != fenics_gears.__version__:
             raise ValueError(
-                f"it was written by version {header['version']} of this program, which can read it; this is"
+                f"only version {header['version']} of this program, which wrote it, can read it; this is"
                 f" {fenics_gears.__version__}"
             )
         kinds = {
@@ -262,7 +255,6 @@ def _text(path: Path) -> dict:
 
 
 def _write(file: FileIO, kind: Kind, first: int, values: np.ndarray) -> None:
-    """Write the values of the steps from `first` on to their places."""
     own, size = np.ascontiguousarray(values, kind.type), kind.type.itemsize * prod(kind.shape)
     room = kind.last + SPARE if kind.last else first + len(own)
     while len(own):

@@ -1,7 +1,5 @@
-"""The key numbers of a run, taken from the curves of its settled mesh cycles. `results.attributes` lists them with
-units and meaning."""
-
-from __future__ import annotations
+"""The key numbers of a run, taken from the curves of its settled mesh cycles; `results.attributes` has their units and
+meaning."""
 
 from collections.abc import Mapping
 
@@ -23,8 +21,8 @@ STUDIED = (
     *HARMONIC_NAMES, "rms_transmission_error", "rms_normal_force", "mean_mesh_stiffness", "mean_mesh_stiffness_tangent",
     "single_pair_stiffness", "largest_pair_force",
     "dynamic_factor_by_force", "dynamic_factor_by_stress", "peak_contact_pressure", "peak_edge_pressure",
-    "peak_kink_pressure", "largest_root_stress_pinion",
-    "largest_root_stress_wheel",    "input_power", "friction_loss", "friction_power", "mesh_efficiency",
+    "peak_kink_pressure", "largest_root_stress_pinion", "largest_root_stress_wheel",
+    "input_power", "friction_loss", "friction_power", "mesh_efficiency",
     "contact_loss_share",
     "overlap_ratio", "total_contact_ratio", "face_load_factor", "largest_line_load_factor", "edge_line_load_factor",
     "transverse_load_factor",
@@ -35,24 +33,18 @@ STUDIED = (
 def key_numbers(
     counted: Mapping[str, np.ndarray], pair: GearPair, friction_loss: float | None, timed: bool
 ) -> dict[str, float | str]:
-    """All numbers of the settled steps of a result but those of root stress, as far as the curves that they are taken
-    from are among those `counted`; `friction_loss`: its attribute. timed: the scene has a speed, without which there is
-    no power."""
+    """All numbers of the settled steps of a result but those of root stress, as far as their curves are among those
+    `counted`; `friction_loss`: its attribute; `timed`: the scene has a speed, without which there is no power."""
     # The last step begins the next cycle.
     last = max(len(counted["time"]) - 1, 1)
     settled = {name: values[:last] for name, values in counted.items()}
-    return (
-        _harmonics(settled, pair)
-        | _stiffness(settled, pair)
-        | _pair_force(settled)
-        | _pressure(settled, pair)
-        | _power(counted, friction_loss, timed)
-    )
+    of_mesh = _harmonics(settled, pair) | _stiffness(settled, pair) | _pair_force(settled) | _pressure(settled, pair)
+    return of_mesh | _power(counted, friction_loss, timed)
 
 
 def _harmonics(settled: Curves, pair: GearPair) -> dict[str, float]:
     """Harmonics and r.m.s. of the transmission error as a length at the wheel's base circle, um, and r.m.s. of the mesh
-    force, N, of the last whole mesh cycles; nothing of less than one, or on a ramp, where no two cycles are alike."""
+    force, N, of the last whole mesh cycles; nothing of less than one, or on a ramp."""
     phase = settled["mesh_phase"]
     if len(phase) < 2 or "mesh_frequency" in settled:
         return {}
@@ -61,19 +53,14 @@ def _harmonics(settled: Curves, pair: GearPair) -> dict[str, float]:
     if not cycles:
         return {}
     curve = settled["transmission_error"][-cycles * a_cycle :] * pair.wheel.base_radius / MICROMETRE
-    found = {
-        name: float(amplitude)
-        for name, amplitude in zip(HARMONIC_NAMES, harmonics(curve, cycles))
-        if np.isfinite(amplitude)
-    }
-    return found | {
+    amplitudes = zip(HARMONIC_NAMES, harmonics(curve, cycles))
+    return {name: float(amplitude) for name, amplitude in amplitudes if np.isfinite(amplitude)} | {
         "rms_transmission_error": float(curve.std()),
         "rms_normal_force": float(mesh_force(settled)[-cycles * a_cycle :].std()),
     }
 
 
 def _stiffness(settled: Curves, pair: GearPair) -> dict[str, float]:
-    """Mesh stiffness over the face width, N/(mm um): c_gamma, its tangent, and the c' of one pair."""
     if "mesh_stiffness" not in settled:
         return {}
     secant, tangent, pairs = (settled[name] for name in ("mesh_stiffness", "mesh_stiffness_tangent", "loaded_pairs"))
@@ -86,8 +73,8 @@ def _stiffness(settled: Curves, pair: GearPair) -> dict[str, float]:
 
 
 def _pair_force(settled: Curves) -> dict[str, float]:
-    """The largest normal force of a tooth pair, N, at the steps, on drive or coast flanks; nothing where shares of
-    rigid pairs are not determined, or nothing presses."""
+    """The largest normal force of a tooth pair, N, at the steps; nothing where shares of rigid pairs are not
+    determined, or nothing presses."""
     if "pair_normal_force" not in settled:
         return {}
     over_time = largest_force_over_time(settled)
@@ -107,7 +94,6 @@ def largest_force_over_time(curves: Curves) -> np.ndarray:
 
 
 def _pressure(settled: Curves, pair: GearPair) -> dict[str, float | str]:
-    """The largest contact pressure and where it is."""
     if "largest_contact_pressure" not in settled:
         return {}
     pressure = settled["largest_contact_pressure"]
@@ -125,7 +111,6 @@ def _pressure(settled: Curves, pair: GearPair) -> dict[str, float | str]:
     on_coast = "coast_normal_force" in settled and at("coast_normal_force") > at("normal_force")
     roll = at("largest_contact_pressure_roll_angle")
     if pair.slope:
-        # Imported here: plane runs have none.
         from .load_factors import end_of_line
 
         if end := end_of_line(pair, pair.pinion.base_radius * roll):
@@ -190,31 +175,24 @@ def wedged(curves: Curves) -> np.ndarray:
 def path_point_values(
     scene: Scene, pair: GearPair, phase: np.ndarray, numbers: np.ndarray, forces: np.ndarray, first_number: int
 ) -> dict[str, np.ndarray]:
-    """What the points A to E of the path of contact have: place, sliding by the nominal motion, share of the load in
-    the settled steps.
+    """What the points A to E of the path of contact have: place, sliding by the nominal motion, share of the load.
 
-    Of these steps `phase` (steps,), mesh cycles, the pairs' `numbers` (steps, slots), 0 for none, of which
+    Of settled steps: `phase` (steps,), mesh cycles, the pairs' `numbers` (steps, slots), 0 for none, of which
     `first_number` reaches the start of contact at phase 0, and their `forces` (steps, slots), N.
     """
     points = contact_points(pair)
     rolls = pair.pinion_roll_angle(points), pair.wheel_roll_angle(points)
     diameters = [2.0 * gear.radius(roll) for gear, roll in zip((pair.pinion, pair.wheel), rolls)]
-    shares = shares_at(
-        (points - pair.path_start) / pair.base_pitch,
-        phase,
-        numbers - first_number,
-        np.where(numbers > 0, forces, np.nan),
-    )
+    positions, forces = (points - pair.path_start) / pair.base_pitch, np.where(numbers > 0, forces, np.nan)
     return {
         "path_point_position": points,
         "path_point_diameter": np.transpose(diameters),
         "sliding_speed": sliding_speed(pair, points, scene.mesh_frequencies[1]),
         "specific_sliding": np.transpose(specific_sliding(pair, points)),
-        "load_share": shares,
+        "load_share": shares_at(positions, phase, numbers - first_number, forces),
     }
 
 
 def path_point_coordinate() -> tuple:
-    """The coordinate of those variables."""
     words = "start of contact, LPSTC of the pinion, pitch point, HPSTC of the pinion, end of contact"
     return ("path_point", list(CONTACT_POINTS), {"long_name": f"point of the path of contact: {words}"})

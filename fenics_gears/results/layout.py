@@ -1,5 +1,5 @@
-"""What every result's file has: names, dimensions and types, checked after its seal, which only says that its bytes are
-those that were written."""
+"""What every result's file has: names, dimensions and types; its seal only says that its bytes are those that were
+written."""
 
 from collections.abc import Iterator
 from functools import cache
@@ -9,11 +9,11 @@ import xarray as xr
 
 from fenics_gears.effects import COMMON_VARIABLES, FACE_VARIABLES, every_effect
 from fenics_gears.effects.effect import OF_NODES, OF_SLICES
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.model.storage import CONTACT_COORDINATES, COORDINATES, ROOT_STRESS, ROOT_STRESS_OVER_FACE
 
 from .attributes import RESULT_ATTRIBUTES
 
-GEARS = ["pinion", "wheel"]
 # Without these nothing can be drawn or said of a result; and what this program writes with them into each.
 REQUIRED = ("time", "mesh_phase", "transmission_error")
 WRITTEN = (*COORDINATES, "slot", "gear", "normal_force", "pair_normal_force")
@@ -26,7 +26,8 @@ def mistake_in(result: xr.Dataset) -> str:
 
 
 def _mistakes(result: xr.Dataset) -> Iterator[str]:
-    needed = (*REQUIRED, *(WRITTEN if "fenics_gears_version" in result.attrs else ()))
+    needed = [*REQUIRED, *(WRITTEN if "fenics_gears_version" in result.attrs else ())]
+    needed += ["face_slice_width"] if "face_position" in result.dims else []
     if missing := [name for name in dict.fromkeys(needed) if name not in result.variables]:
         yield f"it has no {', '.join(missing)}"
     for name, allowed in _known_dims().items():
@@ -39,25 +40,17 @@ def _mistakes(result: xr.Dataset) -> Iterator[str]:
             yield f"{name} holds {result[name].dtype}, not numbers"
     numbers = {each.name for each in RESULT_ATTRIBUTES if each.units}
     for name, value in result.attrs.items():
-        if (
-            name in TEXTS
-            and not isinstance(value, str)
-            or name in numbers
-            and not isinstance(value, (int, float, np.number))
-        ):
+        kinds = str if name in TEXTS else (int, float, np.number) if name in numbers else object
+        if not isinstance(value, kinds):
             yield f"its attribute {name} is {value!r:.60}"
     yield from _mistakes_of_places(result)
 
 
 @cache
 def _known_dims() -> dict[str, list[tuple[str, ...]]]:
-    """Dimensions that variables of numbers may have, by name; those of contact nodes are of slices too where the flanks
-    are resolved over the face."""
-    variables = [
-        *COMMON_VARIABLES,
-        *FACE_VARIABLES,
-        *(variable for effect in every_effect() for variable in effect.variables),
-    ]
+    """Dimensions that variables of numbers may have, by name; over a face those of contact nodes are of slices too."""
+    of_effects = (variable for effect in every_effect() for variable in effect.variables)
+    variables = [*COMMON_VARIABLES, *FACE_VARIABLES, *of_effects]
     found = {
         each.name: [each.dims, *([(*OF_SLICES, "contact_node")] if each.dims == OF_NODES else [])] for each in variables
     }
@@ -69,7 +62,7 @@ def _known_dims() -> dict[str, list[tuple[str, ...]]]:
 
 def _mistakes_of_places(result: xr.Dataset) -> Iterator[str]:
     """Of the coordinates: steps in the order of time, contact fields at some of them, tooth pairs in their slots."""
-    if "gear" in result.dims and list(result["gear"].values) != GEARS:
+    if "gear" in result.dims and tuple(result["gear"].values) != GEARS:
         yield "its gears are not pinion and wheel"
     for name in ("time", "mesh_phase"):
         values = result[name].values

@@ -1,7 +1,8 @@
 """How unevenly a mesh carries along the face and between its tooth pairs, read off the computed contact.
 
-Face and transverse load factor are those of ISO 6336-1 by its own definitions (method A); its methods B and C
-estimate them. None of the factors has the dynamic factor in it: each compares loads of the same steps."""
+Face and transverse load factor are those of ISO 6336-1 by its own definitions (method A). None has the dynamic factor
+in it: each compares loads of the same steps.
+"""
 
 import numpy as np
 import xarray as xr
@@ -10,7 +11,7 @@ from fenics_gears.contact.laws import NO_FORCE
 from fenics_gears.contact.window import coast_roll_angles
 from fenics_gears.geometry.pair import GearPair
 
-from .face_ends import end_depth, in_end_zone, slice_widths, windows
+from .face_ends import end_depth, in_end_zone, windows
 from .pairs import carrying_side
 
 # Mesh cycles beside a phase at which the lines of contact change.
@@ -19,18 +20,13 @@ BESIDE = 1e-9
 
 def load_factors(counted: xr.Dataset, pair: GearPair) -> dict[str, float]:
     """Overlap and total contact ratio, and the load factors of the flanks that carry in the settled steps of a result;
-    nothing of flanks without load.
-
-    Factors along the face need contact fields, of which those of settled steps count.
-    """
+    nothing of flanks without load. Factors along the face need contact fields."""
     found = {"overlap_ratio": pair.overlap_ratio, "total_contact_ratio": pair.total_contact_ratio}
     side = carrying_side(counted)
     pressed = counted[f"{side}normal_force"].values > NO_FORCE
     if pressed.any():
-        largest = (
-            counted[f"pair_{side}normal_force"].values[pressed].max(axis=1)
-            / counted[f"{side}normal_force"].values[pressed]
-        )
+        of_pairs, of_mesh = (counted[f"{each}{side}normal_force"].values[pressed] for each in ("pair_", ""))
+        largest = of_pairs.max(axis=1) / of_mesh
         found["transverse_load_factor"] = float(largest.max()) / largest_even_share(pair)
     if counted.sizes.get("contact_time"):
         settled = counted.isel(contact_time=counted["contact_time"].values >= counted["time"].values[0])
@@ -39,14 +35,12 @@ def load_factors(counted: xr.Dataset, pair: GearPair) -> dict[str, float]:
 
 
 def line_loads(result: xr.Dataset, side: str) -> np.ndarray:
-    """Line load (n, slots, S), N/mm, of those flanks."""
     return result[f"{side}line_load"].transpose("contact_time", "slot", "face_position").values
 
 
 def _of_cycle(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float]:
-    """Of the line load averaged over whole mesh cycles: its largest mean over a window, over that of the whole face;
-    nothing of less than a cycle."""
-    load, widths = mean_line_load(settled, side), slice_widths(settled)
+    """Of the line load averaged over whole mesh cycles: its largest mean over a window, over that of the whole face."""
+    load, widths = mean_line_load(settled, side), settled["face_slice_width"].values
     if load is None or not load.any():
         return {}
     mean = float(load @ widths / widths.sum())
@@ -68,10 +62,10 @@ def mean_line_load(result: xr.Dataset, side: str) -> np.ndarray | None:
 
 def _of_instants(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, float]:
     """Of the largest line load of one tooth pair at any stored step, the mean over a window away from edges, and of a
-    slice at edges: over the line load that the mesh's force of that step makes if it spreads evenly along the lines
-    of contact of rigid gears when they are shortest."""
+    slice at edges: over the line load that the force of that step makes if it spreads evenly along the lines of contact
+    of rigid gears when they are shortest."""
     loads, z = line_loads(settled, side), settled["face_position"].values
-    force = (loads @ slice_widths(settled)).sum(axis=1)
+    force = (loads @ settled["face_slice_width"].values).sum(axis=1)
     ended, shares = _line_ends(settled, pair, side, z), windows(settled, pair)
     away = np.where(ended @ (shares > BESIDE).T, 0.0, loads @ shares.T)
     edges = np.where(ended | in_end_zone(pair, z), loads, 0.0)
@@ -85,18 +79,15 @@ def _of_instants(settled: xr.Dataset, pair: GearPair, side: str) -> dict[str, fl
 
 
 def at_edges(result: xr.Dataset, pair: GearPair, side: str) -> np.ndarray:
-    """Whether the contact of each tooth pair in each slice (n, slots, S) is near an end of the face, or where its
-    line of contact ends on the flank."""
+    """Whether the contact of each tooth pair in each slice (n, slots, S) is near an end of the face, or where its line
+    of contact ends on the flank."""
     z = result["face_position"].values
     return _line_ends(result, pair, side, z) | in_end_zone(pair, z)
 
 
 def _line_ends(result: xr.Dataset, pair: GearPair, side: str, z: np.ndarray) -> np.ndarray:
-    """Whether each tooth pair's line of contact ends at a tip or form circle near places z (mm) of the face (n,
-    slots, len(z)), or has ended before them.
-
-    Near is the depth of the end zones, along the face. The line of a spur pair ends nowhere along the face.
-    """
+    """Whether each tooth pair's line of contact ends at a tip or form circle near places z (mm) of the face (n, slots,
+    len(z)), or has ended before them. The line of a spur pair ends nowhere along the face."""
     numbers = result["contact_pair_number"]
     since = result["contact_mesh_phase"].values[:, None] - (numbers.values - numbers.attrs["number_at_phase_0"])
     position = pair.path_start + since[..., None] * pair.base_pitch + pair.slope * z
@@ -118,8 +109,7 @@ def end_of_line(pair: GearPair, position: float) -> str:
 
 def passing(pair: GearPair, position, side: str):
     """Where the contact of a pair's drive flanks stands (mm from T1) when that of its flanks of `side` passes a
-    position on their own line of action."""
-    # There coast flanks go the other way.
+    position on their own line of action, which coast flanks pass the other way."""
     return pair.pinion.base_radius * coast_roll_angles(pair, 0.0)[0] - position if side else position
 
 

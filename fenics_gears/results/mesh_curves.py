@@ -1,14 +1,12 @@
 """Curves of an elastic mesh besides its forces: its stiffness, and its largest pressure with where that is.
 
-Deflection delta (mm): overlap of the undeformed flanks along the line of action, that is the transmission error of the
-teeth beyond that of rigid flanks. Secant stiffness F/delta (N/mm) is the mesh stiffness of ISO 6336-1, load over
-deformation; the tangent dF/ddelta is the spring that small vibrations meet: the closed contact nodes stay closed and
-friction forces stay as they are.
+Deflection delta (mm): overlap of the undeformed flanks along the line of action. Secant stiffness F/delta (N/mm) is the
+mesh stiffness of ISO 6336-1; the tangent dF/ddelta is the spring that small vibrations meet: closed contact nodes stay
+closed and friction forces stay as they are.
 
-Which contact nodes are beside an edge or a kink of the flanks, where linear elasticity has infinite pressure, place
-alone decides, neither the pressure nor the sizes of elements and nodes. An edge or a kink changes the pressure
-about as far as half of the contact is wide (Johnson, Contact Mechanics, 1985, 5.1 to 5.3), and lengths are therefore
-counted in the Hertz half-width under full load on one pair, from either side along the flank.
+Place alone decides which contact nodes are beside an edge or a kink of the flanks, where linear elasticity has infinite
+pressure. These change the pressure about as far as half of the contact is wide (Johnson, Contact Mechanics, 1985, 5.1
+to 5.3): lengths are counted in the Hertz half-width under full load on one pair, from either side along the flank.
 """
 
 from __future__ import annotations
@@ -31,9 +29,9 @@ from .side_by_side import SideBySide
 @njit(cache=True)
 def mesh_stiffness(contact, status, forces, coordinates):
     """Secant and tangent stiffness, N/mm, of the drive or coast flanks, whichever carry more, and how many tooth pairs
-    carry there.
+    carry there; all zero where nothing touches.
 
-    `contact`: the `addresses.Arrays` of elastic flanks; others as of StepSolution. All zero where nothing touches.
+    `contact`: the `addresses.Arrays` of elastic flanks; others as of StepSolution.
     """
     # Taken out of the record once: in a loop that would cost more than the numbers.
     jacobian, gap, on_drive_flanks, node_pair = (
@@ -65,11 +63,7 @@ def mesh_stiffness(contact, status, forces, coordinates):
 @njit(cache=True)
 def _highest(overlap, node_pair):
     """Largest overlap (mm) of flanks with overlaps (n,) at evenly spaced nodes: vertex of the parabola through the
-    largest and its neighbours.
-
-    The deepest overlap lies between two nodes as a rule; at nodes alone it would be too small by up to spacing^2/(8
-    rho).
-    """
+    largest and its neighbours. At nodes alone it would be too small by up to spacing^2/(8 rho)."""
     top = np.argmax(overlap)
     at = overlap[top]
     if top == 0 or top == len(overlap) - 1 or not node_pair[top - 1] == node_pair[top] == node_pair[top + 1]:
@@ -100,7 +94,7 @@ Curves = dict[str, np.ndarray]
 
 
 def stiffness_curves(steps: Steps) -> Curves:
-    """Secant and tangent stiffness of the mesh, and how many pairs carry, at consecutive steps of an elastic mesh."""
+    """Secant and tangent stiffness of the mesh, and how many pairs carry, at consecutive steps."""
     secant, tangent, pairs = _stiffness(steps.in_memory)
     return {"mesh_stiffness": secant, "mesh_stiffness_tangent": tangent, "loaded_pairs": pairs}
 
@@ -115,20 +109,15 @@ def _stiffness(block):
     return found
 
 
-def _together(parts: np.ndarray) -> np.ndarray:
-    """Values of the slices of tooth pairs, one after the other at each step."""
-    return parts.reshape(len(parts), -1)
-
-
 def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray], singular: EdgesAndKinks) -> Curves:
     """The largest pressure of consecutive steps, its tooth pair and its place, from their contact `fields`.
 
-    What is beside an edge or a kink is left out and has a largest pressure of its own, as have pairs that press with
-    the sharp edge of a tip, or of an undercut involute, and slices near the ends of the face: linear elasticity has
-    infinite pressure there, and the number grows as contact nodes come closer.
+    What is beside an edge or a kink has a largest pressure of its own, as have pairs that press with the sharp edge of
+    a tip, or of an undercut involute, and slices near the ends of the face: there the number grows as contact nodes
+    come closer.
     """
     pressed_edge, beside = nodes.of("on_edge").any(axis=0) & (nodes.normal > NO_FORCE), singular.beside(nodes)
-    largest, rolls = {kind: [] for kind in (NOTHING, KINK, EDGE)}, []
+    largest, rolls, steps = {kind: [] for kind in (NOTHING, KINK, EDGE)}, [], len(nodes.steps)
     for side, drive in (("", True), ("coast_", False)):
         if f"{side}contact_pressure" not in fields:
             continue
@@ -137,9 +126,9 @@ def pressure_curves(nodes: SideBySide, fields: Mapping[str, np.ndarray], singula
         presses_edge = nodes.by_slice(pressed_edge & (nodes.drive == drive))[..., None] > 0
         kinds = np.where(presses_edge, EDGE, nodes.over_nodes(beside, drive, NOTHING))
         for kind, found in largest.items():
-            found.append(_together(np.where(kinds == kind, pressure, 0.0).max(axis=-1)))
+            found.append(np.where(kinds == kind, pressure, 0.0).max(axis=-1).reshape(steps, -1))
         node = np.where(kinds == NOTHING, pressure, 0.0).argmax(axis=-1)[..., None]
-        rolls.append(_together(np.take_along_axis(place, node, -1)[..., 0]))
+        rolls.append(np.take_along_axis(place, node, -1).reshape(steps, -1))
     pressures = {kind: np.concatenate(found, axis=1) for kind, found in largest.items()}
     repeated = np.repeat(nodes.pair_number, rolls[0].shape[1] // nodes.pair_number.shape[1], axis=1)
     numbers, off_edge = np.concatenate([repeated] * len(rolls), axis=1), pressures[NOTHING]
@@ -204,17 +193,14 @@ def without_oscillation(pressure: np.ndarray) -> np.ndarray:
     """Pressure at evenly spaced contact nodes (..., n), MPa, averaged over five nodes each; the two at either end stay
     as they are.
 
-    Where contact nodes are closer than the flank's elements, the elements' shapes cannot follow the pressure, which
-    then has an error that changes sign from node to node. Peaks are read off this average: within 2.5, 0.8, 0.2 % of
-    Hertz's for half-widths of 2, 4, 8 elements and contact nodes 0.5 to 0.7 elements apart, wherever the nodes lie;
-    nodal values then err by up to 17, 2, 3 %.
+    Where contact nodes are closer than the flank's elements, the pressure has an error that changes sign from node to
+    node. Peaks of this average are within 2.5, 0.8, 0.2 % of Hertz's for half-widths of 2, 4, 8 elements and contact
+    nodes 0.5 to 0.7 elements apart; nodal values err by up to 17, 2, 3 %.
     """
     result = np.array(pressure, dtype=float)
-    nodes = result.shape[-1]
-    if nodes < len(WEIGHTS):
-        return result
-    middle = sum(weight * pressure[..., i : nodes - len(WEIGHTS) + 1 + i] for i, weight in enumerate(WEIGHTS))
-    result[..., 2:-2] = middle
+    beyond = result.shape[-1] - len(WEIGHTS) + 1
+    if beyond > 0:
+        result[..., 2:-2] = sum(weight * pressure[..., i : beyond + i] for i, weight in enumerate(WEIGHTS))
     return result
 
 

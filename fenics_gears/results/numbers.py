@@ -1,7 +1,6 @@
 """The numbers that a pair is judged by, as plain functions of curves; `results.key_numbers` applies them to a result.
 
-Curves (steps,) are those of whole mesh cycles of the settled motion, one value a step, the end left out that begins the
-next cycle. Contact losses of the drive flanks: how long and how far.
+Curves (steps,) are those of whole settled mesh cycles, one value a step, without the end that begins the next cycle.
 """
 
 from collections.abc import Sequence
@@ -25,10 +24,9 @@ SAME = 1e-9
 
 def harmonics(curve: np.ndarray, cycles: int, count: int = HARMONICS) -> np.ndarray:
     """Amplitudes (count,) of the first harmonics of the mesh frequency in a curve over `cycles` whole mesh cycles, in
-    the curve's unit.
+    the curve's unit; not a number above half of the steps a cycle, where steps do not sample them.
 
-    The curve is mean + sum over n of amplitude_n cos(2 pi n phase + shift_n) and what lies between the harmonics;
-    harmonics that the steps do not sample, above half of the steps a cycle, are not a number.
+    The curve is mean + sum over n of amplitude_n cos(2 pi n phase + shift_n) and what lies between the harmonics.
     """
     steps = len(curve) // cycles
     spectrum = np.abs(np.fft.rfft(curve)) * (2.0 / len(curve))
@@ -38,21 +36,17 @@ def harmonics(curve: np.ndarray, cycles: int, count: int = HARMONICS) -> np.ndar
 
 def shares_at(positions, phase: np.ndarray, numbers: np.ndarray, forces: np.ndarray) -> np.ndarray:
     """Share (len(positions),) of the mesh's force that a pair carries at positions on its path, in mesh cycles since
-    the start of contact.
+    the start of contact: straight between steps, the mean over the pairs that pass; not a number where none does.
 
     `phase` (steps,): mesh cycles; `numbers`, `forces` (steps, pairs): the pairs' numbers and their forces, N; a pair
-    with number n is at position `phase - n`. Straight between steps, the mean over the pairs that pass a position; not
-    a number where none does.
+    with number n is at position `phase - n`.
     """
     positions = np.asarray(positions, dtype=float)
     total = np.nansum(forces, axis=1, keepdims=True)
     share = np.divide(forces, total, out=np.full(forces.shape, np.nan), where=total > 0.0)
     known = np.isfinite(share)
-    passed, number, share = (
-        (phase[:, None] - numbers)[known],
-        np.broadcast_to(numbers, forces.shape)[known],
-        share[known],
-    )
+    number, share = np.broadcast_to(numbers, forces.shape)[known], share[known]
+    passed = (phase[:, None] - numbers)[known]
     if not len(share):
         return np.full(len(positions), np.nan)
     order = np.lexsort((passed, number))
@@ -63,10 +57,8 @@ def shares_at(positions, phase: np.ndarray, numbers: np.ndarray, forces: np.ndar
     apart = np.ptp(passed) + 1.0
     inside = (positions >= lowest[:, None] - ROUNDING) & (positions <= highest[:, None] + ROUNDING)
     found = np.interp(positions + apart * np.arange(len(first))[:, None], passed + apart * of_pair, share)
-    count = inside.sum(axis=0)
-    return np.divide(
-        np.where(inside, found, 0.0).sum(axis=0), count, out=np.full(len(positions), np.nan), where=count > 0
-    )
+    total, count = np.where(inside, found, 0.0).sum(axis=0), inside.sum(axis=0)
+    return np.divide(total, count, out=np.full(len(positions), np.nan), where=count > 0)
 
 
 def mean_where_positive(values: np.ndarray) -> float:
@@ -82,8 +74,8 @@ def largest_of_one_pair(stiffness: np.ndarray, pairs: np.ndarray) -> float:
 
 
 def first_largest(values: np.ndarray) -> int:
-    """Place of the first value that is the largest but for round-off: cycles repeat, and round-off must not say which
-    of them is named."""
+    """Place of the first value that is the largest but for round-off, which must not say which of equal cycles is
+    named."""
     return int(np.argmax(values >= np.nanmax(values) * (1.0 - SAME)))
 
 
@@ -102,13 +94,11 @@ class ContactLoss:
         return self.last - self.first + 1
 
     def duration(self, clock: Clock) -> float:
-        """Time that those steps stand for, s."""
         return clock.duration(self.first - 1, self.last)
 
 
 def contact_losses(separations: Sequence[tuple[int, float]]) -> list[ContactLoss]:
-    """The losses among (step, smallest opening in mm) of all steps without contact: steps that follow each other are
-    one."""
+    """The losses among (step, smallest opening in mm) of all steps without contact."""
     losses = []
     for _, run in groupby(enumerate(separations), lambda each: each[1][0] - each[0]):
         steps = [separation for _, separation in run]
@@ -117,11 +107,8 @@ def contact_losses(separations: Sequence[tuple[int, float]]) -> list[ContactLoss
 
 
 def loss_attributes(separations: Sequence[tuple[int, float]], first: int, last: int, clock: Clock) -> dict[str, float]:
-    """Attributes of a result on lost contact between two steps: how often; time of the first and length of the longest
-    loss (s), share of the time, widest opening (mm).
-
-    The last four only where contact was lost.
-    """
+    """Attributes of a result on lost contact between two steps: how often; where contact was lost also time of the
+    first and length of the longest loss (s), share of the time, widest opening (mm)."""
     losses = contact_losses(separations)
     if not losses:
         return {"contact_loss_count": 0}

@@ -27,17 +27,12 @@ class Life:
 def carrying_side(result: xr.Dataset) -> str:
     """What names of variables of the flanks that carry more begin with: nothing for drive flanks, "coast_" for coast
     flanks."""
-    return (
-        "coast_"
-        if "coast_normal_force" in result
-        and float(result["coast_normal_force"].sum()) > float(result["normal_force"].sum())
-        else ""
-    )
+    carried = [float(result[name].sum()) for name in ("normal_force", "coast_normal_force") if name in result]
+    return "coast_" if len(carried) > 1 and carried[1] > carried[0] else ""
 
 
 def shown_steps(result: RunResult | xr.Dataset) -> slice:
-    """Which steps of a result pictures show: its last cycles, as many as its attribute `shown_cycles` says, all of a
-    ramp."""
+    """Which steps of a result pictures show: its last cycles, as many as its attribute `shown_cycles` says."""
     cycles, phase = result.attrs.get("shown_cycles"), np.asarray(result["mesh_phase"])
     if cycles is None or not len(phase) or phase[-1] - phase[0] <= cycles * (1.0 + 1e-9):
         return slice(None)
@@ -55,8 +50,8 @@ def contact_times(result: xr.Dataset) -> xr.Dataset:
     SceneError without any."""
     if not result.sizes.get("contact_time", 0):
         raise SceneError(
-            "the result holds no contact fields, which stresses and pressures over the flank need. [output]"
-            ' contact_fields = true or "last 2 cycles" in the scene stores them; run it again.'
+            'the result holds no contact fields. [output] contact_fields = true or "last 2 cycles" in the scene stores'
+            " them; run it again."
         )
     return result.isel(time=np.isin(result["time"].values, result["contact_time"].values))
 
@@ -68,7 +63,6 @@ def in_middle_slice(result: xr.Dataset) -> xr.Dataset:
 
 
 def words_of_slice(result: xr.Dataset) -> str:
-    """Where that slice is; empty where the face has none."""
     middle = in_middle_slice(result).coords.get("face_position")
     return "" if middle is None else f", in the slice at {float(middle):.2f} mm from the middle of the face"
 
@@ -86,13 +80,9 @@ def lives(numbers: np.ndarray) -> Iterator[Life]:
 
 def by_pair(variable: xr.DataArray, absent: float = np.nan) -> xr.DataArray:
     """A variable of a result with the dimension `pair` in place of `slot`: each tooth pair's own curve, `absent` while
-    it is out of reach.
-
-    As many values as steps times pairs: of a long run take a part first, `shown(result)` or `result.isel(time=...)`.
-    """
-    time, numbers = (
-        ("contact_time", "contact_pair_number") if "contact_time" in variable.dims else ("time", "pair_number")
-    )
+    it is out of reach. As many values as steps times pairs: of a long run take a part first, `shown(result)`."""
+    stored = "contact_" if "contact_time" in variable.dims else ""
+    time, numbers = f"{stored}time", f"{stored}pair_number"
     rest = [each for each in variable.dims if each not in (time, "slot")]
     values, pairs = variable.transpose(time, "slot", *rest).values, list(lives(variable[numbers].values))
     own = np.full((len(values), len(pairs), *values.shape[2:]), absent)

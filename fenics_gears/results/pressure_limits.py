@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fenics_gears.inputs.tree import GEARS
 from fenics_gears.scene.data import Scene
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ def warnings_of_pressure(scene: Scene, watched: Mapping[str, np.ndarray], number
 
 def _sharp_edge(scene: Scene, watched: Mapping[str, np.ndarray]) -> list[str]:
     """Contact on the sharp edge of a tip, where linear elasticity has infinite pressure."""
-    touched = {gear: watched[f"on the {gear}'s tip"] for gear in ("pinion", "wheel")}
+    touched = {gear: watched[f"on the {gear}'s tip"] for gear in GEARS}
     steps = int((touched["pinion"] | touched["wheel"]).sum())
     if not steps:
         return []
@@ -38,7 +39,7 @@ def _sharp_edge(scene: Scene, watched: Mapping[str, np.ndarray]) -> list[str]:
 
 def _undercut_edge(watched: Mapping[str, np.ndarray]) -> list[str]:
     found = []
-    for gear in ("pinion", "wheel"):
+    for gear in GEARS:
         at = watched[f"on the {gear}'s form circle"]
         if at.any():
             found.append(
@@ -52,7 +53,7 @@ def _undercut_edge(watched: Mapping[str, np.ndarray]) -> list[str]:
 def yielding(scene: Scene, numbers: Mapping) -> list[str]:
     """Stresses above what the materials bear without yielding, where their yield strength is known."""
     found, pressure = [], numbers.get("peak_contact_pressure", 0.0)
-    for gear, material in zip(("pinion", "wheel"), scene.gears.materials):
+    for gear, material in zip(GEARS, scene.gears.materials):
         strength = material.yield_strength
         if strength is None:
             continue
@@ -89,24 +90,21 @@ def _kink(scene: Scene, numbers: Mapping) -> list[str]:
 
 
 def _linear(reliefs: Reliefs | None) -> list[str]:
-    own = {gear: getattr(reliefs, gear, None) for gear in ("pinion", "wheel")}
+    own = {gear: getattr(reliefs, gear, None) for gear in GEARS}
     return [gear for gear, relief in own.items() if relief is not None and relief.power == 1 and relief.depth > 0.0]
 
 
 def _off_the_edge(scene: Scene, gears: list[str]) -> str:
     reliefs = [getattr(scene.tip_relief, gear) for gear in gears] if scene.tip_relief is not None else []
     if None in reliefs:
-        ways = [
-            f"[tip_relief.{gear}] takes the load off the edge" for gear, relief in zip(gears, reliefs) if relief is None
-        ]
+        without = (gear for gear, relief in zip(gears, reliefs) if relief is None)
+        ways = [f"[tip_relief.{gear}] takes the load off the edge" for gear in without]
     elif reliefs:
         ways = ["a deeper or longer tip relief takes more load off the edge"]
-        ways += (
-            ['tip_relief.shape = "parabolic" is steeper at the tip']
-            if any(relief.power == 1 for relief in reliefs)
-            else []
-        )
+        if any(relief.power == 1 for relief in reliefs):
+            ways.append('tip_relief.shape = "parabolic" is steeper at the tip')
     else:
         ways = ["[tip_relief] takes the load off the edge"]
-    rounded = scene.corner_contact is not None and min(scene.corner_contact.edge_radii) > 0.0
-    return ", ".join([*ways, *([] if rounded else ["[corner_contact] with an edge_radius rounds it"])])
+    if scene.corner_contact is None or not min(scene.corner_contact.edge_radii) > 0.0:
+        ways.append("[corner_contact] with an edge_radius rounds it")
+    return ", ".join(ways)

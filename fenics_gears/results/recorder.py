@@ -1,7 +1,7 @@
 """Records a march while it goes: curves of all steps, contact fields of the last steps, and what the warnings need.
 
 Steps are evaluated some at a time and then dropped; their values are kept in memory (`model.storage`) or, of a long
-march, in a journal on disk (`results.journal`). Contact fields are those of the last steps wherever the march ends.
+march, in a journal on disk (`results.journal`).
 """
 
 from __future__ import annotations
@@ -41,10 +41,8 @@ WATCHED = "watched: "
 
 
 def _along_face(model: Model, cycle: Cycle) -> tuple[AlongTheFace, ...]:
-    """What there is beside the results of one slice; nothing in the plane."""
     if cycle.face.slices == 1:
         return ()
-    # Imported here: plane scenes have none.
     from .face_variables import AlongTheFace
 
     if not model.drivetrain.elastic:
@@ -60,7 +58,6 @@ class KnownTouching:
     found: Touching | None = None
 
     def of(self, cycle: Cycle) -> Touching:
-        """In the cycle that this goes with."""
         if self.found is None:
             self.found = touching_at(
                 lambda step: [pair.place for pair in cycle.pairs_at(step)], cycle.steps, cycle.coast_flanks
@@ -70,10 +67,9 @@ class KnownTouching:
 
 class Recorder:
     """Takes the steps of a march, block by block; `loads`: the varying ones, the model's unless given; `stress`: root
-    stress, if asked for.
+    stress, if asked for; `journal`: where a long march is written down, in memory only where None.
 
-    `journal`: where a long march is written down; in memory only where None. `steps`: how many are recorded.
-    `first_number`: number of the pair that reaches the start of contact as the run begins.
+    `steps`: how many are recorded. `first_number`: of the pair that reaches the start of contact as the run begins.
     """
 
     def __init__(
@@ -123,13 +119,12 @@ class Recorder:
         self._evaluate(march)
 
     def finish(self) -> None:
-        """After the last step: evaluate the remaining records, and put all into the order of time."""
+        """After the last step: put all into the order of time."""
         self._evaluate()
         if not self.steps:
             none = self.size | {"time": 0, "contact_time": 0}
-            self.arrays = {
-                name: np.empty([none[each] for each in dims], kind) for name, (dims, kind) in self.stored.items()
-            }
+            for name, (dims, kind) in self.stored.items():
+                self.arrays[name] = np.empty([none[each] for each in dims], kind)
             return
         self.arrays = {name: self.kept.get(name, self.steps) for name in self.stored}
         self.watched = {name: self.kept.get(f"{WATCHED}{name}", self.steps) for name in self._watched}
@@ -146,8 +141,7 @@ class Recorder:
     def _evaluate_block(self, block: Steps, march: March | None) -> None:
         scene, cycle = self.model.scene, self.cycle
         nodes = SideBySide(self._layouts, cycle, block, self.slots, self.first_number)
-        numbers = block.numbers
-        times = self.model.clock.times(numbers)
+        numbers, times = block.numbers, self.model.clock.times(block.numbers)
         values = {"time": times, "mesh_phase": numbers / cycle.steps, "pair_number": nodes.pair_number}
         values |= self._centres(block) | mesh_variables(scene, nodes) | pair_variables(scene, nodes)
         if scene.tooth_elasticity is not None:
@@ -156,10 +150,8 @@ class Recorder:
         values |= energies
         for effect in effects_on(scene):
             if any(variable.dims == ("time",) for variable in effect.variables) and effect.results is not None:
-                values |= {
-                    name: of
-                    for name, (_, of) in effect.results(getattr(scene, effect.section), scene, cycle, numbers).items()
-                }
+                found = effect.results(getattr(scene, effect.section), scene, cycle, numbers)
+                values |= {name: of for name, (_, of) in found.items()}
         fields = {
             "contact_time": times,
             "contact_mesh_phase": values["mesh_phase"],
@@ -174,19 +166,16 @@ class Recorder:
             values |= pressure_curves(nodes, fields, self._singular)
         if self.stress is not None:
             fields |= self.stress.values(nodes)
-        for found in from_effects(scene, "watched", cycle, block):
-            watched |= found
+        for of_effect in from_effects(scene, "watched", cycle, block):
+            watched |= of_effect
         found = values | fields
         kept = {name: self._in_shape(found[name], dims) for name, (dims, _) in self.stored.items() if name in found}
         self._room.put(self.steps, kept | {f"{WATCHED}{name}": of for name, of in watched.items()}, march)
         # Last of all: a march that is interrupted before this line evaluates these steps again.
         self._watched = tuple(watched)
         del self._waiting[0]
-        self._last, self._worked, self.steps = (
-            block.between(len(block) - 1, len(block)),
-            worked,
-            self.steps + len(block),
-        )
+        self._last, self._worked = block.between(len(block) - 1, len(block)), worked
+        self.steps += len(block)
 
     def _in_shape(self, values: np.ndarray, dims: Sequence[str]) -> np.ndarray:
         """Values of some steps over the dimensions of their variable: one slice is none."""
@@ -217,9 +206,8 @@ class Recorder:
         model, before = self.model, 0 if self._last is None else 1
         together = block if self._last is None else self._last.followed_by(block)
         energies = energy_variables(model.scene, model.drivetrain, together)
-        work = work_variables(
-            model.scene, self.cycle, model.drivetrain, model.clock, self.loads, together, energies["energy"]
-        )
+        drivetrain, clock = model.drivetrain, model.clock
+        work = work_variables(model.scene, self.cycle, drivetrain, clock, self.loads, together, energies["energy"])
         work = {name: value + self._worked.get(name, 0.0) for name, value in work.items()}
         worked = {name: value[-1] for name, value in work.items()}
         return {name: value[before:] for name, value in (energies | work).items()}, worked

@@ -1,5 +1,5 @@
 """Root stress in the result: stress along the surface of both fillets of each loaded tooth, over time, slice by slice
-where flanks are resolved over the face."""
+over a face."""
 
 from collections import defaultdict
 from collections.abc import Sequence
@@ -19,8 +19,7 @@ from .side_by_side import SideBySide
 Rows = tuple[RootStressRows, RootStressRows]
 SIDES = ("drive", "coast")
 # Largest tensions are of points whose tangent's angle is at least so much of that at 30 degrees in the normal section.
-# The points beyond are beside the involute: where the contact begins there, their stress is that of the contact, which
-# a section with few elements does not resolve.
+# The points beyond are beside the involute, where the stress may be that of the contact, which is not resolved.
 OF_BENDING = 0.5
 
 
@@ -31,8 +30,8 @@ OnFlanks = tuple[list[int], list[tuple[np.ndarray, np.ndarray, np.ndarray]]]
 
 
 class RootStress:
-    """Root stress at the steps of a cycle: forces on the flanks, in slices of a face if it has some, from the contact
-    forces, times the stress per force on a flank."""
+    """Root stress at the steps of a cycle: forces on the flanks, from the contact forces, times the stress per force on
+    a flank."""
 
     def __init__(self, pair: GearPair, cycle: Cycle, rows: Rows):
         self.pair, self.cycle, self.rows = pair, cycle, rows
@@ -42,8 +41,7 @@ class RootStress:
         self._on_flanks: dict[tuple, tuple[np.ndarray, tuple[OnFlanks, OnFlanks]]] = {}
 
     def on_flanks(self, position: Position) -> tuple[np.ndarray, tuple[OnFlanks, OnFlanks]]:
-        """Indices (t,) of the tooth pairs in reach, and what contact forces are on both gears' flanks, found when first
-        asked for."""
+        """Indices (t,) of the tooth pairs in reach, and what contact forces are on both gears' flanks."""
         key = position.nodes, position.index
         if key not in self._on_flanks:
             pairs, tangential = position.operator.pairs, position.operator.rigid_slip is not None
@@ -53,29 +51,20 @@ class RootStress:
 
     def _of_gear(self, gear: int, pairs: Sequence[ToothPair], tangential: bool) -> OnFlanks:
         sectors, dofs = sorted({sector_of(gear, pair) for pair in pairs}), self.rows[gear].rows.shape[-1]
-        count = sum(len(pair.offsets) for pair in pairs)
+        data, count = (self.pair.pinion, self.pair.wheel)[gear], sum(len(pair.offsets) for pair in pairs)
         slices, pushed = self.rows[gear].rows.shape[1], []
         for nodes, pair in zip(node_slices(pairs), pairs):
-            number, forces = self._forces(gear, pair, tangential)
+            number, forces = pair.place.slice, rows_in_slice(gear, data, self.cycle.face, pair, tangential)
             columns = np.r_[nodes, count + nodes.start : count + nodes.stop] if tangential else np.r_[nodes]
             first = dofs * sectors.index(sector_of(gear, pair)) + len(forces) * (slices * pair.place.flank + number)
             near = np.flatnonzero(forces.any(axis=1))
             pushed.append((forces[near], first + near, columns))
         return sectors, pushed
 
-    def _forces(self, gear: int, pair: ToothPair, tangential: bool) -> tuple[int, np.ndarray]:
-        """The slice that a pair is in, and forces (f components, n or 2 n) on a flank's nodes there per contact
-        force."""
-        data = (self.pair.pinion, self.pair.wheel)[gear]
-        return pair.place.slice, rows_in_slice(gear, data, self.cycle.face, pair, tangential)
-
     def _known(self, gear: int, ahead: int) -> np.ndarray:
         rows = self.rows[gear]
         if abs(ahead) > rows.reach:
-            raise ComputationError(
-                f"root stress: the stress of a tooth {ahead} pitches from the loaded one was not computed, known are"
-                f" {rows.reach}"
-            )
+            raise ComputationError(f"root stress {ahead} pitches from the loaded tooth: known are {rows.reach}")
         return rows.rows[rows.reach + ahead]
 
     def values(self, nodes: SideBySide) -> dict[str, np.ndarray]:
@@ -114,7 +103,6 @@ class RootStress:
         return self._variables(values.reshape(*values.shape[:4], 2, points // 2))
 
     def _variables(self, values: np.ndarray) -> dict[str, np.ndarray]:
-        """The variables of a result from stresses (steps, gears, slots, slices, sides, points)."""
         along = np.moveaxis(values[..., :-1], 3, -1)
         along = along.reshape(*along.shape[:3], -1, along.shape[-1])
         section = values[..., -1].swapaxes(-1, -2)
@@ -131,12 +119,8 @@ class RootStress:
         """Long names of the variables, and the coordinates of their fillet points."""
         words = {
             "root_stress": "stress along the surface of the fillets",
-            "root_stress_maximum": (
-                "largest tension in the fillets, where the tangent is over 15 degrees off the centreline"
-            ),
-            "root_stress_at_30_degrees": (
-                "stress where the fillet's tangent stands at 30 degrees to the tooth's centreline"
-            ),
+            "root_stress_maximum": "largest tension in the fillets, tangent over 15 degrees off the centreline",
+            "root_stress_at_30_degrees": "stress where the fillet's tangent is at 30 degrees to the tooth's centreline",
         }
         return words, {
             "fillet": ("fillet", list(SIDES), {"long_name": "side of the tooth"}),

@@ -19,9 +19,8 @@ if TYPE_CHECKING:
 
     from .dataset import RunResult
 
-# The start has died down when so much is left of the slowest vibration that it has set off, in parts of what it was;
-# where the run is long enough, less
-# is left: at high speed the start may be twenty times as large as the settled motion.
+# The start has died down when so much is left of the slowest vibration that it has set off; where the run is long
+# enough, less is left: at high speed the start may be twenty times as large as the settled motion.
 DIED_DOWN, QUIET = 0.01, 0.001
 
 
@@ -39,8 +38,7 @@ def settled(model: Model, steps: int) -> Settled:
     quasi-static run.
 
     They are whole common periods: at least the last one, and where all cycles are alike at least those with contact
-    fields, even if the start has not died down. A run that never repeats (a ramp) and does not die down counts as a
-    whole.
+    fields, even if the start has not died down. A ramp on which it does not die down counts as a whole.
     """
     a_cycle, period = model.resolution.steps_per_mesh_cycle, common_period(model.scene)
     rate, slowest = _slowest(model)
@@ -60,14 +58,12 @@ def settled(model: Model, steps: int) -> Settled:
 
 
 def settling_time(model: Model) -> float:
-    """Time (s) in which the start dies down to 0.1 %; infinite where nothing damps what it sets off, zero without
-    vibrations."""
+    """Time (s) in which the start dies down to 0.1 %; infinite where nothing damps it, zero without vibrations."""
     rate, _ = _slowest(model)
     return log(1.0 / QUIET) / rate if rate else inf
 
 
 def settled_steps(result: RunResult | xr.Dataset) -> slice:
-    """Which steps of a result are settled."""
     begin = result.attrs.get("settled_from")
     return slice(None) if begin is None else slice(int(np.searchsorted(np.asarray(result["time"]), begin)), None)
 

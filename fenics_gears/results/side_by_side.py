@@ -32,13 +32,12 @@ class Layout:
     """What belongs to the contact nodes (n,) of a position of the gears, whatever the step.
 
     `index`: of the node's tooth pair at the position; `node`: its place in that pair; `drive`: whether it is on a drive
-    flank; `slice`: of the face, that it is in; `at_end`: whether it stands on an end of the window; `on_edge` (4, n):
-    on the edge of the pinion's and of the wheel's tip, and on the edge at the form circle of either where it is
-    undercut; `arcs` (2, n): where it touches the pinion's and the wheel's flank, mm along the involute from the base
-    circle; `rows_of_normals` (6, n) and `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each
-    force: force (x, y), N, and torque, N mm; over a face of many slices (12, n), with the axial force, N, and the
-    moments about x and y, N mm, of both gears after these. `dependent_rows`: as of a
-    ContactOperator.
+    flank; `slice`: of the face; `at_end`: whether it stands on an end of the window; `on_edge` (4, n): on the edge of
+    the pinion's and of the wheel's tip, and on the edge at the form circle of either where it is undercut; `arcs` (2,
+    n): where it touches the pinion's and the wheel's flank, mm along the involute from the base circle;
+    `rows_of_normals` (6, n) and `rows_of_tangents` (6, n or 0): reaction of both centres to a unit of each force: force
+    (x, y), N, and torque, N mm; over a face (12, n), with the axial force, N, and the moments about x and y, N mm, of
+    both gears after these. `dependent_rows`: as of a ContactOperator.
     """
 
     def __init__(self, operator: ContactOperator, cycle: Cycle, tangential: bool):
@@ -64,13 +63,9 @@ class Layout:
 
 def _at_inner_end(cycle: Cycle, offsets: np.ndarray, ends: np.ndarray, of_flanks: np.ndarray) -> np.ndarray:
     """Nodes (n,) that stand first or last in a window that is shorter than the whole one, and not on the edge of a
-    flank; `ends`: as of `_on_edges`."""
-    found, round_off, first, last = (
-        np.zeros(len(offsets), dtype=bool),
-        1e-9 * cycle.grid.length,
-        ends[:-1],
-        ends[1:] - 1,
-    )
+    flank."""
+    found, round_off = np.zeros(len(offsets), dtype=bool), 1e-9 * cycle.grid.length
+    first, last = ends[:-1], ends[1:] - 1
     found[first] = offsets[first] > of_flanks[:, 0].max(axis=1) + round_off
     found[last] = offsets[last] < of_flanks[:, 1].min(axis=1) - round_off
     return found & (np.abs(np.abs(offsets) - 0.5 * cycle.grid.inner_length) <= cycle.grid.spacing)
@@ -80,8 +75,7 @@ def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> n
     """Nodes (4, n) that stand on the edge that ends a flank: the pinion's tip and the wheel's form circle below the
     line of action, the others above.
 
-    `ends` (P + 1,): where the nodes of each pair begin and end; `of_flanks` (P, 2, 2): offsets where their flanks do,
-    as of `window.ends_of`.
+    `ends` (P + 1,): where the nodes of each pair begin and end; `of_flanks` (P, 2, 2): as of `window.ends_of`.
     """
     found, half = np.zeros((4, ends[-1]), dtype=bool), 0.5 * cycle.grid.length * (1.0 - 1e-9)
     cut, of_flanks = (cycle.pair.pinion.undercut, cycle.pair.wheel.undercut), of_flanks.copy()
@@ -102,11 +96,10 @@ def _on_edges(cycle: Cycle, pairs, ends: np.ndarray, of_flanks: np.ndarray) -> n
 def _arcs(gears: GearPair, pairs) -> np.ndarray:
     """Arcs (2, n) of contact nodes along both flanks; not a number off the line of action, where corners touch."""
     found = np.full((2, sum(len(pair.offsets) for pair in pairs)), np.nan)
+    radii = gears.pinion.base_radius, gears.wheel.base_radius
     for pair, nodes in zip(pairs, node_slices(pairs)):
         if pair.place.line is None:
-            for row, radius, roll, side in zip(
-                found, (gears.pinion.base_radius, gears.wheel.base_radius), pair.place.contact_rolls, (-1.0, 1.0)
-            ):
+            for row, radius, roll, side in zip(found, radii, pair.place.contact_rolls, (-1.0, 1.0)):
                 row[nodes] = 0.5 * radius * roll_angle_at_height(radius, roll, radius + side * pair.offsets) ** 2
     return found
 
@@ -140,7 +133,6 @@ class Layouts:
         self._joined: dict[str, np.ndarray] = {}
 
     def of(self, name: str) -> np.ndarray:
-        """An array of the layouts' nodes, side by side."""
         if name not in self._joined:
             self._joined[name] = np.concatenate([getattr(layout, name) for layout in self.layouts], axis=-1)
         return self._joined[name]
@@ -151,15 +143,14 @@ _Key = tuple[Nodes | None, float]
 
 
 class KnownLayouts:
-    """Layouts of the positions of a cycle, made when they are first met; runs on the same operators, such as those of a
-    study, have them in common (`Cycle.beside`)."""
+    """Layouts of the positions of a cycle, made when first met; runs on the same operators have them in common
+    (`Cycle.beside`)."""
 
     def __init__(self):
         self._layouts: dict[_Key, Layout] = {}
         self._joined: dict[tuple[_Key, ...], Layouts] = {}
 
     def joined(self, cycle: Cycle, steps: Steps) -> Layouts:
-        """The layouts of some steps of that cycle."""
         key = tuple([(position.nodes, position.index) for position in steps.positions])
         if key not in self._joined:
             layouts = [self._layout(cycle, *each, steps.kinds) for each in zip(key, steps.positions)]
@@ -211,12 +202,10 @@ class SideBySide:
 
     @property
     def drive(self) -> np.ndarray:
-        """Whether each node (N,) is on a drive flank."""
         return self.of("drive")
 
     @cached_property
     def closed(self) -> np.ndarray:
-        """Whether each node (N,) is closed."""
         return self.steps.status != OPEN
 
     def summed(self, values: np.ndarray) -> np.ndarray:
@@ -229,9 +218,8 @@ class SideBySide:
 
     def by_slot(self, values: np.ndarray) -> np.ndarray:
         """Sum of values (N,) over the nodes of each tooth pair (steps, slots)."""
-        return np.bincount(self._slots, values, minlength=len(self.steps) * self.slots).reshape(
-            len(self.steps), self.slots
-        )
+        shape = len(self.steps), self.slots
+        return np.bincount(self._slots, values, minlength=np.prod(shape)).reshape(shape)
 
     def over_nodes(self, values: np.ndarray, drive: bool, absent: float) -> np.ndarray:
         """Values (N,) of drive or coast flanks by step, slot, slice of the face, and contact node; `absent` where there

@@ -1,8 +1,8 @@
 """Orders of a record, their sources (the mesh, a turn of either gear, waves on the flanks), and the sidebands of mesh
 harmonics.
 
-Windows are sums of cosines as `scipy.signal.windows` has them; their figures after F. J. Harris, On the use of windows
-for harmonic analysis, Proc. IEEE 66 (1978).
+Windows are those of `scipy.signal.windows`; their figures after F. J. Harris, On the use of windows for harmonic
+analysis, Proc. IEEE 66 (1978).
 """
 
 from dataclasses import dataclass
@@ -15,13 +15,8 @@ from fenics_gears.scene.data import Scene
 
 from .contact_variables import largest_normal_force, mesh_force
 
-MESH, PINION, WHEEL, BOTH, HUNTING = (
-    "mesh",
-    "turn of the pinion",
-    "turn of the wheel",
-    "turn of either gear",
-    "hunting tooth",
-)
+MESH, PINION, WHEEL = "mesh", "turn of the pinion", "turn of the wheel"
+BOTH, HUNTING = "turn of either gear", "hunting tooth"
 # Factors of the cosines; a line on a bin spreads over as many bins on either side as there are cosines. A line midway
 # between bins is 36 % too low without a window, 15 % in Hann's, 0.1 % in the flat top.
 NO_WINDOW, HANN, FLAT_TOP = "none", "hann", "flat-top"
@@ -32,8 +27,7 @@ WINDOWS = {
 }
 # Sidebands on either side of a mesh harmonic that count.
 SIDEBANDS = 6
-# Of the largest force. Without inertia and friction the load alone sets the mesh force; what varies of it then is
-# round-off.
+# Of the largest force; what varies less is round-off.
 LEAST_VARIATION = 1e-6
 
 
@@ -41,9 +35,8 @@ LEAST_VARIATION = 1e-6
 class OrderLines:
     """Amplitudes of a signal (n,) by order (n,), turns of the pinion being order 1; without the mean.
 
-    `exact`: of whole hunting tooth periods without a window, so that each line stands alone; else of a record in a
-    window, where a line spreads over `spread` bins on either side; `bandwidth`: the window's equivalent noise bandwidth
-    in bins.
+    `exact`: of whole hunting tooth periods without a window, so that each line stands alone; else a line spreads over
+    `spread` bins on either side; `bandwidth`: the window's equivalent noise bandwidth in bins.
     """
 
     orders: np.ndarray
@@ -53,17 +46,15 @@ class OrderLines:
     bandwidth: float = 1.0
 
     def at(self, order: float) -> float:
-        """Amplitude of the line nearest to an order."""
         return float(self.amplitudes[np.argmin(np.abs(self.orders - order))])
 
     @property
     def spacing(self) -> float:
-        """Distance of neighbouring orders."""
         return float(self.orders[0])
 
     def square(self, order: float) -> float:
         """Square of the amplitude of the line at an order, from all that the window spreads it over; within 0.2 % also
-        for one between bins."""
+        between bins."""
         reach = self.spread + (0.6 if self.spread else 0.1)
         near = np.abs(self.orders - order) <= reach * self.spacing
         return float((self.amplitudes[near] ** 2).sum() / self.bandwidth)
@@ -72,10 +63,7 @@ class OrderLines:
 @dataclass(frozen=True)
 class Sidebands:
     """A mesh harmonic with its sidebands: the square of its own amplitude, and the sums of squares of those at shaft
-    orders beside it.
-
-    A sideband that belongs to either gear, its order being whole turns of both, counts with both, and once in `all`.
-    """
+    orders beside it. One that belongs to either gear counts with both, and once in `all`."""
 
     line: float
     pinion: float
@@ -92,10 +80,10 @@ def order_lines(
     error: np.ndarray, cycles: float, teeth: tuple[int, int], window: str | None = None
 ) -> OrderLines | None:
     """Orders of an error (n + 1,), in its own unit, over mesh cycles from its first to its last value; `teeth` of
-    pinion and wheel.
+    pinion and wheel. None where the record is shorter than a turn of the pinion.
 
     window: one of `WINDOWS`, laid over the whole record; None takes whole hunting tooth periods without a window where
-    the record has them, else Hann's. None where the record is shorter than a turn of the pinion.
+    the record has them, else Hann's.
     """
     steps, period = len(error) - 1, lcm(*teeth)
     if cycles < teeth[0] * (1.0 - 1e-9) or steps < 2:
@@ -122,8 +110,8 @@ def weights_of(window: str, length: int) -> np.ndarray:
 
 
 def sidebands(lines: OrderLines, teeth: tuple[int, int], harmonic: int) -> Sidebands | None:
-    """The first SIDEBANDS on either side of a mesh harmonic, no further than half-way to the next; None where
-    the record cannot tell them apart."""
+    """The first SIDEBANDS on either side of a mesh harmonic, no further than half-way to the next; None where the
+    record cannot tell them apart."""
     turns = {"pinion": 1.0, "wheel": teeth[0] / teeth[1]}
     found = {gear: _beside(teeth[0], harmonic, turn) for gear, turn in turns.items()}
     every = np.unique(np.round(np.concatenate([*found.values(), [harmonic * teeth[0]]]), 9))

@@ -34,10 +34,8 @@ STAGES = {
 
 
 def summary_rows(dataset, stages: Sequence[tuple[str, float]] = ()) -> list[Row]:
-    """Rows of label, value, unit: results, solver, times, warnings; warnings that make the numbers wrong stand first.
-
-    stages: names and seconds of the progress; those of the result where there are none.
-    """
+    """Rows of label, value, unit: results, solver, times (of `stages`, names and seconds, else those of the result),
+    warnings; warnings that make the numbers wrong stand first."""
     said = dataset.attrs.get("warnings", "").splitlines()
     first = [warning for warning in said if NO_MEANING in warning or FEWER_THAN_THE_PERIOD in warning]
     spent = [(name, seconds_in_words(seconds), "") for name, seconds in stages] or stage_rows(dataset)
@@ -53,24 +51,16 @@ def summary_rows(dataset, stages: Sequence[tuple[str, float]] = ()) -> list[Row]
 def result_rows(dataset) -> list[Row]:
     """The results, the most important first; rows without a number in this run are left out."""
     of_numbers = (
-        _transmission_error,
-        _harmonics,
-        _stiffness,
-        _pair_force,
-        _face,
-        _shafts,
-        _proposed,
-        _pressure,
-        _root_stress,
+        _transmission_error, _harmonics, _stiffness, _pair_force, _face, _shafts, _proposed, _pressure, _root_stress,
         _power,
-    )
+    )  # fmt: skip
     said = [line for part in of_numbers for line in part(dataset.attrs)]
     said += [*_sliding(dataset), *_contact_loss(dataset), *_estimated_error(dataset.attrs)]
     return [(label, words, "") for label, words in said]
 
 
 def _transmission_error(found) -> Said:
-    """As length along the line of action, which is that at the wheel's base circle, and as angle of the wheel."""
+    """As length at the wheel's base circle and as angle of the wheel."""
     for name, label in (("peak_to_peak", "peak to peak"), ("mean", "mean")):
         angle = found.get(f"{name}_transmission_error", math.nan)
         length = angle * found["base_radius_wheel"] * MICROMETRES
@@ -87,9 +77,8 @@ def _harmonics(found) -> Said:
 def _stiffness(found) -> Said:
     """The tangent, which small vibrations have; the secant counts gaps of relief and misalignment as deflection."""
     if "mean_mesh_stiffness_tangent" in found:
-        one = (
-            f", at most {found['single_pair_stiffness']:.4g} with one pair" if "single_pair_stiffness" in found else ""
-        )
+        single = found.get("single_pair_stiffness")
+        one = "" if single is None else f", at most {single:.4g} with one pair"
         tangent = f"{found['mean_mesh_stiffness_tangent']:.4g} N/(mm um) on average"
         yield "mesh stiffness, tangent", f"{tangent}; force over deflection {found['mean_mesh_stiffness']:.4g}{one}"
 
@@ -126,10 +115,8 @@ def _shafts(found) -> Said:
     if "largest_bearing_force" in found:
         for kind, over in (("inclination", ", over the common face"), ("offset", "")):
             inside, outside = (found[f"mean_axis_{kind}_{plane}"] for plane in ("in_plane", "out_of_plane"))
-            yield (
-                f"{kind} of the axes, mean",
-                f"{inside:.4g} um in the plane of action, {outside:.4g} um out of it{over}",
-            )
+            words = f"{inside:.4g} um in the plane of action, {outside:.4g} um out of it{over}"
+            yield f"{kind} of the axes, mean", words
         balls = found.get("largest_rolling_element_force")
         rolling = "" if balls is None else f", of a rolling element {balls:.4g} N"
         yield "largest force of a bearing", f"{found['largest_bearing_force']:.4g} N{rolling}"
@@ -241,5 +228,4 @@ def solver_rows(dataset) -> list[Row]:
 
 
 def stage_rows(dataset) -> list[Row]:
-    """Wall time of each stage that the result carries."""
     return [(label, f"{dataset.attrs[name]:.2f}", "s") for name, label in STAGES.items() if name in dataset.attrs]

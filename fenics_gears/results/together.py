@@ -1,11 +1,9 @@
-"""The numbers of runs that are marched together, where few are asked for and nothing else of the runs is: no arrays of
-contact fields, no dataset, no texts.
+"""The numbers of runs that are marched together, where few are asked for and nothing else of the runs is: those of
+`results.dataset`, from the same functions.
 
-They are those of `results.dataset`, from the same functions. A run of which there would be more to say has to be run by
-itself: contact that is lost, gears that pass through each other, steps that are divided or have no solution.
+A run of which there would be more to say has to be run by itself: contact that is lost, gears that pass through each
+other, steps that are divided or have no solution.
 """
-
-from __future__ import annotations
 
 import time
 from collections.abc import Collection, Sequence
@@ -45,8 +43,8 @@ OFFERED = OF_THEMSELVES | {FORCE, PRESSURE, *HARMONIC_NAMES}
 
 
 class NumbersOfRun:
-    """Numbers of a run by name (`attrs`), and the curves (steps, ...) that they were taken from; `seconds`: that its
-    numbers took."""
+    """Numbers of a run by name (`attrs`), and the curves (steps, ...) that they were taken from; `seconds`: that they
+    took."""
 
     def __init__(self, attrs: dict[str, Any], curves: dict[str, np.ndarray], seconds: float):
         self.attrs, self._curves, self.seconds = attrs, curves, seconds
@@ -59,8 +57,6 @@ class NumbersOfRun:
 
 
 class _Extrema(Extrema):
-    """Extrema of runs that were marched together."""
-
     marches: Marches
 
     def _values(self, asked: Sequence[tuple[Quantity, float]]) -> list[float]:
@@ -135,7 +131,6 @@ def _loss(curves: Curves, counted: Curves) -> dict[str, float]:
 def _curves(
     models: Sequence[Model], marches: Marches, errors: np.ndarray, runs: Sequence[int], asked: Collection[str]
 ) -> list[Curves]:
-    """Those that the numbers are taken from, of some runs."""
     model, found = models[0], []
     numbers = np.arange(model.steps + 1)
     common = {"time": model.clock.times(numbers), "mesh_phase": numbers / model.resolution.steps_per_mesh_cycle}
@@ -143,8 +138,8 @@ def _curves(
     for run in runs:
         steps = marches.of(run)
         nodes = _nodes(marches.cycle, steps) if nodes is None else nodes.with_forces(steps)
-        values = common | {"transmission_error": errors[run]} | _of_nodes(models[run], marches.cycle, nodes, asked)
-        found.append(values)
+        of_nodes = _of_nodes(models[run], marches.cycle, nodes, asked)
+        found.append(common | {"transmission_error": errors[run]} | of_nodes)
     return found
 
 
@@ -154,7 +149,6 @@ def _nodes(cycle: Cycle, steps: Steps) -> SideBySide:
 
 
 def _of_nodes(model: Model, cycle: Cycle, nodes: SideBySide, asked: Collection[str]) -> Curves:
-    """Curves of the contact nodes."""
     scene, steps = model.scene, nodes.steps
     values = normal_forces(scene, nodes) | (pair_variables(scene, nodes) if FORCE in asked else {})
     if PRESSURE in asked:

@@ -44,13 +44,10 @@ def warnings_of_energy(
     scene: Scene, result: RunResult, steps_per_mesh_cycle: int, steps: slice = slice(None)
 ) -> list[str]:
     """Whether the time stepping, not physics, adds or removes much energy within a mesh cycle where teeth part and
-    meet, in all steps or some.
-
-    The work is taken cycle by cycle: over a long run even little of it adds up.
-    """
+    meet, in all steps or some; cycle by cycle, for over a long run even little of it adds up."""
     if scene.inertia is None or scene.tooth_elasticity is None or not len(result["time"]):
         return []
-    work, largest = (result["work_contact_changes"][steps], max(result["energy"][steps].max(), np.finfo(float).tiny))
+    work, largest = result["work_contact_changes"][steps], max(result["energy"][steps].max(), np.finfo(float).tiny)
     cycles = (work[first : first + steps_per_mesh_cycle + 1] for first in range(0, len(work), steps_per_mesh_cycle))
     part = max(float(np.ptp(cycle)) for cycle in cycles) / largest
     if part <= NOTABLE_WORK:
@@ -63,11 +60,8 @@ def warnings_of_energy(
 
 
 def warnings_of(recorder: Recorder, march: March, result: RunResult) -> list[str]:
-    """A sentence for each assumption of the model that a march breaks.
-
-    Every step is judged. Only the uniqueness of the solution is judged by the last steps, which the march keeps: its
-    proof costs more than a step.
-    """
+    """A sentence for each assumption of the model that a march breaks. Every step is judged; the uniqueness of the
+    solution, whose proof costs more than a step, by the last steps."""
     cycle, drivetrain, clock = recorder.cycle, recorder.model.drivetrain, recorder.model.clock
     watched = recorder.watched
     of_flanks = [*_window(cycle, watched), *_rank(watched)] if cycle.traits.nodes_on_flanks and recorder.steps else []
@@ -100,9 +94,8 @@ def _rank(watched: Watched) -> list[str]:
     rows = watched["rows"][worst]
     return [
         f"the contact compliance is singular in {np.count_nonzero(dependent)} of {len(dependent)} steps (rank"
-        f" {rows - dependent[worst]} of {rows} at worst): contact nodes stand closer than the elements can tell apart"
-        " and were given a thin layer each; forces hold, the pressure does not: lower accuracy.contact_nodes or"
-        " accuracy.flank_element_size"
+        f" {rows - dependent[worst]} of {rows} at worst): contact nodes stand closer than the elements can tell apart;"
+        " forces hold, the pressure does not: lower accuracy.contact_nodes or accuracy.flank_element_size"
     ]
 
 
@@ -190,9 +183,8 @@ def _locking(cycle: Cycle, march: March) -> list[str]:
         return []
     return [
         f"friction locks the teeth (self-locking) in {len(march.locked)} of {march.steps} steps, first in mesh cycle"
-        f" {march.locked[0] / cycle.steps:.2f}: at contact nodes on approach it turns the wheel back by more than the"
-        " normal force drives it, and the forces grow beyond what the load asks for: lower friction.coefficient (here"
-        f" {march.friction:g})"
+        f" {march.locked[0] / cycle.steps:.2f}: on approach it turns the wheel back by more than the normal force"
+        f" drives it: lower friction.coefficient (here {march.friction:g})"
     ]
 
 
@@ -201,6 +193,5 @@ def _uniqueness(march: March) -> list[str]:
         return []
     return [
         f"in {march.uncertified} of the last {march.judged} steps there may be more than one solution: friction couples"
-        " the contact nodes so strongly that the one found cannot be certified as the only one (friction.coefficient"
-        f" is {march.friction:g})"
+        f" the contact nodes too strongly to certify the one found (friction.coefficient is {march.friction:g})"
     ]

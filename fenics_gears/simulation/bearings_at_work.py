@@ -1,8 +1,6 @@
 """Rolling bearings and contact in balance: runs repeated until bearings are as stiff as the mean load of the run makes
 them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -29,10 +27,8 @@ Marched = tuple[Recorder, March]
 
 
 def with_bearings_at_work(model: Model, marched: Callable[..., Marched]) -> Marched:
-    """The run of a model whose bearings have the stiffness that they have under its own mean load.
-
-    Raises ComputationError where loads go on changing.
-    """
+    """The run of a model whose bearings have the stiffness that they have under its own mean load. Raises
+    ComputationError where loads go on changing."""
     shafts, size = model.drivetrain.elastic, np.array([1.0, 1.0, 1.0, *[1.0 / model.pair.face_width] * 2])
     loads = np.array([even_load(each, model.pair, model.scene.load.wheel_torque) for each in shafts])
     last = np.zeros_like(loads)
@@ -53,8 +49,7 @@ def with_bearings_at_work(model: Model, marched: Callable[..., Marched]) -> Marc
         model = replace(model, drivetrain=drivetrain(model.scene, model.pair, own))
     raise ComputationError(
         f"rolling bearings: after {MOST_RUNS} runs the mean load of a gear on its shaft still changes by"
-        f" {change:.2g} of itself from run to run, since bearings with so much clearance carry now here, now there."
-        " Take a smaller clearance, a preload or a larger torque"
+        f" {change:.2g} of itself from run to run. Take a smaller clearance, a preload or a larger torque"
     )
 
 

@@ -38,7 +38,6 @@ def gear_body(model: Model, name: str, cache: Cache | None) -> Body:
 
 
 def body_key(model: Model, name: str) -> tuple:
-    """What the body of the "pinion" or the "wheel" depends on."""
     sections = (getattr(model.scene, effect.section) for effect in effects_on(model.scene) if effect.elasticity)
     own = tuple(found for each in sections if (found := getattr(each, name, None)) is not None)
     number = GEARS.index(name)
@@ -58,10 +57,9 @@ def discretisation_of(model: Model, gear: int) -> Discretisation | FaceDiscretis
 
 def _section(model: Model, name: str, cache: Cache | None):
     reach = model.touching.reach
-    own = [each for each in from_effects(model.scene, "elasticity", model, name, reach, cache) if each is not None]
-    if own:
-        return own[0]
-    # Imported here: rigid flanks have none.
+    for own in from_effects(model.scene, "elasticity", model, name, reach, cache):
+        if own is not None:
+            return own
     from fenics_gears.elasticity.gear_compliance import flank_compliance
 
     material, division = model.scene.gears.material_of(name), model.resolution.discretisation(GEARS.index(name))
@@ -75,11 +73,9 @@ def _section(model: Model, name: str, cache: Cache | None):
 def solids_of(
     model: Model, progress: Progress, cache: Cache | None, job: Job | None = None
 ) -> tuple[FaceCompliance | None, FaceCompliance | None]:
-    """Both bodies in three dimensions, of both at once where there are cores and memory for it; None of a plane
-    scene."""
+    """Both bodies in three dimensions, at once where there are cores and memory for it; None of a plane scene."""
     if model.solid_discretisation(0) is None:
         return None, None
-    # Imported here: plane scenes have none.
     from fenics_gears.model.face_cost import both_at_once
     from fenics_gears.system.second_process import second_process, threads
 
@@ -102,7 +98,6 @@ def solids_of(
 
 def solid_of(model: Model, name: str, cache: Cache | None, job: Job | SecondProcess | None = None) -> FaceCompliance:
     """The body of the "pinion" or the "wheel" in three dimensions, from the cache or condensed."""
-    # Imported here: plane scenes have none.
     from fenics_gears.elasticity.face.compliance import face_compliance
     from fenics_gears.model.face_resolution import face_discretisation
 

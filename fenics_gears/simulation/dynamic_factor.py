@@ -1,10 +1,5 @@
-"""Dynamic factors of a run with ``[inertia]``: how much larger forces and stresses are than at rest (K_v of ISO 6336-1,
-by a computation).
-
-The same scene is marched without inertia beside it, by the same contact operators.
-"""
-
-from __future__ import annotations
+"""Dynamic factors of a run with ``[inertia]`` (K_v of ISO 6336-1, by a computation): the same scene is marched without
+inertia beside it, by the same contact operators."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -31,29 +26,22 @@ DIFFERENT_CYCLES = "mesh cycles differ: [output] root_stress = true runs the sce
 
 def wanted(scene: Scene) -> bool:
     """Whether a scene has dynamic factors: of elastic teeth with inertia, condensed once."""
-    return (
-        scene.inertia is not None and scene.tooth_elasticity is not None and scene.accuracy.condensation != EVERY_STEP
-    )
+    elastic, condensed_once = scene.tooth_elasticity is not None, scene.accuracy.condensation != EVERY_STEP
+    return scene.inertia is not None and elastic and condensed_once
 
 
 def quasi_static(scene: Scene) -> Scene:
-    """The scene without inertia and without what needs it."""
     sections = [effect.section for effect in effects_on(scene)]
-    removed = {"inertia"}
-    while needing := {
-        effect.section for effect, _ in missing_needs([name for name in sections if name not in removed])
-    }:
-        removed |= needing
-    return without(scene, *(name for name in sections if name in removed))
+    left = [name for name in sections if name != "inertia"]
+    while needing := {effect.section for effect, _ in missing_needs(left)}:
+        left = [name for name in left if name not in needing]
+    return without(scene, *(name for name in sections if name not in left))
 
 
 def dynamic_factors(recorder: Recorder, result: RunResult) -> dict[str, float | str]:
     """Largest force of a tooth pair and, if taken, largest root stress of a run's settled steps over those of the same
-    scene without inertia.
-
-    A reason stands in their place where the quasi-static scene has no solution, or where mesh cycles differ, so that a
-    second march as long as the run's own were needed, and root stress is not asked for.
-    """
+    scene without inertia; a reason in their place where that has no solution, or where mesh cycles differ, so that a
+    second march as long as the run's own were needed, and root stress is not asked for."""
     model, cycle = recorder.model, recorder.cycle
     scene = quasi_static(model.scene)
     if common_period(scene) != 1 and recorder.stress is None:
@@ -67,10 +55,8 @@ def dynamic_factors(recorder: Recorder, result: RunResult) -> dict[str, float | 
         return {"dynamic_factor_unknown": peaks_still}
     counted = settled_steps(result)
     moving = {name: result[name][counted] for name in LARGEST_STRESS if name in result}
-    (stress_moving, force_moving), (stress_still, force_still) = (
-        _peaks(moving, result.attrs.get("largest_pair_force", 0.0)),
-        peaks_still,
-    )
+    stress_moving, force_moving = _peaks(moving, result.attrs.get("largest_pair_force", 0.0))
+    stress_still, force_still = peaks_still
     if not force_still:
         return {"dynamic_factor_unknown": "without inertia nothing touches"}
     factors = {"quasi_static_pair_normal_force": force_still, "dynamic_factor_by_force": force_moving / force_still}
@@ -96,14 +82,8 @@ def _peaks_still(still: Model, recorder: Recorder) -> Peaks | str:
     """The peaks of the quasi-static model, or why there are none."""
     cycle, drivetrain, equations = recorder.cycle, still.drivetrain, still.equations_of_motion
     # Without mass and loads that vary nothing depends on time, nor on the mesh frequency.
-    key = (
-        drivetrain.coordinates,
-        drivetrain.radii.tobytes(),
-        drivetrain.stiffness.tobytes(),
-        drivetrain.load.tobytes(),
-        equations.friction,
-        still.steps,
-    )
+    numbers = [each.tobytes() for each in (drivetrain.radii, drivetrain.stiffness, drivetrain.load)]
+    key = (drivetrain.coordinates, *numbers, equations.friction, still.steps)
     known = _PEAKS_OF_CYCLES.setdefault(cycle, {})
     shared = not still.loads and recorder.stress is None
     if shared and key in known:
@@ -130,7 +110,6 @@ def _largest_force(recorder: Recorder) -> float:
 
 
 def _peaks(curves: Mapping[str, np.ndarray], force: float) -> Peaks:
-    """Largest root stress (MPa) of curves, 0 where there is none, and the largest `force` (N) of a tooth pair."""
-    return max(
-        (float(np.nanmax(curves[name], initial=0.0)) for name in LARGEST_STRESS if name in curves), default=0.0
-    ), force
+    """Largest root stress (MPa), 0 where there is none, and the largest `force` (N) of a tooth pair."""
+    stresses = (float(np.nanmax(curves[name], initial=0.0)) for name in LARGEST_STRESS if name in curves)
+    return max(stresses, default=0.0), force

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 def elastic_route(
     model: Model, progress: Progress, cache: Cache | None, job: Job | None = None
 ) -> tuple[Bodies, Cycle]:
-    """The bodies of both gears, and the contact operators of a mesh cycle on them; `job`: whose ranks share the work on
-    each body in three dimensions."""
+    """The bodies of both gears, and the contact operators on them; `job`: whose ranks share the work on each body in
+    three dimensions."""
     bodies = gear_bodies(model, progress, cache, job)
     return bodies, mesh_cycle(model, bodies)
 
@@ -39,7 +39,6 @@ def mesh_cycle(model: Model, bodies: Bodies) -> Cycle:
     flanks, grid, corner = flanks_of(model, bodies), model.resolution.contact_grid, model.corner
     first, second = (body.solid for body in bodies)
     if first is not None and second is not None:
-        # Imported here: plane scenes have none.
         from fenics_gears.contact.face_mesh import face_mesh
 
         return cycle_of(model, face_mesh(flanks, _seated(model, first, second), model.face, grid, corner))
@@ -69,9 +68,8 @@ def yielding_seats(model: Model) -> tuple[ElasticShaft, ...]:
 
 def cycle_of(model: Model, mesh: Mesh) -> Cycle:
     """The contact equations of a mesh over the steps of the model, with what opens its nodes."""
-    cycle = Cycle(
-        mesh, model.resolution.steps_per_mesh_cycle, model.drivetrain.indices, model.scene.friction is not None
-    )
+    steps, friction = model.resolution.steps_per_mesh_cycle, model.scene.friction is not None
+    cycle = Cycle(mesh, steps, model.drivetrain.indices, friction)
     return cycle.with_gaps(gaps_of(model, cycle))
 
 
@@ -81,7 +79,6 @@ def flanks_of(model: Model, bodies: Bodies) -> Flanks:
     within = pair.effective_face_widths == (pair.face_width, pair.face_width)
     if within or any(body.solid is not None for body in bodies):
         return Flanks(pair, (first, second), removal)
-    # Imported here: gears of one width have none.
     from fenics_gears.elasticity.overhang import with_overhang
 
     gears, materials = (pair.pinion, pair.wheel), model.scene.gears.materials
@@ -119,12 +116,10 @@ def gaps_of(model: Model, cycle: Cycle) -> Gaps:
     """What opens the contact nodes of a cycle of the model, or of one that shares its contact operators."""
     profile, of_steps, openings = None, None, ()
     if model.removal != (None, None) and reliefs_apart(model):
-        # Imported here: true involutes have none.
         from fenics_gears.contact.relief_gaps import profile_of
 
         profile, of_steps = profile_of(cycle, model.removal)
     if cycle.face.slices > 1:
-        # Imported here: plane scenes have none.
         from fenics_gears.contact.face_mesh import opening_over_face
 
         openings = (opening_over_face(cycle, model.face_opening, model.coast_face_opening),)

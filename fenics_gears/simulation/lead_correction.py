@@ -1,18 +1,16 @@
 """Lead modifications that make the line load along the face as even as two numbers can: helix slope and crowning of the
 pinion for the least face load factor of the run's own mesh.
 
-Everything that opens the flanks along the face counts as it does in the run: shafts, bearings, webs, tilting bodies,
-misalignment, all other modifications. Static positions of a mesh cycle are solved by the run's contact operators with
-other gaps, without friction. While the closed nodes stay closed, line load w (S,) is linear in amounts a = (slope,
-crowning); the largest mean over a window of the face, W w (`results.face_ends`), is then least by a linear program:
+Static positions of a mesh cycle are solved by the run's contact operators with other gaps, without friction; everything
+else that opens the flanks along the face counts as in the run. While the closed nodes stay closed, line load w (S,) is
+linear in amounts a = (slope, crowning); the largest mean over a window of the face, W w (`results.face_ends`), is then
+least by a linear program:
 
     minimise t  with  W (w + dw/da d) <= t,  crowning + d_2 >= 0
 
 whose step d is halved until that largest mean falls, and which is repeated until it falls no more. Where a part of the
 face does not touch, a helix slope first takes off what is left open there and what the rest approaches by.
 """
-
-from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -27,7 +25,7 @@ from fenics_gears.dynamics.between_steps import BetweenSteps
 from fenics_gears.dynamics.march import thread_pools
 from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
 from fenics_gears.model.model import Model
-from fenics_gears.results.face_ends import slice_widths, windows
+from fenics_gears.results.face_ends import windows
 from fenics_gears.results.recorder import Recorder
 from fenics_gears.scene.data import Scene
 
@@ -44,8 +42,8 @@ MICROMETRE = 1e-3
 
 
 class Proposal(NamedTuple):
-    """Lead modifications of the pinion, mm over its own face, in place of its own; the face load factor with them, and
-    the line load (S,), N/mm, of all tooth pairs together, mean over the mesh cycle."""
+    """Lead modifications of the pinion, mm over its own face, in place of its own; the face load factor and the line
+    load (S,), N/mm, of all tooth pairs together, mean over the mesh cycle, with them."""
 
     helix_slope: float
     crowning: float
@@ -54,8 +52,7 @@ class Proposal(NamedTuple):
 
 
 def wanted(model: Model) -> bool:
-    """Whether something tilts the flanks of a scene against each other, under a load on the drive flanks: coast flanks
-    have no modifications."""
+    """Whether something tilts the flanks of a scene against each other, under a load on the drive flanks."""
     scene = model.scene
     if not scene.three_dimensional or not gaps_apart(model) or scene.load.wheel_torque <= 0.0:
         return False
@@ -69,7 +66,6 @@ def wanted(model: Model) -> bool:
 
 
 def add_proposal(dataset: xr.Dataset, recorder: Recorder) -> None:
-    """Add what is proposed for a run to its dataset; nothing where there is no proposal."""
     found = proposed(recorder)
     if found is None:
         return
@@ -84,7 +80,7 @@ def proposed(recorder: Recorder) -> Proposal | None:
     """The proposal for a run; None where a position has no solution without friction and inertia."""
     loads = _LineLoads(recorder.model, recorder.cycle)
     amounts, face = loads.own, xr.Dataset(coords=recorder.along_face[0].coordinates())
-    over, widths, last = windows(face, recorder.model.pair), slice_widths(face), np.inf
+    over, widths, last = windows(face, recorder.model.pair), face["face_slice_width"].values, np.inf
     found = loads.of(amounts)
     if found is None:
         return None
@@ -106,8 +102,8 @@ def proposed(recorder: Recorder) -> Proposal | None:
 
 
 class _Along(NamedTuple):
-    """Along the face, mean over the mesh cycle: line load (S,), N/mm, of all tooth pairs, and what is left open (S,),
-    mm, where the flanks are nearest."""
+    """Mean over the mesh cycle: line load (S,), N/mm, of all tooth pairs, and what is left open (S,), mm, where the
+    flanks are nearest."""
 
     load: np.ndarray
     opening: np.ndarray
@@ -181,7 +177,7 @@ class _LineLoads:
         return _Along(load / cycle.face.widths / len(solved), opening / len(solved))
 
     def slopes(self, amounts: np.ndarray, found: _Along, mean: float) -> np.ndarray | None:
-        """Change of the line load (S, 2), N/mm, per mm of each amount, about those of which the line load is known."""
+        """Change of the line load (S, 2), N/mm, per mm of each amount, about those whose line load is `found`."""
         step = DIFFERENCE * mean / STIFFNESS
         beside = [self.of(amounts + step * each) for each in np.eye(2)]
         if beside[0] is None or beside[1] is None:

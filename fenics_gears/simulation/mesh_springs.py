@@ -1,7 +1,5 @@
-"""Cheaper models of the mesh with the same drivetrain: a stiffness table, and stiffness by ISO 6336-1 (`[accuracy]
-model`)."""
-
-from __future__ import annotations
+"""Cheaper models of the mesh with the same drivetrain (`[accuracy] model`): a stiffness table, and stiffness by ISO
+6336-1."""
 
 from dataclasses import replace
 from time import perf_counter
@@ -32,14 +30,12 @@ DEFLECTION_WITHOUT_LOAD = 1e-3
 
 
 def table_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[Bodies, Cycle]:
-    """The bodies of both gears, and the springs that a table of their full contact gives."""
     bodies = gear_bodies(model, progress, cache)
     progress.stage("tabulate the mesh stiffness")
     return table_cycle(model, bodies)
 
 
 def iso_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[tuple, Cycle]:
-    """No compliance, and the springs of ISO 6336-1."""
     return (), iso_cycle(model)
 
 
@@ -62,12 +58,9 @@ def table_cycle(model: Model, bodies: Bodies) -> tuple[Bodies, Cycle]:
 
 
 def iso_cycle(model: Model) -> Cycle:
-    """The mesh cycle of pairs as stiff as ISO 6336-1 has them, on the theoretical path of contact: two levels, by how
-    many pairs are on it.
-
-    Of n pairs in mesh each has c' (0.75 n + 0.25)/n, so that the mean over the path is c_gamma_alpha. Material removed
-    from the flanks opens the pairs.
-    """
+    """The mesh cycle of pairs as stiff as ISO 6336-1 has them, on the theoretical path of contact, with gaps by
+    material removed from the flanks. Of n pairs in mesh each has c' (0.75 n + 0.25)/n, so that the mean over the path
+    is c_gamma_alpha."""
     line_load = abs(model.scene.load.wheel_torque) / model.pair.wheel.base_radius / model.scene.gears.face_width
     single = pair_stiffness(model.scene.gears, line_load)
     flanks = (DRIVE, COAST) if model.scene.coast_flanks is not None else (DRIVE,)

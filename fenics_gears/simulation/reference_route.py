@@ -1,10 +1,5 @@
 """The route of `condensation = "every step"`: both gears meshed anew at every position of a mesh cycle, as the paper
-does it.
-
-Slow; the published method, and the yardstick of the fast route, with which it shares no interpolation.
-"""
-
-from __future__ import annotations
+does it; the yardstick of the fast route, with which it shares no interpolation."""
 
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.node_to_node import loaded_teeth
@@ -24,37 +19,22 @@ from .elastic_route import cycle_of
 def reference_route(
     model: Model, progress: Progress, cache: Cache | None, job: Job | None = None
 ) -> tuple[tuple[RemeshedStiffness, RemeshedStiffness], Cycle]:
-    """Stiffness of pinion and wheel at every position, and the contact equations of a mesh cycle on them.
-
-    job: whose ranks share the positions out. Raises SceneError where the scene has coast flanks.
-    """
+    """Stiffness of pinion and wheel at every position, and the contact equations on them; `job`: whose ranks share the
+    positions out. Raises SceneError where the scene has coast flanks."""
     if model.scene.coast_flanks is not None:
         raise SceneError(
-            f'{model.scene.name}: condensation = "{EVERY_STEP}" meshes nodes for the drive flanks only. '
-            f'Leave [coast_flanks] out, or choose condensation = "{ONCE}".'
+            f'{model.scene.name}: condensation = "{EVERY_STEP}" meshes the drive flanks only. Leave [coast_flanks] out,'
+            f' or choose condensation = "{ONCE}".'
         )
     resolution, order = model.resolution, element_named(model.resolution.element).order
     nodes = paired_nodes(model.pair, model.removal, resolution.contact_grid, order, resolution.steps_per_mesh_cycle)
     gears = []
     for number, name in enumerate(("pinion", "wheel")):
         progress.stage(f"remesh {name}")
-        gears.append(
-            remeshed_stiffness(
-                getattr(model.pair, name),
-                model.scene.gears.material_of(name),
-                [loaded_teeth(pairs, number, order) for pairs in nodes],
-                resolution.discretisation(number),
-                cache=cache,
-                job=job,
-                report=progress.update,
-            )
-        )
-    mesh = remeshed_mesh(
-        model.pair,
-        nodes,
-        list(zip(*(gear.positions for gear in gears))),
-        resolution.contact_grid,
-        order,
-        model.drivetrain.indices,
-    )
+        gear, material = getattr(model.pair, name), model.scene.gears.material_of(name)
+        teeth, division = [loaded_teeth(pairs, number, order) for pairs in nodes], resolution.discretisation(number)
+        how = {"cache": cache, "job": job, "report": progress.update}
+        gears.append(remeshed_stiffness(gear, material, teeth, division, **how))
+    positions = list(zip(*(gear.positions for gear in gears)))
+    mesh = remeshed_mesh(model.pair, nodes, positions, resolution.contact_grid, order, model.drivetrain.indices)
     return tuple(gears), cycle_of(model, mesh)

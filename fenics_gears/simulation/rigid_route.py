@@ -1,7 +1,5 @@
 """Rigid flanks: the pair with the smallest gap carries the whole load."""
 
-from __future__ import annotations
-
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.contact.rigid_mesh import rigid_mesh
 from fenics_gears.elasticity.cache import Cache
@@ -13,7 +11,6 @@ from .elastic_route import cycle_of
 
 
 def rigid_route(model: Model, progress: Progress, cache: Cache | None, job: Job | None = None) -> tuple[tuple, Cycle]:
-    """No compliance, and the contact of one mesh cycle."""
     return (), rigid_cycle(model)
 
 

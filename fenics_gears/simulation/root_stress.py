@@ -1,8 +1,6 @@
 """``[output] root_stress``: the matrices of both gears from flank forces to root stress, by which a march records
 it."""
 
-from __future__ import annotations
-
 from fenics_gears.contact.mesh_cycle import Cycle
 from fenics_gears.elasticity.cache import Cache
 from fenics_gears.elasticity.root_stress import RootStressRows, root_stress_rows
@@ -14,7 +12,6 @@ from .bodies import discretisation_of
 
 
 def root_stress(model: Model, cycle: Cycle, progress: Progress, cache: Cache | None) -> RootStress:
-    """The root stress of both gears at the steps of a cycle, ready to be taken at each."""
     rows = []
     for name in ("pinion", "wheel"):
         progress.stage(f"root stress of the {name}")

@@ -3,8 +3,6 @@
 Each route is imported when it is taken: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
 """
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -25,11 +23,8 @@ Preparation = Callable[[Model, Progress, Cache | None], Prepared]
 @dataclass(frozen=True)
 class Route:
     """A way to the contact equations: the function `module:function` that takes (model, progress, cache, job) and
-    returns gears and cycle.
-
-    `condensed_once`: its gears are flank compliances that other runs can share; `stresses`: stresses can be recovered
-    in them.
-    """
+    returns gears and cycle. `condensed_once`: its gears are flank compliances that other runs can share; `stresses`:
+    stresses can be recovered in them."""
 
     function: str
     condensed_once: bool = False
@@ -51,7 +46,6 @@ BY_MODEL = {None: CONDENSED, ELASTIC: CONDENSED, ISO_6336: ISO_SPRINGS, STIFFNES
 
 
 def route_of(model: Model) -> Route:
-    """The route that a scene's `[gears.material]` and `[accuracy]` choose."""
     if model.scene.tooth_elasticity is None:
         return RIGID
     return REMESHED if model.resolution.condensation == EVERY_STEP else BY_MODEL[model.scene.accuracy.model]

@@ -1,7 +1,5 @@
 """Both gears of a run at a stored time: place, displacement and stress of nodes, in the plane or over the face."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Self
 
@@ -40,13 +38,13 @@ class GearInSpace:
     """Sectors of one gear at a stored time in the frame of the line of action: x along it from T1, the pinion's centre
     at the origin, z along the axes from the middle of the common face.
 
-    sectors: numbers of those recovered. Nodes by sector, height and the section's node; in the plane there is one
-    height. in_web: (layers,), whether a layer over the face has the whole section; beside: what the others have, rim
-    and hub, and the sides of its boundary. points (s, h, n, 3), mm, without load. elastic: of the same shape, mm,
-    displacement from where the hub is held. stress (s, h, n, 3, 3), MPa. others: points (t, h, n, 3) of all other
-    sectors. centre: (2,), mm. motion: of the hub from its nominal one, mm, mm, rad. section: nodes and cells of a
-    sector's section; outline: (k, 2) sides of its boundary, of first order, without those on the cuts. in_root,
-    on_flank: (n,), whether a node lies in a fillet or below, and whether it is on the involute that carries.
+    sectors: numbers of those recovered. Nodes by sector, height (one in the plane) and the section's node; in_web:
+    (layers,), whether a layer over the face has the whole section; beside: what the others have, rim and hub, and the
+    sides of its boundary. points (s, h, n, 3), mm, without load. elastic: of the same shape, mm, displacement from
+    where the hub is held. stress (s, h, n, 3, 3), MPa. others: points (t, h, n, 3) of all other sectors. centre: (2,),
+    mm. motion: of the hub from its nominal one, mm, mm, rad. section: nodes and cells of a sector's section; outline:
+    (k, 2) sides of its boundary, of first order, without those on the cuts. in_root, on_flank: (n,), whether a node
+    lies in a fillet or below, and whether it is on the involute that carries.
     """
 
     sectors: tuple[int, ...]
@@ -64,7 +62,6 @@ class GearInSpace:
     beside: tuple[ElementNodes, np.ndarray] | None = None
 
     def of_layer(self, layer: int) -> tuple[ElementNodes, np.ndarray]:
-        """The section of a layer over the face, and the sides of its boundary."""
         return (self.section, self.outline) if self.in_web[layer] else self.beside
 
     @property
@@ -94,11 +91,9 @@ class GearInSpace:
 
 @dataclass(frozen=True)
 class GearsInMesh:
-    """Pinion and wheel at a stored time; `coast`: whether the coast flanks carry more than the drive flanks.
-
-    `approach`: mm along their line of action that the hubs' motion brings the flanks together that carry more; coast
-    flanks stand apart by the backlash before it.
-    """
+    """Pinion and wheel at a stored time; `coast`: whether the coast flanks carry more than the drive flanks;
+    `approach`: mm along their line of action that the hubs' motion brings the flanks together that carry more (coast
+    flanks stand apart by the backlash before it)."""
 
     time: float
     mesh_phase: float
@@ -134,7 +129,6 @@ class RunStresses:
         self.close()
 
     def close(self) -> None:
-        """Give the factors' memory back."""
         for recovery in self.recoveries:
             recovery.close()
 
@@ -156,8 +150,8 @@ class RunStresses:
         if error > pitch:
             raise SceneError(
                 f"the transmission error at mesh phase {float(self.result['mesh_phase'].values[index]):.3f} is"
-                f" {error:.3g} rad, more than the pitch of the wheel's teeth ({pitch:.3g} rad): gears that have gone"
-                " through each other are not drawn; the run's warnings say why"
+                f" {error:.3g} rad, more than the pitch of the wheel's teeth ({pitch:.3g} rad): the gears have gone"
+                " through each other; the run's warnings say why"
             )
 
     def _gear(self, gear: int, stored: StoredForces, motion: np.ndarray) -> GearInSpace:
@@ -189,14 +183,13 @@ class RunStresses:
         )
 
     def _sectors(self, gear: Gear, forces: dict[int, np.ndarray]) -> range:
-        """The sectors that are recovered."""
         if self.model.face.slices == 1:
             return range(gear.teeth)
         loaded = [*forces] or [0]
         return range(min(loaded) - BESIDE, max(loaded) + BESIDE + 1)[: gear.teeth]
 
     def _standing(self, gear: int, phase: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """A gear's centre (2,); how a section's frame stands (teeth, h, 3, 3) at each height, by sector, and its nodes'
+        """A gear's centre (2,); how a section's frame stands (teeth, h, 3, 3), by sector and height, and its nodes'
         places (teeth, h, n, 3), without load."""
         recovery, face, pair = self.recoveries[gear], self.model.face, self.model.pair
         centre, angles = standing(pair, gear, phase)
@@ -207,48 +200,38 @@ class RunStresses:
         return centre, turns, np.einsum("thij,nj->thni", turns, section) + np.append(centre, 0.0) + along
 
     def _check(self) -> None:
-        if self.model.scene.tooth_elasticity is None:
+        scene = self.model.scene
+        if scene.tooth_elasticity is None:
             raise SceneError(
-                "the run's flanks are rigid: there are no stresses. Add the section [gears.material] to the scene and"
-                " run it again."
+                "the run's flanks are rigid: there are no stresses. Run the scene with the section [gears.material]."
             )
-        if not self.model.scene.resolves_contact:
+        if not scene.resolves_contact:
             raise SceneError(
-                f'the run has a mesh of springs (accuracy.model = "{self.model.scene.accuracy.model}"): there are no'
-                ' stresses. Run the scene with "elastic".'
+                f'the run has a mesh of springs (accuracy.model = "{scene.accuracy.model}"): there are no stresses. Run'
+                ' the scene with "elastic".'
             )
-        if any(effect.elasticity is not None for effect in effects_on(self.model.scene)):
-            raise SceneError(
-                "stresses are recovered from gears of equal sectors; this run has gears meshed as a whole"
-                " ([body_meshes])."
-            )
+        if any(effect.elasticity is not None for effect in effects_on(scene)):
+            raise SceneError("stresses are those of gears of equal sectors; this run has [body_meshes].")
         if self.model.resolution.condensation != ONCE:
             raise SceneError(
-                'stresses are recovered from runs with [accuracy] condensation = "once"; this one has "every step". Run'
-                ' the scene with "once".'
+                'the run has [accuracy] condensation = "every step": there are no stresses. Run the scene with "once".'
             )
 
 
 def recovery_of(model: Model, gear: int) -> GearRecovery:
-    """The recovery of a gear of a model, on the mesh of its compliance."""
     data, material = (model.pair.pinion, model.pair.wheel)[gear], model.scene.gears.materials[gear]
     return gear_recovery(data, material, discretisation_of(model, gear), model.scene.coast_flanks is not None)
 
 
 def standing(pair: GearPair, gear: int, phase: float) -> tuple[np.ndarray, np.ndarray]:
     """Centre (2,), mm, and angles (teeth,), rad, of a gear's sectors in the frame of the line of action, at a phase of
-    the mesh cycle.
-
-    Sector 0 has the tooth of pair 0, which reached the start of contact last.
-    """
+    the mesh cycle. Sector 0 has the tooth of pair 0, which reached the start of contact last."""
     contact = pair.path_start + phase * pair.base_pitch
     if gear == 0:
         return np.zeros(2), contact / pair.pinion.base_radius + pair.pinion.angular_pitch * np.arange(pair.pinion.teeth)
-    radii = pair.pinion.base_radius + pair.wheel.base_radius
+    centre = np.array([pair.line_of_action_length, -(pair.pinion.base_radius + pair.wheel.base_radius)])
     first = np.pi + (pair.line_of_action_length - contact) / pair.wheel.base_radius
-    return np.array([pair.line_of_action_length, -radii]), first + pair.wheel.angular_pitch * np.arange(
-        pair.wheel.teeth
-    )
+    return centre, first + pair.wheel.angular_pitch * np.arange(pair.wheel.teeth)
 
 
 def hub_motion(result: xr.Dataset, index: int) -> np.ndarray:
@@ -279,7 +262,7 @@ def outer_sides(nodes, mesh) -> np.ndarray:
 
 
 def _on_flank(gear: Gear, points: np.ndarray, outline: np.ndarray, coast: bool) -> np.ndarray:
-    """Which nodes (n,) of a section at points (n, 2) lie on the involute of its drive flank, or of its coast flank."""
+    """Which nodes (n,) of a section at points (n, 2) lie on the involute of its drive or coast flank."""
     tooth = tooth_outline(gear)
     middle = tooth.involute(np.array([0.5 * (gear.form_roll_angle + gear.tip_roll_angle)]))[0]
 

@@ -35,11 +35,9 @@ if TYPE_CHECKING:
 
 # The remedy where a warning recommends a setting, for settings may not stand beside a target.
 OTHER_SETTINGS = (
-    "a warning names settings of [accuracy]: take a smaller target, or the chosen settings, which the result's scene"
-    " has, and change them"
+    "a warning names settings of [accuracy]: take a smaller target, or change the chosen settings, which the result's"
+    " scene has"
 )
-
-
 # The stage that marches through time.
 MARCH = "march"
 
@@ -99,24 +97,25 @@ def solved(
     job: Job | None = None,
     journal: Place | None = None,
 ) -> RunResult:
-    """As `simulate`; for whoever needs few of the numbers: its dataset is put together when it is asked for."""
-    progress, chosen = progress or SilentProgress(), {}
+    """As `simulate`; its dataset is put together when it is asked for."""
+    progress, cache = progress or SilentProgress(), cache or user_cache()
     try:
         said = scene.scene if isinstance(scene, Model) else scene
         decided, chosen = _with_chosen_settings(said, progress)
         model = scene if isinstance(scene, Model) and decided is said else model_of(decided)
-        result = _simulated(model, progress, cache or user_cache(), preparation, job, journal)
+        prepare = preparation or functools.partial(prepared, job=job)
+        result = _simulated(model, progress, cache, prepare, journal)
     finally:
         # Here, where the run's own arrays are free.
         give_back()
-    if chosen:
-        chosen["target_remarks"] = OTHER_SETTINGS if "accuracy." in result.attrs["warnings"] else ""
+    if chosen and "accuracy." in result.attrs["warnings"]:
+        chosen["target_remarks"] = OTHER_SETTINGS
     result.attrs.update(chosen)
     return result
 
 
 def _with_chosen_settings(scene: Scene, progress: Progress) -> tuple[Scene, dict[str, Any]]:
-    """The scene with settings in place of its target, and attributes on how they were chosen; as it is without one."""
+    """The scene with settings in place of its target, and attributes on how they were chosen."""
     target = scene.accuracy.target
     if target is None:
         return scene, {}
@@ -133,15 +132,10 @@ def _with_chosen_settings(scene: Scene, progress: Progress) -> tuple[Scene, dict
 
 
 def _simulated(
-    model: Model,
-    progress: Progress,
-    cache: Cache,
-    preparation: Preparation | None,
-    job: Job | None,
-    journal: Place | None,
+    model: Model, progress: Progress, cache: Cache, prepare: Preparation, journal: Place | None
 ) -> RunResult:
     for_operators = memory_for_operators(model)
-    gears, cycle = (preparation or functools.partial(prepared, job=job))(model, progress, cache)
+    gears, cycle = prepare(model, progress, cache)
     cycle.kept.most = for_operators
     progress.stage("compile")
     compiled = compile_kernels(model.scene.friction is not None, cycle.traits.rigid)
@@ -165,7 +159,7 @@ def _simulated(
 
 def memory_for_operators(model: Model) -> float:
     """Bytes that contact operators may take beside all else; raises ComputationError where a run does not fit without
-    keeping any."""
+    any."""
     allowed, cost = allowed_memory(), expected_cost(model)
     if said := too_large(model, cost, allowed):
         raise ComputationError(said)
@@ -173,8 +167,7 @@ def memory_for_operators(model: Model) -> float:
 
 
 def root_stress_of(model: Model, cycle, progress: Progress, cache: Cache):
-    """What the recorder needs for root stresses where they are asked for; None for routes without stresses, such as
-    rigid flanks."""
+    """What the recorder needs for root stresses where they are asked for; None for routes without stresses."""
     if not (model.scene.output.root_stress and route_of(model).stresses):
         return None
     from .root_stress import root_stress
@@ -231,7 +224,7 @@ def _with_dynamic_factors(recorder: Recorder, result: RunResult, progress: Progr
 
 
 def _with_lead_correction(result: RunResult, progress: Progress) -> xr.Dataset:
-    """The result's dataset with the lead modifications that are proposed for its pinion, where the scene has any."""
+    """The result's dataset with the lead modifications that are proposed for its pinion, where there are any."""
     model, dataset = result.recorder.model, result.dataset
     if not model.scene.three_dimensional or not result.attrs["complete"]:
         return dataset

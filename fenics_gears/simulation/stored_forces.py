@@ -1,7 +1,5 @@
 """Contact forces at a stored time, read from a result and applied to the flanks."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,9 +21,7 @@ MID_WIDTH = np.zeros(1)
 @dataclass(frozen=True)
 class StoredForces:
     """The contact of one stored step: its tooth pairs, and the forces (n,) or (2 n,), N, of each one's contact nodes.
-
-    `index`: place of the step among the stored ones; `phase`: mesh cycles, of the last whole one the part.
-    """
+    `index`: place of the step among the stored ones; `phase`: of the last whole mesh cycle the part."""
 
     index: int
     phase: float
@@ -34,25 +30,22 @@ class StoredForces:
 
     @property
     def on_coast_flanks(self) -> bool:
-        """Whether the coast flanks carry a larger normal force than the drive flanks."""
         carried = {DRIVE: 0.0, COAST: 0.0}
         for pair, force in zip(self.pairs, self.forces):
             carried[pair.place.flank] += float(force[: len(pair.offsets)].sum())
         return carried[COAST] > carried[DRIVE]
 
     def on_flanks(self, model: Model, gear: int, heights: np.ndarray = MID_WIDTH) -> dict[int, np.ndarray]:
-        """Forces on the flank nodes of a gear's loaded teeth, as of `contact.flank_forces`; the body has nodes at
-        `heights` (h,), mm from its mid-width."""
+        """Forces on the flank nodes of a gear's loaded teeth, as of `contact.flank_forces`, at `heights` (h,), mm from
+        its mid-width."""
         data = (model.pair.pinion, model.pair.wheel)[gear]
         averages = slice_averages(heights, 2, model.face.positions - model.face.middles[gear], model.face.widths)
         return flank_forces(gear, data, model.face, averages, self.pairs, self.forces)
 
 
 def stored_index(result: xr.Dataset, mesh_phase: float) -> int:
-    """The step among those with contact fields that is nearest to `mesh_phase` mesh cycles after the first of them.
-
-    Raises SceneError outside these cycles, or where the result has none.
-    """
+    """The step with contact fields nearest to `mesh_phase` mesh cycles after the first of them. Raises SceneError
+    outside these cycles, or where there are none."""
     phases = contact_times(result)["contact_mesh_phase"].values
     since = phases - phases[0]
     spacing = np.diff(since).max(initial=0.0)
@@ -66,9 +59,7 @@ def stored_index(result: xr.Dataset, mesh_phase: float) -> int:
 
 def stored_forces(result: xr.Dataset, model: Model, cycle: Cycle, index: int) -> StoredForces:
     """The contact forces of a step, by its place among those with contact fields; `cycle`: the one that the run had.
-
-    Raises ComputationError where the result was computed from another scene than `model` is of.
-    """
+    Raises ComputationError where the result was computed from another scene than `model` is of."""
     step = round(float(result["contact_mesh_phase"].values[index]) * cycle.steps)
     pairs = cycle.pairs_at(step % cycle.steps)
     numbers = result["contact_pair_number"]
@@ -86,7 +77,6 @@ def _forces_of(result: xr.Dataset, model: Model, pair: ToothPair, index: int, sl
     count = len(pair.offsets)
 
     def stored(name: str) -> np.ndarray:
-        """Values of the nodes of the pair's slice."""
         return result[f"{side}contact_{name}"].values[index, slot].reshape(model.face.slices, -1)[pair.place.slice]
 
     rolls = np.empty(0) if slot is None else stored("roll_angle")
@@ -95,8 +85,7 @@ def _forces_of(result: xr.Dataset, model: Model, pair: ToothPair, index: int, sl
         or np.abs(rolls[:count] - pair.pinion_roll).max(initial=0.0) > SAME_OFFSETS
     ):
         raise ComputationError(
-            "the stored contact nodes are not those of the scene that the result carries; stresses are recovered from"
-            ' runs whose scene is the one in their file, with [accuracy] condensation = "once". Run the scene again.'
+            "the stored contact nodes are not those of the scene that the result carries. Run the scene again."
         )
     kinds = ["pressure"] if model.scene.friction is None else ["pressure", "traction"]
     missing = [name for kind in kinds if (name := f"{side}contact_{kind}") not in result]

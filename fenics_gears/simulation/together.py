@@ -1,7 +1,5 @@
 """Runs of a search whose numbers alone are asked for: those that share contact operators are solved together."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Sequence
 
 from fenics_gears.contact.mesh_cycle import Gaps
@@ -41,8 +39,8 @@ def alike(one: Model, other: Model) -> bool:
 def solved_together(
     models: Sequence[Model], preparation: Preparation, asked: Collection[str]
 ) -> list[NumbersOfRun | None]:
-    """The numbers `asked` of runs that can be solved together and differ in load and reliefs; None of a
-    run that has to be run by itself. Raises GearsError as `simulate` does."""
+    """The numbers `asked` of runs that can be solved together and differ in load and reliefs; None of a run that has to
+    be run by itself. Raises GearsError as `simulate` does."""
     # Imported here, as of true involutes.
     from fenics_gears.contact.relief_gaps import Profiles
 

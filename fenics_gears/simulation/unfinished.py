@@ -1,7 +1,5 @@
 """The result of a run that has not come to its end, made of its journal: its process was killed, or still runs."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import xarray as xr
@@ -20,11 +18,9 @@ NOT_ENDED = "not ended"
 
 
 def unfinished(directory: Path) -> xr.Dataset:
-    """The result as it would be if the run had been interrupted after the last step of its journal; `complete` 0,
-    `stopped` NOT_ENDED.
-
-    The gears are those of the cache, or condensed again. Raises ComputationError where the journal cannot be read.
-    """
+    """The result as if the run had been interrupted after the last step of its journal; `complete` 0, `stopped`
+    NOT_ENDED. The gears are those of the cache, or condensed again. Raises ComputationError where the journal cannot be
+    read."""
     progress, cache = SilentProgress(), user_cache()
     recorded = read(directory)
     model = model_of(recorded.scene)
@@ -44,6 +40,6 @@ def _missing(result: xr.Dataset, steps: int) -> str:
     of = result.attrs["steps_per_mesh_cycle"]
     return (
         f"the run has not come to its end (its process was killed, or still runs): {there} of its {steps} steps are"
-        f" there, up to {float(last['time']):.4g} s (mesh cycle {float(last['mesh_phase']):.2f} of {steps / of:g});"
-        " what comes after them is missing, and all numbers are of these steps"
+        f" there, up to {float(last['time']):.4g} s (mesh cycle {float(last['mesh_phase']):.2f} of {steps / of:g}), and"
+        " all numbers are of these"
     )

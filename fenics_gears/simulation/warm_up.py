@@ -1,10 +1,8 @@
 """Compile the hot kernels, or load them from disk, before the clock of the march starts.
 
-`python -m fenics_gears.simulation.warm_up` compiles all of them into numba's files on disk: the launcher calls it as
-the last step of the set-up and after each change of their sources, so that runs only load them.
+`python -m fenics_gears.simulation.warm_up` compiles all of them into numba's files on disk: the launcher calls it after
+the set-up and after each change of their sources.
 """
-
-from __future__ import annotations
 
 import time
 from functools import cache
@@ -37,7 +35,7 @@ from fenics_gears.results.mesh_curves import stiffness_curves
 
 def compile_kernels(tangential: bool, rigid: bool = False) -> float:
     """Run every compiled kernel on a problem of one contact node, with `rigid` those of rigid flanks too; returns the
-    seconds it took, next to none where the process has run them before."""
+    seconds it took."""
     begun = time.perf_counter()
     _run_once(tangential, rigid)
     return time.perf_counter() - begun
@@ -58,15 +56,14 @@ def _run_once(tangential: bool, rigid: bool) -> None:
     # With friction also along the tangent as it stood before.
     responding, loaded = (*seen, np.ones((2 * kinds - 1, 2))), (*seen, np.ones((kinds, 2)))
     compliance_product(np.eye(10), responding, loaded, np.zeros((kinds, 2, kinds, 2)), loaded, earlier)
-    unknowns = 2 if tangential else 1
-    node, row, tolerance = np.zeros(1), np.eye(unknowns, 1), Tolerance.of_load(1.0)
+    node, row, tolerance = np.zeros(1), np.eye(kinds, 1), Tolerance.of_load(1.0)
     slip = np.ones(1) if tangential else np.empty(0)
-    problem = StepProblem(np.eye(1), np.ones(1), np.eye(unknowns), row, node, slip, 0.1, np.empty(0), tolerance)
+    problem = StepProblem(np.eye(1), np.ones(1), np.eye(kinds), row, node, slip, 0.1, np.empty(0), tolerance)
     solve_step(problem, np.array([SLIP_FORWARD], dtype=np.int8))
     place = Place(0, DRIVE, (0.5, 0.5))
     pair = PairNodes(place, node, node, node, node, node, node)
-    earlier = (node, np.zeros((1, unknowns)), np.zeros((1, 1))) if tangential else (None, None, None)
-    operator = ContactOperator((pair,), (1.0, 1.0), (node, node), np.eye(unknowns), row, node, *earlier)
+    earlier = (node, np.zeros((1, kinds)), np.zeros((1, 1))) if tangential else (None, None, None)
+    operator = ContactOperator((pair,), (1.0, 1.0), (node, node), np.eye(kinds), row, node, *earlier)
     position = Position(operator, nodes_before((pair,), (pair,), 0.1))
     steps = Steps.to_solve(range(2), [position] * 2, 1, NEWTON)
     drivetrain = Drivetrain(("rotation_2",), np.ones(1), np.eye(1), np.ones(1), np.eye(1), None)

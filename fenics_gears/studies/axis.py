@@ -30,11 +30,8 @@ class AxisError(ValueError):
 
 @dataclass(frozen=True)
 class Axis:
-    """A swept field: its path in the scene and its values as TOML has them.
-
-    `name`: of the coordinate; `unit`: of the coordinate's numbers, the one that the first value is written in, empty
-    where the values are bare numbers or texts.
-    """
+    """A swept field: its path in the scene and its values as TOML has them. `name`: of the coordinate; `unit`: of its
+    numbers, the one that the first value is written in, empty for bare numbers or texts."""
 
     path: Path
     values: tuple[Any, ...]
@@ -43,7 +40,6 @@ class Axis:
 
     @property
     def dotted(self) -> str:
-        """The path as it is written."""
         return ".".join(self.path)
 
     def coordinate(self) -> np.ndarray:
@@ -62,7 +58,6 @@ def label(value: Any) -> str:
 
 
 def unit_of(values: tuple[Any, ...]) -> str:
-    """The unit that the first value with one is written in."""
     return next((units.unit_of(value) for value in values if isinstance(value, str) and units.unit_of(value)), "")
 
 
@@ -74,8 +69,8 @@ def values_of(path: Path, written: Any) -> tuple[Any, ...]:
         values = tuple(written)
     else:
         raise AxisError(
-            "is one value. Allowed: a list of values, or a range such as { start = ..., stop = ..., count = 20 }. A"
-            " field of one value belongs in [set]."
+            "is one value, which belongs in [set]. Allowed: a list of values, or a range such as"
+            " { start = ..., stop = ..., count = 20 }."
         )
     if not values:
         raise AxisError("is an empty list. Allowed: at least one value.")
@@ -134,12 +129,11 @@ def number_in(value: Any, unit: str) -> float | None:
 
 
 def factor_of(unit: str) -> float:
-    """The unit in N, mm, s, rad."""
     return units.quantity(f"1 {unit}")[0]
 
 
 def _range(table: Mapping[str, Any]) -> tuple[Any, ...]:
-    """The values of { start, stop, count } or { start, stop, step }, both ends included where the step allows."""
+    """The values of { start, stop, count } or { start, stop, step }."""
     for name in table:
         if name not in RANGE_KEYS:
             raise AxisError(
@@ -155,13 +149,11 @@ def _range(table: Mapping[str, Any]) -> tuple[Any, ...]:
     if spacing not in SPACINGS:
         hint = did_you_mean(spacing, SPACINGS) if isinstance(spacing, str) else ""
         raise AxisError(f'has the spacing {as_written(spacing)}.{hint} Allowed: "linear", "logarithmic".')
-    given = {name: table[name] for name in ("start", "stop", "step") if name in table}
-    ends, unit = _ends(given)
-    numbers = (
-        _stepped(ends[0], ends[1], ends[2], spacing)
-        if "step" in table
-        else _counted(ends[0], ends[1], table["count"], spacing)
-    )
+    (start, stop, *step), unit = _ends({name: table[name] for name in ("start", "stop", "step") if name in table})
+    if step:
+        numbers = _stepped(start, stop, step[0], spacing)
+    else:
+        numbers = _counted(start, stop, table["count"], spacing)
     if unit:
         return tuple(f"{number:.12g} {unit}" for number in numbers)
     whole = isinstance(table["start"], int) and isinstance(table["stop"], int) and np.all(numbers == np.round(numbers))
@@ -175,10 +167,8 @@ def _ends(given: Mapping[str, Any]) -> tuple[list[float], str]:
     else:
         for name, value in given.items():
             if not isinstance(value, str):
-                raise AxisError(
-                    f"has {name} = {as_written(value)} beside a text with a unit. Allowed: all with units, or all bare"
-                    " numbers."
-                )
+                wrong = f"has {name} = {as_written(value)} beside a text with a unit"
+                raise AxisError(f"{wrong}. Allowed: all with units, or all bare numbers.")
         try:
             quantities = [units.quantity(value) for value in given.values()]
         except units.QuantityError as error:

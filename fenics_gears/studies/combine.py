@@ -25,20 +25,17 @@ MOST_CURVE_VALUES = 100_000_000
 
 
 def combined(study: Study, records: Mapping[int, Record], failures: Mapping[int, str]) -> xr.Dataset:
-    """The dataset of the cases so far; NaN where a case has no result or lacks a number.
-
-    The dimensions are the swept fields, or `case` where they are varied together. `failed` is 1 for cases that failed
-    and `failure` says why; curves are there when every case has the same steps.
-    """
+    """The dataset of the cases so far, over the swept fields, or `case` where they are varied together; NaN where a
+    case has no result or lacks a number. `failed` is 1 for cases that failed and `failure` says why; curves are there
+    when every case has the same steps."""
     result = xr.Dataset(
         coords={name: coordinate for axis in study.axes for name, coordinate in [_coordinate(axis, study)]}
     )
     if study.combine == "zip":
         result = result.assign_coords(case=("case", np.arange(len(study.cases)), {"long_name": "case"}))
     for name, (of_case, missing, attributes) in _variables(study, records, failures).items():
-        values = np.array(
-            [of_case.get(i, missing) for i in range(len(study.cases))], dtype=type(missing) if missing != "" else object
-        )
+        kind = object if missing == "" else type(missing)
+        values = np.array([of_case.get(i, missing) for i in range(len(study.cases))], dtype=kind)
         result[name] = (study.dimensions, values.reshape(study.shape), attributes)
     curves, why_not = _curves(study, records)
     result = result.assign(curves)
@@ -60,11 +57,8 @@ def _variables(
 ) -> dict[str, tuple[dict, Any, dict]]:
     """By name the values of the cases that have one, what stands for the others, and the attributes."""
     known = {name for record in records.values() for name in record.numbers}
-    numbers = NUMBERS | {
-        each.name: (each.units, each.meaning)
-        for each in RESULT_ATTRIBUTES
-        if each.name in known and each.name in STUDIED
-    }
+    studied = (each for each in RESULT_ATTRIBUTES if each.name in known.intersection(STUDIED))
+    numbers = NUMBERS | {each.name: (each.units, each.meaning) for each in studied}
     found: dict[str, tuple[dict, Any, dict]] = {
         name: (
             {i: each.numbers[name] for i, each in records.items() if name in each.numbers},

@@ -1,5 +1,5 @@
 """Sections and fields of a scene by their dotted paths, and changes of a parsed scene. Tables that are listed have
-numbers from 1: ``shafts.input.sections.2.diameter``, ``bearings.pinion.1.rolling.clearance``."""
+numbers from 1: ``shafts.input.sections.2.diameter``."""
 
 import math
 from collections.abc import Mapping
@@ -9,7 +9,7 @@ from fenics_gears.errors import SceneError
 from fenics_gears.inputs.allowed import Allowed, AllowedEither, AllowedList, AllowedNumber
 from fenics_gears.inputs.problem import LISTED, did_you_mean
 from fenics_gears.inputs.section import AllowedTables, Section, allowed_in, names_in, section_within
-from fenics_gears.inputs.tree import LOADS
+from fenics_gears.inputs.tree import LOADS, value_at
 from fenics_gears.scene.schema import known_paths, scene_text
 
 Path = tuple[str, ...]
@@ -55,17 +55,15 @@ def why_unknown(path: Path) -> str | None:
     if not hint:
         homes = [name for name in dotted if name.split(".")[-1] == path[-1]]
         hint = f" Did you mean {' or '.join(homes)}?" if homes else ""
-    return f"is no section or field of a scene.{hint}" + (
-        "" if hint else f" Sections: {', '.join(p[0] for p in known_paths() if len(p) == 1)}."
-    )
+    if not hint:
+        hint = f" Sections: {', '.join(each[0] for each in known_paths() if len(each) == 1)}."
+    return f"is no section or field of a scene.{hint}"
 
 
 def changed(tree: Mapping[str, Any], path: Path, value: Any) -> dict[str, Any]:
-    """A copy of a parsed scene with the value at ``path``; ABSENT removes what is there, PRESENT leaves it as it is.
-
-    A load that is given in one way takes the place of one given in another. What does not change is the same object in
-    both.
-    """
+    """A copy of a parsed scene with the value at ``path``; ABSENT removes what is there, PRESENT leaves it as it is. A
+    load that is given in one way takes the place of one given in another. What does not change is the same object in
+    both."""
     if value == PRESENT:
         return dict(tree)
     if path[0] == "load" and path[-1] in LOADS and value != ABSENT and isinstance(tree.get("load"), Mapping):
@@ -100,16 +98,13 @@ def _place_in(listed: list, number: str, whole: Path) -> int:
 
 
 def with_section(tree: Mapping[str, Any], path: Path) -> dict[str, Any]:
-    """A copy of a parsed scene that has the section at ``path``, with the fields that it had before, if any."""
-    home: Any = tree
-    for name in path:
-        home = home.get(name) if isinstance(home, Mapping) else None
-    return dict(tree) if isinstance(home, Mapping) else changed(tree, path, {})
+    """A copy of a parsed scene that has the section at ``path``."""
+    return dict(tree) if isinstance(value_at(tree, *path), Mapping) else changed(tree, path, {})
 
 
 def allowed_at(path: Path) -> tuple[Allowed | None, float, float]:
-    """What a field allows and its least and largest number in N, mm, s, rad; None for a section. Fields without bounds
-    have infinite ones."""
+    """What a field allows, None for a section; and its least and largest number in N, mm, s, rad, infinite without
+    bounds."""
     _, allowed = _found_at(path) or (None, None)
     if isinstance(allowed, AllowedEither):
         return allowed, min(low for low, _ in allowed.ranges.values()), max(high for _, high in allowed.ranges.values())

@@ -14,7 +14,6 @@ PACKAGES = ("numpy", "numba", "fenics-dolfinx", "petsc4py")
 
 
 def machine() -> dict[str, str]:
-    """Processor, how busy it is, threads, versions, in words."""
     return {
         "processor": processor(),
         "load": load(),
@@ -24,12 +23,10 @@ def machine() -> dict[str, str]:
 
 
 def in_words(found: Mapping[str, str]) -> str:
-    """A machine in one sentence."""
     return f"{found['processor']}, load {found['load']}; threads: {found['threads']}; {found['versions']}"
 
 
 def processor() -> str:
-    """The processor's name and how many of it this process may use."""
     name = platform.processor() or platform.machine()
     description = Path("/proc/cpuinfo")
     if description.is_file():
@@ -40,8 +37,7 @@ def processor() -> str:
 
 
 def load() -> str:
-    """Processes that wanted a core in the last minute, this one included; times mean little where there were more than
-    cores."""
+    """Processes that wanted a core in the last minute, this one included."""
     try:
         return f"{os.getloadavg()[0]:.1f}"
     except OSError:
@@ -49,7 +45,6 @@ def load() -> str:
 
 
 def threads() -> str:
-    """Threads that BLAS may use."""
     from threadpoolctl import threadpool_info
 
     counts = [pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"]

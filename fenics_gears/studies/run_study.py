@@ -26,8 +26,8 @@ LOGGER = logging.getLogger(__name__)
 
 @dataclass
 class Outcome:
-    """Results of a study so far, and why cases failed, by the case's index; `kept`: how many results were there
-    before; `spent`: on the others."""
+    """Results of a study so far, and why cases failed, by the case's index; `kept`: how many results were there before;
+    `spent`: on the others."""
 
     study: Study
     file: Path | None = None
@@ -86,13 +86,9 @@ def _run(study: Study, directory: Path, team: Alone | Together, progress: Progre
 
 
 def _opening(study: Study, kept: int, missing: int, changed: str, size: int) -> str:
-    """One line on how many cases are there and to be computed."""
     of_it = f"{kept} kept, {missing} to be computed" if kept else f"{missing} to be computed"
-    return (
-        f"{study.title}: {len(study.cases)} cases, {of_it}"
-        + (f", by {size} processes." if size > 1 else ".")
-        + (changed and f" {changed}")
-    )
+    by = f", by {size} processes" if size > 1 else ""
+    return f"{study.title}: {len(study.cases)} cases, {of_it}{by}. {changed}".rstrip()
 
 
 def _compute(runs: Runs, missing: list[Run], progress: Interruption) -> None:
@@ -117,10 +113,7 @@ def _compute(runs: Runs, missing: list[Run], progress: Interruption) -> None:
 
 def changed_since(study: Study, directory: Path) -> str:
     """A sentence where the study was last run here by a version of the program with other numbers, or with another base
-    scene; else empty.
-
-    Writes `study.json` with the present ones, which also lists which file holds which case.
-    """
+    scene; else empty. Writes `study.json` with the present ones, which also lists which file holds which case."""
     path = directory / "study.json"
     try:
         index = json.loads(path.read_text(encoding="utf-8"))

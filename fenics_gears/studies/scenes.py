@@ -33,7 +33,6 @@ class Changes:
     combine: str
 
     def points(self) -> Iterator[tuple[Any, ...]]:
-        """The swept values of each case; the last axis changes fastest."""
         values = [axis.values for axis in self.axes]
         return itertools.product(*values) if self.combine == "product" else zip(*values)
 
@@ -57,7 +56,6 @@ class Scenes:
         self.model = functools.lru_cache(MOST_HELD)(self._model)
 
     def values(self, index: int) -> dict[str, str]:
-        """The swept fields of a case, in words."""
         return {axis.dotted: label(value) for axis, value in zip(self._changes.axes, self.points[index])}
 
     def _model(self, index: int) -> Model:
@@ -66,11 +64,9 @@ class Scenes:
 
 
 class Models:
-    """The models of parsed scenes of one `name`, which name files from a `directory` on.
-
-    A plane scene that differs from one before in the numbers of its reliefs alone is that one with other values: that
-    takes a sixth of the time, and its text is written anew where it is asked for.
-    """
+    """The models of parsed scenes of one `name`, which name files from a `directory` on. A plane scene that differs
+    from one before in the numbers of its reliefs alone is that one with other values, which takes a sixth of the
+    time."""
 
     def __init__(self, name: str, directory: Path):
         self._name, self._directory = name, directory
@@ -108,7 +104,6 @@ class Models:
 
 
 def _names(said: Any) -> Any:
-    """The names within a section and the sections within it, whatever their values."""
     return {name: _names(each) for name, each in said.items()} if isinstance(said, Mapping) else type(said)
 
 

@@ -26,10 +26,8 @@ class Study:
 
     @property
     def dimensions(self) -> tuple[str, ...]:
-        """Names of the study's dimensions."""
         return tuple(axis.name for axis in self.axes) if self.combine == "product" else ("case",)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Lengths of the study's dimensions."""
         return tuple(len(axis.values) for axis in self.axes) if self.combine == "product" else (len(self.cases),)

@@ -8,6 +8,7 @@ from typing import Any
 
 from fenics_gears.errors import SceneError
 from fenics_gears.inputs.problem import Problem, counted, did_you_mean, line_numbers
+from fenics_gears.inputs.tree import value_at
 from fenics_gears.inputs.written import as_written
 from fenics_gears.runs.run import Run, run_of, scene_key
 from fenics_gears.scene.read import load_scene, name_of, parsed, text_of
@@ -36,16 +37,13 @@ class Mistakes:
         self._said.setdefault(problem.describe(self._source, self._lines))
 
     def check(self) -> None:
-        """Raise SceneError with all mistakes, if there are any."""
         if self._said:
             raise SceneError(counted(list(self._said), len(self._said), self._source))
 
 
 def load_study(path: str | Path) -> Study:
-    """Read a study file and its base scene and validate every case.
-
-    Raises SceneError, naming every mistake at once, before anything is computed.
-    """
+    """Read a study file and its base scene and validate every case. Raises SceneError, naming every mistake at once,
+    before anything is computed."""
     path = Path(path)
     text = text_of(path, "study")
     tree = parsed(text, str(path))
@@ -74,18 +72,10 @@ def study_of(
     scene_tree = parsed(base.text, str(scene_file))
     _check_present(changes, scene_tree, str(scene_file), mistakes)
     mistakes.check()
-    cases = _cases(Scenes(name_of(path), scene_file.parent, changes, scene_tree), changes, mistakes)
+    name, combine, axes = name_of(path), changes.combine, changes.axes
+    cases = _cases(Scenes(name, scene_file.parent, changes, scene_tree), changes, mistakes)
     mistakes.check()
-    return Study(
-        name=name_of(path),
-        title=tree.get("title", name_of(path)),
-        combine=changes.combine,
-        axes=changes.axes,
-        cases=cases,
-        text=text,
-        scene_text=base.text,
-        base_key=scene_key(base),
-    )
+    return Study(name, tree.get("title", name), combine, axes, cases, text, base.text, scene_key(base))
 
 
 def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:
@@ -109,12 +99,9 @@ def _check_keys(tree: Mapping[str, Any], mistakes: Mistakes) -> None:
             message = f"is not a section. Write a line [{key}], and below it fields of the scene."
             mistakes.add((key,), as_written(tree[key]), message)
     if not tree.get("sweep"):
-        mistakes.add(
-            ("sweep",),
-            None,
-            'is missing. Add the section [sweep] with at least one field, such as motion.mesh_frequency = ["100 Hz",'
-            ' "200 Hz"].',
-        )
+        example = 'motion.mesh_frequency = ["100 Hz", "200 Hz"]'
+        message = f"is missing. Add the section [sweep] with at least one field, such as {example}."
+        mistakes.add(("sweep",), None, message)
 
 
 def _changes(tree: Mapping[str, Any], mistakes: Mistakes) -> Changes:
@@ -134,14 +121,10 @@ def _changes(tree: Mapping[str, Any], mistakes: Mistakes) -> Changes:
 
 
 def left_out(tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[fields.Path, ...]:
-    """The paths that `without` names."""
     names = tree.get("without", [])
     if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
-        mistakes.add(
-            ("without",),
-            as_written(names),
-            'is not a list of names. Allowed: sections and fields to leave out, such as ["inertia", "damping"].',
-        )
+        allowed = 'sections and fields to leave out, such as ["inertia", "damping"]'
+        mistakes.add(("without",), as_written(names), f"is not a list of names. Allowed: {allowed}.")
         return ()
     for name in names:
         if problem := fields.why_unknown(tuple(name.split("."))):
@@ -152,8 +135,8 @@ def left_out(tree: Mapping[str, Any], mistakes: Mistakes) -> tuple[fields.Path, 
 def entries(
     tree: Mapping[str, Any], table: str, mistakes: Mistakes, own: Collection[str] = ()
 ) -> list[tuple[fields.Path, Any]]:
-    """Paths and values below [set], [sweep] or another `table` less its `own` keys, however the dotted path is spelt:
-    quoted, bare, or as a table of its own."""
+    """Paths and values below [set], [sweep] or another `table` less its `own` keys, however the dotted path is
+    spelt."""
     found: list[tuple[fields.Path, Any]] = []
 
     def walk(home: fields.Path, values: Mapping[str, Any]) -> None:
@@ -177,37 +160,29 @@ def _shown(value: Any) -> str:
 
 def _axes(swept: list[tuple[fields.Path, tuple[Any, ...]]]) -> tuple[Axis, ...]:
     last = [path[-1] for path, _ in swept]
+    short = {name for name in last if last.count(name) == 1 and name not in TAKEN}
     return tuple(
-        Axis(
-            path,
-            values,
-            path[-1] if last.count(path[-1]) == 1 and path[-1] not in TAKEN else "_".join(path),
-            unit_of(values),
-        )
-        for path, values in swept
+        Axis(path, values, path[-1] if path[-1] in short else "_".join(path), unit_of(values)) for path, values in swept
     )
 
 
 def _check_overlaps(without, fixed, axes: tuple[Axis, ...], mistakes: Mistakes) -> None:
     swept = [axis.path for axis in axes]
     for path in swept:
+        dotted = ".".join(path)
         for other in swept:
             if other != path and other == path[: len(other)]:
-                mistakes.add(
-                    ("sweep", ".".join(path)),
-                    None,
-                    f"lies in [{'.'.join(other)}], which is swept too. Sweep one of the two.",
-                )
+                message = f"lies in [{'.'.join(other)}], which is swept too. Sweep one of the two."
+                mistakes.add(("sweep", dotted), None, message)
         # A section is named in [set] so that "present" has it.
         if fixed.get(path, {}) != {}:
-            mistakes.add(("set", ".".join(path)), None, "is swept too. Leave it out of [set].")
+            mistakes.add(("set", dotted), None, "is swept too. Leave it out of [set].")
         if swept.count(path) > 1:
-            mistakes.add(("sweep", ".".join(path)), None, "is swept twice.")
+            mistakes.add(("sweep", dotted), None, "is swept twice.")
     for path in without:
         if path in fixed or path in swept:
-            mistakes.add(
-                ("without",), f'"{".".join(path)}"', "is set or swept as well. Leave it out of one of the two."
-            )
+            message = "is set or swept as well. Leave it out of one of the two."
+            mistakes.add(("without",), f'"{".".join(path)}"', message)
 
 
 def _check_sizes(axes: tuple[Axis, ...], combine: str, mistakes: Mistakes) -> None:
@@ -225,15 +200,9 @@ def _check_present(changes: Changes, scene_tree: Mapping[str, Any], scene_file: 
     values = [(("sweep", axis.dotted), axis.path, axis.values) for axis in changes.axes]
     values += [(("set", ".".join(path)), path, (value,)) for path, value in changes.fixed.items()]
     for place, path, listed in values:
-        home: Any = Changes(changes.without, changes.fixed, (), "product").apply(scene_tree, ())
-        for name in path:
-            home = home.get(name) if isinstance(home, Mapping) else None
-        if home is None and any(value == fields.PRESENT for value in listed):
-            mistakes.add(
-                place,
-                f'"{fields.PRESENT}"',
-                f"means the section as {scene_file} has it, but that has none. Write its fields as a table.",
-            )
+        if value_at(changes.apply(scene_tree, ()), *path) is None and any(value == fields.PRESENT for value in listed):
+            message = f"means the section as {scene_file} has it, but that has none. Write its fields as a table."
+            mistakes.add(place, f'"{fields.PRESENT}"', message)
 
 
 def _cases(scenes: Scenes, changes: Changes, mistakes: Mistakes) -> tuple[Run, ...]:
@@ -245,8 +214,9 @@ def _cases(scenes: Scenes, changes: Changes, mistakes: Mistakes) -> tuple[Run, .
         try:
             case = run_of(scenes.model(index), index, values, functools.partial(scenes.model, index))
         except NoScene as error:
+            words = ", ".join(f"{name} = {value}" for name, value in values.items())
             for problem in error.problems:
-                wrong.setdefault((problem.path, problem.written, problem.message), []).append(_listed(values))
+                wrong.setdefault((problem.path, problem.written, problem.message), []).append(words)
             continue
         same = by_key.setdefault(case.key, case)
         if same is not case:
@@ -265,15 +235,9 @@ def _in_study(field: fields.Path, written, message: str, changes: Changes, where
         length = min(len(path), len(field))
         if field and path[:length] == field[:length]:
             return (table, ".".join(max(path, field, key=len))), written, message
-    first = (
-        f"{'only ' if points == 1 else ''}with {where[0]}"
-        if len(where) == 1
-        else f"in {len(where)} of {points} cases, first with {where[0]}"
-    )
+    first = f"{'only ' if points == 1 else ''}with {where[0]}"
+    if len(where) > 1:
+        first = f"in {len(where)} of {points} cases, first {first}"
     if not field:
         return ("sweep",), "", f"{message} ({first})"
     return field, written, f"{message} (a field of the base scene, as this study changes it; {first})"
-
-
-def _listed(values: Mapping[str, str]) -> str:
-    return ", ".join(f"{name} = {value}" for name, value in values.items())

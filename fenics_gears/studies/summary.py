@@ -9,7 +9,6 @@ MOST_FAILURES = 5
 
 
 def summary_rows(outcome: Outcome) -> list[tuple[str, str, str]]:
-    """Rows of label, value, unit."""
     records = outcome.records.values()
     rows = [("cases", f"{len(outcome.study.cases)}", ""), *outcome.spent.rows(outcome.kept)]
     if outcome.failures:

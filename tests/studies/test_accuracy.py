@@ -18,7 +18,7 @@ from fenics_gears.show.work_precision import work_precision
 from fenics_gears.studies.accuracy import refinement, setting_runs, table
 from fenics_gears.studies.accuracy import report as reports
 from fenics_gears.studies.accuracy.measures import CURVE, FACE_LOAD, MEAN, MEASURES, ROOT, SPAN, judged
-from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, FLANK, IN_THE_PLANE, LENGTH, NODES, STEPS
+from fenics_gears.studies.accuracy.refinement import BODY, FAMILY, FLANK, LENGTH, NODES, QUICK_IN_THE_PLANE, STEPS
 from fenics_gears.studies.accuracy.setting import default_setting, half_width, own_setting
 
 TEETH = "tooth_elasticity"
@@ -48,7 +48,7 @@ def measured(*arguments):
 def tiny():
     """Few levels for `quick`."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(refinement, "IN_THE_PLANE", replace(IN_THE_PLANE, quick_values=TINY, quick_fine=TINY_FINE))
+        patch.setattr(refinement, "QUICK_IN_THE_PLANE", replace(QUICK_IN_THE_PLANE, values=TINY, fine=TINY_FINE))
         patch.setattr(reports, "refinements", measured)
         for module in (refinement, reports):
             patch.setattr(module, "default_setting", coarse_default)
@@ -103,7 +103,7 @@ def test_every_setting_of_the_issue_is_refined_with_the_others_fine(scene, repor
 def test_cheaper_models_stand_beside_them(report):
     """Rigid teeth without errors of form have no transmission error: all of it is lost, and there is no pressure."""
     models = {each.name: each for each in report.models}
-    assert set(models) == set(IN_THE_PLANE.models)
+    assert set(models) == set(QUICK_IN_THE_PLANE.models)
     rigid = models[RIGID_TEETH]
     assert rigid.errors[SPAN] == pytest.approx(1.0, abs=1e-6) and np.isnan(rigid.errors["pressure"]) and not rigid.parts
     assert all(each not in report.front for each in report.models)

@@ -1,13 +1,10 @@
-"""Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy` and
-`[accuracy] target`.
+"""Orders of convergence, limits and errors from runs with falling sizes, for `gears accuracy` and `[accuracy] target`.
 
 Roache, Verification and Validation in Computational Science and Engineering, 1998, chapter 5: the error of the finest
-run is the last change over r^p - 1, with r the ratio of sizes and p the order, times a safety factor. That is 1.25 for
-three runs and more, which show their order; without an observed order the error is three times the last change: 1.25
-times the 2.4 that h^0.5 leaves where sizes halve.
+run is the last change over r^p - 1, with r the ratio of sizes and p the order, times a safety factor: 1.25 for three
+runs and more, which show their order; without an observed order the error is three times the last change: 1.25 times
+the 2.4 that h^0.5 leaves where sizes halve.
 """
-
-from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -39,11 +36,8 @@ LEAST_COSINE, TURNED_BACK = 0.5, -0.5
 @dataclass(frozen=True)
 class Limit:
     """The limit of a sequence: `value`, shaped as its terms; observed `order`, None without one; `uncertainty`, L2 norm
-    of its error.
-
-    `least_error`: error of the last term where that is taken as the limit: by its order, or the last difference without
-    one.
-    """
+    of its error; `least_error`: of the last term where that is taken as the limit: by its order, or the last difference
+    without one."""
 
     value: np.ndarray
     order: float | None
@@ -53,10 +47,7 @@ class Limit:
 
 def observed_order(values: Sequence[np.ndarray], sizes: Sequence[float]) -> float | None:
     """Order p of u(h) = u(0) + C h^p through the last three terms of a sequence, by their distances in L2; None where
-    no p fits.
-
-    `sizes` fall and need not halve. None where differences are round-off, do not fall, or turn back.
-    """
+    no p fits, or differences are round-off, do not fall, or turn back. `sizes` fall and need not halve."""
     if len(values) < 3:
         return None
     first, second = values[-3] - values[-2], values[-2] - values[-1]
@@ -75,7 +66,6 @@ def observed_order(values: Sequence[np.ndarray], sizes: Sequence[float]) -> floa
 
 
 def cosine(one: np.ndarray, other: np.ndarray) -> float:
-    """Cosine of the angle between two arrays; 0 where one of them is zero."""
     length = float(np.linalg.norm(one) * np.linalg.norm(other))
     return float(np.vdot(one, other)) / length if length else 0.0
 
@@ -105,7 +95,6 @@ def richardson(values: Sequence[np.ndarray], sizes: Sequence[float], expected: f
 
 
 def last_of(values: Sequence[np.ndarray]) -> Limit:
-    """The limit of a sequence without a power law: its last term."""
     away = float(np.linalg.norm(values[-2] - values[-1])) if len(values) > 1 else 0.0
     return Limit(values[-1], None, away, away)
 
@@ -122,8 +111,7 @@ def limit_of(refinement: Refinement, ran: Sequence[tuple[Level, Answer]], base: 
 
 
 def error_from(limits: Mapping[str, Limit], found: Answer, name: str) -> float:
-    """Relative distance of a measure from its limit; at least `least_error`, where the limit is the finest level
-    itself."""
+    """Relative distance of a measure from its limit; at least `least_error`."""
     if name not in limits or name not in found:
         return float("nan")
     limit = limits[name]
@@ -134,10 +122,7 @@ def error_from(limits: Mapping[str, Limit], found: Answer, name: str) -> float:
 
 def together(base: np.ndarray, changes: Sequence[tuple[Limit, np.ndarray]], name: str) -> Limit:
     """All settings at their limits at once: `base`, a measure of a whole setting, and the change from a setting's own
-    base to its limit, for each.
-
-    Uncertainties, relative to their limits, add, for their signs are unknown.
-    """
+    base to its limit, for each. Uncertainties, relative to their limits, add, for their signs are unknown."""
     value, uncertainty = base, 0.0
     for limit, own_base in changes:
         value, end, start = comparable((value, limit.value, own_base), name)
@@ -147,5 +132,4 @@ def together(base: np.ndarray, changes: Sequence[tuple[Limit, np.ndarray]], name
 
 
 def largest_part(parts: Mapping[str, float]) -> str:
-    """The setting with the largest error."""
     return max(parts, key=parts.__getitem__)

@@ -1,13 +1,10 @@
 """The measures by which two runs of a scene are compared, and their relative distance.
 
 All are arrays of the same shape in all runs but the curve of T_E, which has a value for each step of the last mesh
-cycle. Curves of different steps are compared at phases that both have: the value at a step is what a run computes,
-while straight lines between steps would add an error of their own at the kinks where tooth pairs enter or leave
-contact. T_EPP is located between steps (`results.extrema`). The `energy defect` is an error in itself, given in parts
-of the drive's work.
+cycle. Curves of different steps are compared at phases that both have: straight lines between steps would add an error
+of their own at the kinks where tooth pairs enter or leave contact. T_EPP is located between steps (`results.extrema`).
+The `energy defect` is an error in itself, in parts of the drive's work.
 """
-
-from __future__ import annotations
 
 from collections.abc import Container, Sequence
 from math import gcd
@@ -40,10 +37,8 @@ Answer = dict[str, np.ndarray]
 
 
 def answer(run: xr.Dataset, window: float, root_stress: float | None = None) -> Answer:
-    """All measures of a run; `window` (mm): length over which pressures are compared.
-
-    root_stress: MPa, peak at a material point (`root_point`), which is not in a result; None where it is not known.
-    """
+    """All measures of a run; `window` (mm): length over which pressures are compared; `root_stress`: MPa, peak at a
+    material point (`root_point`), which is not in a result; None where it is not known."""
     found = {**judged_answer(run), DEFECT: np.array([_defect(run)])}
     if "energy_teeth" in run:
         found[STIFFNESS] = np.array([stiffness_by_energy(run)])
@@ -69,16 +64,14 @@ def judged_answer(run: xr.Dataset) -> Answer:
 
 def _over_face(run: xr.Dataset) -> Answer:
     """Line load, N/mm, of all tooth pairs together, averaged over the mesh cycle, at places along the face; and the
-    load factors, as far as the run has them."""
-    # Imported here: plane runs have none.
-    from fenics_gears.results.face_ends import slice_widths
+    load factors."""
     from fenics_gears.results.load_factors import mean_line_load
 
     names = {FACE_LOAD: "face_load_factor", LARGEST_LOAD: "largest_line_load_factor"}
     found = {measure: np.array([run.attrs[name]]) for measure, name in names.items() if name in run.attrs}
     load = mean_line_load(run, carrying_side(run)) if run.sizes.get("contact_time") else None
     if load is not None:
-        places = np.linspace(-0.5, 0.5, PLACES) * PART_OF_FACE * slice_widths(run).sum()
+        places = np.linspace(-0.5, 0.5, PLACES) * PART_OF_FACE * run["face_slice_width"].values.sum()
         found[LINE_LOAD] = np.interp(places, run["face_position"].values, load)
     return found
 
@@ -126,13 +119,11 @@ def distance(one: Answer, other: Answer, name: str) -> float:
 
 
 def distances(one: Answer, other: Answer) -> dict[str, float]:
-    """The distances of all measures of the other."""
     return {name: distance(one, other, name) for name in measures_of(other)}
 
 
 def measures_of(names: Container[str]) -> tuple[str, ...]:
-    """All measures of a plane run, and those over the face that are among some names, such as the keys of an answer
-    or of errors."""
+    """All measures of a plane run, and those over the face that are among some names."""
     return MEASURES + tuple(name for name in (MEAN, *OVER_FACE) if name in names)
 
 
@@ -148,11 +139,8 @@ def _last_cycle(run: xr.Dataset) -> np.ndarray:
 
 
 def _pressure(run: xr.Dataset, window: float) -> np.ndarray:
-    """Pressure (phases, pairs, points), MPa, at common phases and offsets, in the middle of the face; zero beyond a
-    run's contact nodes.
-
-    Phases are those of the nearest steps: pressures between two steps are no average of both, for they move.
-    """
+    """Pressure (phases, pairs, points), MPa, at common phases, those of the nearest steps, and offsets, in the middle
+    of the face; zero beyond a run's contact nodes."""
     run = in_middle_slice(run)
     phase, numbers = run["contact_mesh_phase"].values, run["contact_pair_number"]
     last, first = phase[-1], numbers.attrs["number_at_phase_0"]

@@ -1,34 +1,22 @@
 """What `gears accuracy` refines of flanks that are resolved over the face, where a run takes ten times as long as in
 the plane; and the plane beside it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import atan, cos, tan
 
 from fenics_gears.scene.data import Scene
 
 SLICES, LAYERS = "slices", "layers"
-# Settings as `refinement.FULL` and `refinement.FINE` have them; slices and layers in parts of their defaults.
-FAMILY, BODY, STEPS, LENGTH, FLANK = (
-    "flank elements and contact nodes",
-    "body element size",
-    "steps per mesh cycle",
-    "contact length",
-    "flank element size",
-)
+# Values as `refinement.Plan` has them; slices and layers in parts of their defaults.
+FAMILY, FLANK, BODY = "flank elements and contact nodes", "flank element size", "body element size"
+STEPS, LENGTH = "steps per mesh cycle", "contact length"
 FULL: dict[str, tuple[float, ...]] = {
     SLICES: (0.25, 0.5, 1.0, 2.0), LAYERS: (0.5, 1.0, 2.0), BODY: (2.0, 1.4, 1.0), FAMILY: (0.7, 1.4, 2.8),
     STEPS: (10, 20, 40), LENGTH: (0.75, 1.0),
 }  # fmt: skip
 QUICK: dict[str, tuple[float, ...]] = {
-    SLICES: (0.25, 0.5, 1.0),
-    LAYERS: (0.5, 1.0),
-    BODY: (2.0, 1.4),
-    FAMILY: (0.7, 1.4),
-    STEPS: (10, 20),
-    LENGTH: (1.0,),
-}
+    SLICES: (0.25, 0.5, 1.0), LAYERS: (0.5, 1.0), BODY: (2.0, 1.4), FAMILY: (0.7, 1.4), STEPS: (10, 20), LENGTH: (1.0,),
+}  # fmt: skip
 FINE = {FLANK: 1.4, BODY: 1.4, LENGTH: 1.0, STEPS: 20, SLICES: 1.0, LAYERS: 1.0}
 QUICK_FINE = {**FINE, FLANK: 0.7, SLICES: 0.5, LAYERS: 0.5}
 # Targets whose settings are run beside the others.
@@ -59,12 +47,7 @@ def in_the_plane(scene: Scene) -> Scene:
     )  # fmt: skip
     accuracy = replace(scene.accuracy, slices=None, layers=None)
     if bearings is not None:
-        own = {
-            name: replace(each, axial_stiffness=None)
-            for name in ("pinion", "wheel")
-            if (each := getattr(bearings, name)) is not None
-        }
-        bearings = replace(bearings, places=None, axial_stiffness=None, **own)
+        bearings = replace(bearings.held_axially, places=None)
     return replace(
         scene, gears=section, bearings=bearings, lead_modifications=None, misalignment=None, accuracy=accuracy
     )

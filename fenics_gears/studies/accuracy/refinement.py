@@ -1,7 +1,5 @@
 """The settings of `[accuracy]`, each refined alone from level to level, and the expected order of its error."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from math import isclose
 
@@ -13,56 +11,32 @@ from fenics_gears.scene.accuracy import NODE_SPACING
 from fenics_gears.scene.data import ISO_6336, RIGID_TEETH, STIFFNESS_TABLE, Scene
 
 from . import over_face
-from .over_face import BODY, FAMILY, FLANK, LAYERS, LENGTH, SLICES, STEPS
+from .over_face import BODY, FAMILY, FLANK, LAYERS, LENGTH, PLANE, SLICES, STEPS
 from .setting import Setting, default_setting, half_width, own_setting
 
 NODES, CONDENSATION = "contact node spacing", "condensation"
 # Flank elements and contact nodes, which stand at NODE_SPACING elements. Their errors interact: nodes refined alone
 # converge to what fixed elements give. So whole settings and the reference take both together.
 OF_FAMILY = (FLANK, NODES)
-# Elements and contact nodes in a half-width, body elements in parts of their default, the window in parts of the
-# default, steps in a cycle.
-FULL = {
-    FAMILY: (0.7, 1.0, 2.0, 4.0, 8.0, 16.0), FLANK: (1.0, 2.0, 4.0, 8.0), NODES: (1.0, 2.0, 4.0, 8.0),
-    BODY: (4.0, 2.0, 1.0, 0.5, 0.25),
-    LENGTH: (0.25, 0.5, 0.75, 1.0, 1.25), STEPS: (20, 40, 80, 160, 320, 640, 1280),
-}  # fmt: skip
-QUICK = {
-    FAMILY: (0.7, 1.4, 2.8), FLANK: (0.7, 1.4, 2.8), NODES: (0.7, 1.4, 2.8), BODY: (4.0, 2.0, 1.0), LENGTH: (0.5, 1.0),
-    STEPS: (10, 20, 40),
-}  # fmt: skip
-# Values of the settings while another one is refined; flank elements in a half-width.
-FINE = {FLANK: 4.0, BODY: 1.0, LENGTH: 1.0, STEPS: 80}
-QUICK_FINE = {FLANK: 1.4, BODY: 1.0, LENGTH: 1.0, STEPS: 20}
-# Where one is refined beside other values than these: its changes depend on the others only in second order. A longer
-# window moves the contact nodes a little where an edge enters it, which matters less the closer they are.
-BESIDE = {FAMILY: {STEPS: 40, LENGTH: 0.75}, BODY: {FLANK: 2.0}, LENGTH: {FLANK: 8.0, STEPS: 40}, STEPS: {FLANK: 2.0}}
 # Gears meshed anew at every step take a hundred times as long, so that both ways of condensing are compared at a
 # coarser setting.
 REMESHED_FINE = {FLANK: 2.0, NODES: 2.0, BODY: 1.0, STEPS: 20}
-CHOICES: dict[str, tuple[str, ...]] = {
-    "element": ("P1", "Q1", "Q1 incompatible", "P2", "Q2"),
-    "interpolation": ("collocated", AVERAGED),
-}
-QUICK_CHOICES: dict[str, tuple[str, ...]] = {"element": ("P1", "P2"), "interpolation": CHOICES["interpolation"]}
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What is refined and compared: `values` of the settings that are numbers, `choices` of the others, all settings
-    when another one is refined (`fine`, changed `beside` some) and the same in a quick study; `elastic_teeth` that are
-    compared; whether gears `remeshed` at every step and `root_stress` are; `models`: cheaper ones; `targets` whose
-    settings are run; `rounds` of timing; `columns` of a legend."""
+    """What is refined and compared: `values` of the settings that are numbers, elements and contact nodes in a
+    half-width, body elements and the window in parts of their defaults, steps in a cycle; `choices` of the others; all
+    settings when another one is refined (`fine`, changed `beside` some); `elastic_teeth` that are compared; whether
+    gears `remeshed` at every step and `root_stress` are; `models`: cheaper ones; `targets` whose settings are run;
+    `rounds` of timing; `columns` of a legend."""
 
     values: dict[str, tuple[float, ...]]
-    quick_values: dict[str, tuple[float, ...]]
     fine: dict[str, float]
-    quick_fine: dict[str, float]
     models: tuple[str, ...]
-    rounds: int
     columns: int
+    rounds: int = 1
     choices: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    quick_choices: dict[str, tuple[str, ...]] = field(default_factory=dict)
     beside: dict[str, dict[str, float]] = field(default_factory=dict)
     elastic_teeth: tuple[int | None, ...] = ()
     remeshed: bool = False
@@ -71,26 +45,41 @@ class Plan:
 
 
 IN_THE_PLANE = Plan(
-    FULL, QUICK, FINE, QUICK_FINE, models=(STIFFNESS_TABLE, ISO_6336, RIGID_TEETH), rounds=5, columns=2,
-    choices=CHOICES, quick_choices=QUICK_CHOICES, beside=BESIDE, elastic_teeth=(1, None), remeshed=True,
-    root_stress=True,
+    values={
+        FAMILY: (0.7, 1.0, 2.0, 4.0, 8.0, 16.0), FLANK: (1.0, 2.0, 4.0, 8.0), NODES: (1.0, 2.0, 4.0, 8.0),
+        BODY: (4.0, 2.0, 1.0, 0.5, 0.25),
+        LENGTH: (0.25, 0.5, 0.75, 1.0, 1.25), STEPS: (20, 40, 80, 160, 320, 640, 1280),
+    },
+    fine={FLANK: 4.0, BODY: 1.0, LENGTH: 1.0, STEPS: 80},
+    # Changes by one setting depend on the others only in second order. A longer window moves the contact nodes a
+    # little where an edge enters it, which matters less the closer they are.
+    beside={
+        FAMILY: {STEPS: 40, LENGTH: 0.75}, BODY: {FLANK: 2.0}, LENGTH: {FLANK: 8.0, STEPS: 40}, STEPS: {FLANK: 2.0},
+    },
+    choices={"element": ("P1", "Q1", "Q1 incompatible", "P2", "Q2"), "interpolation": ("collocated", AVERAGED)},
+    elastic_teeth=(1, None), remeshed=True, root_stress=True,
+    models=(STIFFNESS_TABLE, ISO_6336, RIGID_TEETH), rounds=5, columns=2,
+)  # fmt: skip
+QUICK_IN_THE_PLANE = replace(
+    IN_THE_PLANE,
+    values={
+        FAMILY: (0.7, 1.4, 2.8), FLANK: (0.7, 1.4, 2.8), NODES: (0.7, 1.4, 2.8), BODY: (4.0, 2.0, 1.0),
+        LENGTH: (0.5, 1.0), STEPS: (10, 20, 40),
+    },
+    fine={FLANK: 1.4, BODY: 1.0, LENGTH: 1.0, STEPS: 20},
+    beside={},
+    choices=IN_THE_PLANE.choices | {"element": ("P1", "P2")},
+    remeshed=False, rounds=1,
 )  # fmt: skip
 # The legend has all settings with an order in words, too long for two columns.
-OVER_THE_FACE = Plan(
-    over_face.FULL,
-    over_face.QUICK,
-    over_face.FINE,
-    over_face.QUICK_FINE,
-    models=(over_face.PLANE,),
-    rounds=1,
-    columns=1,
-    targets=over_face.TARGETS,
-)
+OVER_THE_FACE = Plan(over_face.FULL, over_face.FINE, models=(PLANE,), columns=1, targets=over_face.TARGETS)
+QUICK_OVER_THE_FACE = replace(OVER_THE_FACE, values=over_face.QUICK, fine=over_face.QUICK_FINE, targets=())
 
 
-def plan_of(scene: Scene) -> Plan:
-    """What is refined of a scene."""
-    return OVER_THE_FACE if scene.three_dimensional else IN_THE_PLANE
+def plan_of(scene: Scene, quick: bool = False) -> Plan:
+    if scene.three_dimensional:
+        return QUICK_OVER_THE_FACE if quick else OVER_THE_FACE
+    return QUICK_IN_THE_PLANE if quick else IN_THE_PLANE
 
 
 # Settings that are numbers, whose inverse is a size.
@@ -133,39 +122,28 @@ class Refinement:
         return next((place for place, level in enumerate(self.levels) if same(level.setting)), None)
 
     def moved(self, setting: Setting, place: int) -> Setting:
-        """A whole setting with the values of a level."""
         return replace(setting, **{field: getattr(self.levels[place].setting, field) for field in self.fields})
 
 
 def check_measurable(scene: Scene) -> None:
-    """Raise SceneError for a scene whose accuracy cannot be measured."""
     if not scene.resolves_contact:
         raise SceneError(
             "gears accuracy needs the full contact of elastic flanks: give [gears.material], and leave out"
             " accuracy.model"
         )
     if model_of(scene).resolution.condensation == EVERY_STEP:
-        raise SceneError(
-            'accuracy.condensation = "every step": accuracy is measured on the fast route. Take "once", or leave it'
-            " out."
-        )
+        raise SceneError('accuracy.condensation = "every step": accuracy is measured on the fast route. Take "once".')
     if scene.body_meshes is not None:
-        raise SceneError(
-            "[body_meshes]: a mesh that is given cannot be refined, and its error not be measured. Leave the section"
-            " out."
-        )
+        raise SceneError("[body_meshes]: a mesh that is given cannot be refined. Leave the section out.")
     if not scene.load.wheel_torque:
-        raise SceneError(
-            "load.wheel_torque is 0: without load nothing gives way and there is no error to measure. Give a torque."
-        )
+        raise SceneError("load.wheel_torque is 0: without load there is no error to measure. Give a torque.")
 
 
 def expected_orders(scene: Scene) -> dict[str, tuple[float, str]]:
     """For each setting the expected order of its error, and why."""
-    nodes = 2.0, "functions whose averages of a parabola are exact, closer at tip edges: h^2"
     return {
         FLANK: (2.0, "straight sides on a curved flank: h^2, whatever the element's order"),
-        NODES: nodes,
+        NODES: (2.0, "functions whose averages of a parabola are exact, closer at tip edges: h^2"),
         FAMILY: (2.0, "both have h^2"),
         BODY: (2.0, "straight sides along the outline: h^2"),
         STEPS: _order_in_time(scene),
@@ -175,8 +153,7 @@ def expected_orders(scene: Scene) -> dict[str, tuple[float, str]]:
 
 def fine(scene: Scene, quick: bool = False) -> Setting:
     """The setting in which one at a time is refined."""
-    plan = plan_of(scene)
-    return _setting(scene, plan.quick_fine if quick else plan.fine)
+    return _setting(scene, plan_of(scene, quick).fine)
 
 
 def _setting(scene: Scene, values: dict[str, float]) -> Setting:
@@ -192,14 +169,12 @@ def _setting(scene: Scene, values: dict[str, float]) -> Setting:
 
 
 def _whole(part: float, default: int) -> int:
-    """A part of a number of slices or layers."""
     return max(2, round(part * default))
 
 
 def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
     """All settings with their levels, the values of the scene and of the program's defaults among them."""
-    plan = plan_of(scene)
-    values, choices = (plan.quick_values, plan.quick_choices) if quick else (plan.values, plan.choices)
+    plan = plan_of(scene, quick)
     unit, orders, default = half_width(scene), expected_orders(scene), default_setting(scene)
     orders[LENGTH] = (None, "nothing, once all that touches is inside")
     whole_length = fine(scene, quick).length
@@ -213,19 +188,21 @@ def refinements(scene: Scene, quick: bool = False) -> tuple[Refinement, ...]:
         SLICES: lambda each: {"slices": _whole(each, default.slices)},
         LAYERS: lambda each: {"layers": _whole(each, default.layers)},
     }
-    sizes: dict[str, list[dict]] = {name: [of_value[name](each) for each in levels] for name, levels in values.items()}
-    sizes |= {field: [{field: each} for each in options] for field, options in choices.items()}
+    sizes: dict[str, list[dict]] = {
+        name: [of_value[name](each) for each in levels] for name, levels in plan.values.items()
+    }
+    sizes |= {field: [{field: each} for each in options] for field, options in plan.choices.items()}
     if plan.elastic_teeth:
         sizes["elastic teeth"] = [{"elastic_teeth": each} for each in plan.elastic_teeth]
     found = []
     for name, levels in sizes.items():
-        base = fine(scene, quick) if quick else _setting(scene, {**plan.fine, **plan.beside.get(name, {})})
+        base = _setting(scene, plan.fine | plan.beside.get(name, {}))
         expected = orders.get(name, (None, "a choice"))
         found.append(
             Refinement(name, tuple(levels[0]), tuple(_level(base, each, unit) for each in levels), *expected, base)
         )
     # The remeshed route has nodes on the drive flanks and on the path of contact alone.
-    if not quick and plan.remeshed and scene.coast_flanks is None and scene.corner_contact is None:
+    if plan.remeshed and scene.coast_flanks is None and scene.corner_contact is None:
         found.append(condensation(scene))
     mine = {SCENE: own_setting(scene), DEFAULT: default_setting(scene)}
     return tuple(_with_own(each, mine, unit) for each in found)
@@ -242,10 +219,9 @@ def condensation(scene: Scene) -> Refinement:
 
 def _order_in_time(scene: Scene) -> tuple[float, str]:
     model = model_of(scene)
-    if model.drivetrain.mass is not None and not model.time_scales.averages_acceleration:
-        return 1.0, "backward Euler: h"
     if model.drivetrain.mass is not None:
-        return 2.0, "average acceleration: h^2"
+        average = model.time_scales.averages_acceleration
+        return (2.0, "average acceleration: h^2") if average else (1.0, "backward Euler: h")
     if scene.friction is not None:
         return 2.0, "the exact slip over a step in place of the rate of slip: h^2"
     return 2.0, "no error at all: positions do not depend on one another"
@@ -262,12 +238,11 @@ def _label(field: str, value, unit: float) -> str:
     """A value in words; `unit`: the half-width in mm, in which sizes are given, too."""
     if field in ("flank", "spacing"):
         return f"{value:.3g} mm = {value / unit:.2g} half-widths"
-    words = {
-        "length": f"{value:.3g} mm" if field == "length" else "",
-        "body": f"default x {value:.3g}" if field == "body" else "",
-        **dict.fromkeys(COUNTED, f"{value}"),
-    }
-    return words.get(field, "all that can be loaded" if value is None else str(value))
+    if field == "length":
+        return f"{value:.3g} mm"
+    if field == "body":
+        return f"default x {value:.3g}"
+    return "all that can be loaded" if value is None else str(value)
 
 
 def _with_own(refinement: Refinement, settings: dict[str, Setting], unit: float) -> Refinement:
@@ -280,9 +255,8 @@ def _with_own(refinement: Refinement, settings: dict[str, Setting], unit: float)
     for own, setting in settings.items():
         if refinement.level_of(setting) is None:
             level = _level(refinement.base, {field: getattr(setting, field) for field in refinement.fields}, unit, own)
-            refinement = replace(
-                refinement, levels=tuple(sorted((level, *refinement.levels), key=coarseness, reverse=True))
-            )
+            levels = sorted((level, *refinement.levels), key=coarseness, reverse=True)
+            refinement = replace(refinement, levels=tuple(levels))
     return refinement
 
 

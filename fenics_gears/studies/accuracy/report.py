@@ -1,9 +1,8 @@
 """The study of `gears accuracy`: settings refined one at a time, the reference, whole settings and cheaper models, all
 run and timed."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import xarray as xr
@@ -49,17 +48,13 @@ class RefinementResult:
     limits: dict[str, Limit]
 
     def order(self, measure: str) -> float | None:
-        """Observed order of a measure; None without one."""
         return self.limits[measure].order if measure in self.limits else None
 
 
 @dataclass(frozen=True)
 class WholeResult:
-    """A whole setting or a cheaper model: errors from the reference, the parts of its settings, and times.
-
-    `parts` is empty for a cheaper model, whose error does not depend on settings, and for the settings of a `target`,
-    which are no levels.
-    """
+    """A whole setting or a cheaper model: errors from the reference, the parts of its settings, and times. `parts` is
+    empty for a cheaper model, and for the settings of a `target`, which are no levels."""
 
     name: str
     setting: Setting | None
@@ -70,17 +65,13 @@ class WholeResult:
 
     @property
     def total_error(self) -> float:
-        """Its total error; see `whole.total_error`."""
         return whole.total_error(judged(self.errors), self.parts)
 
 
 @dataclass(frozen=True)
 class AccuracyReport:
     """All that was measured; `uncertainty`: relative, of the reference, by measure; `failures`: what did not run, and
-    why.
-
-    rounds: how often whole settings were timed.
-    """
+    why; `rounds`: how often whole settings were timed."""
 
     scene: Scene
     fine: Setting
@@ -95,7 +86,6 @@ class AccuracyReport:
 
     @property
     def own(self) -> WholeResult:
-        """The scene's own setting."""
         return next(each for each in self.settings if each.name == OWN)
 
     @property
@@ -118,15 +108,13 @@ class AccuracyReport:
 def measure(
     scene: Scene, progress: Progress | None = None, quick: bool = False, rounds: int | None = None
 ) -> AccuracyReport:
-    """Refine every setting of a scene alone, then run and time whole settings; `quick`: few levels, coarse ones.
-
-    Raises SceneError, GeometryError, ComputationError.
-    """
-    usual = 1 if quick else plan_of(scene).rounds
-    study = AccuracyStudy(scene, progress or SilentProgress(), quick, rounds or usual)
+    """Refine every setting of a scene alone, then run and time whole settings; `quick`: few levels, coarse ones. Raises
+    SceneError, GeometryError, ComputationError."""
+    plan = plan_of(scene, quick)
+    study = AccuracyStudy(scene, progress or SilentProgress(), quick, rounds or plan.rounds)
     results = study.refine()
     reference, uncertainty = study.reference(results)
-    whole_settings, models, targets = study.whole_runs(results, reference, () if quick else plan_of(scene).targets)
+    whole_settings, models, targets = study.whole_runs(results, reference, plan.targets)
     return AccuracyReport(
         scene, study.base, results, whole_settings, models, uncertainty, tuple(study.failures), machine(),
         study.rounds, targets,
@@ -192,9 +180,7 @@ class AccuracyStudy:
         chosen: dict[str, Setting | None] = {OWN: own_setting(self.scene)}
         if plain != self.scene:
             chosen[DEFAULTS] = default_setting(self.scene)
-        for setting in whole.path(
-            self.base, ran, errors, lambda setting: whole.fits(self.scene, setting), whole.ENOUGH
-        ):
+        for setting in whole.path(self.base, ran, errors, partial(whole.fits, self.scene), whole.ENOUGH):
             chosen[setting.words] = setting
         chosen |= dict.fromkeys(plan_of(self.scene).models)
         of_targets = settings_of(self.scene, targets, self.progress, self.failures)
@@ -234,8 +220,7 @@ class AccuracyStudy:
         return answer(run, self.window, peak_root_stress(run, model, cycle) if recovered else None)
 
     def _in_turns(self, scenes: dict[str, Scene]) -> tuple[dict[str, Answer], dict[str, Times]]:
-        """Run every scene once a round, with gears of its own, so that other load of the machine affects all of them
-        alike."""
+        """Run every scene once a round, with gears of its own, so that other load of the machine affects all alike."""
         self.progress.stage("whole settings")
         answers, times, left = {}, {}, dict(scenes)
         for turn in range(self.rounds):
@@ -254,26 +239,20 @@ class AccuracyStudy:
         return answers, times
 
     def _result(self, refinement: Refinement) -> RefinementResult:
-        """Errors of the levels from the limit of their setting; a choice is compared with its base, for no choice is
-        the limit of the others."""
+        """Errors of the levels from the limit of their setting; a choice is compared with its base."""
         answers, base = self.runs.answers, self.runs.answers[refinement.base]
         ran = [(level, answers[level.setting]) for level in refinement.levels if level.setting in answers]
         regular = [(level, found) for level, found in ran if not level.own or refinement.name == LENGTH]
         limits = {name: limit_of(refinement, regular, base, name) for name in base}
-        levels = tuple(
-            LevelResult(
-                level,
-                {name: error_from(limits, found, name) for name in measures_of(base)},
-                self.runs.times[level.setting],
-            )
-            for level, found in ran
-        )
-        return RefinementResult(refinement, levels, limits)
+        levels = []
+        for level, found in ran:
+            errors = {name: error_from(limits, found, name) for name in measures_of(base)}
+            levels.append(LevelResult(level, errors, self.runs.times[level.setting]))
+        return RefinementResult(refinement, tuple(levels), limits)
 
 
 def scene_of(scene: Scene, name: str, setting: Setting | None) -> Scene:
-    """The scene with a whole setting, or with the cheaper model of a name. Its own and the default settings are left as
-    they are decided there."""
+    """The scene with a whole setting, or with the cheaper model of a name."""
     if setting is None:
         return in_the_plane(scene) if name == PLANE else replace(scene, accuracy=_accuracy_of(scene, name))
     return {OWN: scene, DEFAULTS: without_settings(scene)}.get(name) or setting.of(scene)

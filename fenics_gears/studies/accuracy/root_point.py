@@ -1,11 +1,5 @@
-"""Peak stress at one material point of the pinion's tooth root: where the fillet's tangent stands at 30 degrees to the
-tooth's centreline.
-
-Meshes can be compared at this point, for it is the same on all of them; the place of the largest stress differs from
-mesh to mesh.
-"""
-
-from __future__ import annotations
+"""Peak stress at one material point of the pinion's tooth root, the same on all meshes, which the place of the largest
+stress is not: where the fillet's tangent stands at 30 degrees to the tooth's centreline."""
 
 from functools import lru_cache
 
@@ -22,10 +16,7 @@ PINION = 0
 
 def peak_root_stress(run: xr.Dataset, model: Model, cycle: Cycle) -> float:
     """Largest tension (MPa) at the point over the last stored mesh cycle, of both fillets: it is that on the loaded
-    side.
-
-    run: a result of `model` with contact fields; cycle: its mesh cycle.
-    """
+    side. run: a result of `model` with contact fields; cycle: its mesh cycle."""
     rows = _rows(
         model.pair.pinion, model.scene.gears.material_of("pinion"), model.resolution.discretisation(0),
         model.touching.reach.farthest + 1,

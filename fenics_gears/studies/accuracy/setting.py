@@ -1,8 +1,6 @@
 """A whole setting of `[accuracy]`: element, sizes and steps; the scene's own setting; the half-width in which sizes are
 given."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -18,11 +16,8 @@ from fenics_gears.scene.data import Accuracy, Scene
 @dataclass(frozen=True)
 class Setting:
     """Element; sizes along flank and between contact nodes and window (mm); body elements in parts of the default;
-    steps, and the rest.
-
-    `slices`, `layers`: of flanks resolved over the face, whose body elements are those of the swept section; None in
-    the plane.
-    """
+    steps, and the rest. `slices`, `layers`: of flanks resolved over the face, whose body elements are those of the
+    swept section; None in the plane."""
 
     element: str
     flank: float
@@ -40,14 +35,12 @@ class Setting:
     def grid(self) -> ContactGrid:
         """Contact nodes at the wanted spacing, but not closer than the flank's elements resolve; wider windows hold the
         nodes of narrower ones."""
-        flank_nodes = self.flank / (2 if self.order == 2 else 1)
-        spacing = max(self.spacing, CLOSEST_NODES * flank_nodes)
+        spacing = max(self.spacing, CLOSEST_NODES * self.flank / self.order)
         cells = max(2, 2 * round(self.length / (2.0 * spacing)))
         return ContactGrid(cells * spacing, cells + 1, self.interpolation)
 
     @property
     def order(self) -> int:
-        """Of the element's shapes."""
         return 2 if self.element.endswith("2") else 1
 
     def accuracy(self, module: float) -> Accuracy:
@@ -68,7 +61,6 @@ class Setting:
         )
 
     def of(self, scene: Scene) -> Scene:
-        """A scene with this setting."""
         return replace(scene, accuracy=self.accuracy(scene.gears.module))
 
     @property
@@ -85,7 +77,6 @@ class Setting:
 
 
 def body_size(order: int, over_face: bool) -> float:
-    """The default size of body elements, in modules."""
     return SECTION_SIZE if over_face else DEFAULT_SIZES[order].body
 
 
@@ -96,7 +87,6 @@ def half_width(scene: Scene) -> float:
 
 @lru_cache(maxsize=4)
 def default_setting(scene: Scene) -> Setting:
-    """The setting that the program would choose."""
     return own_setting(without_settings(scene))
 
 
@@ -105,8 +95,8 @@ def own_setting(scene: Scene) -> Setting:
     model = model_of(scene)
     resolution, (slices, layers) = model.resolution, model.slices_and_layers
     grid, size = resolution.contact_grid, resolution.body_element_size
-    order = 2 if resolution.element.endswith("2") else 1
-    body = 1.0 if size is None else size / (body_size(order, slices is not None) * scene.gears.module)
+    usual = body_size(resolution.order, slices is not None) * scene.gears.module
+    body = 1.0 if size is None else size / usual
     return Setting(
         resolution.element, resolution.flank_element_size, grid.spacing, grid.length, body,
         resolution.steps_per_mesh_cycle,
@@ -115,5 +105,4 @@ def own_setting(scene: Scene) -> Setting:
 
 
 def without_settings(scene: Scene) -> Scene:
-    """The scene with the program's defaults."""
     return replace(scene, accuracy=Accuracy())

@@ -1,8 +1,6 @@
 """Runs of a scene with whole settings, each setting once: what `gears accuracy` and `[accuracy] target` measure errors
 by."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import xarray as xr

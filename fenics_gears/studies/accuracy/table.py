@@ -1,7 +1,5 @@
 """The report of `gears accuracy` as tables, in words, and as CSV."""
 
-from __future__ import annotations
-
 from math import isnan
 from pathlib import Path
 
@@ -22,14 +20,12 @@ ORDER_OFF, NO_INFLUENCE = 0.5, 1e-6
 
 
 def headings(report: AccuracyReport) -> list[tuple[str, ...]]:
-    """Headings and units above `table_rows`."""
     names = measures_of(report.uncertainty)
     words = ("setting", "value", *names, "time", "order T_E", *ORDERED[1:], "expected")
     return [words, ("", "", *["%"] * len(names), "s", *[""] * len(ORDERED), "")]
 
 
 def whole_headings(report: AccuracyReport) -> list[tuple[str, ...]]:
-    """Headings and units above `whole_rows`."""
     names = measures_of(report.uncertainty)
     stages = "meshing", "condensing", "time stepping", "time"
     words = ("settings", "total error", *names, *stages, "what limits it")
@@ -37,7 +33,6 @@ def whole_headings(report: AccuracyReport) -> list[tuple[str, ...]]:
 
 
 def judged_by(report: AccuracyReport) -> str:
-    """What total errors are of, in words."""
     return "T_E, T_EPP and line loads" if any(name in OVER_FACE for name in report.uncertainty) else "T_E and T_EPP"
 
 
@@ -89,7 +84,6 @@ def percent(error: float) -> str:
 
 
 def seconds(time: float) -> str:
-    """A time as people read it."""
     return f"{time:.2g}" if time < 100 else f"{time:.0f}"
 
 
@@ -140,7 +134,6 @@ def _best(report: AccuracyReport) -> str:
 
 
 def remarks(report: AccuracyReport) -> list[str]:
-    """Remarks on how to read the numbers."""
     found = [
         (
             f"the reference (Richardson's limits of all settings together) is uncertain by {percent(report.floor)} % in"
@@ -148,8 +141,7 @@ def remarks(report: AccuracyReport) -> list[str]:
         ),
         (
             "the error of a single setting is measured with all others fine; the total error is the sum of these"
-            " errors, flank elements and contact nodes taken together, or the difference from the reference where that"
-            " is larger"
+            " errors, or the difference from the reference where that is larger"
         ),
     ]
     for result in report.refinements:
@@ -174,8 +166,7 @@ def remarks(report: AccuracyReport) -> list[str]:
     if any(result.refinement.name == CONDENSATION for result in report.refinements):
         found.append(
             'condensation "every step" is another model, not a finer one: normal forces have the lever arms of their'
-            " nodes in place of the base radius. Its difference was measured with coarser settings than the others; it"
-            " does not vanish with refinement"
+            " nodes in place of the base radius. Its difference does not vanish with refinement"
         )
     peak = report.uncertainty["peak pressure"]
     if peak > 0.1:
@@ -187,7 +178,6 @@ def remarks(report: AccuracyReport) -> list[str]:
 
 
 def timed(report: AccuracyReport) -> str:
-    """How often settings were timed, in words."""
     return (
         f"Times of combinations of settings are medians of {report.rounds} rounds, in turns. Single settings were timed"
         " once."
@@ -195,8 +185,6 @@ def timed(report: AccuracyReport) -> str:
 
 
 def write_csv(report: AccuracyReport, file: Path) -> None:
-    """All numbers: a line for each level, whole setting, cheaper model, the reference's uncertainty, and what did not
-    run."""
     uncertain = {"kind": "reference", "name": "uncertainty", **_errors(report.uncertainty)}
     failed = [{"kind": "failed", "name": name, "setting": reason} for name, reason in report.failures]
     write_lines(file, [*_level_lines(report), *_whole_lines(report), uncertain, *failed], report.machine)

@@ -1,8 +1,6 @@
 """Settings for a target: errors are estimated at coarse sizes, sizes of least counted cost follow from them by order
 2."""
 
-from __future__ import annotations
-
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import ceil, sqrt
@@ -61,17 +59,14 @@ class Chosen:
 
     @property
     def estimated_error(self) -> float:
-        """Root of the sum of squares: the parts have nothing to do with one another. That they cancel is not counted
-        on."""
+        """Root of the sum of squares: the parts have nothing to do with one another."""
         return sqrt(sum(part**2 for part in self.parts.values()))
 
 
 def choose(scene: Scene, target: float, progress: Progress) -> Chosen:
     """The cheapest settings that reach a relative error in T_E (L2, mean removed) and in T_EPP, over the face also in
-    line load and load factors.
-
-    Raises TargetNotReached where none does within the limits; ComputationError where a run fails.
-    """
+    line load and load factors. Raises TargetNotReached where none does within the limits; ComputationError where a run
+    fails."""
     progress.stage(f"choose settings for {100.0 * target:g} %")
     try:
         return _chosen(_reporting_runs(scene, progress), scene.gears.module, target)
@@ -97,7 +92,6 @@ def settings_of(
 
 
 def _reporting_runs(scene: Scene, progress: Progress) -> TrialRuns:
-    """Trial runs that report their progress; there are three, unless the first are too coarse."""
     done, now = -1, ""
 
     def begun(words: str) -> None:
@@ -135,12 +129,10 @@ def _chosen(runs: TrialRuns, module: float, target: float) -> Chosen:
 
 
 def _squares(errors: Errors) -> np.ndarray:
-    """Squares of the whole error in each measure."""
     return np.sum([parts**2 for parts in errors.values()], axis=0)
 
 
 def _of_worst(errors: Errors) -> dict[str, float]:
-    """The parts of the error in the measure in which it is largest."""
     worst = int(np.argmax(_squares(errors)))
     return {name: float(np.ravel(parts)[worst]) for name, parts in errors.items()}
 
@@ -247,7 +239,6 @@ def search(runs: TrialRuns, tried: Sizes, errors: Errors, target: float) -> Size
 
 
 def _finer(sizes: Sizes, errors: Errors) -> list[Sizes]:
-    """Sizes of which one has become finer, of those that have an error."""
     slices = sizes.slices + 2
     found = {
         MESH: replace(sizes, mesh=sizes.mesh / RATIO),
@@ -259,7 +250,6 @@ def _finer(sizes: Sizes, errors: Errors) -> list[Sizes]:
 
 
 def _coarser(sizes: Sizes, coarsest: Sizes) -> list[Sizes]:
-    """Sizes of which one has become coarser, none beyond the coarsest."""
     found = [
         replace(sizes, mesh=min(RATIO * sizes.mesh, coarsest.mesh)),
         replace(sizes, steps=max(sizes.steps - ROUND_STEPS, coarsest.steps)),

@@ -1,11 +1,9 @@
 """The trial runs from which the errors of settings are estimated: a few that are coarse in different ways.
 
 Two sizes make a setting: that of the mesh, with which flank elements, contact nodes and body elements grow together
-from their defaults, and the number of steps. Over a face there are two more, the numbers of slices and of the bodies'
-layers. All errors fall with the square of the size, so that a run with twice the size differs by three times the
-error."""
-
-from __future__ import annotations
+from their defaults, and the number of steps; over a face also the numbers of slices and of the bodies' layers. All
+errors fall with the square of the size, so that a run with twice the size differs by three times the error.
+"""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -58,11 +56,8 @@ class Sizes:
 
 
 class TrialRuns:
-    """Trial runs, each setting once; gears are condensed once for all runs that share them.
-
-    `begun`: called before each run with its settings in words; `tick`: called often during a run, may raise
-    KeyboardInterrupt.
-    """
+    """Trial runs, each setting once; gears are condensed once for all runs that share them. `begun`: called before each
+    run with its settings in words; `tick`: called often during a run, may raise KeyboardInterrupt."""
 
     def __init__(self, scene: Scene, begun: Callable[[str], None], tick: Callable[[], None] | None = None):
         self._whole = without_settings(scene)
@@ -99,8 +94,7 @@ class TrialRuns:
 
     @property
     def fewest_steps(self) -> int:
-        """Fewest steps of a run beside one with half as many: both can represent the slowest vibration, where there is
-        one that matters."""
+        """Fewest steps of a run beside one with half as many: both can represent the slowest vibration that matters."""
         steps = FEWEST_STEPS
         if not self.steps_matter:
             return steps // COARSER
@@ -162,7 +156,6 @@ class TrialRuns:
             raise TargetNotReached(f"{setting.words}: {error}") from None
 
     def _error(self, sizes: Sizes, coarser: Sizes) -> np.ndarray:
-        """Errors of `sizes`, from the difference to a run that is coarser in one of them."""
         errors = errors_of_two(self._answer(sizes), self._answer(coarser), COARSER)
         return errors if self.slices else errors.max(keepdims=True)
 
@@ -173,8 +166,7 @@ class TrialRuns:
         return self._known.answers[setting]
 
     def _with_window_long_enough(self, sizes: Sizes) -> None:
-        """Lengthen the contact window until no contact reaches its ends: a longer one then only moves the contact
-        nodes."""
+        """Lengthen the contact window until no contact reaches its ends."""
         for _ in range(MOST_LENGTHENED):
             setting = self.setting(sizes)
             if setting in self._known:

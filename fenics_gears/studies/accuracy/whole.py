@@ -1,10 +1,6 @@
-"""Whole settings: the sum of their parts' errors, a path of them from coarse to fine, and the Pareto front.
-
-Errors may cancel in one run and add up at another load or speed. So the total error of a whole setting is the sum of
-its parts' errors, each measured with the others fine, or its own distance from the reference where that is larger.
-"""
-
-from __future__ import annotations
+"""Whole settings: a path of them from coarse to fine, and the Pareto front. Errors may cancel in one run and add up at
+another load or speed: the total error of a whole setting is the sum of its parts' errors, each measured with the others
+fine, or its own distance from the reference where that is larger."""
 
 from collections.abc import Mapping, Sequence
 from functools import reduce
@@ -32,16 +28,12 @@ Errors = Mapping[tuple[str, int], float]
 
 
 def total_error(direct: float, parts: Mapping[str, float]) -> float:
-    """The total error of a whole setting: its `direct` difference from the reference, or the sum of its parts' errors
-    if that is larger."""
     return max(direct, sum(parts.values()))
 
 
 def parts_of(setting: Setting, refinements: Sequence[Refinement], errors: Errors) -> dict[str, float]:
-    """Error by setting of a whole setting all of whose values are levels; `errors` by setting and level.
-
-    Flank elements and contact nodes count together, not each.
-    """
+    """Error by setting of a whole setting all of whose values are levels; `errors` by setting and level. Flank elements
+    and contact nodes count together, not each."""
     levels = {each.name: each.level_of(setting) for each in refinements if each.name not in OF_FAMILY}
     return {
         name: errors[name, level] for name, level in levels.items() if level is not None and (name, level) in errors
@@ -61,11 +53,8 @@ def path(
     base: Setting, refinements: Sequence[Refinement], errors: Errors, allowed=lambda setting: True, enough: float = 0.0
 ) -> list[Setting]:
     """Whole settings from the coarsest on: from one to the next the setting with the largest error, weighed by WAITS,
-    goes one level finer.
-
-    The path ends where the sum of errors is below `enough`, or where that setting has no finer level that is `allowed`;
-    its end is kept. Choices, such as the element, are those of `base`.
-    """
+    goes one level finer. The path ends where the sum of errors is below `enough`, or where that setting has no finer
+    level that is `allowed`; its end is kept. Choices, such as the element, are those of `base`."""
     moving = {
         each.name: each
         for each in refinements
@@ -96,7 +85,6 @@ def path(
 
 
 def _thinned(found: list[Setting]) -> list[Setting]:
-    """At most `MOST_KEPT` of them, evenly chosen, with both ends."""
     if len(found) <= MOST_KEPT:
         return found
     return [found[round(place * (len(found) - 1) / (MOST_KEPT - 1))] for place in range(MOST_KEPT)]

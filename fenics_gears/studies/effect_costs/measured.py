@@ -60,12 +60,10 @@ class Row:
 
     @property
     def unknowns(self) -> float:
-        """Centre coordinates and contact rows."""
         return self.coordinates + self.contact_rows
 
     @property
     def step_time(self) -> float:
-        """Median time of a step, s."""
         return statistics.median(self.step_times)
 
 
@@ -84,12 +82,11 @@ class EffectReport:
         return () if all(isnan(row.face_load_factor) for row in self.rows) else ("face_load_factor", "peak_pressure")
 
     def row(self, kind: str, effect: str = "") -> Row | None:
-        """The row of that kind of subset; None where it is not there."""
         return next((each for each in self.rows if (each.subset.kind, each.subset.effect) == (kind, effect)), None)
 
     @property
     def ratios(self) -> tuple[float, ...]:
-        """Time of a step of the full scene by that of the bare one, in each round; empty without one of them."""
+        """Time of a step of the full scene by that of the bare one, in each round."""
         bare, full = self.row(BARE), self.row(ALL)
         if bare is None or full is None:
             return ()
@@ -136,14 +133,10 @@ def measure(scene: Scene, progress: Progress | None = None, rounds: int = ROUNDS
 
 
 def at_one_accuracy(scene: Scene) -> Scene:
-    """The scene with every accuracy setting written out, so that all subsets have the mesh and the steps of the scene
-    as a whole."""
+    """The scene with every accuracy setting written out, so that all subsets have its mesh and steps."""
     resolution = model_of(scene).resolution
     if resolution.condensation == EVERY_STEP:
-        raise SceneError(
-            'accuracy.condensation = "every step": the effects are measured on the fast route. Take "once", or leave it'
-            " out."
-        )
+        raise SceneError('accuracy.condensation = "every step": effects are measured on the fast route. Take "once".')
     grid = resolution.contact_grid
     settings = replace(
         scene.accuracy,
@@ -158,11 +151,9 @@ def at_one_accuracy(scene: Scene) -> Scene:
 
 
 class Bench:
-    """One subset: its whole run, made at once, and its shorter runs, which are timed. Raises GearsError where it cannot
-    be run.
-
-    `cycle`: the contact operators; None where they are to be built again for every timed run. `bytes`: of them.
-    """
+    """One subset: its whole run, made at once, and its shorter runs, which are timed. `cycle`: the contact operators,
+    None where they are to be built again for every timed run; `bytes`: of them. Raises GearsError where it cannot be
+    run."""
 
     def __init__(self, subset: Subset, store: GearStore):
         self.subset, self._store, self._model = subset, store, model_of(subset.scene)
@@ -194,7 +185,6 @@ class Bench:
         self._step_times.append(timed.attrs["time_march"] / timed.attrs["steps"])
 
     def row(self) -> Row:
-        """What was measured."""
         run = self._whole
         return Row(
             subset=self.subset,

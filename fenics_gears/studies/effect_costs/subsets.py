@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 from fenics_gears.effects import SECTIONS, effect_named, effects_on, every_effect, without
-from fenics_gears.effects.lead_modifications import LeadModification, LeadModifications
+from fenics_gears.effects.lead_modifications import LeadModification
 from fenics_gears.inputs.tree import GEARS, over_the_face, written_out
 from fenics_gears.inputs.written import WrittenFloat
 from fenics_gears.scene.data import Scene
@@ -40,16 +40,9 @@ class Subset:
 
     @property
     def name(self) -> str:
-        """What the subset is called in tables."""
         changed = ", ".join([self.effect, *self.beside])
-        names = {
-            NOTHING: "rigid flanks, no effect",
-            BARE: "bare",
-            ALONE: f"+ {changed}",
-            LEFT_OUT: f"all - {changed}",
-            ALL: "all",
-        }
-        return names[self.kind]
+        names = {NOTHING: "rigid flanks, no effect", ALONE: f"+ {changed}", LEFT_OUT: f"all - {changed}"}
+        return names.get(self.kind, self.kind)
 
     @property
     def note(self) -> str:
@@ -69,19 +62,15 @@ class Skipped:
 
 
 def subsets_of(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
-    """The subsets of a scene's effects that are run, and those that make no scene; no set of effects comes twice.
-
-    The scene must have been read from its text: the rules between sections are the text's.
-    """
+    """The subsets of a scene's effects that are run, and those that make no scene; no set of effects comes twice. The
+    scene must have been read from its text: the rules between sections are the text's."""
     every = frozenset(each.section for each in effects_on(scene))
     base = every & {BASE}
     problem = functools.cache(functools.partial(_problem, scene))
     # A set with several names keeps the first one here.
-    wanted: list[tuple[str, str, Sections | None]] = [
-        (ALL, "", every),
-        *([(NOTHING, "", frozenset())] if base else []),
-        (BARE, "", base),
-    ]
+    wanted: list[tuple[str, str, Sections | None]] = [(ALL, "", every), (BARE, "", base)]
+    if base:
+        wanted.insert(1, (NOTHING, "", frozenset()))
     wanted += [(ALONE, each, smallest_valid(base | {each}, every, problem)) for each in in_order(every - base)]
     wanted += [(LEFT_OUT, each, largest_valid(every - {each}, problem)) for each in in_order(every)]
     found: dict[Sections, Subset] = {}
@@ -92,19 +81,12 @@ def subsets_of(scene: Scene) -> tuple[list[Subset], list[Skipped]]:
             skipped.append(Skipped(Subset(kind, name, asked, scene).name, problem(asked)))
         elif sections not in found:
             left = every - sections
-            found[sections] = Subset(
-                kind, name, sections, without(scene, *in_order(left)), _beside(kind, name, sections, left)
-            )
+            beside = {ALONE: sections - {BASE, name}, LEFT_OUT: left - {name}}.get(kind, ())
+            less = without(scene, *in_order(left))
+            found[sections] = Subset(kind, name, sections, less, tuple(in_order(beside)))
     whole, *others = found.values()
-    return [*others, *_parts(whole), whole], skipped
-
-
-def _parts(whole: Subset) -> list[Subset]:
-    return [Subset(LEFT_OUT, name, whole.sections, scene) for name, scene in _without_parts(whole.scene)]
-
-
-def _beside(kind: str, name: str, sections: Sections, left: Sections) -> tuple[str, ...]:
-    return tuple(in_order({ALONE: sections - {BASE, name}, LEFT_OUT: left - {name}}.get(kind, ())))
+    parts = [Subset(LEFT_OUT, name, whole.sections, less) for name, less in _without_parts(whole.scene)]
+    return [*others, *parts, whole], skipped
 
 
 def smallest_valid(wanted: Sections, every: Sections, problem: Valid) -> Sections | None:
@@ -126,7 +108,7 @@ def largest_valid(left: Sections, problem: Valid) -> Sections | None:
 
 
 def _problem(scene: Scene, sections: Sections) -> str:
-    """What is wrong with the scene's text when only those effects are left in it; empty where nothing is."""
+    """What is wrong with the scene's text when only those effects are left in it."""
     tree = written_out(tomllib.loads(scene.text, parse_float=WrittenFloat))
     for each in every_effect():
         if each.section not in sections:
@@ -140,40 +122,23 @@ def _problem(scene: Scene, sections: Sections) -> str:
 
 
 def in_order(sections: Iterable[str]) -> list[str]:
-    """Sections in the order of the list of effects."""
     return [each for each in SECTIONS if each in sections]
 
 
 def _without_parts(scene: Scene) -> Iterator[tuple[str, Scene]]:
     """Each part of an effect over the face, in words, and the scene without it, but for an effect that has that part
-    alone. The helix is none: without it a pair has another transverse section and another centre distance."""
+    alone. The helix is none: without it a pair has another transverse section and centre distance."""
     lead = scene.lead_modifications
     if lead is not None:
-        named = [
-            name
-            for name in OF_LEAD
-            if any(getattr(gear, name) for gear in (lead.pinion, lead.wheel) if gear is not None)
-        ]
+        own = {gear: each for gear in GEARS if (each := getattr(lead, gear)) is not None}
+        named = [name for name in OF_LEAD if any(getattr(each, name) for each in own.values())]
         for name in named if len(named) > 1 else ():
-            yield name, replace(scene, lead_modifications=_without(lead, name))
+            less = {gear: replace(each, **{name: getattr(UNMODIFIED, name)}) for gear, each in own.items()}
+            yield name, replace(scene, lead_modifications=replace(lead, **less))
     bearings = scene.bearings
     if bearings is None or bearings.places is None:
         return
-    own = {
-        gear: replace(getattr(bearings, gear), axial_stiffness=None)
-        for gear in GEARS
-        if getattr(bearings, gear) is not None
-    }
-    held = replace(bearings, axial_stiffness=None, **own)
+    held = bearings.held_axially
     yield TILTING, replace(scene, bearings=replace(held, places=None))
     if any(bearings.axial(gear) is not None for gear in GEARS):
         yield AXIAL, replace(scene, bearings=held)
-
-
-def _without(lead: LeadModifications, name: str) -> LeadModifications:
-    return LeadModifications(
-        *(
-            None if gear is None else replace(gear, **{name: getattr(UNMODIFIED, name)})
-            for gear in (lead.pinion, lead.wheel)
-        )
-    )

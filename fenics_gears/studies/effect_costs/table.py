@@ -24,7 +24,6 @@ OF_FACE = {"face_load_factor": ("K_Hbeta", "", 2), "peak_pressure": ("peak press
 
 
 def headings(report: EffectReport) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The table's headings and their units."""
     words, units = zip(*(OF_FACE[name][:2] for name in report.of_face)) if report.of_face else ((), ())
     return (*HEADINGS[:-1], *words, HEADINGS[-1]), (*UNITS[:-1], *units, UNITS[-1])
 
@@ -69,7 +68,6 @@ def change(report: EffectReport, row: Row, name: str) -> float | None:
 
 
 def in_percent(changed: float) -> str:
-    """A relative change in percent."""
     return "same" if abs(changed) < 5e-4 else f"{changed:+.1%}" if abs(changed) < 0.1 else f"{changed:+.0%}"
 
 
@@ -83,7 +81,6 @@ def remarks(report: EffectReport) -> list[str]:
 
 
 def own_remarks(report: EffectReport, row: Row) -> list[str]:
-    """The remarks on a row that the whole scene does not have."""
     full = report.row(ALL)
     said = {_words(remark) for remark in full.remarks} if full is not None else set()
     return [remark for remark in row.remarks if _words(remark) not in said]
@@ -95,7 +92,6 @@ def _words(remark: str) -> str:
 
 
 def ratio_in_words(report: EffectReport) -> list[tuple[str, str, str]]:
-    """Rows of label, value, unit: bare against full scene."""
     bare, full = report.row(BARE), report.row(ALL)
     if not report.ratios:
         return []
