@@ -8,7 +8,7 @@ import numpy as np
 
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, canonical_point, roll_angle_at_arc_length
-from fenics_gears.geometry.outline import ToothOutline, tooth_outline
+from fenics_gears.geometry.outline import ToothOutline, tip_corner, tooth_outline
 
 from .element_sizes import ElementSizes, SizeField, SizeSource, along, divided
 
@@ -93,7 +93,7 @@ def sector_boundary(
     outline = tooth_outline(gear, FILLET_SAMPLES)
     flank = canonical_point(gear.base_radius, flank_roll_angles(gear, sizes.flank, sizes.mate_tip))
     root = root_curve(outline)
-    corner = outline.tip_corner if gear.tip_chamfer else flank[-1]
+    corner = tip_corner(gear) if gear.tip_chamfer else flank[-1]
     tip = _arc(gear.tip_radius, corner, outline.coast(corner))
     coast = outline.coast(flank[::-1])
     hub_angles = outline.centreline_angle + 0.5 * gear.angular_pitch * np.array([-1.0, 1.0])

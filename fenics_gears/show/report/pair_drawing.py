@@ -6,7 +6,7 @@ import numpy as np
 
 from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.gear import Gear
-from fenics_gears.geometry.outline import tooth_outline
+from fenics_gears.geometry.outline import tip_corner, tooth_outline
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.show.chart import MARKERS, Chart, Curve
 from fenics_gears.show.panels import DARK, GREY, PALETTE
@@ -65,7 +65,7 @@ def _tooth(gear: Gear) -> np.ndarray:
         - np.pi
     )
     land = _arc(gear.root_radius, space, space + np.remainder(foot - space + np.pi, 2 * np.pi) - np.pi)
-    chamfer = [outline.tip_corner] if gear.tip_chamfer else []
+    chamfer = [tip_corner(gear)] if gear.tip_chamfer else []
     half = np.vstack([land[:-1], outline.fillet, involute, *chamfer])
     return np.vstack([half, outline.coast(half)[::-1]])
 
