@@ -1,7 +1,5 @@
 """Flank compliance of a gear from its data: mesh one sector, condense it, join the ring; or read it from the cache."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, replace
 from time import perf_counter
 
@@ -17,19 +15,15 @@ from .compliance import BothFlanksCompliance, FlankCompliance, Reach
 from .element_sizes import Discretisation, ElementSizes
 from .elements import Element, element_named
 
-COUNTS = ("unknowns", "condensed_unknowns")
-
 
 def flank_compliance(
     gear: Gear, material: Material, discretisation: Discretisation, reach: Reach, cache: Cache | None = None
 ) -> FlankCompliance:
     """Flank compliance of a gear in plane strain, from the cache or by meshing and condensing one tooth sector.
 
-    In plane strain similar gears have the same displacement per line force: the gear of module one stands for all of
-    them, and they share an entry of the cache.
-
-    reach: of the teeth whose interaction is wanted, and whether the coast flanks' is. Raises SceneError for an unknown
-    element or an impossible size, ComputationError when a stage fails.
+    Similar gears have the same displacement per line force: the gear of module one stands for all of them, also in the
+    cache. reach: of the teeth whose interaction is wanted, and whether the coast flanks' is. Raises SceneError for an
+    unknown element or an impossible size, ComputationError when a stage fails.
     """
     chosen = element_named(discretisation.element)
     sizes = discretisation.sizes(gear, both_flanks=reach.across is not None)
@@ -42,20 +36,15 @@ def flank_compliance(
     # In place: the arrays are large, and nothing else refers to them.
     for name in {"blocks", "across"} & arrays.keys():
         arrays[name] *= 1.0 / material.youngs_modulus
-    counts = {name: int(arrays.pop(name)) for name in COUNTS}
-    found: FlankCompliance
+    own = arrays["roll_angle"], chosen.order, arrays["blocks"], timings
+    found = FlankCompliance(*own)
     if sizes.both_flanks:
-        first = int(arrays.pop("first_across"))
-        found = BothFlanksCompliance(
-            element_order=chosen.order, timings={**counts, **timings}, first_across=first, **arrays
-        )
-    else:
-        found = FlankCompliance(element_order=chosen.order, timings={**counts, **timings}, **arrays)
+        found = BothFlanksCompliance(*own, across=arrays["across"], first_across=int(arrays["first_across"]))
     return found if coupled == reach else _with_uncoupled_teeth(found, reach.farthest)
 
 
 def similar_inputs(kind: str, gear: Gear, material: Material, discretisation, both_flanks: bool = True) -> dict:
-    """What any quantity of a gear's body follows from, the same for similar gears: key of an entry in the cache."""
+    """What any quantity of a gear's body follows from, the same for similar gears."""
     return {
         "kind": kind,
         "version": NUMBERS_VERSION,
@@ -74,10 +63,8 @@ def _coupled(reach: Reach, elastic_teeth: int | None) -> Reach:
 
 
 def _with_uncoupled_teeth(body: FlankCompliance, offsets: int) -> FlankCompliance:
-    """The compliance over more offsets, zero for teeth farther away than those that are known.
-
-    Raises SceneError where the result is not positive definite: loads on the teeth would then do negative work.
-    """
+    """The compliance over more offsets, zero for teeth farther away than those that are known. Raises SceneError where
+    it is not positive definite: loads on the teeth would then do negative work."""
     known, zeros = body.offsets, np.zeros((offsets - body.offsets, *body.blocks.shape[1:]))
     padded = replace(body, blocks=np.concatenate([body.blocks, zeros]))
     if isinstance(body, BothFlanksCompliance):
@@ -123,7 +110,7 @@ def _computed(
         "time_mesh": meshed - clock,
         "time_condense": perf_counter() - meshed - sector.timings["time_compile"],
     }
-    return {"roll_angle": rolls, **parts, **{name: np.array(sector.timings[name]) for name in COUNTS}}, timings
+    return {"roll_angle": rolls, **parts}, timings
 
 
 def _drive_flank(gear, element, mesh, poissons_ratio, reach: Reach):

@@ -162,38 +162,33 @@ def of_variables(
     **options,
 ) -> list[Chart]:
     """A chart of those of these variables, by name and words, that a run's result has, in this unit; none without any.
-    Variables of both
-    gears have a curve for either. least: the smallest span that is shown; without, a part of the largest value."""
+    Variables of both gears have a curve for either. least: the smallest span shown, else a part of the largest value.
+    """
     curves = []
     for (name, words), colour in zip(names.items(), colours):
         if name in run.dataset:
             values = run.values(name, unit)
-            of_gears = (
-                zip(run.dataset["gear"].values, values.T, PALETTE[2:4])
-                if values.ndim == 2
-                else [(words, values, colour)]
-            )
-            curves += [(str(each), part, own) for each, part, own in of_gears]
-    return (
-        [over_time(run, caption, f"{what} ({unit})", curves, least=least or span(curves), **{"height": 240, **options})]
-        if curves
-        else []
-    )
+            if values.ndim == 2:
+                curves += zip(run.dataset["gear"].values.tolist(), values.T, PALETTE[2:4])
+            else:
+                curves.append((words, values, colour))
+    if not curves:
+        return []
+    options = {"least": least or span(curves), "height": 240, **options}
+    return [over_time(run, caption, f"{what} ({unit})", curves, **options)]
 
 
 def span(curves: Sequence[tuple[str, np.ndarray, str]]) -> float:
     """Smallest span that an axis shows of curves, so that round-off fills no chart: a part of their largest value; 1
     for nothing but zeros."""
-    return (
-        LEAST_SHARE * max(float(np.abs(values[np.isfinite(values)]).max(initial=0.0)) for _, values, _ in curves) or 1.0
-    )
+    largest = max(float(np.abs(values[np.isfinite(values)]).max(initial=0.0)) for _, values, _ in curves)
+    return LEAST_SHARE * largest or 1.0
 
 
 def stems(places: np.ndarray, heights: np.ndarray, foot: float) -> tuple[np.ndarray, np.ndarray]:
     """A line that goes up and down at each place (n,) from its foot."""
-    return np.repeat(places, 3), np.stack(
-        [np.full(len(places), foot), heights, np.full(len(places), foot)], axis=1
-    ).ravel()
+    feet = np.full(len(places), foot)
+    return np.repeat(places, 3), np.stack([feet, heights, feet], axis=1).ravel()
 
 
 WIDTH, GAP = 10.0, 0.12
@@ -245,13 +240,11 @@ class Panel:
     def overhang(self) -> float:
         """Width of a flag's words beyond the end of the first axis."""
         first, last = self.chart.x_range or (0.0, 1.0)
-        return max(
-            (
-                FLAG_LETTER * (len(flag.words) + 2) - 0.8 * WIDTH * (last - flag.x) / (last - first)
-                for flag in self.chart.flags
-            ),
-            default=0.0,
+        beyond = (
+            FLAG_LETTER * (len(flag.words) + 2) - 0.8 * WIDTH * (last - flag.x) / (last - first)
+            for flag in self.chart.flags
         )
+        return max(beyond, default=0.0)
 
     @property
     def legend_columns(self) -> int:
@@ -262,9 +255,8 @@ class Panel:
     @property
     def legend_rows(self) -> int:
         """Rows of these; none without a legend."""
-        return (
-            -(-sum(curve.listed for curve in self.chart.curves) // self.legend_columns) if self.chart.has_legend else 0
-        )
+        listed = sum(curve.listed for curve in self.chart.curves)
+        return -(-listed // self.legend_columns) if self.chart.has_legend else 0
 
 
 @dataclass(frozen=True)

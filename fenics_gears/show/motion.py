@@ -38,10 +38,8 @@ def transmission_error(run: Run) -> Chart:
         )
         second, place = Second("Angle of the wheel (µrad)", turned), " on the wheel's base circle"
     least = LEAST_SHARE * float(np.abs(values).max())
-    caption, curves = (
-        f"{ERROR}{place}: {_peak_to_peak(run, values, unit)}",
-        [("transmission error", values, PALETTE[0])],
-    )
+    caption = f"{ERROR}{place}: {_peak_to_peak(run, values, unit)}"
+    curves = [("transmission error", values, PALETTE[0])]
     return over_time(run, caption, f"{ERROR} ({unit})", curves, least=least, note=note, second=second, height=380)
 
 
@@ -67,16 +65,8 @@ def error_by_cycle(run: Run) -> list[Chart]:
         Curve("from least to largest of a mesh cycle", middle, edges, PALETTE[0], width=1.0, mode=BAND),
         Curve("mean of a mesh cycle", middle, mean, DARK),
     ]
-    return [
-        Chart(
-            f"{ERROR} over all {len(middle)} mesh cycles",
-            curves,
-            title,
-            f"{ERROR} ({unit})",
-            least=LEAST_SHARE * float(np.abs(values).max()),
-            height=280,
-        )
-    ]
+    caption, least = f"{ERROR} over all {len(middle)} mesh cycles", LEAST_SHARE * float(np.abs(values).max())
+    return [Chart(caption, curves, title, f"{ERROR} ({unit})", least=least, height=280)]
 
 
 def wheels_shaft(run: Run) -> list[Chart]:
@@ -85,10 +75,8 @@ def wheels_shaft(run: Run) -> list[Chart]:
     if name not in run.dataset:
         return []
     values = run.values(name, "µm")[:, run.dataset["gear"].values.tolist().index("wheel")]
-    caption = f"Displacement of the wheel's shaft {words} the line of action"
-    return [
-        over_time(run, caption, "Displacement (µm)", [("wheel", values, PALETTE[1])], least=LEAST_LENGTH, height=240)
-    ]
+    caption, curves = f"Displacement of the wheel's shaft {words} the line of action", [("wheel", values, PALETTE[1])]
+    return [over_time(run, caption, "Displacement (µm)", curves, least=LEAST_LENGTH, height=240)]
 
 
 def _shafts(run: Run) -> list[Chart]:
@@ -127,15 +115,9 @@ SHARES_UNKNOWN = "Where several rigid pairs touch at once their shares are not d
 
 def force_charts(run: Run) -> list[Chart]:
     """All forces that the result has."""
-    openings = of_variables(
-        run,
-        "Smallest distance of the flanks",
-        "Distance",
-        "µm",
-        {"drive_flank_opening": "drive flanks", "coast_flank_opening": "coast flanks"},
-        least=0.1,
-        height=300,
-    )
+    names = {"drive_flank_opening": "drive flanks", "coast_flank_opening": "coast flanks"}
+    options = {"least": 0.1, "height": 300}
+    openings = of_variables(run, "Smallest distance of the flanks", "Distance", "µm", names, **options)
     return [*mesh_forces(run), *pair_forces(run), *_reactions(run), *openings]
 
 
@@ -151,19 +133,10 @@ def mesh_forces(run: Run) -> list[Chart]:
             ("coast flanks (drawn downwards)", -run.values("coast_normal_force", "N"), PALETTE[1]),
         ]
         note = COAST_NOTE
-    normal = over_time(
-        run, "Normal force of the mesh", "Normal force (N)", curves, least=span(curves), height=240, note=note
-    )
-    return [
-        normal,
-        *of_variables(
-            run,
-            "Friction force of the mesh",
-            "Friction force",
-            "N",
-            {"friction_force": "drive flanks", "coast_friction_force": "coast flanks"},
-        ),
-    ]
+    options = {"least": span(curves), "height": 240, "note": note}
+    normal = over_time(run, "Normal force of the mesh", "Normal force (N)", curves, **options)
+    names = {"friction_force": "drive flanks", "coast_friction_force": "coast flanks"}
+    return [normal, *of_variables(run, "Friction force of the mesh", "Friction force", "N", names)]
 
 
 def pair_forces(run: Run) -> Iterator[Chart]:

@@ -71,24 +71,30 @@ def limits(values: np.ndarray, least: float) -> tuple[float, float]:
     return 0.5 * (low + high) - half, 0.5 * (low + high) + half
 
 
-def legend(axes, columns: int, location: str = "lower right") -> None:
-    """Legend above the panel, where no curve can be; the demonstrations' pictures use it."""
-    side = 1.0 if location.endswith("right") else 0.0
-    axes.legend(
-        loc=location, bbox_to_anchor=(side, 1.0), ncol=columns, borderaxespad=0.1, handlelength=1.6, columnspacing=1.4
-    )
+def legend(axes, columns: int, location: str = "lower right", **options) -> None:
+    """Legend above the panel, where no curve can be."""
+    anchor = (1.0 if location.endswith("right") else 0.0, 1.0)
+    options |= {"bbox_to_anchor": anchor, "borderaxespad": 0.1, "handlelength": 1.6, "columnspacing": 1.4}
+    axes.legend(loc=location, ncol=columns, **options)
+
+
+def framed(axes) -> None:
+    """A panel without a grid, in a pale frame."""
+    axes.grid(False)
+    for spine in axes.spines.values():
+        spine.set_visible(True)
+        spine.set_color("#BBBBBB")
 
 
 def ticks(ends: Sequence[float], most: float, logarithmic: bool = False) -> np.ndarray:
     """Round numbers (n,) between an axis' ends."""
     low, high = sorted(ends)
     if logarithmic:
-        places, beyond = LogLocator(subs=(1.0,) if high > 100.0 * low else (1.0, 2.0, 5.0)).tick_values(low, high), 0.0
+        locator, beyond = LogLocator(subs=(1.0,) if high > 100.0 * low else (1.0, 2.0, 5.0)), 0.0
     else:
-        places, beyond = (
-            MaxNLocator(max(2, min(10, int(most))), steps=[1, 2, 2.5, 5, 10]).tick_values(low, high),
-            1e-9 * (high - low),
-        )
+        locator = MaxNLocator(max(2, min(10, int(most))), steps=[1, 2, 2.5, 5, 10])
+        beyond = 1e-9 * (high - low)
+    places = locator.tick_values(low, high)
     return places[(places >= low - beyond) & (places <= high + beyond)]
 
 

@@ -80,9 +80,8 @@ def run_figures(dataset: xr.Dataset) -> dict[str, Figure]:
     pictures = PICTURES | dict(zip(FACE_PICTURE_FILES, run.over_face.items()))
     subjects = {name: (subject, list(charts(run))) for name, (subject, charts) in pictures.items()}
     colour = DARK if run.complete else WARNING
-    return {
-        name: picture(_heading(run, subject), charts, colour) for name, (subject, charts) in subjects.items() if charts
-    }
+    found = ((name, *subject) for name, subject in subjects.items())
+    return {name: picture(_heading(run, subject), charts, colour) for name, subject, charts in found if charts}
 
 
 def _heading(run: Run, subject: str) -> str:
@@ -103,13 +102,8 @@ def _check_steps(run: Run) -> None:
     if run.has_curves:
         return
     stored = "no step is stored" if run.steps == 0 else "only one step is stored"
-    remedy = "Run the scene again."
-    if not run.complete:
-        remedy = (
-            "The run ended before or just as its recorded mesh cycles began. Run the scene again, or record more of its"
-            " cycles."
-        )
-    raise ComputationError(f"There is nothing to draw: {stored}, and a curve needs two. {remedy}")
+    remedy = "" if run.complete else ", or record more of its mesh cycles"
+    raise ComputationError(f"There is nothing to draw: {stored}, and a curve needs two. Run the scene again{remedy}.")
 
 
 def draw_study(file: Path) -> list[Path]:
@@ -122,14 +116,11 @@ def draw_study(file: Path) -> list[Path]:
 
     cases = Cases(load_combined(file), file)
     title = str(cases.dataset.attrs.get("title", "")) or file.parent.name
-    charts = result_charts(cases)
-    return save_figures(
-        {
-            f"{name}.png": picture(heading("Study", title, chart.caption, chart.note), [replace(chart, caption="")])
-            for name, chart in charts.items()
-        },
-        file.parent,
-    )
+    figures = {
+        f"{name}.png": picture(heading("Study", title, chart.caption, chart.note), [replace(chart, caption="")])
+        for name, chart in result_charts(cases).items()
+    }
+    return save_figures(figures, file.parent)
 
 
 def save_figures(figures: dict[str, Figure], directory: Path) -> list[Path]:

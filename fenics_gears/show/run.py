@@ -124,8 +124,7 @@ class Run:
 
     def values(self, name: str, unit: str) -> np.ndarray:
         """A variable (time,), or (time, gear), in a unit."""
-        variable = self.dataset[name]
-        return in_unit(variable.transpose("time", ...), unit)
+        return in_unit(self.dataset[name].transpose("time", ...), unit)
 
     @cached_property
     def whole_cycles(self) -> list[slice]:
@@ -147,13 +146,8 @@ class Run:
     def varies(self, values: np.ndarray) -> bool:
         """Whether the settled mesh cycles of values (time,) differ."""
         first = float(self.settled.phase[0])
-        ends = np.array(
-            [
-                (values[each].min(), values[each].max())
-                for each in self.whole_cycles
-                if self.phase[each][0] >= first - 1e-9
-            ]
-        )
+        settled = (values[each] for each in self.whole_cycles if self.phase[each][0] >= first - 1e-9)
+        ends = np.array([(each.min(), each.max()) for each in settled])
         return len(ends) > 1 and bool(np.ptp(ends, axis=0).max() > ALIKE * np.ptp(ends))
 
     def of_pairs(self, name: str, unit: str, **place) -> list[tuple[str, np.ndarray, int]]:
@@ -238,23 +232,13 @@ def load_in_words(scene: Scene) -> str:
 
 def design(scene: Scene) -> str:
     """Friction, modifications, errors and ripple of a scene, whatever its load and speed."""
-    friction = (
-        "no friction"
-        if scene.friction is None
-        else "friction "
-        + (
-            scene.friction.formula
-            and f"after {scene.friction.formula}"
-            or f"coefficient {scene.friction.coefficient:g}"
-        )
-    )
+    friction = "no friction"
+    if (own := scene.friction) is not None:
+        friction = f"friction after {own.formula}" if own.formula else f"friction coefficient {own.coefficient:g}"
     helix = f", helix angle {scene.gears.helix_angle * factor('rad', 'deg'):g}°" if scene.gears.helix_angle else ""
     aligned = "misalignment" if scene.misalignment is not None and scene.misalignment.is_none else ""
-    shaping = (
-        each
-        for each in effects_on(scene)
-        if (each.removal or each.gaps or each.section in ALONG_THE_FACE) and each.section != aligned
-    )
-    shapes = helix + "".join(f", {each.section.replace('_', ' ')}" for each in shaping)
+    effects = effects_on(scene)
+    shaping = [each.section for each in effects if each.removal or each.gaps or each.section in ALONG_THE_FACE]
+    shapes = helix + "".join(f", {section.replace('_', ' ')}" for section in shaping if section != aligned)
     ripple = "" if scene.torque_ripple is None else ", torque ripple"
     return f"{friction}{shapes}{ripple}"

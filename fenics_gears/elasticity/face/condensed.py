@@ -1,7 +1,5 @@
 """A swept tooth sector condensed onto its flanks and cuts: each of the two halves that it is folded into."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -9,10 +7,9 @@ import numpy as np
 from scipy import sparse
 from scipy.linalg.blas import dtrsm
 
-from fenics_gears.elasticity.condensation import by_radius, without
-from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.ring import check_congruent, definite_factor
-
+from ..condensation import line_of
+from ..mesh_data import BodyMesh
+from ..ring import check_congruent, definite_factor
 from .fold import EVEN, ODD, Fold
 from .layers import Sweep
 from .swept_stiffness import ELEMENT, SectionForms
@@ -86,17 +83,12 @@ def condensed_swept_sector(
         found = [in_shapes(*each) for each in condensed_halves(mesh, poissons_ratio, sweep, fold, signs, pair)]
     if not alone:
         found = [_of_rank(found[0], comm, rank) for rank in (0, 1)]
-    condensed = perf_counter()
     timings = {
         "time_compile": compiled - clock,
-        "time_schur": condensed - compiled,
         "unknowns": 2 * fold.unknowns,
         "condensed_unknowns": (2 if both else 1) * len(fold.flank) + 2 * len(fold.cut),
     }
-    cuts = [
-        by_radius(without(mesh.edge_nodes(f"{name} cut", ELEMENT.order), mesh.edge_nodes("hub", ELEMENT.order)))
-        for name in ("lower", "upper")
-    ]
+    cuts = [line_of(mesh, f"{name} cut", ELEMENT.order) for name in ("lower", "upper")]
     check_congruent(cuts[0], cuts[1], teeth)
     places = np.tile(cuts[0], (fold.heights, 1)), np.repeat(sweep.heights, len(cuts[0]))
     lower = np.column_stack(places)[fold.on_cut]

@@ -1,13 +1,11 @@
 """Expected size of a gear's body in three dimensions, and the memory that its condensation takes: nothing is meshed for
 it."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
-from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.geometry.gear import Gear
 
+from ..sector_boundary import sector_boundary
 from .discretisation import FaceDiscretisation
 
 # Nodes of a section by those of its outline, within 15 % for 16 to 80 teeth and sections of 0.15 to 0.4 modules.

@@ -6,10 +6,10 @@ from dataclasses import asdict, astuple, dataclass, replace
 
 import numpy as np
 
-from fenics_gears.elasticity.element_sizes import ElementSizes
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import DECIMALS_IN_MODULES, Gear
 
+from ..element_sizes import ElementSizes
 from .layers import Sweep, SweptWeb, layers_of_face, layers_with_web
 
 # Rad, of a layer: its nodes' heights stand on a helix, and parabolas are between them.

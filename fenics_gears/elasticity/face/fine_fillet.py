@@ -1,19 +1,18 @@
 """How much larger the stress at a fillet's points is on a fine section than on the one that is swept along a face."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
 
-from fenics_gears.elasticity.element_sizes import Discretisation, ElementSizes
-from fenics_gears.elasticity.elements import element_named
-from fenics_gears.elasticity.fillet_points import FilletCurve, fillet_rows
-from fenics_gears.elasticity.recovery import GearRecovery
-from fenics_gears.elasticity.sector import plane_sector
-from fenics_gears.elasticity.sector_mesh import sector_mesh
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.gear_data import Material
+
+from ..element_sizes import Discretisation, ElementSizes
+from ..elements import element_named
+from ..fillet_points import FilletCurve, fillet_rows
+from ..recovery import GearRecovery
+from ..sector import plane_sector
+from ..sector_mesh import sector_mesh
 
 # The plane route's sizes in the fillet; on the flank, in modules, what the points next to it need.
 ELEMENT, FLANK_SIZE = "P2", 0.1

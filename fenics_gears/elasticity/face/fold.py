@@ -11,16 +11,14 @@ of the other, and either kind is given by its values on the drive flank's half: 
 harmonics of its cuts become real.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy import sparse
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.condensation import by_radius, dofs_of, without
-from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.errors import ComputationError
 
+from ..condensation import by_radius, dofs_of, line_of
+from ..mesh_data import BodyMesh
 from .layers import swept_nodes
 from .swept_stiffness import ELEMENT
 
@@ -55,8 +53,8 @@ class Fold:
         distance, image = cKDTree(nodes).query(nodes @ self._mirror[:2, :2])
         if distance.max() > 1e-9 * np.abs(nodes).max():
             raise ComputationError("swept sector: its section is not symmetric about the tooth's centreline")
-        flank, cut, hub = (mesh.edge_nodes(name, ELEMENT.order) for name in ("flank", "upper cut", "hub"))
-        self.lines, self.hub = (by_radius(flank), by_radius(without(cut, hub))), hub
+        flank, hub = (mesh.edge_nodes(name, ELEMENT.order) for name in ("flank", "hub"))
+        self.lines, self.hub = (by_radius(flank), line_of(mesh, "upper cut", ELEMENT.order)), hub
         self.across = self.axes[:2, 1] * np.sign((flank @ self.axes[:2, 1]).sum())
         side = nodes @ self.across
         own = np.arange(len(nodes))

@@ -12,18 +12,16 @@ the odd one i times that of ``sin(k/2) u`` and ``cos(k/2) u``: both halves of a 
 real matrices.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy import sparse
 from scipy.linalg import block_diag
 from scipy.linalg.blas import dsyrk, dtrsm
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.ring import Whitened, cyclic, definite_factor, harmonic_of, rotation
-from fenics_gears.elasticity.triangle import symmetric
 from fenics_gears.errors import ComputationError
 
+from ..ring import Whitened, cyclic, definite_factor, harmonic_of, rotation
+from ..triangle import symmetric
 from .condensed import MISSING, SweptSector, spanned
 
 # Of entries that the symmetry makes zero, in the largest entry.

@@ -1,13 +1,11 @@
 """The layers that a section is swept through along the face, and the polynomials of a layer."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
 
-from fenics_gears.elasticity.element_nodes import numbers_at
+from ..element_nodes import numbers_at
 
 # Gauss's rule of three points on (-1, 1): exact to the fifth power, which the patch test of a twisted layer needs.
 POINTS = (-sqrt(0.6), 0.0, sqrt(0.6))

@@ -5,17 +5,14 @@ layers therefore have one stiffness, wherever they are, and it is made once: of 
 their common height eliminated. All of it is dense algebra; of N equal layers some 2 log2(N) runs are made.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
 from scipy.linalg.blas import dsyrk, dtrsm
 
-from fenics_gears.elasticity.condensation import dofs_of
-from fenics_gears.elasticity.ring import definite_factor
-
+from ..condensation import dofs_of
+from ..ring import definite_factor
 from .layers import Sweep
 from .swept_stiffness import SectionForms, layer_of_kind
 

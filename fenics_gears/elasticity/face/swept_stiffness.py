@@ -15,13 +15,13 @@ import ufl
 from scipy import sparse
 
 from fenics_gears.elasticity import dolfinx_adapter as adapter
-from fenics_gears.elasticity.condensation import dofs_of
-from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes, numbers_at
-from fenics_gears.elasticity.elements import ELEMENTS
-from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.ring import rotation
-from fenics_gears.elasticity.stiffness import assembled, nodes_at, stress_of_strain
 
+from ..condensation import dofs_of
+from ..element_nodes import ElementNodes, element_nodes, numbers_at
+from ..elements import ELEMENTS
+from ..mesh_data import BodyMesh
+from ..ring import rotation
+from ..stiffness import assembled, nodes_at, stress_of_strain
 from .layers import POINTS, WEIGHTS, Sweep, SweptWeb, shapes
 
 ELEMENT = ELEMENTS["P2"]
@@ -84,10 +84,8 @@ def _forms(space, poisson, a, b, c, d):
     inverse, sweep = ufl.as_matrix([[a, -b], [b, a]]), ufl.as_matrix([[c, -d], [d, c]])
 
     def along_section(u):
-        plane, axial = (
-            ufl.dot(ufl.grad(u), inverse),
-            -ufl.dot(ufl.grad(u), ufl.dot(sweep, ufl.SpatialCoordinate(space.mesh))),
-        )
+        plane = ufl.dot(ufl.grad(u), inverse)
+        axial = -ufl.dot(ufl.grad(u), ufl.dot(sweep, ufl.SpatialCoordinate(space.mesh)))
         return ufl.sym(ufl.as_matrix([[plane[i, 0], plane[i, 1], axial[i]] for i in range(3)]))
 
     def along_height(u):

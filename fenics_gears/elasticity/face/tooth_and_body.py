@@ -10,19 +10,16 @@ A part is the half on the drive flank's side, its centreline free, condensed ont
 which leaves the half of its dofs.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.linalg.blas import dsyrk, dtrmm
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.condensation import dofs_of
-from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes, numbers_at
-from fenics_gears.elasticity.mesh_data import BodyMesh
-from fenics_gears.elasticity.mirrored_ring import flank_free
-from fenics_gears.elasticity.ring import definite_factor
-from fenics_gears.elasticity.triangle import symmetric
-
+from ..condensation import dofs_of
+from ..element_nodes import ElementNodes, element_nodes, numbers_at
+from ..mesh_data import BodyMesh
+from ..mirrored_ring import flank_free
+from ..ring import definite_factor
+from ..triangle import symmetric
 from .fold import Fold
 from .layers import Sweep
 from .runs_of_layers import condensed_onto_lines, eliminated

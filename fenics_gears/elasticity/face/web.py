@@ -29,12 +29,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fenics_gears.elasticity.element_sizes import ElementSizes
-from fenics_gears.elasticity.mesh_data import BodyMesh, oriented
-from fenics_gears.elasticity.sector_boundary import sector_boundary
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import centreline_angle
 
+from ..element_sizes import ElementSizes
+from ..mesh_data import BodyMesh, oriented
+from ..sector_boundary import sector_boundary
 from .layers import SweptWeb
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def webbed_section(gear: Gear, sizes: ElementSizes) -> BodyMesh:
     """Section of a sector whose mesh has lines along the circles of hub and rim: teeth and rim as of a gear whose bore
     is the rim's, and inwards of it rows of cells on the nodes of that bore."""
     # Imported here: to tell the size of a section needs no gmsh.
-    from fenics_gears.elasticity.sector_mesh import sector_mesh
+    from ..sector_mesh import sector_mesh
 
     rim = sector_mesh(_rim(gear), sizes)
     turned = rim.points @ np.array([1.0, -1.0j]) * np.exp(-1j * centreline_angle(gear)).conj()
@@ -74,12 +74,10 @@ def _rim(gear: Gear) -> Gear:
 def _radii(gear: Gear, arcs: int) -> tuple[np.ndarray, np.ndarray]:
     """Radii of the rows of nodes of web and hub, from the outside; `arcs`: elements along a sector's part of the
     rim's inner circle."""
-    web, size = gear.web, gear.web.rim_radius * gear.angular_pitch / arcs
-    return _rows(web.rim_radius, web.hub_radius, size, gear.angular_pitch), (
-        _rows(web.hub_radius, gear.bore_radius, size, gear.angular_pitch)
-        if web.hub_radius > gear.bore_radius
-        else np.array([gear.bore_radius])
-    )
+    web, pitch, bore = gear.web, gear.angular_pitch, gear.bore_radius
+    size = web.rim_radius * pitch / arcs
+    of_hub = _rows(web.hub_radius, bore, size, pitch) if web.hub_radius > bore else np.array([bore])
+    return _rows(web.rim_radius, web.hub_radius, size, pitch), of_hub
 
 
 def _rows(outer: float, inner: float, first: float, pitch: float) -> np.ndarray:

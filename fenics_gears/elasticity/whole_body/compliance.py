@@ -1,7 +1,5 @@
 """Flank compliance of a gear whose teeth are not all alike."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import ClassVar
 

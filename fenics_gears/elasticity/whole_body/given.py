@@ -1,16 +1,14 @@
 """The gear body in a mesh file of a scene, read and checked once."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 from pathlib import Path
 
-from fenics_gears.elasticity.body_mesh_file import read_body_mesh
-from fenics_gears.elasticity.elements import element_named
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.system import user_file
 
+from ..body_mesh_file import read_body_mesh
+from ..elements import element_named
 from .outline import WholeBody, whole_body
 
 
@@ -46,9 +44,8 @@ def _why_not_read(path: Path) -> str:
 def _check_cells(corners: int, element: str) -> None:
     chosen = element_named(element)
     if corners != chosen.corners:
-        kind, fitting = {3: ("triangles", '"P1" or "P2"'), 4: ("quadrilaterals", '"Q1", "Q1 incompatible" or "Q2"')}[
-            corners
-        ]
+        triangles, quadrilaterals = ("triangles", '"P1" or "P2"'), ("quadrilaterals", '"Q1", "Q1 incompatible" or "Q2"')
+        kind, fitting = triangles if corners == 3 else quadrilaterals
         raise SceneError(f"the mesh has {kind}, accuracy.element is {chosen.name}. Take {fitting}, for both gears")
 
 

@@ -5,8 +5,6 @@ flank stands nearest to the body frame of a tooth (`geometry.involute`: the toot
 flanks are the counter-clockwise sides of the teeth.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,12 +12,13 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.mesh_data import BodyMesh, boundary_sides, joined_cells
-from fenics_gears.elasticity.ring import rotation
 from fenics_gears.errors import SceneError
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.involute import arc_length, involute_function
 from fenics_gears.geometry.outline import centreline_angle
+
+from ..mesh_data import BodyMesh, boundary_sides, joined_cells
+from ..ring import rotation
 
 # How far points of bore, tips and flanks may lie off the gear data, in modules; gaps are computed from true involutes.
 OUTLINE_TOLERANCE = 2e-3
@@ -90,14 +89,8 @@ def _check_size(largest: float, gear: Gear, tolerance: float, name: str) -> None
         return
     ratio = largest / gear.tip_radius
     units = {**UNITS, 1.0 / gear.module: "modules"}
-    unit = next(
-        (
-            f" Is it in {words}? Lengths of a mesh are in mm."
-            for factor, words in units.items()
-            if abs(ratio / factor - 1.0) < 0.01
-        ),
-        "",
-    )
+    probable = next((words for factor, words in units.items() if abs(ratio / factor - 1.0) < 0.01), None)
+    unit = f" Is it in {probable}? Lengths of a mesh are in mm." if probable else ""
     raise SceneError(
         f"{name}: the farthest point of the mesh is {largest:.6g} mm from the origin, the gear's tip radius is"
         f" {gear.tip_radius:.6g} mm.{unit} Allowed: {tolerance:.2g} mm of difference, the gear's centre at the origin"
@@ -239,11 +232,9 @@ def _chain(
     length = arc_length(gear.base_radius, gear.roll_angle(np.maximum(radius[first:], gear.base_radius)))
     form, tip = arc_length(gear.base_radius, np.array([gear.form_roll_angle, gear.tip_roll_angle]))
     if length[0] - form > UNCOVERED * (length[1] - length[0]) + tolerance or tip - length[-1] > 2.0 * tolerance:
-        return (
-            chain,
-            (
-                f"has points on the involute from radius {radius[first]:.5g} mm to {radius[-1]:.5g} mm only; it goes"
-                f" from the form circle, radius {gear.form_radius:.5g} mm, to the tip, radius {gear.tip_radius:.5g} mm"
-            ),
+        problem = (
+            f"has points on the involute from radius {radius[first]:.5g} mm to {radius[-1]:.5g} mm only; it goes"
+            f" from the form circle, radius {gear.form_radius:.5g} mm, to the tip, radius {gear.tip_radius:.5g} mm"
         )
+        return chain, problem
     return chain, ""

@@ -5,8 +5,6 @@ Any division gives the same result; by teeth the parts are small and meet in sho
 the boundary that lie on each other.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,11 +12,12 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from fenics_gears.elasticity.element_nodes import ElementNodes, element_nodes
-from fenics_gears.elasticity.elements import Element
-from fenics_gears.elasticity.mesh_data import BodyMesh
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import centreline_angle
+
+from ..element_nodes import ElementNodes, element_nodes
+from ..elements import Element
+from ..mesh_data import BodyMesh
 
 
 @dataclass(frozen=True)

@@ -3,12 +3,12 @@
 from dataclasses import replace
 
 from fenics_gears.results.spectrum import OrderLines
-from fenics_gears.show.motion import force_charts, motion_charts
-from fenics_gears.show.orders import FORCE, mesh_order_chart, order_spectrum, orders_by_cycle, signals_of, spectrum
-from fenics_gears.show.panels import MOST_POINTS
-from fenics_gears.show.pressure import has_pressure, largest_pressures, pressure_maps
-from fenics_gears.show.run import TOO_FEW, Run
 
+from ..motion import force_charts, motion_charts
+from ..orders import FORCE, mesh_order_chart, order_spectrum, orders_by_cycle, signals_of, spectrum
+from ..panels import MOST_POINTS
+from ..pressure import has_pressure, largest_pressures, pressure_maps
+from ..run import TOO_FEW, Run
 from .page import Block, Section, Table, Words
 
 LISTED_ORDERS = 10

@@ -5,10 +5,10 @@ import math
 
 from fenics_gears.effects import effects_on
 from fenics_gears.model.description import effect_states
-from fenics_gears.show.run import NO_SCENE, Run
 from fenics_gears.studies.effect_costs.subsets import ALL
 from fenics_gears.studies.effect_costs.table import MILLI
 
+from ..run import NO_SCENE, Run
 from .page import Block, Fold, Picture, Section, Table, Words
 
 MEASURED_TABLE, MEASURED_PICTURE = "effects.csv", "effects.png"

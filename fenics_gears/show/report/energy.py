@@ -3,10 +3,10 @@
 import numpy as np
 
 from fenics_gears.results.contact_variables import transmitted
-from fenics_gears.show.chart import over_time, span
-from fenics_gears.show.panels import DARK, PALETTE, digits, factor, in_unit
-from fenics_gears.show.run import TOO_FEW, Run
 
+from ..chart import over_time, span
+from ..panels import DARK, PALETTE, digits, factor, in_unit
+from ..run import TOO_FEW, Run
 from .page import Facts, Section, sentence
 
 PARTS = {

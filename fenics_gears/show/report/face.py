@@ -1,7 +1,6 @@
 """Contact over the face: pattern and line load, where the flanks are resolved over it."""
 
-from fenics_gears.show.run import TOO_FEW, Run
-
+from ..run import TOO_FEW, Run
 from .page import Section, Words
 
 HEADING = "Contact over the face"

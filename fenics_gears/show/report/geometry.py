@@ -4,8 +4,8 @@ from math import degrees
 
 from fenics_gears.geometry.characteristics import characteristics
 from fenics_gears.geometry.gear_data import GearPairData
-from fenics_gears.show.run import NO_SCENE, Run
 
+from ..run import NO_SCENE, Run
 from .page import Beside, Facts, Section, Table, Words
 from .pair_drawing import drawings
 

@@ -9,8 +9,8 @@ import math
 
 import numpy as np
 
-from fenics_gears.show.chart import BAND, BARS, WORDS, Chart, Curve
-from fenics_gears.show.panels import DARK, GREY, MOST_POINTS, thinned
+from ..chart import BAND, BARS, WORDS, Chart, Curve
+from ..panels import DARK, GREY, MOST_POINTS, thinned
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', sans-serif"
 GRID = "#E9ECEF"

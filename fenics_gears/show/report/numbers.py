@@ -3,9 +3,9 @@
 import math
 
 from fenics_gears.results.summary import result_rows
-from fenics_gears.show.panels import digits
-from fenics_gears.show.run import Run
 
+from ..panels import digits
+from ..run import Run
 from .page import Beside, Facts, Section, Table, Words
 
 # What the summary that `gears run` prints leaves out.

@@ -4,9 +4,9 @@ import math
 from collections.abc import Iterator
 
 from fenics_gears.results.contact_variables import largest_normal_force
-from fenics_gears.show.panels import digits, factor
-from fenics_gears.show.run import Run, load_in_words
 
+from ..panels import digits, factor
+from ..run import Run, load_in_words
 from .page import Section, Tile, Tiles, Words, sentence
 
 GEARS = ("pinion", "wheel")

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from fenics_gears.show.chart import Chart
+from ..chart import Chart
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,11 @@ from fenics_gears.elasticity.ring import rotation
 from fenics_gears.geometry.gear import Gear
 from fenics_gears.geometry.outline import tip_corner, tooth_outline
 from fenics_gears.geometry.pair import GearPair
-from fenics_gears.show.chart import MARKERS, Chart, Curve
-from fenics_gears.show.panels import DARK, GREY, PALETTE
-from fenics_gears.show.stress_grid import upright
 from fenics_gears.simulation.run_stresses import standing
+
+from ..chart import MARKERS, Chart, Curve
+from ..panels import DARK, GREY, PALETTE
+from ..stress_grid import upright
 
 FILLET_POINTS, INVOLUTE_POINTS, CIRCLE_POINTS = 9, 14, 181
 FILLS = ("#DCE9F3", "#F3E6DA")

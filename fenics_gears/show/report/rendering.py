@@ -8,10 +8,9 @@ from functools import cache
 from importlib import resources
 from typing import Any
 
-from fenics_gears.show.chart import Chart
-from fenics_gears.show.drawing import still
-from fenics_gears.show.panels import digits
-
+from ..chart import Chart
+from ..drawing import still
+from ..panels import digits
 from .interactive import figure, height
 from .page import Beside, Block, Fold, Page
 

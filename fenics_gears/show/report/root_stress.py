@@ -3,10 +3,10 @@
 import numpy as np
 
 from fenics_gears.results.pairs import contact_times
-from fenics_gears.show.chart import MARKED_LINES, Chart, Curve, over_time, span
-from fenics_gears.show.panels import PALETTE, factor, in_unit
-from fenics_gears.show.run import TOO_FEW, Run
 
+from ..chart import MARKED_LINES, Chart, Curve, over_time, span
+from ..panels import PALETTE, factor, in_unit
+from ..run import TOO_FEW, Run
 from .page import Section, sentence
 
 HEADING = "Root stress"

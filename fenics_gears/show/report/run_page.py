@@ -4,9 +4,9 @@ from collections.abc import Callable
 
 from fenics_gears.results.carried_scene import changed_files
 from fenics_gears.results.validity import NO_MEANING
-from fenics_gears.show.run import Run, conditions
 from fenics_gears.system.progress import Progress, SilentProgress
 
+from ..run import Run, conditions
 from .curves import forces, motion, pressure, spectra
 from .effects import effects
 from .energy import energy

@@ -4,10 +4,10 @@ from fenics_gears.errors import GearsError
 from fenics_gears.model.description import describe
 from fenics_gears.results.numbers import RUNG
 from fenics_gears.results.summary import solver_rows, stage_rows
-from fenics_gears.show.chart import over_time
-from fenics_gears.show.panels import PALETTE
-from fenics_gears.show.run import Run
 
+from ..chart import over_time
+from ..panels import PALETTE
+from ..run import Run
 from .page import Beside, Block, Facts, Section, Table, Words
 
 # What `gears check` says of a scene that is not said elsewhere on the page.

@@ -6,12 +6,12 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from fenics_gears.show.cases import LISTED_CASES, STATES, Cases
-from fenics_gears.show.chart import Chart, Curve
-from fenics_gears.show.panels import PALETTE, digits
-from fenics_gears.show.study_charts import effort_charts, result_charts
 from fenics_gears.system.progress import Progress, SilentProgress
 
+from ..cases import LISTED_CASES, STATES, Cases
+from ..chart import Chart, Curve
+from ..panels import PALETTE, digits
+from ..study_charts import effort_charts, result_charts
 from .origin import made_by, scene_section, version_section
 from .overview import counted
 from .page import Block, Cell, Facts, Page, Section, Table, Tile, Tiles, Words
