@@ -40,9 +40,8 @@ def effect_costs(report: EffectReport) -> Figure:
     figure.get_layout_engine().set(w_pad=0.1, h_pad=0.1, rect=(0, 0.6 / height, 1, 1 - 0.6 / height))
     panels = [(name, OF_FACE[name]) for name in report.of_face]
     figure.set_figwidth(15.0 + 3.4 * len(panels))
-    axes = figure.subplots(
-        1, 4 + len(panels), sharey=True, gridspec_kw={"width_ratios": (1.0, *[1.1] * (3 + len(panels)))}
-    )
+    widths = (1.0, *[1.1] * (3 + len(panels)))
+    axes = figure.subplots(1, len(widths), sharey=True, gridspec_kw={"width_ratios": widths})
     places = _places(rows)
     _unknowns(axes[0], rows, places)
     _bars(axes[1], report, places, "step_time", MICRO, "Time per step (µs, median)")
@@ -112,7 +111,7 @@ def _whiskers(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
 
 def measured_heading(figure: Figure, what: str, scene: Scene) -> None:
     """What was measured of a scene, its title and its conditions, above a figure."""
-    title = textwrap.shorten(" ".join(scene.title.split()), 80, placeholder=" …")
+    title = textwrap.shorten(scene.title, 80, placeholder=" …")
     words = f"{what}: {title}\n{conditions(scene)}"
     figure.suptitle(words, x=0.008, ha="left", fontsize=14, color=DARK, parse_math=False)
 
@@ -126,10 +125,5 @@ def _words(figure: Figure, report: EffectReport) -> None:
     ]
     if any(own_remarks(report, row) for row in report.rows):
         entries.append("* with a remark that the whole scene does not have, see effects.csv")
-    figure.text(
-        0.008,
-        0.1 / figure.get_figheight(),
-        f"{colours}\n{'; '.join(entries)}\n{in_words(report.machine)}",
-        fontsize=9.5,
-        color=DARK,
-    )
+    words = f"{colours}\n{'; '.join(entries)}\n{in_words(report.machine)}"
+    figure.text(0.008, 0.1 / figure.get_figheight(), words, fontsize=9.5, color=DARK)

@@ -52,9 +52,8 @@ def pressed_tiles(mesh: GearsInMesh, dataset: xr.Dataset, gear: int, scale: floa
     def corners(edge: np.ndarray, z: np.ndarray) -> np.ndarray:
         # Along the line of contact a node's roll angle changes as that of the contact does.
         touching = contact_roll(z)
-        return np.column_stack(
-            [_placed(pair, gear, mesh.coast, edge[pressed] + touching - contact_roll(middles[slices]), touching), z]
-        )
+        rolls = edge[pressed] + touching - contact_roll(middles[slices])
+        return np.column_stack([_placed(pair, gear, mesh.coast, rolls, touching), z])
 
     around = [(low, ends[slices]), (high, ends[slices]), (high, ends[slices + 1]), (low, ends[slices + 1])]
     points = np.stack([corners(*each) for each in around], axis=1)
@@ -64,17 +63,14 @@ def pressed_tiles(mesh: GearsInMesh, dataset: xr.Dataset, gear: int, scale: floa
 def _placed(pair: GearPair, gear: int, coast: bool, rolls: np.ndarray, touching: np.ndarray) -> np.ndarray:
     """Points (n, 2) of a gear's flank at roll angles (n,), a little off it, where the flank touches at others (n,)."""
     x, height = flank_point((pair.pinion, pair.wheel)[gear].base_radius, rolls, touching)
-    x = x + STAND_OFF * pair.pinion.module
+    x, bases = x + STAND_OFF * pair.pinion.module, pair.pinion.base_radius + pair.wheel.base_radius
     if gear:
-        x, height = pair.line_of_action_length - x, pair.pinion.base_radius + pair.wheel.base_radius - height
+        x, height = pair.line_of_action_length - x, bases - height
     points = np.column_stack([x, -height])
     if not coast:
         return points
     # Coast flanks are the mirror image at the line of centres.
-    along = (
-        np.array([pair.line_of_action_length, -(pair.pinion.base_radius + pair.wheel.base_radius)])
-        / pair.centre_distance
-    )
+    along = np.array([pair.line_of_action_length, -bases]) / pair.centre_distance
     return 2.0 * np.outer(points @ along, along) - points
 
 

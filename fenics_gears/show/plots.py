@@ -88,13 +88,12 @@ def _heading(run: Run, subject: str) -> str:
     more = [] if run.scene is None else [conditions(run.scene)]
     if not run.complete:
         more.append(f"INCOMPLETE RUN: stopped at mesh cycle {run.phase[-1]:.2f}")
-    return heading(subject, str(run.dataset.attrs.get("title", "")), *more)
+    return heading(subject, run.title, *more)
 
 
 def heading(subject: str, title: str, *more: str) -> str:
     """Subject and title in lines that fit a picture's width."""
-    title = " ".join(title.split())
-    first = textwrap.shorten(f"{subject}: {title}" if title else subject, LETTERS, placeholder=" …")
+    first = textwrap.shorten(f"{subject}: {title}" if title.strip() else subject, LETTERS, placeholder=" …")
     return "\n".join([first, *(line for each in more for line in textwrap.wrap(each, LETTERS, break_long_words=False))])
 
 

@@ -57,6 +57,11 @@ class Run:
         """The scene that was run; None where its text is no scene of this version."""
         return scene_of(self.dataset)
 
+    @property
+    def title(self) -> str:
+        """The scene's title in one line, empty where it has none."""
+        return " ".join(str(self.dataset.attrs.get("title", "")).split())
+
     @cached_property
     def pair(self) -> GearPair | None:
         """The gear pair; None as for the scene."""

@@ -73,24 +73,14 @@ def _write_gif(frames: list[np.ndarray], path: Path) -> None:
 
     # One palette for all frames, or flat colours would flicker; made of the colours of stress and greys, since one made
     # from the frames would spend itself on the pale bodies.
-    colours = np.vstack(
-        [
-            COLOURS(np.linspace(0.0, 1.0, STRESS_COLOURS))[:, :3],
-            np.linspace(0.0, 1.0, 256 - STRESS_COLOURS)[:, None] * np.ones(3),
-        ]
-    )
+    greys = np.linspace(0.0, 1.0, 256 - STRESS_COLOURS)[:, None] * np.ones(3)
+    colours = np.vstack([COLOURS(np.linspace(0.0, 1.0, STRESS_COLOURS))[:, :3], greys])
     palette = Image.new("P", (1, 1))
     palette.putpalette(np.round(255.0 * colours).astype(np.uint8).tobytes())
     images = [Image.fromarray(frame) for frame in frames]
-    quantised = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
-    quantised[0].save(
-        path,
-        save_all=True,
-        append_images=quantised[1:],
-        duration=round(1000 / FRAMES_PER_SECOND),
-        loop=0,
-        optimize=False,
-    )
+    first, *others = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images)
+    duration = round(1000 / FRAMES_PER_SECOND)
+    first.save(path, save_all=True, append_images=others, duration=duration, loop=0, optimize=False)
 
 
 def _write_mp4(frames: list[np.ndarray], path: Path) -> None:
@@ -99,9 +89,8 @@ def _write_mp4(frames: list[np.ndarray], path: Path) -> None:
         "ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}",
         "-r", str(FRAMES_PER_SECOND), "-i", "-", "-pix_fmt", "yuv420p", "-f", "mp4", str(path),
     ]  # fmt: skip
-    done = subprocess.run(
-        command, input=b"".join(frame[:height, :width].tobytes() for frame in frames), capture_output=True
-    )
+    content = b"".join(frame[:height, :width].tobytes() for frame in frames)
+    done = subprocess.run(command, input=content, capture_output=True)
     if done.returncode:
         raise ComputationError(
             f"{path}: ffmpeg could not write the moving picture: {done.stderr.decode(errors='replace').strip()}"

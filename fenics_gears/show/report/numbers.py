@@ -39,15 +39,9 @@ def _round_off(name: str, attributes) -> bool:
 
 def _contact_points(run: Run) -> Table:
     dataset, timed = run.dataset, "sliding_speed" in run.dataset
-    headings = (
-        "Point",
-        "Pinion (mm)",
-        "Wheel (mm)",
-        *(("Sliding speed (m/s)",) if timed else ()),
-        "Specific sliding, pinion",
-        "Specific sliding, wheel",
-        "Share in the mesh force",
-    )
+    speed = ("Sliding speed (m/s)",) if timed else ()
+    sliding = "Specific sliding, pinion", "Specific sliding, wheel"
+    headings = ("Point", "Pinion (mm)", "Wheel (mm)", *speed, *sliding, "Share in the mesh force")
     words = dict(zip("ABCDE", ("start of contact", "LPSTC", "pitch point", "HPSTC", "end of contact")))
     rows = []
     for point in dataset["path_point"].values.tolist():

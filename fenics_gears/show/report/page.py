@@ -1,7 +1,7 @@
 """The parts of a report's page: sections of words, tables, charts and pictures. The template decides how they look."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ..chart import Chart
@@ -60,12 +60,8 @@ class Table:
         return [[self._cell(each, column) for column, each in enumerate(row)] for row in self.rows]
 
     def _cell(self, each: Cell | str, column: int) -> Cell:
-        number = column >= self.numbers
-        return (
-            Cell(each, number=number)
-            if isinstance(each, str)
-            else Cell(each.text, each.value, each.link, each.warns, number)
-        )
+        cell = Cell(each) if isinstance(each, str) else each
+        return replace(cell, number=column >= self.numbers)
 
 
 @dataclass(frozen=True)

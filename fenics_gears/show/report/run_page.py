@@ -22,21 +22,9 @@ from .stress import stress
 
 # Pictures before tables: who reads the page looks first.
 SECTIONS: tuple[Callable[[Run], Section | None], ...] = (
-    summary,
-    warnings,
-    motion,
-    forces,
-    pressure,
-    face,
-    stress,
-    root_stress,
-    spectra,
-    geometry,
-    numbers,
-    effects,
-    energy,
+    summary, warnings, motion, forces, pressure, face, stress, root_stress, spectra, geometry, numbers, effects, energy,
     solver,
-)
+)  # fmt: skip
 
 
 def run_page(run: Run, progress: Progress | None = None) -> Page:
@@ -50,14 +38,11 @@ def run_page(run: Run, progress: Progress | None = None) -> Page:
             sections.append(section)
     attributes = run.dataset.attrs
     remarks = [] if run.scene is None else changed_files(run.dataset, run.scene)
-    sections += [
-        version_section(attributes, run.file),
-        scene_section(str(attributes.get("scene", "")), remarks=remarks),
-    ]
+    scene = scene_section(str(attributes.get("scene", "")), remarks=remarks)
+    sections += [version_section(attributes, run.file), scene]
     progress.update(len(SECTIONS), len(SECTIONS))
-    title = " ".join(str(attributes.get("title", "")).split()) or run.file.stem
     subtitle = conditions(run.scene) if run.scene is not None else ""
-    return Page("Gear pair: report on a run", title, subtitle, sections, made_by(), _alarm(run))
+    return Page("Gear pair: report on a run", run.title or run.file.stem, subtitle, sections, made_by(), _alarm(run))
 
 
 def _alarm(run: Run) -> str:
