@@ -1,7 +1,6 @@
 """Draws charts by matplotlib: below each other as the picture of a run, or alone as a still image in a page.
 
-Panels, ticks and labels are placed here, by numbers: matplotlib's own layouts and ticks take most of the time of a
-picture. Lengths are in inches.
+Panels, ticks and labels are placed here, by numbers in inches: matplotlib's own layouts take most of a picture's time.
 """
 
 import io
@@ -170,7 +169,7 @@ def _draw_upright(scale: Scale, side: int, room: float) -> None:
 
 
 def _draw_lines(axes: Axes, ends: list, transform, colour: str = DARK) -> None:
-    """Lines of a grid or ticks, below the curves; these do not set an axis' ends."""
+    """Lines of a grid or ticks, below the curves."""
     lines = LineCollection(ends, colors=colour, linewidths=0.8, transform=transform, clip_on=False, zorder=0.5)
     axes.add_collection(lines, autolim=False)
 
@@ -226,7 +225,6 @@ def _draw_field(axes: Axes, panel: Panel) -> Scale:
 
 
 def _draw_flags(axes: Axes, panel: Panel) -> None:
-    """Words above all curves, each right of the line that leads down to its place."""
     chart, rows = panel.chart, panel.chart.flag_rows
     low, high = axes.get_ylim()
     room = 1.0 - FLAG_ROW * (max(rows) + 1) / panel.inside

@@ -30,8 +30,7 @@ LABEL = {
 
 @styled
 def effect_costs(report: EffectReport) -> Figure:
-    """Unknowns and time of a step on the left, transmission error and peak force on the right; whiskers are the rounds'
-    least and most."""
+    """Unknowns and time of a step on the left, transmission error and peak force on the right."""
     rows = report.rows
     # Less leaves no room between heading and footnotes.
     height = max(2.8 + LINE_HEIGHT * len(rows), 4.6)
@@ -79,8 +78,7 @@ def _unknowns(axes: Axes, rows: tuple[Row, ...], places: np.ndarray) -> None:
 
 
 def _bars(axes: Axes, report: EffectReport, places: np.ndarray, name: str, factor: float, title: str) -> None:
-    """One number of every row that has it, with its change, and the bare and the full scene's as lines to compare
-    with."""
+    """One number of every row that has it, with its change, and the bare and the full scene's as lines."""
     rows = report.rows
     values = np.nan_to_num([getattr(row, name) * factor for row in rows])
     axes.barh(places, values, color=[COLOURS.get(row.subset.kind, GREY) for row in rows], height=0.7)

@@ -56,10 +56,7 @@ def face_picture(
     mesh: GearsInMesh, dataset: xr.Dataset, scale: float, limit: float, beyond: bool, dpi: float
 ) -> Figure:
     """Both gears in mesh, and the loaded teeth of each alone; `scale`: of the displacements of the teeth from the hubs.
-
-    limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there. Raises ComputationError without
-    pyvista.
-    """
+    limit, beyond: as of `stress_picture`. Raises ComputationError without pyvista."""
     figure = Figure(figsize=(16.0, 9.0), dpi=dpi)
     tiles = [pressed_tiles(mesh, dataset, gear, scale) for gear in (0, 1)]
     highest = rounded_up(dataset.attrs.get("peak_contact_pressure", 0.0) or float(tiles[0].pressure.max(initial=0.0)))
@@ -151,8 +148,8 @@ def _rendered(
 
 
 def _add_gear(plotter, gear: GearInSpace, scale: float, limit: float, tiles: PressedTiles, highest: float) -> None:
-    """One gear: stress on its recovered teeth but on their flanks that carry, there the contact pressure; the other
-    teeth and all edges."""
+    """One gear: stress on its recovered teeth, the contact pressure on their flanks that carry; the other teeth, all
+    edges."""
     from pyvista import PolyData
 
     moved = gear.points + scale * gear.elastic

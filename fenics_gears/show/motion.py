@@ -1,5 +1,5 @@
-"""Charts of motion and forces: transmission error over a few and over all mesh cycles, shafts, load and speed where
-they vary; forces of the mesh, of each tooth pair, and their reactions on the shafts."""
+"""Charts of motion and forces: transmission error, shafts, load and speed where they vary; forces of the mesh, of each
+tooth pair, and their reactions on the shafts."""
 
 from collections.abc import Iterator
 
@@ -20,8 +20,7 @@ def motion_charts(run: Run) -> list[Chart]:
 
 
 def error_values(run: Run) -> tuple[np.ndarray, str]:
-    """Transmission error (time,) and its unit: micrometres on the wheel's base circle, microradians where that is not
-    known."""
+    """Transmission error (time,) and its unit: µm on the wheel's base circle, µrad where that is not known."""
     if np.isfinite(run.micrometres):
         return run.values("transmission_error", "rad") * run.micrometres, "µm"
     return run.values("transmission_error", "µrad"), "µrad"
@@ -54,7 +53,7 @@ def _peak_to_peak(run: Run, values: np.ndarray, unit: str) -> str:
 
 
 def error_by_cycle(run: Run) -> list[Chart]:
-    """Least and largest transmission error of every mesh cycle of the whole record, where cycles are not all shown."""
+    """Least and largest transmission error of every mesh cycle of the record, where cycles are not all shown."""
     if run.shows_all or len(run.whole_cycles) < 2:
         return []
     values, unit = error_values(run)

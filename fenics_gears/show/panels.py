@@ -1,5 +1,5 @@
-"""What all pictures share: palette, fonts, ends and ticks of axes, long curves with fewer points; and numbers and units
-as people read them: micrometres instead of mm, microradians instead of rad, four digits."""
+"""What all pictures share: palette, fonts, ends and ticks of axes, long curves with fewer points; numbers and units as
+people read them."""
 
 import functools
 from collections.abc import Callable, Sequence
@@ -63,8 +63,7 @@ def shades(count: int) -> list[str]:
 
 
 def limits(values: np.ndarray, least: float) -> tuple[float, float]:
-    """Ends of an axis around the finite values; not closer than ``least``, so that rounding errors do not fill a
-    panel."""
+    """Ends of an axis around the finite values, not closer than ``least``."""
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
     half = 0.5 * max(1.12 * (high - low), least)
@@ -99,10 +98,7 @@ def ticks(ends: Sequence[float], most: float, logarithmic: bool = False) -> np.n
 
 
 def tick_labels(places: np.ndarray, logarithmic: bool = False) -> list[str]:
-    """Numbers with as many decimals as the finest of them needs; with powers of ten where they are large or small.
-
-    Places that differ by round-off alone have the same one.
-    """
+    """Numbers with as many decimals as the finest of them needs; with powers of ten where they are large or small."""
     step = places[1] - places[0] if len(places) > 1 else 0.0
     told = (count for count in range(12) if np.abs(np.round(places, count) - places).max() < 1e-3 * step)
     if logarithmic or not 1e-4 <= np.abs(places).max(initial=0.0) < 1e6 or (decimals := next(told, None)) is None:
@@ -117,9 +113,8 @@ MOST_POINTS = 2000
 
 
 def thinned(values: np.ndarray, most: int = MOST_POINTS) -> np.ndarray:
-    """Places (k,) of the values (n,) that a curve is drawn through: all of them up to `most`; beyond, of each of most/2
-    slices the smallest and the largest value, and a place that is not a number where there is one, so that gaps stay;
-    both ends of the curve."""
+    """Places (k,) of the values (n,) that a curve is drawn through: all up to `most`; beyond, of each of most/2 slices
+    the smallest and the largest value, a place that is not a number where there is one, and both ends of the curve."""
     count = len(values)
     if count <= most:
         return np.arange(count)
@@ -163,7 +158,7 @@ def in_unit(variable: xr.DataArray, wanted: str) -> np.ndarray:
 
 
 def digits(value: float) -> str:
-    """Four digits, as measurements have them; three and a power of ten where a tile is too narrow for the number."""
+    """Four digits; three and a power of ten where a tile is too narrow for the number."""
     if abs(value) >= 1e6:
         mantissa, _, exponent = f"{value:.2e}".partition("e")
         return f"{mantissa}e{int(exponent)}"

@@ -65,11 +65,9 @@ ROWS_AT_ONCE = 16
 
 
 def draw_run(dataset: xr.Dataset, directory: str | Path) -> list[Path]:
-    """Draw all pictures for which the result has data, as PNG, and return the files.
-
-    They appear in ``directory`` together, when all are drawn. Raises ComputationError where fewer than two steps are
-    stored, a variable's units do not fit it, or the directory cannot be written.
-    """
+    """Draw all pictures for which the result has data, as PNG, and return the files, which appear in ``directory``
+    together. Raises ComputationError where fewer than two steps are stored, units do not fit, or the directory cannot
+    be written."""
     return save_figures(run_figures(dataset), Path(directory))
 
 
@@ -106,8 +104,7 @@ def _check_steps(run: Run) -> None:
 
 
 def draw_study(file: Path) -> list[Path]:
-    """Draw what a study's cases are compared by over its parameters, as PNG beside its file, and return the files; none
-    where no case has a result."""
+    """Draw what a study's cases are compared by over its parameters, as PNG beside its file, and return the files."""
     from fenics_gears.studies.combine import load_combined
 
     from .cases import Cases
@@ -143,8 +140,8 @@ def save_figure(figure: Figure, path: Path | BinaryIO) -> None:
 
 
 def png(pixels: np.ndarray, dots_per_inch: float) -> bytes:
-    """Pixels (height, width, 4) as PNG. Rows are not filtered: of curves on white paper that makes the file no smaller,
-    and takes twice as long."""
+    """Pixels (height, width, 4) as PNG. Rows are not filtered: that would take twice as long and make the file no
+    smaller."""
     height, width, _ = pixels.shape
     # The same few rows again and again: fresh memory for a second copy of a picture is slower than the copying.
     rows, packer, packed = np.zeros((ROWS_AT_ONCE, 1 + 4 * width), dtype=np.uint8), zlib.compressobj(1), []

@@ -1,8 +1,4 @@
-"""A stored run for charts, pictures and the report: the cycles shown, curves of tooth pairs, contact fields.
-
-What `contact_pattern`, `line_load` and `loaded_contact` do not read by themselves of the layout of a result
-(docs/result.md) is read here.
-"""
+"""A stored run for charts, pictures and the report: the cycles shown, curves of tooth pairs, contact fields."""
 
 from __future__ import annotations
 
@@ -123,7 +119,7 @@ class Run:
 
     @property
     def micrometres(self) -> float:
-        """What a transmission error in rad is multiplied with to be micrometres on the wheel's base circle."""
+        """µm on the wheel's base circle of a transmission error of 1 rad."""
         radius = self.dataset.attrs.get("base_radius_wheel")
         return float(radius) * factor("mm", "µm") if radius else float("nan")
 
@@ -172,7 +168,7 @@ class Run:
 
     @property
     def over_face(self) -> dict[str, Callable[[Run], list[Chart]]]:
-        """What draws the charts of flanks that are resolved over the face, by subject; empty of a plane run."""
+        """What draws the charts of flanks that are resolved over the face, by subject."""
         if "face_position" not in self.dataset.dims:
             return {}
         # Imported here: plane runs have none.
@@ -195,8 +191,7 @@ class Run:
     def fields(self, side: str) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Contact pressure (MPa) and the pinion's roll angle (deg) of the contact nodes, both (step, slot, node), in
         the middle of the face if they are resolved over it; the steps' mesh cycles (step,) and the pairs' numbers
-        (step, slot), in the last cycles whose fields are stored; side:
-        how the result's variables of that side begin."""
+        (step, slot). side: how the result's variables of that side begin."""
         part = in_middle_slice(self.last_fields)
         order = ("contact_time", "slot", "contact_node")
         pressure = in_unit(part[f"{side}contact_pressure"].transpose(*order), "MPa")
@@ -221,8 +216,7 @@ def scene_of(dataset: xr.Dataset) -> Scene | None:
 
 
 def conditions(scene: Scene) -> str:
-    """Load, speed, friction, modifications, errors and ripple of a scene: what tells apart two pictures of the same
-    gears."""
+    """Load, speed and `design` of a scene: what tells apart two pictures of the same gears."""
     ramp = "" if scene.speed_ramp is None else f" to {scene.speed_ramp.end_frequency:g}"
     speed = "quasi-static" if scene.inertia is None else f"{scene.motion.mesh_frequency:g}{ramp} Hz mesh frequency"
     return f"{load_in_words(scene)}, {speed}, {design(scene)}"

@@ -1,5 +1,5 @@
 """The stored mesh cycles as a moving picture: GIF, or MP4 where ffmpeg is installed; and for ParaView: a .vtu file for
-each step, and the .pvd file that lists them with their times."""
+each step, and the .pvd file that lists them."""
 
 import shutil
 import subprocess
@@ -41,8 +41,8 @@ def check_suffix(path: Path) -> None:
 def animate(runs, dataset: xr.Dataset, path: Path, scale: float | None, report: Callable[[int, int], None]) -> None:
     """Write the moving picture of a run's stresses; `report(done, all)` is called for every frame.
 
-    scale: of the displacements, None for a suitable one. The first and the last stored step are the same position in
-    the mesh where whole cycles are stored, so that the last is left out and the turn has no seam.
+    scale: of the displacements, None for a suitable one. The last stored step is left out, as it is where the first one
+    is in the mesh.
     """
     steps = frame_steps(dataset)
     drawn = frames(dataset, scale, [runs.at(index) for index in steps[:: max(1, len(steps) // SAMPLED)]])
@@ -98,11 +98,8 @@ def _write_mp4(frames: list[np.ndarray], path: Path) -> None:
 
 
 def save_series(runs: RunStresses, dataset: xr.Dataset, collection: Path, report: Callable[[int, int], None]) -> None:
-    """Write a .pvd file and the .vtu files that it lists, beside it and named after it; `report(done, all)` is called
-    for each.
-
-    The steps are those of the moving picture, their times in s as the run has them. Raises what `save_vtu` raises.
-    """
+    """Write a .pvd file and the .vtu files that it lists, beside it and named after it, of the moving picture's steps;
+    `report(done, all)` is called for each. Raises what `save_vtu` raises."""
     root = ElementTree.Element("VTKFile", {"type": "Collection", "version": "0.1"})
     listed = ElementTree.SubElement(root, "Collection")
     steps = frame_steps(dataset)

@@ -1,5 +1,5 @@
-"""The gears of a run in mesh at one time, deformed and coloured by von Mises stress: in the plane here, over the face
-in three dimensions by `face_picture`."""
+"""The gears of a run in mesh at one time, deformed and coloured by von Mises stress, in the plane; over the face by
+`face_picture`."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -51,7 +51,7 @@ FRAME_WIDTH = 9.6
 
 def colour_limit(meshes: list[GearsInMesh]) -> float:
     """Stress (MPa) at which the colours end: the largest, or a multiple of that in the fillets where contact exceeds it
-    by far; over the face, where the pressure has colours of its own, the largest in the roots."""
+    by far; over the face the largest in the roots."""
     roots = max(_stress_of_roots(mesh) for mesh in meshes)
     if meshes[0].over_face:
         return rounded_up(roots)
@@ -72,14 +72,12 @@ def _stress_of_roots(mesh: GearsInMesh) -> float:
 
 
 def still(mesh: GearsInMesh, dataset: xr.Dataset, scale: float | None = None) -> Figure:
-    """The picture of one time; `scale` of the displacements: unless given the largest suitable one, in three dimensions
-    true."""
+    """The picture of one time; `scale` of the displacements: unless given the largest suitable one, over the face 1."""
     return frames(dataset, scale, [mesh], moving=False)(mesh)
 
 
 def charts_of(mesh: GearsInMesh) -> tuple[str, list[Chart]]:
-    """What the picture of one time shows, in words, and charts beside it: over the face the tension of the roots along
-    it."""
+    """What the picture of one time shows, in words, and charts beside it."""
     if not mesh.over_face:
         return "Von Mises stress", []
     from .face_picture import root_tension
@@ -118,8 +116,8 @@ def stress_picture(
 ) -> Figure:
     """Both gears, their teeth in contact enlarged, and with `close_up` the most loaded contact itself.
 
-    scale: of the displacement. limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there whether
-    this mesh exceeds it or not. width: inches of a figure 16 to 9.
+    scale: of the displacement. limit: MPa, where the colours end; `beyond`: the colour bar has an arrow there in any
+    case. width: inches of a figure 16 to 9.
     """
     figure = Figure(figsize=(16.0, 9.0), dpi=100.0 * width / 16.0)
     loaded = loaded_contact(mesh, dataset)
@@ -179,8 +177,8 @@ def _panel(figure: Figure, place, wanted: View, mesh: GearsInMesh, scale: float,
 
 
 def _triangles(points: np.ndarray, cells: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Cells as triangles (k, 3, 3), at each corner x, y and value; divided until there are many, since colours are
-    blended between corners."""
+    """Cells as triangles (k, 3, 3), at each corner x, y and value; divided until their edges are not seen in the
+    colours."""
     # Four corners are two triangles.
     triangles = np.vstack([cells[:, [0, second, second + 1]] for second in range(1, cells.shape[1] - 1)])
     corners = np.column_stack([points, values])[triangles]

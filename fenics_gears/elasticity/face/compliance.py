@@ -1,5 +1,4 @@
-"""Flank compliance of a gear over its face: sweep one tooth sector, condense it, join the ring; or read it from the
-cache."""
+"""Flank compliance of a gear over its face: sweep one tooth sector, condense it, join the ring; or from the cache."""
 
 from __future__ import annotations
 
@@ -39,10 +38,10 @@ def face_compliance(
     """Flank compliance of a gear over its face, from the cache or by condensing one swept tooth sector, hub held, end
     faces free.
 
-    gear: its transverse section. Similar gears share an entry of the cache. With `reach.across` the coast flank's dofs
-    follow the drive flank's, in the tooth's frame mirrored at its centreline at that height: x and y as of the mirrored
-    section, heights and z as they are. job: whose ranks share the work, or the process that does it. Raises SceneError
-    for an impossible size, ComputationError when a stage fails.
+    gear: its transverse section. With `reach.across` the coast flank's dofs follow the drive flank's, in the tooth's
+    frame mirrored at its centreline at that height: x and y as of the mirrored section, heights and z as they are. job:
+    whose ranks share the work, or the process that does it. Raises SceneError for an impossible size, ComputationError
+    when a stage fails.
     """
     check_inputs(gear, material, reach)
     discretisation.check()
@@ -73,8 +72,7 @@ def face_compliance(
 def _computed(
     gear: Gear, face: FaceDiscretisation, poissons_ratio: float, farthest: int, both: bool, comm
 ) -> tuple[dict, dict] | None:
-    """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took; None on all ranks of a
-    communicator but 0, which share the work."""
+    """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took; None on ranks other than 0."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
     from ..condensation import by_radius
     from ..element_nodes import node_roll_angles
@@ -127,7 +125,7 @@ def swept_section(gear: Gear, sizes: ElementSizes) -> BodyMesh:
 
 
 def _in_mirrored_frame(blocks: np.ndarray, gear: Gear, both: bool, components: int = 3) -> np.ndarray:
-    """Blocks (k, d, d) with the coast flank's dofs, the second half of them, in the tooth's frame mirrored at its
+    """Blocks (k, d, d) with the coast flank's dofs, their second half, in the tooth's frame mirrored at its
     centreline."""
     if not both:
         return blocks

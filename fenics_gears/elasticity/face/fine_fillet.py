@@ -20,11 +20,8 @@ ELEMENT, FLANK_SIZE = "P2", 0.1
 
 def fine_over_swept(gear: Gear, swept: ElementSizes, poissons_ratio: float, curve: FilletCurve) -> np.ndarray:
     """Ratios (2 p,) at the points of both fillets, in plane strain under a force on the tip of the drive flank; gear
-    and sizes in modules.
-
-    One where the fillet has no such point. Under forces on the middle of the flank they differ from these by 0.5 %
-    where stress is large.
-    """
+    and sizes in modules. One where the fillet has no such point. Under forces on the middle of the flank they differ by
+    0.5 % where stress is large."""
     # A web is in the swept body; both sections of the ratio are without it.
     gear = replace(gear, web=None)
     angle, found = curve.outline.centreline_angle, []

@@ -29,20 +29,17 @@ class Fold:
     """Which nodes of a swept sector stand for all of them, hub held, and how the others follow.
 
     nodes: (n, 2), of the section; height by height they are the sector's. unknowns: dofs of the nodes kept, 3 each: of
-    the drive flank's side, and at the section's centreline from mid-width on. Half the unknowns are these; at mid-width
-    on the centreline some of them are dead.
-    flank, cut: dofs (f,), (c,) of the drive flank's and the upper cut's nodes in the half, by height, then radius.
-    on_cut: which nodes of the section's cut at all heights these are. lines: the section's places (k, 2) of both; hub:
-    (h, 2), held. axes: (3, 3), columns along the centreline, across it and along z; across: (2,), towards the drive
-    flank.
-    cut_turned, flank_turned: sparse (c, c), (f, f), from motions of the upper cut and the drive flank to those of the
-    lower cut and the coast flank, their images.
+    the drive flank's side, and at the section's centreline from mid-width on. flank, cut: dofs (f,), (c,) of the drive
+    flank's and the upper cut's nodes in the half, by height, then radius. on_cut: which nodes of the section's cut at
+    all heights these are. lines: the section's places (k, 2) of both; hub: (h, 2), held. axes: (3, 3), columns along
+    the centreline, across it and along z; across: (2,), towards the drive flank. cut_turned, flank_turned: sparse (c,
+    c), (f, f), from motions of the upper cut and the drive flank to those of the lower cut and the coast flank, their
+    images.
     """
 
     def __init__(self, mesh: BodyMesh, nodes: np.ndarray, material: np.ndarray, centreline: float):
-        """material: (h, n), which of the section's nodes there are at each height, alike towards both end faces.
-        centreline: polar angle (rad) of the tooth's centreline. Raises ComputationError for a section that is not
-        symmetric about it."""
+        """material: (h, n), which of the section's nodes there are at each height. centreline: polar angle (rad) of the
+        tooth's centreline. Raises ComputationError for a section that is not symmetric about it."""
         self.nodes, self.heights = nodes, len(material)
         heights = self.heights
         along = np.array([np.cos(centreline), np.sin(centreline)])

@@ -101,7 +101,7 @@ def _forms(space, poisson, a, b, c, d):
 
 def swept_stiffness(section: SectionForms, sweep: Sweep) -> sparse.csr_matrix:
     """Stiffness (3 n h, 3 n h), N/mm, of the swept body: dofs by height, then the section's node, then x, y, z in the
-    section's frame turned with it."""
+    section's frame."""
     heights, size = len(sweep.heights), 3 * len(section.nodes.points)
     # A block in every row and column, so that the matrix has all.
     rows = [[sparse.csr_matrix((size, size)) if 0 in (i, j) else None for j in range(heights)] for i in range(heights)]

@@ -1,9 +1,8 @@
-"""A swept tooth sector that half a turn does not map on itself (`fold`), as with a web towards one end of the face:
-condensed as a whole, and joined to the ring by complex harmonics.
+"""A swept tooth sector that half a turn does not map on itself (`fold`): condensed as a whole, joined by complex
+harmonics.
 
-The cuts of a sector have thousands of dofs, but move its flanks in a few hundred ways alone: with
-``to_cuts = shapes @ rows`` a harmonic of stiffness D = U^H U is solved for these (`ring.ring_compliance`), and is not
-inverted.
+The cuts of a sector have thousands of dofs, but move its flanks in a few hundred ways: with ``to_cuts = shapes @ rows``
+a harmonic of stiffness D = U^H U is solved for these (`ring.ring_compliance`), and is not inverted.
 """
 
 from time import perf_counter
@@ -22,9 +21,8 @@ from .swept_stiffness import ELEMENT, SectionForms, swept_stiffness
 
 
 def condensed_whole_sector(mesh: BodyMesh, sweep: Sweep, poissons_ratio: float, both: bool = False) -> CondensedBody:
-    """A swept sector condensed onto "flank" (with `both` the coast flank's
-    nodes after the drive flank's), "lower" and "upper", hub held, Young's modulus 1 MPa; dofs in the
-    section's frame turned with it."""
+    """A swept sector condensed onto "flank" (with `both` the coast flank's nodes after the drive flank's), "lower" and
+    "upper", hub held, Young's modulus 1 MPa; dofs in the section's frame turned with it."""
     clock = perf_counter()
     section = SectionForms(mesh, poissons_ratio, sweep.web)
     compiled = perf_counter()

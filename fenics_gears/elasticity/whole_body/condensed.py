@@ -38,10 +38,8 @@ def whole_body_compliance(
     cache: Cache | None = None,
 ) -> WholeBodyCompliance:
     """Flank compliance of every tooth of a meshed gear (`whole_body.outline`), from the cache or computed.
-
     tooth_offsets: largest distance, in pitches, of teeth whose interaction is wanted. Raises ComputationError when a
-    stage fails.
-    """
+    stage fails."""
     chosen = element_named(element)
     tooth_offsets = min(tooth_offsets, gear.teeth - 1)
     inputs = {
@@ -66,7 +64,7 @@ def whole_body_compliance(
 
 
 def _digest(mesh: BodyMesh) -> str:
-    """Hash of points and cells by their bytes: as text the mesh would take megabytes."""
+    """Of bytes: as text the mesh would take megabytes."""
     return sha256(mesh.points.tobytes() + mesh.cells.astype(np.int64).tobytes()).hexdigest()
 
 
@@ -79,8 +77,8 @@ class _CondensedPart:
     """A part of the body, Young's modulus 1 MPa, by its surface F and its interface I.
 
     The surface is the flank (`flank` dofs), then the faces of cracks, all in the tooth's frame. own: (F, F), S_FF^-1.
-    to_interface: (F, I), X.
-    link: (I, I), stiffness of the interface, the surface free. dofs: (I,), the interface's among those of all parts.
+    to_interface: (F, I), X. link: (I, I), stiffness of the interface, the surface free. dofs: (I,), the interface's
+    among those of all parts.
     """
 
     own: np.ndarray
@@ -127,8 +125,7 @@ def _in_frame(rows: np.ndarray, angle: float) -> np.ndarray:
 
 
 def _blocks(gear: Gear, body: DividedBody, parts: list[_CondensedPart], tooth_offsets: int) -> dict[str, np.ndarray]:
-    """Compliance blocks in the teeth's own frames, and how flank forces open the cracks; Young's modulus 1 MPa, by
-    name."""
+    """Compliance blocks in the teeth's own frames, and how flank forces open the cracks, by name."""
     size = 2 * len(body.interface)
     places = np.hstack([[np.repeat(part.dofs, len(part.dofs)), np.tile(part.dofs, len(part.dofs))] for part in parts])
     joined = sparse.coo_matrix((np.concatenate([part.link.ravel() for part in parts]), places), shape=(size, size))

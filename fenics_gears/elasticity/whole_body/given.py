@@ -15,10 +15,8 @@ from .outline import WholeBody, whole_body
 @lru_cache(maxsize=8)
 def given_body(path: str, digest: str, gear: Gear, element: str, field: str) -> WholeBody:
     """The body of a gear in a file; `digest`: of the file's content, empty where it cannot be read; `field`: what
-    messages call it.
-
-    Raises SceneError where the file is not there, is no mesh, not of this gear, or of other cells than the element has.
-    """
+    messages call it. Raises SceneError where the file is not there, is no mesh, not of this gear, or of other cells
+    than the element has."""
     if not digest:
         raise SceneError(f"{field}: {_why_not_read(Path(path))} Nothing was computed or written.")
     try:

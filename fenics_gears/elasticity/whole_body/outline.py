@@ -1,8 +1,7 @@
 """Bore, tips and drive flanks on the boundary of a meshed gear, found by their position: the mesh needs no names.
 
-The gear's centre is the origin; the mesh may stand at any angle about it. It is turned so that the tooth whose drive
-flank stands nearest to the body frame of a tooth (`geometry.involute`: the tooth points downwards) is tooth 0. Drive
-flanks are the counter-clockwise sides of the teeth.
+The gear's centre is the origin; the mesh is turned so that the tooth whose drive flank stands nearest to the body frame
+of a tooth (`geometry.involute`) is tooth 0. Drive flanks are the counter-clockwise sides of the teeth.
 """
 
 from dataclasses import dataclass
@@ -34,10 +33,7 @@ UNITS = {1e-3: "metres", 1.0 / 25.4: "inches", 1e3: "micrometres"}
 @dataclass(frozen=True)
 class WholeBody:
     """A meshed gear, mm, whose edges are "hub" and "flank 0", "flank 1", ... counted counter-clockwise, tooth 0 in its
-    body frame.
-
-    coarsest_flank: the longest element along a flank, mm.
-    """
+    body frame. coarsest_flank: the longest element along a flank, mm."""
 
     mesh: BodyMesh
     coarsest_flank: float
@@ -122,7 +118,7 @@ def _check_bore(points: np.ndarray, hub: np.ndarray, radii: np.ndarray, gear: Ge
 
 
 def _check_whole(points: np.ndarray, bore: np.ndarray, name: str) -> None:
-    """Raise SceneError where a crack opens on the bore: points of it are there twice."""
+    """Raise SceneError where a crack opens on the bore."""
     distance, _ = cKDTree(points).query(points[bore], k=2)
     twice = bore[distance[:, 1] <= 1e-9 * np.abs(points).max()]
     if len(twice):
@@ -134,7 +130,7 @@ def _check_whole(points: np.ndarray, bore: np.ndarray, name: str) -> None:
 
 
 def _standing_angle(points: np.ndarray, gear: Gear, name: str) -> float:
-    """Angle (rad) by which the mesh stands turned: boundary points (k, 2) of all drive flanks agree on it, up to whole
+    """Angle (rad) by which the mesh stands turned: that of the points (k, 2) of all drive flanks, up to whole
     pitches."""
     radius = np.linalg.norm(points, axis=1)
     tolerance = OUTLINE_TOLERANCE * gear.module
@@ -175,12 +171,8 @@ def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float,
 
 
 def _off_involute(points: np.ndarray, gear: Gear) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of points (k, 2): the tooth they belong to, whether they are on its counter-clockwise side, and how far off its
-    drive flank, mm.
-
-    The distance is counter-clockwise along the involute's normal: an involute turned by an angle stands off by that of
-    its base circle.
-    """
+    """Of points (k, 2): the tooth they belong to, whether they are on its counter-clockwise side, and how far
+    counter-clockwise off its drive flank, mm: an involute turned by an angle stands off by that of its base circle."""
     angle = np.arctan2(points[:, 1], points[:, 0])
     ahead = np.mod(angle - centreline_angle(gear), 2.0 * np.pi) / gear.angular_pitch
     tooth = np.floor(ahead + 0.5).astype(int) % gear.teeth
@@ -189,8 +181,7 @@ def _off_involute(points: np.ndarray, gear: Gear) -> tuple[np.ndarray, np.ndarra
 
 
 def _check_thickness(points: np.ndarray, gear: Gear, tolerance: float, name: str) -> None:
-    """Raise SceneError where the coast flanks are out of place: the drive flanks alone do not give the thickness of the
-    teeth."""
+    """Raise SceneError where the coast flanks are out of place."""
     radius = np.linalg.norm(points, axis=1)
     between = points[(radius > gear.form_radius + tolerance) & (radius < gear.tip_form_radius - tolerance)]
     axis = 2.0 * centreline_angle(gear)
@@ -218,7 +209,7 @@ def _deviation(worst: float, tolerance: float) -> str:
 def _chain(
     points: np.ndarray, known: set, candidates: np.ndarray, gear: Gear, tolerance: float
 ) -> tuple[np.ndarray, str]:
-    """Sides of one flank from points that lie on its involute, and what is wrong with them, empty where nothing is."""
+    """Sides of one flank from points that lie on its involute, and what is wrong with them."""
     radius = np.linalg.norm(points[candidates], axis=1)
     order = np.argsort(radius)
     candidates, radius = candidates[order], radius[order]

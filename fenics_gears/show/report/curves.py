@@ -15,7 +15,7 @@ LISTED_ORDERS = 10
 
 
 def motion(run: Run) -> Section:
-    """Curves of all motions that the result has; first, which of its cycles are seen here and in what follows."""
+    """Curves of all motions; first, which of the result's cycles are seen here and in what follows."""
     section = _section("motion", "Transmission error and motion", run, motion_charts)
     return replace(section, blocks=[*_cycles_shown(run), *section.blocks]) if run.has_curves else section
 
@@ -41,7 +41,6 @@ def _section(name: str, heading: str, run: Run, charts) -> Section:
 
 
 def _cycles_shown(run: Run) -> list[Block]:
-    """Which cycles are seen in this section and the next ones; nothing where it is all that is stored."""
     first, last = run.window
     part = (
         f"Charts over time show the mesh cycles {first:g} to {last:g} of {run.phase[0]:g} to {last:g}; on screen, a"

@@ -53,7 +53,7 @@ def _both(run: Run, rows: list[tuple[str, float, str]]) -> Table:
 
 
 def _profile_shifts(given: GearPairData) -> dict[tuple[str, str], dict[str, float]]:
-    """x of the drawing, and x_E of the tooth thickness where that is another: of thinner teeth, or of measured ones."""
+    """x of the drawing, and x_E of the tooth thickness where that is another."""
     cut = {gear: getattr(given, gear).profile_shift for gear in GEARS}
     nominal = {
         gear: cut[gear] if (own := getattr(given, gear).nominal_profile_shift) is None else own for gear in GEARS

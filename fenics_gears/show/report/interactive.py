@@ -1,5 +1,4 @@
-"""Charts drawn by plotly, to be zoomed in a browser: light ground, units on both axes, colours that any eye tells
-apart.
+"""Charts drawn by plotly, to be zoomed in a browser.
 
 Only its browser library is used: plotly's Python objects take longer to make than everything else of a page.
 """
@@ -131,7 +130,7 @@ def _flag(layout: dict, chart: Chart) -> None:
 
 
 def _words(curve: Curve) -> list[dict]:
-    """Words beside the points of a curve, on paper, so that lines below do not cross them."""
+    """Words beside the points of a curve."""
     up, right = ("top" in curve.beside) - ("bottom" in curve.beside), 1 if "right" in curve.beside else -1
     at = {"xanchor": "left" if right > 0 else "right", "yanchor": ("middle", "bottom", "top")[up]}
     at |= {"xshift": 7 * right, "yshift": 5 * up}

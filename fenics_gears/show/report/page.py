@@ -34,8 +34,7 @@ class Tiles:
 
 @dataclass(frozen=True)
 class Cell:
-    """A table's cell: its text, a number to sort by, a page beside this one that it leads to, and whether it is a word
-    of warning."""
+    """A table's cell: its text, a number to sort by, a page that it leads to, and whether it is a word of warning."""
 
     text: str
     value: float | None = None
@@ -123,7 +122,7 @@ def sentence(name: str, heading: str, text: str, warns: bool = False) -> Section
 @dataclass(frozen=True)
 class Page:
     """A whole report; `subject`: of what ("Run", "Study"); `subtitle`: its conditions; `alarm`: what must be known
-    before anything."""
+    first."""
 
     subject: str
     title: str

@@ -19,8 +19,8 @@ FILLS = ("#DCE9F3", "#F3E6DA")
 
 
 def drawings(pair: GearPair, coast: bool = False) -> list[Chart]:
-    """The whole pair, and the teeth along the path of contact, a tooth pair touching at the pitch point with its drive
-    or coast flanks."""
+    """The whole pair, and the teeth along the path of contact, a pair touching at the pitch point with drive or coast
+    flanks."""
     phase = (pair.pitch_point - pair.path_start) / pair.base_pitch
     teeth = [gear_outline(pair, gear, phase, coast) for gear in (0, 1)]
     drawn = "Line of centres upright, the pinion above; flanks without relief and errors, which are micrometres."
@@ -40,12 +40,8 @@ def _drawing(caption: str, note: str, height: int, curves: list[Curve], middle: 
 
 
 def gear_outline(pair: GearPair, gear: int, phase: float, coast: bool = False) -> np.ndarray:
-    """Outline (n, 2), mm, of a gear where it stands at a phase of the mesh cycle, tooth after tooth, closed; line of
-    centres upright.
-
-    coast: with the coast flanks where the drive flanks are at that phase, which is the mirror image at the line of
-    centres.
-    """
+    """Outline (n, 2), mm, of a gear at a phase of the mesh cycle, tooth after tooth, closed; line of centres upright.
+    coast: with the coast flanks where the drive flanks are at that phase."""
     centre, angles = standing(pair, gear, phase)
     tooth = _tooth((pair.pinion, pair.wheel)[gear])
     # A tooth's outline runs from its drive side, which lies ahead, to its coast side.
@@ -110,10 +106,8 @@ def _on_line(pair: GearPair, positions: list[float], coast: bool = False) -> np.
 
 
 def _points(pair: GearPair, coast: bool) -> dict[str, float]:
-    """Positions (mm from T1) of the points on the path of contact; with a contact ratio above 2 no pair is ever alone.
-
-    Coast flanks go along their path the other way, from the pinion's tip to its root.
-    """
+    """Positions (mm from T1) of the points on the path of contact; with a contact ratio above 2 no pair is ever
+    alone."""
     alone = pair.fewest_pairs == 1
     ends = ("end of contact", "start of contact") if coast else ("start of contact", "end of contact")
     names = (ends[0], "LPSTC" if alone else "", "pitch point", "HPSTC" if alone else "", ends[1])

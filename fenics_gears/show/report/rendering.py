@@ -1,5 +1,4 @@
-"""A page as HTML: the template filled, plotly's library and all pictures inside, nothing to be fetched from
-anywhere."""
+"""A page as HTML: the template filled, plotly's library and all pictures inside."""
 
 import base64
 import gzip
@@ -42,8 +41,7 @@ def rendered(page: Page) -> str:
 
 @cache
 def plotly_library() -> str:
-    """Plotly's browser library, gzip in base64: Debian ships it without white space removed, 9 MB, which a page should
-    not have. Empty where plotly is not installed: charts stay images then."""
+    """Plotly's browser library, gzip in base64; empty where plotly is not installed: charts stay images then."""
     try:
         from plotly.offline import get_plotlyjs
     except ImportError:
@@ -67,8 +65,7 @@ def _figure(chart: Chart):
 
 
 def _still(chart: Chart) -> str:
-    """The same chart as an image, for paper, for browsers without scripts and for whoever photographs the page at
-    once."""
+    """The same chart as an image, for paper and browsers without scripts."""
     return _base64(still(chart))
 
 

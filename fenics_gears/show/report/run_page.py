@@ -46,7 +46,6 @@ def run_page(run: Run, progress: Progress | None = None) -> Page:
 
 
 def _alarm(run: Run) -> str:
-    """What must be known before any number: that steps are missing, that the numbers have no meaning."""
     said = str(run.dataset.attrs.get("warnings", "")).splitlines()
     without_meaning = [f"NO MEANING: {each}." for each in said if NO_MEANING in each]
     return " ".join([*_incomplete(run), *without_meaning])

@@ -48,8 +48,7 @@ def _extent(run: Run) -> list[tuple[str, str, str]]:
 
 
 def _described(run: Run) -> Block:
-    """Model, accuracy and natural frequencies; why not, where the scene needs what is not here, such as files of
-    meshes."""
+    """Model, accuracy and natural frequencies; why not, where files of the scene are missing."""
     try:
         sections = () if run.scene is None else describe(run.scene)
     except GearsError as error:
