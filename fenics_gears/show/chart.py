@@ -122,8 +122,12 @@ class Chart:
     def _shown(self, curve: Curve) -> np.ndarray:
         values = np.asarray(curve.y, dtype=float)
         if self.x_range is not None and np.asarray(curve.x).dtype.kind in "fiu":
-            values = values[..., (curve.x >= self.x_range[0] - 1e-9) & (curve.x <= self.x_range[1] + 1e-9)]
+            values = values[..., self.in_range(curve.x)]
         return values.ravel()
+
+    def in_range(self, x: np.ndarray) -> np.ndarray:
+        """Which places (n,) are in the range of the first axis."""
+        return (x >= self.x_range[0] - 1e-9) & (x <= self.x_range[1] + 1e-9)
 
     @property
     def flag_rows(self) -> list[int]:

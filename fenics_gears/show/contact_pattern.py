@@ -11,7 +11,7 @@ from fenics_gears.results.pairs import carrying_side
 
 from .chart import Chart, Curve, Field
 from .panels import DARK, GREY
-from .pressure import COLOURS, colour_limit, has_pressure, node_edges
+from .pressure import COLOURS, colour_limit, counted_on, has_pressure, node_edges
 from .run import Run
 
 ACROSS = "Distance along the axes from the middle of the common face (mm)"
@@ -27,10 +27,8 @@ def contact_patterns(run: Run) -> list[Chart]:
     if not has_pressure(run) or run.pair is None:
         return []
     side = carrying_side(run.dataset)
-    order = ("contact_time", "slot", "face_position", "contact_node")
     part = run.last_fields
-    pressure, rolls = (part[f"{side}contact_{name}"].transpose(*order).values for name in ("pressure", "roll_angle"))
-    pressure = read_off(pressure, rolls)
+    pressure, rolls = over_face(part, side)
     found = pressure[(pressure > 0.0) & np.isfinite(rolls)]
     if not found.size:
         return []
@@ -38,6 +36,13 @@ def contact_patterns(run: Run) -> list[Chart]:
     beyond = f", beyond the colours up to {found.max():.0f} MPa" if found.max() > limit * (1 + 1e-9) else ""
     both = (rolls, rolls_on_wheel(run.pair, part, side, rolls))
     return [_pattern(run, gear, side, pressure, of_gear, limit, beyond) for gear, of_gear in enumerate(both)]
+
+
+def over_face(part: xr.Dataset, side: str) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure (MPa) and the pinion's roll angle (rad) of the contact nodes, both (step, slot, slice, node)."""
+    order = ("contact_time", "slot", "face_position", "contact_node")
+    pressure, rolls = (part[f"{side}contact_{name}"].transpose(*order).values for name in ("pressure", "roll_angle"))
+    return read_off(pressure, rolls), rolls
 
 
 def rolls_on_wheel(pair: GearPair, part: xr.Dataset, side: str, rolls: np.ndarray) -> np.ndarray:
@@ -86,9 +91,7 @@ def pattern(pressure, rolls, numbers, ends: tuple[float, float], radius, slices:
         """Pressures from `begin` to `end` (n,) into the cells between diameters `first` and `last` of columns (n,)."""
         bounds = np.minimum(first, last), np.maximum(first, last)
         low, high = (np.clip(np.searchsorted(diameters, each) - 1, 0, ROWS - 1) for each in bounds)
-        count = high - low + 1
-        each = np.repeat(np.arange(len(count)), count)
-        row = low[each] + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
+        each, row = counted_on(low, high - low + 1)
         way = np.where(first == last, 1.0, last - first)[each]
         part = np.clip((0.5 * (diameters[row] + diameters[row + 1]) - first[each]) / way, 0.0, 1.0)
         np.maximum.at(values, (row, column[each]), (1.0 - part) * begin[each] + part * end[each])

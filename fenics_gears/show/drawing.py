@@ -189,7 +189,7 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
         axes.add_collection(PolyCollection(corners, facecolors=curve.colour, edgecolors="none", label=label))
         return
     if chart.x_range is not None and not chart.equal:
-        near = (x >= chart.x_range[0] - 1e-9) & (x <= chart.x_range[1] + 1e-9)
+        near = chart.in_range(x)
         x, y = x[near], y[near]
     places = thinned(y, len(y) if chart.equal else STILL_POINTS)
     marker = "o" if curve.mode in (MARKERS, MARKED_LINES) else ""
@@ -201,8 +201,8 @@ def _draw_curve(axes: Axes, curve: Curve, chart: Chart) -> None:
     )  # fmt: skip
     if curve.fill:
         axes.fill(x, y, color=curve.fill, zorder=0.9)
+    up, right = ("top" in curve.beside) - ("bottom" in curve.beside), 1 if "right" in curve.beside else -1
     for words, place, height in zip(curve.words, x, y):
-        up, right = ("top" in curve.beside) - ("bottom" in curve.beside), 1 if "right" in curve.beside else -1
         axes.annotate(
             words, (place, height), xytext=(6 * right, 6 * up), textcoords="offset points", fontsize=10.5,
             ha="left" if right > 0 else "right", va=("center", "bottom", "top")[up],

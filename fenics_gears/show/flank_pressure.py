@@ -10,10 +10,9 @@ from fenics_gears.contact.window import coast_roll_angles, contact_roll_angles
 from fenics_gears.geometry.involute import flank_point
 from fenics_gears.geometry.pair import GearPair
 from fenics_gears.results.face_ends import slice_ends
-from fenics_gears.results.mesh_curves import read_off
 from fenics_gears.simulation.run_stresses import GearsInMesh
 
-from .contact_pattern import rolls_on_wheel
+from .contact_pattern import over_face, rolls_on_wheel
 from .loaded_contact import stored_place
 from .pressure import node_edges
 
@@ -35,9 +34,7 @@ def pressed_tiles(mesh: GearsInMesh, dataset: xr.Dataset, gear: int, scale: floa
     """The tiles of a gear at the time of a mesh, moved as its teeth are; `scale`: of their displacements."""
     side, pair = "coast_" if mesh.coast else "", mesh.pair
     part = dataset.isel(contact_time=[stored_place(mesh, dataset)])
-    order = ("contact_time", "slot", "face_position", "contact_node")
-    pressure, rolls = (part[f"{side}contact_{name}"].transpose(*order).values for name in ("pressure", "roll_angle"))
-    pressure = read_off(pressure, rolls)
+    pressure, rolls = over_face(part, side)
     low, high = node_edges(rolls_on_wheel(pair, part, side, rolls) if gear else rolls)
     pressed = (pressure > 0.0) & np.isfinite(low) & np.isfinite(high)
     _, slots, slices, _ = np.nonzero(pressed)

@@ -105,13 +105,17 @@ def pressure_field(pressure: np.ndarray, place: np.ndarray, phase: np.ndarray, l
     columns = np.append(np.append(phase[0], middle)[::group], phase[-1])
     values = np.full((ROWS, len(columns) - 1), -np.inf)
     first = np.searchsorted(rows, low[known]) - 1
-    count = np.maximum(np.searchsorted(rows, high[known]) - 1 - first, 1)
-    each = np.repeat(np.arange(len(first)), count)
-    row = first[each] + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
+    each, row = counted_on(first, np.maximum(np.searchsorted(rows, high[known]) - 1 - first, 1))
     step = np.nonzero(known)[0][each] // group
     np.maximum.at(values, (np.clip(row, 0, ROWS - 1), step), pressure[known][each])
     values[np.isneginf(values)] = np.nan
     return Field(columns, rows, values, "Contact pressure (MPa)", limit, COLOURS)
+
+
+def counted_on(first: np.ndarray, count: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Of runs of so many numbers (n,) from their `first` (n,) on, one after the other: the run of each, and itself."""
+    each = np.repeat(np.arange(len(first)), count)
+    return each, first[each] + np.arange(len(each)) - np.repeat(np.cumsum(count) - count, count)
 
 
 def colour_limit(run: Run, pressures: np.ndarray) -> float:

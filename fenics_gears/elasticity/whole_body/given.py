@@ -22,7 +22,7 @@ def given_body(path: str, digest: str, gear: Gear, element: str, field: str) -> 
     try:
         mesh = read_body_mesh(path)
         _check_cells(mesh.cells.shape[1], element)
-        return whole_body(mesh, gear, "the mesh")
+        return whole_body(mesh, gear)
     except SceneError as error:
         raise SceneError(f"{field}: {_without_path(str(error), path)}\nNothing was computed or written.") from None
 

@@ -39,23 +39,23 @@ class WholeBody:
     coarsest_flank: float
 
 
-def whole_body(mesh: BodyMesh, gear: Gear, name: str) -> WholeBody:
-    """Find bore and flanks of a gear in its mesh (mm, about the origin); `name`: what messages call the mesh.
+def whole_body(mesh: BodyMesh, gear: Gear) -> WholeBody:
+    """Find bore and flanks of a gear in its mesh (mm, about the origin).
 
     Raises SceneError where the mesh is not one connected gear of these data.
     """
-    _check_connected(mesh, name)
+    _check_connected(mesh)
     sides = boundary_sides(mesh.cells)
     outer = np.linalg.norm(mesh.points[sides], axis=-1)
     tolerance = OUTLINE_TOLERANCE * gear.module
-    _check_size(float(outer.max()), gear, tolerance, name)
-    _check_teeth(sides[np.abs(outer - gear.tip_radius).max(axis=1) <= tolerance], gear, name)
+    _check_size(float(outer.max()), gear, tolerance)
+    _check_teeth(sides[np.abs(outer - gear.tip_radius).max(axis=1) <= tolerance], gear)
     hub = sides[np.abs(outer - gear.bore_radius).max(axis=1) <= tolerance]
-    _check_bore(mesh.points, hub, outer, gear, name)
-    _check_whole(mesh.points, np.unique(hub), name)
-    turned = mesh.points @ rotation(_standing_angle(mesh.points[np.unique(sides)], gear, name))
-    flanks = _flanks(turned, sides, gear, tolerance, name)
-    _check_thickness(turned[np.unique(sides)], gear, tolerance, name)
+    _check_bore(mesh.points, hub, outer, gear)
+    _check_whole(mesh.points, np.unique(hub))
+    turned = mesh.points @ rotation(_standing_angle(mesh.points[np.unique(sides)], gear))
+    flanks = _flanks(turned, sides, gear, tolerance)
+    _check_thickness(turned[np.unique(sides)], gear, tolerance)
     longest = max(np.linalg.norm(turned[flank[:, 0]] - turned[flank[:, 1]], axis=1).max() for flank in flanks)
     edges = {"hub": hub, **{f"flank {tooth}": flank for tooth, flank in enumerate(flanks)}}
     return WholeBody(BodyMesh(turned, mesh.cells, edges), float(longest))
@@ -67,20 +67,20 @@ def drive_flank_angle(gear: Gear, radius: np.ndarray) -> np.ndarray:
     return -0.5 * np.pi - involute_function(gear.roll_angle(np.maximum(radius, gear.base_radius)))
 
 
-def _check_connected(mesh: BodyMesh, name: str) -> None:
+def _check_connected(mesh: BodyMesh) -> None:
     piece = joined_cells(mesh.cells)
     counts = np.bincount(piece)
     if len(counts) > 1:
         smallest = np.flatnonzero(piece == np.argmin(counts))
         where = mesh.points[mesh.cells[smallest]].mean(axis=(0, 1))
         raise SceneError(
-            f"{name}: the mesh has {len(counts)} parts that do not hold together; the smallest, of {len(smallest)}"
+            f"the mesh has {len(counts)} parts that do not hold together; the smallest, of {len(smallest)}"
             f" cells, lies about x = {where[0]:.4g} mm, y = {where[1]:.4g} mm. A tooth that a crack has cut off carries"
             " nothing; parts that should be one need their common points to be the same points"
         )
 
 
-def _check_size(largest: float, gear: Gear, tolerance: float, name: str) -> None:
+def _check_size(largest: float, gear: Gear, tolerance: float) -> None:
     if abs(largest - gear.tip_radius) <= tolerance:
         return
     ratio = largest / gear.tip_radius
@@ -88,57 +88,55 @@ def _check_size(largest: float, gear: Gear, tolerance: float, name: str) -> None
     probable = next((words for factor, words in units.items() if abs(ratio / factor - 1.0) < 0.01), None)
     unit = f" Is it in {probable}? Lengths of a mesh are in mm." if probable else ""
     raise SceneError(
-        f"{name}: the farthest point of the mesh is {largest:.6g} mm from the origin, the gear's tip radius is"
+        f"the farthest point of the mesh is {largest:.6g} mm from the origin, the gear's tip radius is"
         f" {gear.tip_radius:.6g} mm.{unit} Allowed: {tolerance:.2g} mm of difference, the gear's centre at the origin"
     )
 
 
-def _check_teeth(tips: np.ndarray, gear: Gear, name: str) -> None:
+def _check_teeth(tips: np.ndarray, gear: Gear) -> None:
     points = np.unique(tips)
     ends = np.searchsorted(points, tips)
     links = coo_matrix((np.ones(len(tips)), (ends[:, 0], ends[:, 1])), shape=(len(points), len(points)))
     teeth = connected_components(links, directed=False)[0] if len(points) else 0
     if teeth != gear.teeth:
         raise SceneError(
-            f"{name}: the mesh has {teeth} tooth tips on its tip circle, the gear of the scene has {gear.teeth} teeth;"
+            f"the mesh has {teeth} tooth tips on its tip circle, the gear of the scene has {gear.teeth} teeth;"
             " each must have its tip"
         )
 
 
-def _check_bore(points: np.ndarray, hub: np.ndarray, radii: np.ndarray, gear: Gear, name: str) -> None:
+def _check_bore(points: np.ndarray, hub: np.ndarray, radii: np.ndarray, gear: Gear) -> None:
     ends = points[hub]
     turns = np.angle((ends[:, 1] @ [1.0, 1.0j]) / (ends[:, 0] @ [1.0, 1.0j])) if len(hub) else np.zeros(0)
     covered = np.abs(turns).sum() / (2.0 * np.pi)
     if abs(covered - 1.0) > 1e-6:
         raise SceneError(
-            f"{name}: no bore of radius {gear.bore_radius:.6g} mm (the scene's bore_diameter is"
+            f"no bore of radius {gear.bore_radius:.6g} mm (the scene's bore_diameter is"
             f" {2.0 * gear.bore_radius:.6g} mm): its circle is covered to {covered:.0%}; the innermost point of the"
             f" boundary is {radii.min():.6g} mm from the origin"
         )
 
 
-def _check_whole(points: np.ndarray, bore: np.ndarray, name: str) -> None:
+def _check_whole(points: np.ndarray, bore: np.ndarray) -> None:
     """Raise SceneError where a crack opens on the bore."""
     distance, _ = cKDTree(points).query(points[bore], k=2)
     twice = bore[distance[:, 1] <= 1e-9 * np.abs(points).max()]
     if len(twice):
         x, y = points[twice[0]]
         raise SceneError(
-            f"{name}: a crack opens on the bore near x = {x:.4g} mm, y = {y:.4g} mm; the bore is held as a whole and"
+            f"a crack opens on the bore near x = {x:.4g} mm, y = {y:.4g} mm; the bore is held as a whole and"
             " has each point once"
         )
 
 
-def _standing_angle(points: np.ndarray, gear: Gear, name: str) -> float:
+def _standing_angle(points: np.ndarray, gear: Gear) -> float:
     """Angle (rad) by which the mesh stands turned: that of the points (k, 2) of all drive flanks, up to whole
     pitches."""
     radius = np.linalg.norm(points, axis=1)
     tolerance = OUTLINE_TOLERANCE * gear.module
     between = (radius > gear.form_radius) & (radius < gear.tip_form_radius - tolerance)
     if not between.any():
-        raise SceneError(
-            f"{name}: the boundary of the mesh has no points on the flanks, between form circle and tip circle"
-        )
+        raise SceneError("the boundary of the mesh has no points on the flanks, between form circle and tip circle")
     pitch, window = gear.angular_pitch, 2.0 * tolerance / gear.base_radius
     angle = np.arctan2(points[between, 1], points[between, 0]) - drive_flank_angle(gear, radius[between])
     angle = np.sort(np.mod(angle, pitch))
@@ -149,7 +147,7 @@ def _standing_angle(points: np.ndarray, gear: Gear, name: str) -> float:
     return (found + 0.5 * pitch) % pitch - 0.5 * pitch
 
 
-def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float, name: str) -> list[np.ndarray]:
+def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float) -> list[np.ndarray]:
     """Sides (k, 2) of each drive flank, from the form circle to the tip."""
     boundary = np.unique(sides)
     radius = np.linalg.norm(points[boundary], axis=1)
@@ -163,8 +161,7 @@ def _flanks(points: np.ndarray, sides: np.ndarray, gear: Gear, tolerance: float,
             on_flank = own & (radius > gear.form_radius + tolerance) & (radius < gear.tip_form_radius - tolerance)
             worst = float(np.max(off[on_flank & (off <= NEARLY * gear.module)], initial=0.0))
             raise SceneError(
-                f"{name}: the drive flank of tooth {each}, counted counter-clockwise,"
-                f" {problem}{_deviation(worst, tolerance)}"
+                f"the drive flank of tooth {each}, counted counter-clockwise, {problem}{_deviation(worst, tolerance)}"
             )
         found.append(chain)
     return found
@@ -180,7 +177,7 @@ def _off_involute(points: np.ndarray, gear: Gear) -> tuple[np.ndarray, np.ndarra
     return tooth, np.mod(ahead, 1.0) < 0.5, gear.base_radius * ((off + np.pi) % (2.0 * np.pi) - np.pi)
 
 
-def _check_thickness(points: np.ndarray, gear: Gear, tolerance: float, name: str) -> None:
+def _check_thickness(points: np.ndarray, gear: Gear, tolerance: float) -> None:
     """Raise SceneError where the coast flanks are out of place."""
     radius = np.linalg.norm(points, axis=1)
     between = points[(radius > gear.form_radius + tolerance) & (radius < gear.tip_form_radius - tolerance)]
@@ -190,7 +187,7 @@ def _check_thickness(points: np.ndarray, gear: Gear, tolerance: float, name: str
     stands_off = float(np.median(off[on_drive_side])) if on_drive_side.any() else 0.0
     if abs(stands_off) > tolerance:
         raise SceneError(
-            f"{name}: the teeth are {'thicker' if stands_off > 0.0 else 'thinner'} than those of the scene"
+            f"the teeth are {'thicker' if stands_off > 0.0 else 'thinner'} than those of the scene"
             f" (profile_shift): the flanks opposite the drive flanks stand {1e3 * abs(stands_off):.4g} um off their"
             f" involutes; allowed are {1e3 * tolerance:.3g} um"
         )

@@ -185,5 +185,5 @@ def _places(curve: Curve, chart: Chart) -> np.ndarray:
     y = np.asarray(curve.y, dtype=float)
     if chart.x_range is None or len(y) <= MOST_POINTS:
         return thinned(y)
-    shown = np.flatnonzero((curve.x >= chart.x_range[0]) & (curve.x <= chart.x_range[1]))
+    shown = np.flatnonzero(chart.in_range(curve.x))
     return np.union1d(thinned(y), shown) if len(shown) <= MOST_POINTS else thinned(y)
