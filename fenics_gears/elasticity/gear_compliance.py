@@ -96,34 +96,24 @@ def _computed(
 ) -> tuple[dict, dict]:
     """Arrays of the compliance for Young's modulus 1 MPa, and the times that it took."""
     # Imported here: a run whose gears are all in the cache needs neither gmsh nor DOLFINx.
+    from . import mirrored_ring, ring
     from .condensation import by_radius
     from .element_nodes import node_roll_angles
+    from .half_sector import centreline_direction
     from .sector_mesh import half_sector_mesh, sector_mesh
 
     clock = perf_counter()
     mesh = (half_sector_mesh if sizes.both_flanks else sector_mesh)(gear, sizes, element.quadrilateral)
     meshed = perf_counter()
-    sector, parts = (_both_flanks if sizes.both_flanks else _drive_flank)(gear, element, mesh, poissons_ratio, reach)
-    rolls = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), element.order)
-    timings = {
-        **sector.timings,
-        "time_mesh": meshed - clock,
-        "time_condense": perf_counter() - meshed - sector.timings["time_compile"],
-    }
-    return {"roll_angle": rolls, **parts}, timings
-
-
-def _drive_flank(gear, element, mesh, poissons_ratio, reach: Reach):
-    from .ring import condensed_sector, ring_compliance
-
-    sector = condensed_sector(mesh, element, poissons_ratio)
-    return sector, {"blocks": ring_compliance(sector, gear.teeth, reach.same)}
-
-
-def _both_flanks(gear, element, mesh, poissons_ratio, reach: Reach):
-    from .half_sector import centreline_direction
-    from .mirrored_ring import both_flanks_compliance, condensed_half
-
-    sector = condensed_half(mesh, element, poissons_ratio)
-    blocks, across = both_flanks_compliance(sector, centreline_direction(mesh), gear.teeth, reach)
-    return sector, {"blocks": blocks, "across": across, "first_across": np.array(reach.across[0])}
+    if sizes.both_flanks:
+        sector = mirrored_ring.condensed_half(mesh, element, poissons_ratio)
+        axis = centreline_direction(mesh)
+        blocks, across = mirrored_ring.both_flanks_compliance(sector, axis, gear.teeth, reach)
+        arrays = {"blocks": blocks, "across": across, "first_across": np.array(reach.across[0])}
+    else:
+        sector = ring.condensed_sector(mesh, element, poissons_ratio)
+        arrays = {"blocks": ring.ring_compliance(sector, gear.teeth, reach.same)}
+    arrays["roll_angle"] = node_roll_angles(gear, by_radius(mesh.points[mesh.edge_points("flank")]), element.order)
+    compiling = sector.timings["time_compile"]
+    timings = {"time_mesh": meshed - clock, "time_condense": perf_counter() - meshed - compiling}
+    return arrays, {**sector.timings, **timings}

@@ -182,8 +182,13 @@ def crossing(gear: Gear) -> float:
     The fillet rises steadily: it is inside the tooth where its rack's normal is that of the flank, or at the base
     circle, and outside at its end.
     """
-    touching, last = touching_end(gear), _last(gear)
-    inside = touching if gear.protuberance and _radius(gear, touching) > gear.base_radius else _at_base_circle(gear)
+
+    def above_base_circle(parameter: float) -> bool:
+        return float(np.hypot(*fillet_point(gear, parameter))) >= gear.base_radius
+
+    last, inside = _last(gear), touching_end(gear)
+    if not (gear.protuberance and above_base_circle(inside)):
+        inside = halved(above_base_circle, 0.0, last)
     return halved(lambda parameter: _outside(gear, parameter) >= 0.0, inside, last)
 
 
@@ -202,14 +207,6 @@ def _last(gear: Gear) -> float:
     )
     length = beyond / (cos(angle) * tan(flank) - sin(angle)) / gear.module
     return end + length if length > 0.0 and fillet_speed(gear, end + 0.5 * length) > 0.0 else end
-
-
-def _at_base_circle(gear: Gear) -> float:
-    return halved(lambda parameter: _radius(gear, parameter) >= gear.base_radius, 0.0, _last(gear))
-
-
-def _radius(gear: Gear, parameter: float) -> float:
-    return float(np.hypot(*fillet_point(gear, parameter)))
 
 
 def _outside(gear: Gear, parameter: float) -> float:
